@@ -1,5 +1,6 @@
 #include "arguments.h"
 #include "describe.h"
+#include "print.h"
 #include "report.h"
 #include "value.h"
 #include "words.h"
@@ -87,7 +88,7 @@ int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct 
       !has_words(arguments->limits) || !has_words(arguments->of_kind))
     return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
-  add_table(arguments, arguments->more, NULL);
+  add_table(arguments, arguments->more, verb->hidden);
   for (int32_t i = 0; i < verb->row_count; i++)
     add_own(arguments, &verb->rows[i]);
   for (int32_t i = 0; i < SHARED_COUNT; i++)
@@ -95,6 +96,68 @@ int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct 
   if (!verb->input) add_table(arguments, arguments->run, verb->without);
   add_table(arguments, arguments->limits, NULL);
   return HOOKE_EXIT_DONE;
+}
+
+/* ---- unknown options ---- */
+
+static const char *next_flag(int64_t i, const void *ctx) {
+  const struct cli_arguments *arguments = ctx;
+  return i < arguments->count ? arguments->all[i].flag : NULL;
+}
+
+/* Lists the options that begin with `flag`, each family once, and returns how many entries there are; `first`
+ * is the first option. */
+static int list_longer(const struct cli_arguments *arguments, const char *flag, char list[HOOKE_DOC_SIZE],
+                       const char **first) {
+  const size_t length = strlen(flag);
+  int count = 0;
+  size_t family = 0;
+  const char *last = "";
+  list[0] = '\0';
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const char *name = arguments->all[i].flag;
+    if (strncmp(name, flag, length) != 0 || (family && strncmp(name, last, family) == 0)) continue;
+    const char *dot = strchr(name, '.');
+    family = dot ? (size_t)(dot - name) + 1 : 0;
+    last = name;
+    if (count == 0) *first = name;
+    cli_append(list, HOOKE_DOC_SIZE, "%s--%.*s%s", count++ ? ", " : "",
+               (int)(dot ? dot - name : HOOKE_FLAG_SIZE), name, dot ? "..." : "");
+  }
+  return count;
+}
+
+/* The verbs that have the option: "study, limit, why, needs"; "" if none has. */
+static void list_verbs(const struct cli_verb *const *verbs, const char *flag, char list[HOOKE_DOC_SIZE]) {
+  list[0] = '\0';
+  for (int32_t k = 0; verbs[k]; k++) {
+    struct cli_arguments other = {.verb = verbs[k]};
+    const int code = cli_arguments_collect(verbs[k], NULL, &other);
+    for (int32_t i = 0; code == HOOKE_EXIT_DONE && i < other.count; i++)
+      if (strcmp(other.all[i].flag, flag) == 0)
+        cli_append(list, HOOKE_DOC_SIZE, "%s%s", list[0] ? ", " : "", verbs[k]->name);
+    cli_arguments_destroy(&other);
+  }
+}
+
+/* Reports that the verb has no option `word` ("--stpe=1", "-x"), followed by `value` (NULL: nothing). */
+static int report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value) {
+  char flag[HOOKE_FLAG_SIZE], list[HOOKE_DOC_SIZE], verbs[HOOKE_DOC_SIZE] = "";
+  const char *near = NULL;
+  snprintf(flag, sizeof flag, "%s", word + strspn(word, "-"));
+  flag[strcspn(flag, "=")] = '\0';
+  const int longer = strncmp(word, "--", 2) == 0 ? list_longer(arguments, flag, list, &near) : 0;
+  const int family = near && near[strlen(flag)] == '.';
+  if (longer > 1 && !family)
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s is ambiguous: %s", flag, list);
+  if (longer == 0) list_verbs(arguments->verbs, flag, verbs);
+  if (longer == 0 && !verbs[0]) near = cli_suggest(flag, next_flag, arguments);
+  const int filled = family && value && value[0] != '-';
+  return cli_report(
+      arguments, HOOKE_EXIT_USAGE, "there is no option %s%s%s%s%s%s%s%s; 'hooke %s%s%s --help' lists them",
+      word, verbs[0] ? ", which is one of " : "", verbs, near ? ", did you mean --" : "", near ? near : "",
+      filled ? " " : "", filled ? value : "", near ? "?" : "", arguments->verb->name,
+      arguments->of_kind ? " " : "", arguments->of_kind ? arguments->scene : "");
 }
 
 /* ---- parsing ---- */
@@ -179,7 +242,7 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
         code >= FIRST_LONG && word[2] && (!word[3] || word[3] == '='); /* letter of a long option */
     if (!argument || one) {
       char letter[3] = {'-', (char)optopt, '\0'}; /* 0: it was a long option */
-      return cli_report_unknown_option(arguments, argument || !optopt ? word : letter, argv[optind]);
+      return report_unknown_option(arguments, argument || !optopt ? word : letter, argv[optind]);
     }
     if (code == ':')
       return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s wants a value after it", argument->flag);
@@ -230,9 +293,9 @@ static int find_kind(struct cli_arguments *arguments, int argc, char **argv, con
                     arguments->verb->name);
 }
 
-int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, struct cli_arguments *arguments) {
-  memset(arguments, 0, sizeof *arguments);
-  arguments->verb = verb;
+int cli_arguments_parse(const struct cli_verb *const *verbs, const struct cli_verb *verb, int argc,
+                        char **argv, struct cli_arguments *arguments) {
+  *arguments = (struct cli_arguments){.verbs = verbs, .verb = verb};
   /* parsed first, so that wrong usage is reported in the requested form */
   for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
     if (strcmp(argv[i], "--json") == 0) arguments->json = 1;

@@ -19,6 +19,7 @@ struct cli_argument {
 };
 
 struct cli_arguments {
+  const struct cli_verb *const *verbs; /* all of the program; NULL ends them */
   const struct cli_verb *verb;
   const char *scene;        /* or the kind, for a verb that takes one */
   char *const *more_scenes; /* beside it, for a verb that takes several */
@@ -36,9 +37,10 @@ struct cli_arguments {
  * the kind, of its own table, its own, the common ones, those of a run. */
 int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments);
 
-/* Parses the words after the verb (argv[0] is the verb); wrong usage is reported and returns
- * HOOKE_EXIT_USAGE. The caller destroys `arguments` in either case. */
-int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, struct cli_arguments *arguments);
+/* Parses the words after the verb (argv[0] is the verb), one of all `verbs`; wrong usage is reported and
+ * returns HOOKE_EXIT_USAGE. The caller destroys `arguments` in either case. */
+int cli_arguments_parse(const struct cli_verb *const *verbs, const struct cli_verb *verb, int argc,
+                        char **argv, struct cli_arguments *arguments);
 void cli_arguments_destroy(struct cli_arguments *arguments);
 
 /* An option's name on the command line, without the dashes: "atol-velocity". Returns `flag`. */

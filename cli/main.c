@@ -10,17 +10,17 @@
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-const struct cli_verb *const cli_verbs[] = {&cli_verb_make,
-                                            &cli_verb_run,
-                                            &cli_verb_compare,
-                                            &cli_verb_study,
-                                            &cli_verb_limit,
-                                            &cli_verb_why,
-                                            &cli_verb_needs,
-                                            &cli_verb_check,
-                                            &cli_verb_view,
-                                            &cli_verb_verify,
-                                            NULL};
+static const struct cli_verb *const verbs[] = {&cli_verb_make,
+                                               &cli_verb_run,
+                                               &cli_verb_compare,
+                                               &cli_verb_study,
+                                               &cli_verb_limit,
+                                               &cli_verb_why,
+                                               &cli_verb_needs,
+                                               &cli_verb_check,
+                                               &cli_verb_view,
+                                               &cli_verb_verify,
+                                               NULL};
 
 static int print_help(const struct cli_program *program, const char *value) {
   (void)value;
@@ -54,7 +54,7 @@ static const struct cli_program_row rows[] = {
 };
 
 static const struct cli_program program = {
-    .verbs = cli_verbs,
+    .verbs = verbs,
     .rows = rows,
     .summary = "integrates mass-spring systems and says how accurate each method is for what it costs",
     .text = "Particles joined by springs, such as ropes and cloths, with gravity, damping and driven "
@@ -65,12 +65,12 @@ static const struct cli_program program = {
 
 static const char *next_verb(int64_t i, const void *ctx) {
   (void)ctx;
-  return cli_verbs[i] ? cli_verbs[i]->name : NULL;
+  return verbs[i] ? verbs[i]->name : NULL;
 }
 
 static const struct cli_verb *find_verb(const char *name) {
-  for (int64_t i = 0; cli_verbs[i]; i++) {
-    if (strcmp(cli_verbs[i]->name, name) == 0) return cli_verbs[i];
+  for (int64_t i = 0; verbs[i]; i++) {
+    if (strcmp(verbs[i]->name, name) == 0) return verbs[i];
   }
   return NULL;
 }
@@ -109,7 +109,7 @@ static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
     cli_usage_print_verb(stderr, &arguments);
     return HOOKE_EXIT_USAGE;
   }
-  int answer = cli_arguments_parse(verb, argc, argv, &arguments);
+  int answer = cli_arguments_parse(verbs, verb, argc, argv, &arguments);
   if (answer == HOOKE_EXIT_DONE)
     answer = arguments.help ? cli_usage_print_verb(stdout, &arguments) : verb->function(&arguments);
   cli_arguments_destroy(&arguments);

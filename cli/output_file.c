@@ -26,11 +26,10 @@ int cli_output_file_check_report(const struct cli_arguments *arguments, const ch
   if (!report) return HOOKE_EXIT_DONE;
   const char *library = hooke_build_fact("chartjs");
   if (!library || !library[0]) {
-    return cli_report(
-        arguments, HOOKE_EXIT_NOT_BUILT,
-        "--report %s: this build of hooke has no Chart.js (on Debian: libjs-chart.js) and writes no "
-        "reports; run without --report",
-        report);
+    return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                      "--report %s: this build of hooke has no Chart.js (on Debian: libjs-chart.js) and "
+                      "writes no reports; run without --report",
+                      report);
   }
   return cli_output_file_check(arguments, "--report", report);
 }

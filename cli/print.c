@@ -193,7 +193,12 @@ void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width
   fputc('\n', file);
 }
 
-void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *text) {
+void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *format, ...) {
+  char text[SAID_SIZE];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
   printf("%-*s", indent, label);
   cli_print_wrapped(stdout, indent, indent, width, text);
 }
@@ -210,10 +215,6 @@ static void write_string(FILE *file, const char *text) {
       length = 1;
     } else if (*at == '"' || *at == '\\') {
       fprintf(file, "\\%c", *at);
-    } else if (*at == '\n') {
-      fputs("\\n", file);
-    } else if (*at == '\t') {
-      fputs("\\t", file);
     } else if (control(at, length)) {
       fprintf(file, "\\u%04x", (unsigned)control(at, length));
     } else {
@@ -225,11 +226,8 @@ static void write_string(FILE *file, const char *text) {
 }
 
 static void write_key(struct cli_json *json, const char *key) {
-  if (json->depth > 0) {
-    int32_t *filled = &json->filled[json->depth - 1];
-    if (*filled) fputs(", ", json->file);
-    *filled = 1;
-  }
+  if (json->is_filled) fputs(", ", json->file);
+  json->is_filled = 1;
   if (key) {
     write_string(json->file, key);
     fputs(": ", json->file);
@@ -237,28 +235,27 @@ static void write_key(struct cli_json *json, const char *key) {
 }
 
 void cli_json_begin(struct cli_json *json, FILE *file) {
-  memset(json, 0, sizeof *json);
-  json->file = file;
+  *json = (struct cli_json){.file = file};
   cli_json_open(json, NULL, '{');
 }
 
-void cli_json_end(struct cli_json *json) {
+int32_t cli_json_end(struct cli_json *json) {
   while (json->depth > 0)
     cli_json_close(json);
   fputc('\n', json->file);
+  return json->status;
 }
 
 void cli_json_open(struct cli_json *json, const char *key, char bracket) {
   write_key(json, key);
   fputc(bracket, json->file);
-  json->bracket[json->depth] = bracket;
-  json->filled[json->depth] = 0;
-  json->depth++;
+  json->bracket[json->depth++] = bracket;
+  json->is_filled = 0;
 }
 
 void cli_json_close(struct cli_json *json) {
-  json->depth--;
-  fputc(json->bracket[json->depth] == '{' ? '}' : ']', json->file);
+  fputc(json->bracket[--json->depth] == '{' ? '}' : ']', json->file);
+  json->is_filled = 1;
 }
 
 void cli_json_number(struct cli_json *json, const char *key, double value) {
@@ -267,14 +264,17 @@ void cli_json_number(struct cli_json *json, const char *key, double value) {
   fputs(isfinite(value) ? cli_format_number(value, text) : "null", json->file);
 }
 
-void cli_json_flag(struct cli_json *json, const char *key, int32_t value) {
+void cli_json_flag(struct cli_json *json, const char *key, double value) {
   write_key(json, key);
-  fputs(value ? "true" : "false", json->file);
+  fputs(isnan(value) ? "null" : value != 0.0 ? "true" : "false", json->file);
 }
 
 void cli_json_count(struct cli_json *json, const char *key, int64_t value) {
   write_key(json, key);
-  fprintf(json->file, "%" PRId64, value);
+  if (value < 0)
+    fputs("null", json->file);
+  else
+    fprintf(json->file, "%" PRId64, value);
 }
 
 void cli_json_text(struct cli_json *json, const char *key, const char *text) {
@@ -284,6 +284,18 @@ void cli_json_text(struct cli_json *json, const char *key, const char *text) {
   } else {
     fputs("null", json->file);
   }
+}
+
+void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,
+                       const char *table, int64_t row) {
+  const char *text = hooke_measurement_json(measurement, table, row);
+  if (!text) {
+    json->status = HOOKE_NO_MEMORY;
+    return;
+  }
+  const int skipped = key == NULL;
+  write_key(json, key);
+  fwrite(text + skipped, 1, strlen(text) - 2 * (size_t)skipped, json->file);
 }
 
 void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz) {

@@ -2,6 +2,8 @@
 #ifndef HOOKE_CLI_PRINT_H
 #define HOOKE_CLI_PRINT_H
 
+#include "hooke.h"
+
 #include <stdint.h>
 #include <stdio.h>
 
@@ -50,29 +52,36 @@ void cli_print_quoted(FILE *file, const char *text);
 /* Text broken at blanks before column `width`; lines after the first start at column `indent`. */
 void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text);
 
-/* A label, with wrapped text beside it, from column `indent` on. */
-void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *text);
+/* A label, with text as of printf(), wrapped, beside it, from column `indent` on. */
+void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 
 /* A JSON value being written, on one line. `key` is NULL inside arrays. */
 struct cli_json {
   FILE *file;
   int32_t depth;
   char bracket[HOOKE_JSON_DEPTH];
-  int32_t filled[HOOKE_JSON_DEPTH];
+  int32_t is_filled; /* 1: a value stands before */
+  int32_t status;
 };
 
 void cli_json_begin(struct cli_json *json, FILE *file);
-/* Closes open brackets and ends the line. */
-void cli_json_end(struct cli_json *json);
+/* Closes open brackets and ends the line. HOOKE_NO_MEMORY if something is left out. */
+int32_t cli_json_end(struct cli_json *json);
 void cli_json_open(struct cli_json *json, const char *key, char bracket); /* '{' or '[' */
 void cli_json_close(struct cli_json *json);
 /* Null if the number is not finite. */
 void cli_json_number(struct cli_json *json, const char *key, double value);
-void cli_json_flag(struct cli_json *json, const char *key, int32_t value); /* true or false */
+/* True or false, null for NaN; a number of things, null if it is below 0. */
+void cli_json_flag(struct cli_json *json, const char *key, double value);
 void cli_json_count(struct cli_json *json, const char *key, int64_t value);
 /* Null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text()
  * replaces are escaped. */
 void cli_json_text(struct cli_json *json, const char *key, const char *text);
+/* What hooke_measurement_json() says: under a key, or (NULL) its members alone. Left out without memory, which
+ * cli_json_end() tells. */
+void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,
+                       const char *table, int64_t row);
 /* `rows` rows of x y z as an array of arrays */
 void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz);
 

@@ -1,12 +1,14 @@
 #include "report.h"
-#include "excerpt.h"
 #include "print.h"
 #include "words.h"
 
 #include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MESSAGE_SIZE = 4096, WORD_SIZE = 48, LIST_SIZE = 512 };
+enum { WIDTH = 90, LEFT = 60, LONGEST_CHARACTER = 4 }; /* of an excerpt */
 
 int cli_exit_code(int32_t status) {
   switch (status) {
@@ -33,6 +35,72 @@ int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
+/* ---- the line of a scene that a message is about ---- */
+
+/* The numbers after the path; 0 if they are not there. */
+static int find_place(const char *path, const char *message, long *line, long *column) {
+  const size_t length = strlen(path);
+  if (strncmp(message, path, length) != 0 || message[length] != ':') return 0;
+  char *end;
+  *line = strtol(message + length + 1, &end, 10);
+  if (*end != ':') return 0;
+  *column = strtol(end + 1, &end, 10);
+  return *line > 0 && *column > 0 && *end == ':';
+}
+
+static int is_continuation(int byte) {
+  return (byte & 0xc0) == 0x80; /* of a character of UTF-8 */
+}
+
+static void skip_lines(FILE *from, long count) {
+  for (int byte; count > 0 && (byte = getc(from)) != EOF;)
+    count -= byte == '\n';
+}
+
+/* The characters `first` (from 1) to first + WIDTH - 1 of a line. */
+static void read_line(FILE *from, long first, char *text) {
+  long character = 0;
+  for (int byte; (byte = getc(from)) != EOF && byte != '\n' && byte != '\r' && byte != '\0';) {
+    character += !is_continuation(byte);
+    if (character >= first + WIDTH) break;
+    if (character >= first) *text++ = (char)(byte == '\t' ? ' ' : byte);
+  }
+  *text = '\0';
+}
+
+/* Of a trajectory, the text of its scene. */
+static FILE *open_source(const char *path) {
+  hooke_record *record;
+  if (hooke_record_open(path, &record) != HOOKE_OK) return fopen(path, "rb");
+  FILE *file = tmpfile();
+  if (file) fputs(hooke_record_text(record, "scene"), file);
+  if (file) rewind(file);
+  hooke_record_close(record);
+  return file;
+}
+
+/* For a message that begins with "PATH:LINE:COLUMN: ", with that path, prints the line, shortened, and a caret
+ * under its column (in characters). Of a trajectory it is the line of its scene. Prints nothing for another
+ * message or an unreadable file. Changes the library's last error. */
+static void print_excerpt(const char *path, const char *message) {
+  char text[LONGEST_CHARACTER * WIDTH + 1];
+  long line, column;
+  if (!find_place(path, message, &line, &column)) return;
+  FILE *from = open_source(path);
+  if (!from) return;
+  const long first = column > LEFT ? column - LEFT : 1;
+  skip_lines(from, line - 1);
+  read_line(from, first, text);
+  fclose(from);
+  fprintf(stderr, "%6ld | ", line);
+  cli_print_text(stderr, text);
+  fprintf(stderr, "\n       | %*s", (int)(column - first), "");
+  cli_print_styled(stderr, HOOKE_GREEN, "^");
+  fputc('\n', stderr);
+}
+
+/* ---- messages ---- */
+
 /* With the place of the scene that a message names below it. */
 static void say(const struct cli_arguments *arguments, const char *style, const char *message) {
   char begin[WORD_SIZE];
@@ -41,7 +109,7 @@ static void say(const struct cli_arguments *arguments, const char *style, const 
   fputc(' ', stderr);
   cli_print_text(stderr, message);
   fputc('\n', stderr);
-  if (arguments->scene) cli_excerpt_print(stderr, arguments->scene, message);
+  if (arguments->scene) print_excerpt(arguments->scene, message);
 }
 
 static int report_json(const struct cli_arguments *arguments, int code, const char *message) {
@@ -104,53 +172,8 @@ void cli_warnings_tell(const struct cli_arguments *arguments, char *warnings) {
 }
 
 int cli_report_missing_words(const struct cli_arguments *arguments) {
-  cli_report_words(arguments, "out of memory: a command to type is left out");
+  cli_report_words(arguments, "out of memory: a part of the results is left out");
   return cli_exit_code(HOOKE_NO_MEMORY);
-}
-
-static int32_t is_set_by(const struct cli_setting *settings, const char *name) {
-  for (; settings->name; settings++) {
-    if (settings->text && strcmp(settings->name, name) == 0) return 1;
-  }
-  return 0;
-}
-
-/* " --atol-velocity" for "atol_velocity". */
-static void print_flag(FILE *file, const char *name) {
-  fputs(" --", file);
-  for (; *name; name++)
-    fputc(*name == '_' ? '-' : *name, file);
-}
-
-/* Options that show a run that diverges: one that is advised does not. */
-static int32_t shows_divergence(const char *name) {
-  return strcmp(name, "past_divergence") == 0 || strcmp(name, "frames_after") == 0;
-}
-
-void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
-                        const struct cli_setting *settings) {
-  int32_t same = strcmp(verb, arguments->verb->name) == 0;
-  fprintf(file, "hooke %s ", verb);
-  cli_print_quoted(file, arguments->scene);
-  for (int32_t i = 0; i < arguments->count; i++) {
-    const struct cli_argument *argument = &arguments->all[i];
-    if (!argument->text || is_set_by(settings, argument->name) || shows_divergence(argument->name)) continue;
-    if (!same && argument->table != arguments->run) continue;
-    /* the options that --want would choose are given */
-    if (strcmp(argument->name, "want") == 0 && is_set_by(settings, "method")) continue;
-    const char *instead = arguments->verb->for_scene;
-    if (instead && strcmp(argument->name, instead) == 0) continue; /* replaced by the scene */
-    print_flag(file, argument->name);
-    if (argument->own && !argument->own->value) continue;
-    fputc(cli_argument_is_flag(argument) ? '=' : ' ', file);
-    cli_print_quoted(file, argument->text);
-  }
-  for (; settings->name; settings++) {
-    if (!settings->text) continue;
-    print_flag(file, settings->name);
-    fputc(' ', file);
-    cli_print_quoted(file, settings->text);
-  }
 }
 
 static const char *next_method(int64_t i, const void *ctx) {

@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 
-#include <stdio.h>
+#include <stddef.h>
 
 /* Exit code for a status of the library. */
 int cli_exit_code(int32_t status);
@@ -34,17 +34,6 @@ void cli_warnings_tell(const struct cli_arguments *arguments, char *warnings);
 
 /* Reports that memory was missing for a part of the output; the rest is printed. */
 int cli_report_missing_words(const struct cli_arguments *arguments);
-
-/* An option of a run, for a command to print. */
-struct cli_setting {
-  const char *name, *text; /* text NULL: to be left out */
-};
-
-/* Prints the current command as one of `verb`, with `settings`, which a NULL name ends, replacing its own,
- * and without the options that only show how a run diverges.
- * For another verb than the current one, only the given options of a run are kept. */
-void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
-                        const struct cli_setting *settings);
 
 /* Writes the names of all methods, "a, b, c". */
 void cli_report_methods(char *list, size_t size);

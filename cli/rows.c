@@ -23,13 +23,25 @@ static const char *method_of(const struct cli_rows *rows, int64_t row) {
   return hooke_measurement_text(rows->source, "rows", row, "method");
 }
 
-int32_t cli_rows_method_width(const struct cli_rows *rows) {
-  size_t width = LEAST_WIDTH;
-  for (int64_t row = 0; row < rows->count; row++) {
-    size_t length = strlen(method_of(rows, row));
-    if (length > width) width = length;
+double cli_number(const hooke_measurement *measurement, const char *table, const char *column) {
+  return hooke_measurement_number(measurement, table, 0, column);
+}
+
+const char *cli_text(const hooke_measurement *measurement, const char *table, const char *column) {
+  return hooke_measurement_text(measurement, table, 0, column);
+}
+
+int32_t cli_rows_width(const hooke_measurement *measurement, const char *table, const char *column,
+                       size_t least) {
+  for (int64_t row = 0; row < hooke_measurement_row_count(measurement, table); row++) {
+    const size_t length = strlen(hooke_measurement_text(measurement, table, row, column));
+    if (length > least) least = length;
   }
-  return (int32_t)width;
+  return (int32_t)least;
+}
+
+int32_t cli_rows_method_width(const struct cli_rows *rows) {
+  return cli_rows_width(rows->source, "rows", "method", LEAST_WIDTH);
 }
 
 void cli_rows_print_as(int32_t width, double value, const char *format, const char *infinite,

@@ -15,7 +15,7 @@ struct cli_column {
   int32_t marked;              /* a mark may follow */
 };
 
-/* Of a comparison or a study: step or tolerance, errors and cost. */
+/* Of a study: step or tolerance, errors and cost. */
 extern const struct cli_column cli_rows_of_runs[];
 
 struct cli_rows {
@@ -28,7 +28,13 @@ struct cli_rows {
   char (*mark)(const hooke_measurement *source, int64_t row, const char *what);
 };
 
-/* Width of the column of methods. */
+/* The only row of a table: a number, NaN if not known, and a text, NULL likewise. */
+double cli_number(const hooke_measurement *measurement, const char *table, const char *column);
+const char *cli_text(const hooke_measurement *measurement, const char *table, const char *column);
+
+/* Width of a column of texts, at least `least`; of that of methods. */
+int32_t cli_rows_width(const hooke_measurement *measurement, const char *table, const char *column,
+                       size_t least);
 int32_t cli_rows_method_width(const struct cli_rows *rows);
 
 /* A number in `width` columns to 4 digits, "-" if there is none; the second in another format, with other

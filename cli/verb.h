@@ -38,6 +38,7 @@ struct cli_verb {
   const struct cli_verb_row *rows;
   int32_t row_count;
   const char *options;   /* name of the table of its own options, for hooke_options_create(); NULL: none */
+  const char *hidden;    /* those of that table that it does not take, separated by blanks; NULL: none */
   int takes_kind;        /* 1: takes a kind of part instead of a scene, and its options */
   const char *for_scene; /* its option that replaces the scene; NULL: none */
   const char *without;   /* options of a run that it does not take, separated by blanks; NULL: none */
@@ -45,9 +46,6 @@ struct cli_verb {
 };
 
 #define HOOKE_VERB_ROWS(list) .rows = (list), .row_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
-
-/* All verbs; NULL ends them. */
-extern const struct cli_verb *const cli_verbs[];
 
 extern const struct cli_verb cli_verb_run;
 extern const struct cli_verb cli_verb_check;

@@ -85,10 +85,11 @@ int32_t cli_watch_run(const struct cli_arguments *arguments, hooke_measurement *
   return status;
 }
 
-int32_t cli_watch_measure(const struct cli_arguments *arguments, const char *kind,
-                          const struct cli_setup *setup, hooke_state *state, hooke_measurement **made) {
-  const int32_t status = hooke_measurement_create(kind, setup->system, setup->options, arguments->more, made);
-  return status == HOOKE_OK ? cli_watch_run(arguments, *made, state) : status;
+int cli_watch_measure(const struct cli_arguments *arguments, const char *kind, const struct cli_setup *setup,
+                      hooke_state *state, hooke_measurement **made, int32_t *outcome) {
+  *outcome = hooke_measurement_create(kind, setup->system, setup->options, arguments->more, made);
+  if (*outcome == HOOKE_OK) *outcome = cli_watch_run(arguments, *made, state);
+  return *outcome >= 0 ? HOOKE_EXIT_DONE : cli_report_status(arguments, *outcome);
 }
 
 int32_t cli_watch_interrupted(void) {

@@ -25,9 +25,10 @@ int32_t cli_watch_progress(double done, const char *what, void *watch);
 int32_t cli_watch_run(const struct cli_arguments *arguments, hooke_measurement *measurement,
                       hooke_state *state);
 
-/* Makes a measurement of this kind by the verb's own options, and runs it in this way. */
-int32_t cli_watch_measure(const struct cli_arguments *arguments, const char *kind,
-                          const struct cli_setup *setup, hooke_state *state, hooke_measurement **made);
+/* Makes a measurement of this kind by the verb's own options, and runs it in this way. A failure is reported
+ * and returned as exit code; else there are results, and `outcome` says how it ended. */
+int cli_watch_measure(const struct cli_arguments *arguments, const char *kind, const struct cli_setup *setup,
+                      hooke_state *state, hooke_measurement **made, int32_t *outcome);
 
 /* Clears the line of progress. Signals stay caught, so that results can still be saved. */
 void cli_watch_end(struct cli_watch *watch);

@@ -2,7 +2,7 @@
 #ifndef HOOKE_CLI_WORDS_H
 #define HOOKE_CLI_WORDS_H
 
-#include "arguments.h"
+#include <stdint.h>
 
 /* The option, the verb or the option in its place that a common word means; the word itself if none. */
 const char *cli_words_meant(const char *word);
@@ -13,11 +13,5 @@ const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const v
 
 /* The file beside the missing `path` whose name is nearest; NULL if `path` is there, or none is near. */
 const char *cli_suggest_file(const char *path);
-
-/* Refuses an output that ends like another kind than its option writes, and says what writes that kind. */
-int cli_words_check_ending(const struct cli_arguments *arguments, const char *file);
-
-/* Reports that the verb has no option `word` ("--stpe=1", "-x"), which `value` followed (NULL: nothing did). */
-int cli_report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value);
 
 #endif

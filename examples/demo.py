@@ -49,7 +49,7 @@ def draw(path, picture):
     figure = plt.figure(figsize=(13, 5.5), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.25)
     with h5py.File(path) as file:
-        reference = file["comparison/reference"].asstr()[()]
+        reference = file["study/reference"].attrs["method"]
         space = figure.add_subplot(1, 2, 1, projection="3d")
         for run, label, colour in [("all", f"reference ({reference})", "0.25"), (DRAWN, DRAWN, COLOURS[DRAWN])]:
             reached = file[f"particles/{run}/position/time"][-1]
@@ -77,7 +77,7 @@ def draw(path, picture):
 def farthest(path):
     """By how much the farthest particle is off at any frame, by each method at its step or tolerance, the best one first."""
     with h5py.File(path) as file:
-        table = file["comparison"]
+        table = file["study"]
         errors = dict(zip(table["method"].asstr()[:], table["error_max"][:]))
     order = sorted((error, method) for method, error in errors.items() if error == error)
     return "off by at most: " + ", ".join(f"{method} {1e3 * error:.2g} mm" for error, method in order)

@@ -6,7 +6,7 @@
  *   parts.h       generated parts: rope, cloth, lattice, mesh, strand
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop, and a warning before a run blows up
- *   measurement.h studies, limits, needs, costs, comparisons, causes, verifications
+ *   measurement.h studies, limits, needs, costs, causes, verifications
  *   estimate.h    the error of a run, and the cheapest run for a wanted one
  *   scene.h       scene files and meshes
  *   trajectory.h  trajectories: writing, reading, viewing

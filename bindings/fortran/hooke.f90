@@ -21,7 +21,7 @@ module hooke
     hooke_drive, hooke_rate
   use hooke_integrators, only: hooke_integrator, hooke_system_warnings
   use hooke_measurements, only: hooke_measurement
-  use hooke_observers, only: hooke_observer, hooke_progress, hooke_warning, hooke_comparison_observer
+  use hooke_observers, only: hooke_observer, hooke_progress, hooke_warning
   use hooke_option_tables, only: hooke_options
   use hooke_queries_of_library, only: hooke_version => version, hooke_abi => abi, hooke_build_fact => build_fact, &
     hooke_part_kind => part_kind, hooke_method_count => method_count, hooke_method_name => method_name, &
@@ -32,7 +32,7 @@ module hooke
   use hooke_scenes, only: hooke_scene
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system, hooke_rows_hold => rows_hold
-  use hooke_trajectories, only: hooke_trajectory, hooke_record, hooke_comparison_file
+  use hooke_trajectories, only: hooke_trajectory, hooke_record
   use hooke_views, only: hooke_view
   implicit none
   public

@@ -1,21 +1,19 @@
-! Trajectory files (HDF5): writing, reading, and one file for a whole comparison.
+! Trajectory files (HDF5): writing and reading.
 module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_ok, to_c
   use hooke_c_checkpoint, only: c_trajectory_resume
   use hooke_c_trajectory
-  use hooke_c_measurement, only: c_comparison_file_close
   use hooke_handles, only: missing
   use hooke_integrators, only: hooke_integrator
   use hooke_option_tables, only: hooke_options
-  use hooke_queries_of_comparison_file
   use hooke_queries_of_record
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
   use hooke_queries_of_trajectory
   implicit none
   private
-  public :: hooke_trajectory, hooke_record, hooke_comparison_file
+  public :: hooke_trajectory, hooke_record
 
   ! A file being written. One that goes out of scope is closed as "stopped".
   type, extends(hooke_trajectory_queries) :: hooke_trajectory
@@ -30,11 +28,6 @@ module hooke_trajectories
   contains
     procedure :: numbers
     procedure :: refresh
-  end type
-
-  type, extends(hooke_comparison_file_queries) :: hooke_comparison_file
-  contains
-    procedure :: close => close_comparison_file
   end type
 
 contains
@@ -95,18 +88,6 @@ contains
     class(hooke_record), intent(inout) :: self
     call self%options%destroy()
     if (self%exists()) call self%options%take(c_record_options(self%address()), owner=self)
-  end subroutine
-
-  ! ---- comparisons ----
-
-  ! Writes the table and the error over time, and closes the file.
-  subroutine close_comparison_file(self, status)
-    class(hooke_comparison_file), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: file
-    if (missing(status, self)) return
-    file = self%give_up()
-    call accept(c_comparison_file_close(file), status)
   end subroutine
 
 end module

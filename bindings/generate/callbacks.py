@@ -31,8 +31,6 @@ TYPES = {
         "hooke_warning": (None, "hooke_warning", "warn", "", "",
                           'Receives a warning that the step is no longer safe: "near-limit", "above-limit" or "never-stable"; '
                           "the bound [s]; and what determines it, 0 for no spring."),
-        "hooke_comparison_observer": (None, "hooke_comparison_frame", "see", "", "",
-                                      'Receives a frame of a run of a comparison, "reference" or a method\'s name.'),
     },
 }
 HEADS = {"forces": "Forces, motions and rates", "observers": "Observers"}

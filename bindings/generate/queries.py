@@ -21,7 +21,6 @@ IN_C = {"hooke_estimate": "hooke_measurement", "hooke_view": "hooke_measurement"
 BELONG = {
     "hooke_checkpoint_read": ("hooke_integrator", "read_checkpoint"),
     "hooke_checkpoint_write": ("hooke_integrator", "write_checkpoint"),
-    "hooke_comparison_on_frame": ("hooke_measurement", "on_frame"),
     "hooke_mesh_read": ("hooke_options", "read_mesh"),
     "hooke_mesh_set": ("hooke_options", "set_mesh"),
     "hooke_needs_lean_particle": ("hooke_measurement", "lean_particle"),

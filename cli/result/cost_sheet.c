@@ -2,7 +2,6 @@
 
 #include "report.h"
 #include "rows.h"
-#include "table.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -13,15 +12,12 @@ enum { LEAST_WIDTH = 16 };
 
 int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
                         hooke_measurement **cost) {
-  const int32_t status = cli_watch_measure(arguments, "cost", setup, setup->state, cost);
-  if (status == HOOKE_STOPPED) {
-    cli_report_words(arguments, "interrupted; kept: what was found so far");
-    return HOOKE_EXIT_INTERRUPTED;
-  }
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
+  int32_t outcome;
+  const int code = cli_watch_measure(arguments, "cost", setup, setup->state, cost, &outcome);
+  if (outcome != HOOKE_STOPPED) return code;
+  cli_report_words(arguments, "interrupted; kept: what was found so far");
+  return HOOKE_EXIT_INTERRUPTED;
 }
-
-/* ---- words ---- */
 
 static const char *name_of(const hooke_measurement *cost, int64_t row) {
   const char *name = hooke_measurement_text(cost, "rows", row, "ingredient");
@@ -62,7 +58,7 @@ static void print_row(const hooke_measurement *cost, int64_t row, int width) {
   print_name(width, name_of(cost, row));
   cli_rows_print_as(10, hooke_measurement_number(cost, "rows", row, "springs"), "%.0f", NULL, NULL);
   print_time(hooke_measurement_number(cost, "rows", row, "nanoseconds"),
-             hooke_measurement_number(cost, "cost", 0, "resolution"));
+             cli_number(cost, "cost", "resolution"));
   cli_rows_print_as(12, hooke_measurement_number(cost, "rows", row, "memory_bytes"), "%.0f", NULL, NULL);
   print_limit(hooke_measurement_number(cost, "rows", row, "step_limit_without"));
 }
@@ -70,9 +66,9 @@ static void print_row(const hooke_measurement *cost, int64_t row, int width) {
 static void print_whole(const hooke_measurement *cost, const hooke_system *system, int width) {
   print_name(width, "the whole scene");
   cli_rows_print_as(10, (double)hooke_system_count(system, "springs"), "%.0f", NULL, NULL);
-  print_time(hooke_measurement_number(cost, "cost", 0, "nanoseconds"), 0.0);
-  cli_rows_print_as(12, hooke_measurement_number(cost, "cost", 0, "memory_bytes"), "%.0f", NULL, NULL);
-  print_limit(hooke_measurement_number(cost, "cost", 0, "step_limit"));
+  print_time(cli_number(cost, "cost", "nanoseconds"), 0.0);
+  cli_rows_print_as(12, cli_number(cost, "cost", "memory_bytes"), "%.0f", NULL, NULL);
+  print_limit(cli_number(cost, "cost", "step_limit"));
 }
 
 void cli_cost_sheet_print_left_out(const hooke_system *system) {
@@ -90,15 +86,11 @@ void cli_cost_sheet_print_left_out(const hooke_system *system) {
 
 void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *system) {
   char step[HOOKE_NUMBER_SIZE];
-  int width = LEAST_WIDTH;
+  const int32_t width = cli_rows_width(cost, "rows", "ingredient", LEAST_WIDTH);
   int64_t unknown = 0;
-  if (isnan(hooke_measurement_number(cost, "cost", 0, "step"))) return; /* interrupted early */
-  for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++) {
-    const int length = (int)strlen(name_of(cost, row));
-    if (is_known(cost, row) && length > width) width = length;
-  }
-  cli_say("cost of a step of %s, %s s, on this machine:\n", hooke_measurement_text(cost, "cost", 0, "method"),
-          cli_format_rounded(hooke_measurement_number(cost, "cost", 0, "step"), step));
+  if (isnan(cli_number(cost, "cost", "step"))) return; /* interrupted early */
+  cli_say("cost of a step of %s, %s s, on this machine:\n", cli_text(cost, "cost", "method"),
+          cli_format_rounded(cli_number(cost, "cost", "step"), step));
   printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
   print_whole(cost, system, width);
   if (hooke_measurement_row_count(cost, "rows") > 0)
@@ -112,13 +104,4 @@ void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *sys
   if (unknown > 0)
     printf("  and %" PRId64 " more that %s not looked at (--budget and --groups set how much is)\n", unknown,
            unknown == 1 ? "was" : "were");
-}
-
-/* ---- JSON ---- */
-
-void cli_cost_sheet_print_json(struct cli_json *json, const hooke_measurement *cost) {
-  cli_json_open(json, "cost", '{');
-  cli_table_print_row(json, cost, "cost", 0);
-  cli_table_print(json, "rows", cost, "rows");
-  cli_json_close(json);
 }

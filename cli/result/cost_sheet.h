@@ -2,7 +2,6 @@
 #ifndef HOOKE_CLI_COST_SHEET_H
 #define HOOKE_CLI_COST_SHEET_H
 
-#include "print.h"
 #include "setup.h"
 
 /* Measures the costs at the initial state, with progress; the caller destroys `cost` in either case. Failures
@@ -14,7 +13,5 @@ int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_
 void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *system);
 /* Prints the members that commit dropped on standard output. */
 void cli_cost_sheet_print_left_out(const hooke_system *system);
-/* "cost": {...} */
-void cli_cost_sheet_print_json(struct cli_json *json, const hooke_measurement *cost);
 
 #endif

@@ -14,10 +14,8 @@ struct cli_needs_results {
   char *command;       /* command that runs it; NULL: none */
 };
 
-enum { HOOKE_NEEDS_TRUST = 256 };
-/* States until when the results hold; 0: to the end, and nothing is printed. */
-int32_t cli_needs_results_trust(const hooke_measurement *needs, char text[HOOKE_NEEDS_TRUST]);
 void cli_needs_results_print(const struct cli_needs_results *results);
-void cli_needs_results_print_json(const struct cli_needs_results *results);
+/* HOOKE_NO_MEMORY if something is left out. */
+int32_t cli_needs_results_print_json(const struct cli_needs_results *results);
 
 #endif

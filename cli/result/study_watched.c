@@ -1,4 +1,5 @@
 /* Watched quantities of a study and its ensemble, in words. */
+#include "rows.h"
 #include "study_watched.h"
 
 #include <math.h>
@@ -6,13 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LABEL = 16, WIDTH = 110, CELL = 11, SETTING = 12, HEAD_SIZE = 128, TEXT_SIZE = 512 };
+enum { LABEL = 16, WIDTH = 110, CELL = 11, SETTING = 12, HEAD_SIZE = 128 };
 
 /* A bias below this many standard errors is compatible with chance. */
 static const double SEEN = 2.0;
 static const int MEMBERS_ADVISED = 16;
 
-int64_t cli_study_quantity_count(const hooke_measurement *study) {
+/* Of the table "statistics", whose rows are those of each method, the reference first, times these. */
+static int64_t quantity_count(const hooke_measurement *study) {
   const int64_t count = hooke_measurement_row_count(study, "statistics");
   int64_t quantities = 0;
   while (quantities < count &&
@@ -92,9 +94,8 @@ void cli_study_watched_print(const struct cli_study_results *results, int32_t me
                   hooke_measurement_number(study, "rows", row, "rtol"));
     print_cells(study, row, width);
   }
-  printf(
-      "the largest differences from the reference, in a period (-: none is seen) that of the two periods; *: "
-      "within ten times of the agreement\n");
+  printf("the largest differences from the reference, in a period (-: none is seen) that of the two periods; "
+         "*: within ten times of the agreement\n");
   free(width);
 }
 
@@ -140,29 +141,22 @@ static void print_quantity(const hooke_measurement *study, int32_t method_width,
 
 static void print_ensemble(const struct cli_study_results *results, int32_t method_width) {
   const hooke_measurement *study = results->study;
-  char text[TEXT_SIZE];
-  if (isnan(hooke_measurement_number(study, "ensemble", 0, "from"))) {
-    snprintf(text, sizeof text, "none came to its end, of %.0f runs of each method%s",
-             hooke_measurement_number(study, "ensemble", 0, "members"),
-             hooke_measurement_number(study, "study", 0, "budget_spent") == 1.0
-                 ? "; a larger --budget leaves time for them"
-                 : "");
-    printf("\n");
-    cli_print_fact(LABEL, WIDTH, "statistics", text);
+  printf("\n");
+  if (isnan(cli_number(study, "ensemble", "from"))) {
+    cli_print_fact(
+        LABEL, WIDTH, "statistics", "none came to its end, of %.0f runs of each method%s",
+        cli_number(study, "ensemble", "members"),
+        cli_number(study, "study", "budget_spent") == 1.0 ? "; a larger --budget leaves time for them" : "");
     return;
   }
-  snprintf(text, sizeof text,
-           "of means over %.6g s to %.6g s, where positions cannot be computed; of %.0f runs of each method, "
-           "whose starts differ by noise of %.3g m",
-           hooke_measurement_number(study, "ensemble", 0, "from"),
-           hooke_measurement_number(study, "ensemble", 0, "until"),
-           hooke_measurement_number(study, "ensemble", 0, "members"),
-           hooke_measurement_number(study, "ensemble", 0, "noise"));
-  printf("\n");
-  cli_print_fact(LABEL, WIDTH, "statistics", text);
+  cli_print_fact(LABEL, WIDTH, "statistics",
+                 "of means over %.6g s to %.6g s, where positions cannot be computed; of %.0f runs of each "
+                 "method, whose starts differ by noise of %.3g m",
+                 cli_number(study, "ensemble", "from"), cli_number(study, "ensemble", "until"),
+                 cli_number(study, "ensemble", "members"), cli_number(study, "ensemble", "noise"));
   printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
          CELL, "spread", "bias");
-  const int64_t count = cli_study_quantity_count(study);
+  const int64_t count = quantity_count(study);
   for (int64_t k = 0; k < count; k++)
     print_quantity(study, method_width, k, count);
   printf("spread: the standard deviation of the runs; bias: the difference from the reference's mean, in "
@@ -173,20 +167,16 @@ static void print_ensemble(const struct cli_study_results *results, int32_t meth
 
 void cli_study_statistics_print(const struct cli_study_results *results, int32_t method_width) {
   const hooke_measurement *study = results->study;
-  const double until = hooke_measurement_number(study, "reference", 0, "trusted_until");
-  const int32_t whole = cli_study_results_trust_all(study);
-  const char *asked = cli_arguments_text(results->arguments, "ensemble");
-  char text[TEXT_SIZE];
+  const int32_t asked = cli_arguments_text(results->arguments, "ensemble") != NULL;
   if (hooke_measurement_row_count(study, "ensemble") > 0) {
     print_ensemble(results, method_width);
-  } else if (asked && whole) {
+  } else if (asked && results->trusts_all) {
     printf("\n");
     cli_print_fact(LABEL, WIDTH, "statistics", "none are needed: errors are known over the whole run");
-  } else if (!whole && !asked && hooke_measurement_row_count(study, "rows") > 0 &&
+  } else if (!results->trusts_all && !asked && hooke_measurement_row_count(study, "rows") > 0 &&
              !results->arguments->quiet) {
-    snprintf(text, sizeof text, "--ensemble %d tells means and spreads beyond %.6g s", MEMBERS_ADVISED,
-             until);
     printf("\n");
-    cli_print_fact(LABEL, WIDTH, "statistics", text);
+    cli_print_fact(LABEL, WIDTH, "statistics", "--ensemble %d tells means and spreads beyond %.6g s",
+                   MEMBERS_ADVISED, cli_number(study, "reference", "trusted_until"));
   }
 }

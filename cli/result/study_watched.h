@@ -9,8 +9,4 @@ void cli_study_watched_print(const struct cli_study_results *results, int32_t me
 /* Means, spreads and biases where the motion cannot be judged; or how to obtain them. */
 void cli_study_statistics_print(const struct cli_study_results *results, int32_t method_width);
 
-/* Number of quantities of the table "statistics": its rows are those of each method, the reference first,
- * times these. */
-int64_t cli_study_quantity_count(const hooke_measurement *study);
-
 #endif

@@ -1,6 +1,6 @@
 #include "blow_up.h"
 
-#include "advice.h"
+#include "command.h"
 #include "report.h"
 
 #include <inttypes.h>
@@ -84,7 +84,7 @@ void cli_blow_up_print_why(FILE *file, const struct cli_run *run) {
       {"report", report},
       {NULL, NULL}};
   if (!run->output || run->page) {
-    cli_report_command(file, run->arguments, "why", settings);
+    cli_command_print(file, run->arguments, "why", settings);
     return;
   }
   fputs("hooke why ", file);

@@ -26,11 +26,10 @@ int cli_resume_check(const struct cli_arguments *arguments) {
   for (int32_t i = 0; file && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     if (!argument->text || may_be_given(argument->name)) continue;
-    return cli_report(
-        arguments, HOOKE_EXIT_USAGE,
-        "--resume goes on with the scene and the options of %s, so that the bits are those of a run that "
-        "never stopped; leave out --%s",
-        file, argument->flag);
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "--resume goes on with the scene and the options of %s, so that the bits are those of "
+                      "a run that never stopped; leave out --%s",
+                      file, argument->flag);
   }
   return HOOKE_EXIT_DONE;
 }

@@ -18,16 +18,12 @@ static const double *velocity_of(const struct cli_run *run) {
   return hooke_state_velocity(run->setup.state);
 }
 
-static const hooke_options *options_of(const struct cli_run *run) {
-  return run->options;
-}
-
 const char *cli_run_method(const struct cli_run *run) {
-  return hooke_options_text(options_of(run), "method");
+  return hooke_options_text(run->options, "method");
 }
 
 static double option_of(const struct cli_run *run, const char *name) {
-  return hooke_options_number(options_of(run), name);
+  return hooke_options_number(run->options, name);
 }
 
 int32_t cli_run_goes_beyond(const struct cli_run *run) {
@@ -70,14 +66,6 @@ static int64_t count_of(const struct cli_run *run, int k) {
 
 /* ---- JSON ---- */
 
-static void print_json_count(struct cli_json *json, const struct cli_run *run, int k) {
-  const int64_t count = count_of(run, k);
-  if (count < 0)
-    cli_json_number(json, counts[k][0], NAN);
-  else
-    cli_json_count(json, counts[k][0], count);
-}
-
 static void print_json_motion(struct cli_json *json, const struct cli_run *run) {
   double momentum[3];
   cli_json_open(json, "energy", '{');
@@ -108,12 +96,12 @@ static void print_json(const struct cli_run *run, int32_t with_final) {
     cli_json_number(&json, "step", option_of(run, "step"));
   }
   cli_json_number(&json, "time", hooke_state_time(run->setup.state));
-  print_json_count(&json, run, 0);
-  print_json_count(&json, run, 1);
+  cli_json_count(&json, counts[0][0], count_of(run, 0));
+  cli_json_count(&json, counts[1][0], count_of(run, 1));
   cli_json_number(&json, "wall_seconds", run->was_finished ? NAN : run->wall_seconds);
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
   cli_json_count(&json, "springs", hooke_system_count(system, "springs"));
-  print_json_count(&json, run, HOOKE_RUN_COUNTS - 2);
+  cli_json_count(&json, counts[HOOKE_RUN_COUNTS - 2][0], count_of(run, HOOKE_RUN_COUNTS - 2));
   print_json_motion(&json, run);
   if (cli_run_goes_beyond(run)) cli_json_count(&json, "frames_beyond", run->frames_beyond);
   cli_json_text(&json, "output", run->output);

@@ -140,11 +140,10 @@ static void warn(const struct cli_run *run) {
                      "scene has: this step is too large, or the method does not suit the scene",
                      100.0 * rise);
   if (excess > MOST_EXCESS)
-    cli_report_words(
-        run->arguments,
-        "warning: damping and drag took more energy than there was to take, by %.3g %% of what the "
-        "scene has: velocities reverse at each step, which is too large for the damping",
-        100.0 * excess);
+    cli_report_words(run->arguments,
+                     "warning: damping and drag took more energy than there was to take, by %.3g %% of what "
+                     "the scene has: velocities reverse at each step, which is too large for the damping",
+                     100.0 * excess);
 }
 
 static void print_verdict(const struct cli_run *run) {
@@ -218,10 +217,7 @@ void cli_want_print_json(const struct cli_run *run, struct cli_json *json) {
   if (!is_wanted(run)) return;
   cli_json_open(json, "want", '{');
   cli_json_number(json, "wanted", number_of(run, "wanted"));
-  if (isnan(met))
-    cli_json_number(json, "met", NAN);
-  else
-    cli_json_flag(json, "met", met == 1.0);
+  cli_json_flag(json, "met", met);
   cli_json_number(json, "seconds", number_of(run, "seconds"));
   cli_json_close(json);
 }

@@ -48,12 +48,10 @@ static void warn_of_method(struct check *check) {
   double bound = bound_of(check, method);
   double step = hooke_options_number(check->setup.options, "step");
   if (bound == 0.0) {
-    cli_append(
-        check->warnings, HOOKE_WARNINGS_SIZE,
-        "%s, the method of the run, is stable at no step: the scene has motion without damping, which it "
-        "makes "
-        "grow at any step\n",
-        method);
+    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
+               "%s, the method of the run, is stable at no step: the scene has motion without damping, which "
+               "it makes grow at any step\n",
+               method);
   } else if (step > bound) {
     cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
                "the step of the run, %s s, is above %s s, up to which %s is certain to be stable\n",
@@ -65,12 +63,10 @@ static void warn_of_coincident_springs(struct check *check) {
   int64_t count =
       hooke_system_coincident_springs(check->setup.system, hooke_state_position(check->setup.state));
   if (count == 0) return;
-  cli_append(
-      check->warnings, HOOKE_WARNINGS_SIZE,
-      "%" PRId64
-      " %s with both ends at the same place although the rest length is not zero: without a direction, "
-      "and so without a force\n",
-      count, count == 1 ? "spring starts" : "springs start");
+  cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
+             "%" PRId64 " %s with both ends at the same place although the rest length is not zero: without "
+             "a direction, and so without a force\n",
+             count, count == 1 ? "spring starts" : "springs start");
 }
 
 /* Marks the particles of all members of a force, or (NULL) of a rigid body, which may be free as a whole. */
@@ -146,13 +142,11 @@ static void print_memory(const struct check *check) {
 static void print_json_memory(struct cli_json *json, const struct cli_foretold *memory) {
   cli_json_count(json, "memory_bytes", memory->most);
   cli_json_count(json, "memory_bytes_output", memory->written);
-  if (memory->factor > 0)
-    cli_json_count(json, "memory_bytes_factor", memory->factor);
-  else
-    cli_json_number(json, "memory_bytes_factor", NAN);
+  cli_json_count(json, "memory_bytes_factor", memory->factor > 0 ? memory->factor : -1);
 }
 
-static void print_json(struct check *check) {
+/* HOOKE_NO_MEMORY if something is missing. */
+static int32_t print_json(struct check *check) {
   const hooke_system *system = check->setup.system;
   struct cli_json json;
   cli_json_begin(&json, stdout);
@@ -179,8 +173,8 @@ static void print_json(struct check *check) {
   cli_json_count(&json, "inside_bodies", hooke_system_count(system, "inside_bodies"));
   cli_json_count(&json, "dropped_springs", hooke_system_count(system, "dropped_springs"));
   cli_json_count(&json, "idle_particles", hooke_system_count(system, "idle"));
-  if (check->cost) cli_cost_sheet_print_json(&json, check->cost);
-  cli_json_end(&json);
+  if (check->cost) cli_json_measured(&json, "cost", check->cost, NULL, 0);
+  return cli_json_end(&json);
 }
 
 /* Stiffness and rest length of the softest and the stiffest of `count` springs. */
@@ -302,10 +296,7 @@ static int check_and_tell(struct check *check, struct cli_peak loaded) {
   if (cli_arguments_text(check->arguments, "cost"))
     code = cli_cost_sheet_find(check->arguments, &check->setup, &check->cost);
   if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
-  if (check->arguments->json)
-    print_json(check);
-  else
-    status = print_words(check);
+  status = check->arguments->json ? print_json(check) : print_words(check);
   return status == HOOKE_OK ? code : cli_report(check->arguments, cli_exit_code(status), "out of memory");
 }
 
@@ -339,12 +330,11 @@ static const struct cli_verb_row rows[] = {
 const struct cli_verb cli_verb_check = {
     .name = "check",
     .summary = "validates a scene and tells its size, its memory and its step limits, without running it",
-    .text =
-        "Validates the scene and tells its size, the memory at the peak of a run, with -o and without, and "
-        "for each "
-        "method the largest step that is certain to be stable at the start, in the time of loading it. With "
-        "--cost also what each ingredient costs: time of a step on this machine, unless --predict leaves it "
-        "out, memory, and the largest stable step without it. Warns of what is allowed but seldom meant.",
+    .text = "Validates the scene and tells its size, the memory at the peak of a run, with -o and without, "
+            "and for each method the largest step that is certain to be stable at the start, in the time of "
+            "loading it. With --cost also what each ingredient costs: time of a step on this machine, unless "
+            "--predict leaves it out, memory, and the largest stable step without it. Warns of what is "
+            "allowed but seldom meant.",
     .example = "hooke check cloth.json",
     HOOKE_VERB_ROWS(rows),
     .options = "cost",

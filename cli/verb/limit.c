@@ -6,7 +6,6 @@
 #include "report.h"
 #include "rows.h"
 #include "setup.h"
-#include "table.h"
 #include "watch.h"
 
 #include <errno.h>
@@ -22,7 +21,7 @@ struct limit {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
   hooke_measurement *limit;
-  int32_t along, interrupted, diverged;
+  int32_t along, outcome;
 };
 
 /* ---- the state ---- */
@@ -34,11 +33,10 @@ static int read_state(struct limit *l, const char *at) {
   errno = 0;
   const long long frame = colon ? strtoll(colon + 1, &end, 10) : -1;
   if (colon && (end == colon + 1 || *end || errno)) {
-    return cli_report(
-        l->arguments, HOOKE_EXIT_USAGE,
-        "--at %s: allowed: a trajectory and a frame of it, FILE:FRAME, counted from 0, or from -1 "
-        "backwards; the last one if not given",
-        at);
+    return cli_report(l->arguments, HOOKE_EXIT_USAGE,
+                      "--at %s: allowed: a trajectory and a frame of it, FILE:FRAME, counted from 0, or from "
+                      "-1 backwards; the last one if not given",
+                      at);
   }
   hooke_record *record = NULL;
   char *file = strdup(at);
@@ -70,31 +68,17 @@ static int check_needs(const struct limit *l) {
   return HOOKE_EXIT_DONE;
 }
 
-static int find(struct limit *l) {
-  const int32_t status = cli_watch_measure(l->arguments, "limit", &l->setup, l->setup.state, &l->limit);
-  l->interrupted = status == HOOKE_STOPPED;
-  l->diverged = status > 0 && !l->interrupted;
-  return status >= 0 ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);
-}
-
-/* ---- JSON ---- */
-
-static void print_json(const struct limit *l) {
+static int print_json(const struct limit *l) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
-  cli_table_print_row(&json, l->limit, "limit", 0);
-  cli_table_print(&json, "rows", l->limit, "rows");
-  cli_limiting_json(&json, l->limit);
-  cli_table_print(&json, "participation", l->limit, "participation");
-  cli_table_print(&json, "changes", l->limit, "changes");
-  cli_table_print(&json, "modes", l->limit, "modes");
-  cli_json_end(&json);
+  cli_json_measured(&json, NULL, l->limit, NULL, 0);
+  return cli_json_end(&json) == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(l->arguments);
 }
 
 /* ---- words ---- */
 
 static double number_of(const struct limit *l, const char *what) {
-  return hooke_measurement_number(l->limit, "limit", 0, what);
+  return cli_number(l->limit, "limit", what);
 }
 
 static const char *row_text(const struct limit *l, int64_t row, const char *what) {
@@ -144,10 +128,10 @@ static void print_notes(const struct limit *l, int32_t width) {
 }
 
 static void print_limiting(const hooke_measurement *limit) {
-  const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
+  const char *sentence = cli_text(limit, "changes", "sentence");
   if (hooke_measurement_row_count(limit, "blame") > 0) printf("\n");
   cli_limiting_print(limit);
-  if (sentence) cli_print_fact(INDENT, WIDTH, "changes", sentence);
+  if (sentence) cli_print_fact(INDENT, WIDTH, "changes", "%s", sentence);
 }
 
 static void print_words(const struct limit *l) {
@@ -171,16 +155,14 @@ static void print_words(const struct limit *l) {
 }
 
 static int tell(const struct limit *l) {
-  if (l->arguments->json)
-    print_json(l);
-  else
-    print_words(l);
+  const int code = l->arguments->json ? print_json(l) : HOOKE_EXIT_DONE;
+  if (!l->arguments->json) print_words(l);
   cli_print_flush();
-  if (l->interrupted) {
+  if (l->outcome == HOOKE_STOPPED) {
     cli_report_words(l->arguments, "interrupted; kept: what was found so far");
     return HOOKE_EXIT_INTERRUPTED;
   }
-  if (!l->diverged) return HOOKE_EXIT_DONE;
+  if (l->outcome == HOOKE_OK) return code;
   cli_report_words(l->arguments, "the run ended early, at t = %g s: %s", hooke_state_time(l->setup.state),
                    hooke_last_error());
   return HOOKE_EXIT_DIVERGED;
@@ -196,7 +178,8 @@ static int do_limit(const struct cli_arguments *arguments) {
   code = cli_setup_load(arguments, &l.setup);
   if (code == HOOKE_EXIT_DONE && at) code = read_state(&l, at);
   if (code == HOOKE_EXIT_DONE) code = check_needs(&l);
-  if (code == HOOKE_EXIT_DONE) code = find(&l);
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_watch_measure(arguments, "limit", &l.setup, l.setup.state, &l.limit, &l.outcome);
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&l);
     if (!isnan(number_of(&l, "frequency_max")))

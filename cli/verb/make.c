@@ -96,20 +96,16 @@ static int read_file(const struct make *make) {
   return cli_report(make->arguments, cli_exit_code(status), "--file %s", hooke_last_error());
 }
 
-static const char *text_of(const struct make *make, const char *name, const char *otherwise) {
-  const char *text = cli_arguments_text(make->arguments, name);
-  return text ? text : otherwise;
-}
-
 static int build(struct make *make) {
   const struct cli_arguments *arguments = make->arguments;
+  const char *name = cli_arguments_text(arguments, "name");
   int32_t status = hooke_system_create(&make->system);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   status = hooke_scene_options_apply(arguments->more, make->system);
   if (status != HOOKE_OK) return report_option(make, arguments->more, status);
   const int code = read_file(make);
   if (code != HOOKE_EXIT_DONE) return code;
-  status = hooke_system_add_part(make->system, arguments->scene, text_of(make, "name", arguments->scene),
+  status = hooke_system_add_part(make->system, arguments->scene, name ? name : arguments->scene,
                                  arguments->of_kind, NULL, NULL);
   if (status == HOOKE_OK) status = hooke_system_commit(make->system);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : report_option(make, arguments->of_kind, status);

@@ -1,6 +1,7 @@
 #include "methods.h"
 #include "report.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* The method that `word` begins with, up to `length`; NULL if there is none. */

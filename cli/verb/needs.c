@@ -29,13 +29,6 @@ static int check_files(const struct cli_needs_results *results) {
   return code == HOOKE_EXIT_DONE ? cli_output_file_check_report(arguments, report) : code;
 }
 
-static int find(struct cli_needs_results *results, int32_t *stopped) {
-  const struct cli_arguments *arguments = results->arguments;
-  const int32_t status = cli_watch_measure(arguments, "needs", &results->setup, NULL, &results->needs);
-  *stopped = status == HOOKE_STOPPED;
-  return status == HOOKE_OK || *stopped ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
-}
-
 /* ---- the lean scene ---- */
 
 /* HOOKE_NO_MEMORY */
@@ -65,16 +58,15 @@ static int write_lean(struct cli_needs_results *results) {
 }
 
 /* Results are printed also when a file fails. */
-static int tell(struct cli_needs_results *results, int32_t stopped) {
+static int tell(struct cli_needs_results *results, int32_t outcome) {
   int code = write_lean(results);
-  if (results->arguments->json)
-    cli_needs_results_print_json(results);
-  else
-    cli_needs_results_print(results);
+  if (results->arguments->json && cli_needs_results_print_json(results) != HOOKE_OK)
+    code = cli_report_missing_words(results->arguments);
+  if (!results->arguments->json) cli_needs_results_print(results);
   cli_print_flush();
   code = cli_output_file_write_report(results->arguments, &results->setup, results->needs, results->command,
                                       code);
-  if (!stopped) return code;
+  if (outcome != HOOKE_STOPPED) return code;
   cli_report_words(results->arguments, "interrupted; kept: what is known so far");
   return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;
 }
@@ -82,13 +74,14 @@ static int tell(struct cli_needs_results *results, int32_t stopped) {
 static int do_needs(const struct cli_arguments *arguments) {
   struct cli_needs_results results = {.arguments = arguments,
                                       .refine = hooke_options_number(arguments->more, "refine") == 1.0};
-  int32_t stopped = 0;
+  int32_t outcome;
   int code = check_files(&results);
   if (code != HOOKE_EXIT_DONE) return code;
   code = cli_setup_load(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = find(&results, &stopped);
-  if (code == HOOKE_EXIT_DONE) code = tell(&results, stopped);
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_watch_measure(arguments, "needs", &results.setup, NULL, &results.needs, &outcome);
+  if (code == HOOKE_EXIT_DONE) code = tell(&results, outcome);
   free(results.command);
   hooke_measurement_destroy(results.needs);
   cli_setup_destroy(&results.setup);
@@ -103,13 +96,12 @@ static const struct cli_verb_row own_rows[] = {
 const struct cli_verb cli_verb_needs = {
     .name = "needs",
     .summary = "what a scene needs for a wanted accuracy, and a lean scene without the rest",
-    .text =
-        "Leaves out one ingredient after another (spring groups and families, damping, drag, gravity, idle "
-        "springs, what touches nothing, resistance to compression, the deformation of parts, which become "
-        "rigid bodies, half the resolution), runs each variant with errors of the time step a tenth of "
-        "--want, and prints by how much the watched positions change and what it saves. Then leaves out "
-        "together what is not needed, checks the lean scene against the full one, and compares what each "
-        "takes at its cheapest within --want. Ctrl-C prints what is known so far.",
+    .text = "Leaves out one ingredient after another (spring groups and families, damping, drag, gravity, "
+            "idle springs, what touches nothing, resistance to compression, the deformation of parts, which "
+            "become rigid bodies, half the resolution), runs each variant with errors of the time step a "
+            "tenth of --want, and prints by how much the watched positions change and what it saves. Then "
+            "leaves out together what is not needed, checks the lean scene against the full one, and "
+            "compares what each takes at its cheapest within --want. Ctrl-C prints what is known so far.",
     .example = "hooke needs cloth.json --want 1cm -o lean.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = "needs",

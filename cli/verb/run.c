@@ -4,7 +4,7 @@
 #include "os.h"
 #include "report.h"
 #include "resume.h"
-#include "run_results.h"
+#include "run.h"
 #include "want.h"
 
 #include <errno.h>
@@ -229,17 +229,16 @@ static void tell_coincident(const struct cli_run *run) {
   const int64_t before = run->coincident_before, after = cli_run_coincident(run);
   if (before > 0) {
     cli_report_words(run->arguments,
-                     "%" PRId64
-                     " springs began with both ends at one place; such a spring has no direction and exerts "
-                     "no force, until something else parts them",
+                     "%" PRId64 " springs began with both ends at one place; such a spring has no direction "
+                     "and exerts no force, until something else parts them",
                      before);
   }
   if (after > 0) {
-    cli_report_words(run->arguments,
-                     "%" PRId64
-                     " springs ended with both ends at one place; such a spring has no direction and "
-                     "exerts no force",
-                     after);
+    cli_report_words(
+        run->arguments,
+        "%" PRId64
+        " springs ended with both ends at one place; such a spring has no direction and exerts no force",
+        after);
   }
 }
 

@@ -1,10 +1,10 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
-#include "os.h"
+#include "command.h"
+#include "methods.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "study_results.h"
-#include "study_watched.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -32,29 +32,10 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
   return code == HOOKE_EXIT_DONE ? cli_output_file_check(arguments, "-o", output) : code;
 }
 
-/* ---- running ---- */
-
-static int run_study(struct cli_study_results *results) {
-  const struct cli_arguments *arguments = results->arguments;
-  const int32_t status = cli_watch_measure(arguments, "study", &results->setup, NULL, &results->study);
-  results->interrupted = status == HOOKE_STOPPED;
-  return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
-}
-
 /* ---- the recommended command ---- */
 
 static double recommended(const struct cli_study_results *results, const char *what) {
   return hooke_measurement_number(results->study, "recommendation", 0, what);
-}
-
-int32_t cli_study_results_recommend(const struct cli_study_results *results) {
-  if (!hooke_measurement_text(results->study, "recommendation", 0, "note")) return 0;
-  return recommended(results, "met") == 1.0 || !results->interrupted;
-}
-
-int32_t cli_study_results_trust_all(const hooke_measurement *study) {
-  return hooke_measurement_number(study, "reference", 0, "trusted_until") >=
-         hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
 }
 
 /* NULL if the number does not apply. */
@@ -67,9 +48,8 @@ static const char *setting(const struct cli_study_results *results, const char *
 /* HOOKE_NO_MEMORY */
 static int32_t find_command(struct cli_study_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
-  size_t size;
   const char *method = hooke_measurement_text(results->study, "recommendation", 0, "method");
-  if (!method || !cli_study_results_recommend(results)) return HOOKE_OK;
+  if (!method || !results->recommends) return HOOKE_OK;
   struct cli_setting settings[] = {{"method", method},
                                    {"step", setting(results, "step", step)},
                                    {"rtol", setting(results, "rtol", rtol)},
@@ -78,34 +58,31 @@ static int32_t find_command(struct cli_study_results *results) {
                                    {NULL, NULL}};
   /* the study sets it to the number of atol, for any scene */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
-  FILE *stream = cli_os_open_text(&results->command, &size);
-  if (stream) cli_report_command(stream, results->arguments, "run", settings);
-  return cli_print_end(stream, &results->command);
+  return cli_command_make(results->arguments, settings, &results->command);
 }
 
 /* ---- results ---- */
 
-static char mark_of(const hooke_measurement *study, int64_t row, const char *what) {
-  if (strcmp(what, "error") == 0)
-    return hooke_measurement_number(study, "rows", row, "near_floor") == 1.0 ? '*' : ' ';
-  if (strcmp(what, "energy_drift") == 0)
-    return hooke_measurement_number(study, "rows", row, "near_energy_floor") == 1.0 ? '*' : ' ';
-  return hooke_measurement_number(study, "rows", row, "timed_alone") == 0.0 ? '+' : ' ';
-}
-
-struct cli_rows cli_study_results_rows(const struct cli_study_results *results) {
-  return (struct cli_rows){.source = results->study,
-                           .count = hooke_measurement_row_count(results->study, "rows"),
-                           .columns = cli_rows_of_runs,
-                           .grouped = 1,
-                           .status = 1,
-                           .mark = mark_of};
+/* What is said depends on: whether errors are known to the end, and a run is recommended. */
+static void judge(struct cli_study_results *results) {
+  const hooke_measurement *study = results->study;
+  results->trusts_all = hooke_measurement_number(study, "reference", 0, "trusted_until") >=
+                        hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
+  results->recommends = hooke_measurement_text(study, "recommendation", 0, "note") != NULL &&
+                        (recommended(results, "met") == 1.0 || results->outcome != HOOKE_STOPPED);
 }
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
-  const int32_t status =
+  struct cli_watch watch;
+  int32_t status =
       hooke_measurement_label(results->study, "scene", hooke_scene_text(results->setup.scene, "text"));
-  return status == HOOKE_OK ? hooke_measurement_write(results->study, output) : status;
+  if (status != HOOKE_OK) return status;
+  cli_watch_start(&watch, results->arguments);
+  hooke_measurement_on_progress(results->study, cli_watch_progress, &watch);
+  status = hooke_measurement_write(results->study, output);
+  hooke_measurement_on_progress(results->study, NULL, NULL);
+  cli_watch_end(&watch);
+  return status;
 }
 
 /* Results are printed also when the file fails. */
@@ -114,17 +91,17 @@ static int tell(struct cli_study_results *results, const char *output) {
   int32_t written = HOOKE_OK;
   /* a study that was stopped before its first row does not replace an older file */
   if (hooke_measurement_row_count(results->study, "rows") == 0) output = NULL;
-  const int32_t found = find_command(results);
-  if (arguments->json) {
-    cli_study_results_print_json(results);
-  } else {
-    cli_study_results_print(results);
-  }
+  judge(results);
+  int32_t found = find_command(results);
+  if (arguments->json && cli_study_results_print_json(results) != HOOKE_OK) found = HOOKE_NO_MEMORY;
+  if (!arguments->json) cli_study_results_print(results);
   if (output) written = write_output(results, output);
   if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();
-  if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
-  if (results->interrupted) {
+  if (written != HOOKE_OK)
+    cli_report_words(arguments, "%s",
+                     written == HOOKE_STOPPED ? "interrupted; nothing is written" : hooke_last_error());
+  if (results->outcome == HOOKE_STOPPED) {
     cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
                      hooke_measurement_row_count(results->study, "rows"),
                      output && written == HOOKE_OK ? ", in " : "",
@@ -132,23 +109,35 @@ static int tell(struct cli_study_results *results, const char *output) {
   }
   if (written != HOOKE_OK) return cli_exit_code(written);
   if (found != HOOKE_OK) return cli_report_missing_words(arguments);
-  if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
+  if (results->outcome == HOOKE_STOPPED) return HOOKE_EXIT_INTERRUPTED;
   const int32_t made = hooke_measurement_text(results->study, "recommendation", 0, "note") != NULL;
-  const int32_t met = recommended(results, "met") == 1.0 && cli_study_results_trust_all(results->study);
+  const int32_t met = recommended(results, "met") == 1.0 && results->trusts_all;
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 
+/* A ladder has steps of its own. */
+static int require(const struct cli_study_results *results, const struct cli_methods *methods) {
+  int code = cli_setup_require_duration(results->arguments, &results->setup);
+  for (int32_t k = 0; results->once && k < methods->count; k++)
+    if (code == HOOKE_EXIT_DONE)
+      code = cli_setup_require(results->arguments, &results->setup, methods->name[k]);
+  return code;
+}
+
 static int do_study(const struct cli_arguments *arguments) {
-  struct cli_study_results results = {.arguments = arguments};
+  struct cli_study_results results = {.arguments = arguments,
+                                      .once = hooke_options_number(arguments->more, "once") == 1.0};
   const char *output = cli_arguments_text(arguments, "output");
   const char *report = cli_arguments_text(arguments, "report");
-  int code = cli_methods_choose(arguments, &results.methods);
+  struct cli_methods methods;
+  int code = cli_methods_choose(arguments, &methods);
   if (code == HOOKE_EXIT_DONE) code = check_output(arguments, output);
   if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
   if (code != HOOKE_EXIT_DONE) return code;
   code = cli_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = run_study(&results);
+  if (code == HOOKE_EXIT_DONE) code = require(&results, &methods);
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_watch_measure(arguments, "study", &results.setup, NULL, &results.study, &results.outcome);
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&results, output);
     if (hooke_measurement_row_count(results.study, "rows") > 0)
@@ -177,6 +166,7 @@ const struct cli_verb cli_verb_study = {
     .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
     .options = "study",
+    .hidden = "once",
     .without = "method step rtol atol atol_velocity checkpoint",
     .function = do_study,
 };

@@ -2,7 +2,6 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
-#include "table.h"
 #include "watch.h"
 
 #include <math.h>
@@ -116,12 +115,12 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
           strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
 }
 
-static void print_json(const struct cli_arguments *arguments, const hooke_measurement *verify) {
+static int32_t print_json(const struct cli_arguments *arguments, hooke_measurement *verify) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_text(&json, "file", arguments->scene);
-  cli_table_print_row(&json, verify, "verify", 0);
-  cli_json_end(&json);
+  cli_json_measured(&json, NULL, verify, NULL, 0);
+  return cli_json_end(&json);
 }
 
 /* ---- the verb ---- */
@@ -137,7 +136,7 @@ static int do_verify(const struct cli_arguments *arguments) {
   const char *verdict = hooke_measurement_text(verify, "verify", 0, "verdict");
   int code = cli_exit_code(status);
   if (verdict && arguments->json) { /* with the message */
-    print_json(arguments, verify);
+    if (print_json(arguments, verify) != HOOKE_OK) code = cli_report_missing_words(arguments);
   } else {
     if (status != HOOKE_OK) code = cli_report_status(arguments, status);
     if (verdict && status != HOOKE_STOPPED) print_words(arguments, verify);

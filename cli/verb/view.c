@@ -4,8 +4,7 @@
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
-#include "run_results.h"
-#include "table.h"
+#include "run.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -55,10 +54,10 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
 
 static void print_one(struct cli_json *json, const struct shown *shown, int32_t k) {
   cli_json_text(json, "status", hooke_record_text(shown->record[k], "status"));
-  cli_table_print_row(json, shown->view[k], "view", 0);
+  cli_json_measured(json, NULL, shown->view[k], "view", 0);
 }
 
-static void print_json(const struct shown *shown, const char *output) {
+static int32_t print_json(const struct shown *shown, const char *output) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_text(&json, "output", output);
@@ -70,7 +69,7 @@ static void print_json(const struct shown *shown, const char *output) {
     print_one(&json, shown, k);
     cli_json_close(&json);
   }
-  cli_json_end(&json);
+  return cli_json_end(&json);
 }
 
 static int write_page(const struct cli_arguments *arguments, const struct shown *shown, const char *output) {
@@ -79,10 +78,10 @@ static int write_page(const struct cli_arguments *arguments, const struct shown 
     status = hooke_view_add(shown->view[0], shown->view[k]);
   if (status == HOOKE_OK) status = hooke_measurement_write(shown->view[0], output);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  if (arguments->json) print_json(shown, output);
+  if (arguments->json) status = print_json(shown, output);
   for (int32_t k = 0; k < shown->count && !arguments->quiet; k++)
     print_words(arguments, shown->view[k], shown->count == 1 ? output : shown->path[k]);
-  return HOOKE_EXIT_DONE;
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments);
 }
 
 /* ---- where the page goes ---- */
@@ -184,8 +183,7 @@ static int check_several(const struct cli_arguments *arguments) {
     return cli_report(arguments, HOOKE_EXIT_USAGE, "several trajectories need -o, the name of their page");
   if (is_to_run(arguments))
     return cli_report(arguments, HOOKE_EXIT_USAGE,
-                      "several trajectories are shown as they are; leave out "
-                      "the options of a run");
+                      "several trajectories are shown as they are; leave out the options of a run");
   return HOOKE_EXIT_DONE;
 }
 

@@ -1,12 +1,11 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
-#include "advice.h"
+#include "command.h"
 #include "fit.h"
 #include "limiting.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
-#include "table.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -85,11 +84,10 @@ static int32_t read_output(struct why *why) {
   hooke_state_destroy(last);
   if (status == HOOKE_OK && why->why) status = cli_watch_run(why->arguments, why->why, NULL);
   if (status != HOOKE_BAD_CALL) return status;
-  why->code = cli_report(
-      why->arguments, HOOKE_EXIT_BAD_INPUT,
-      "%s: taken on from its last frame the run does not blow up; what made it is not in the file, "
-      "such as a callback",
-      why->arguments->scene);
+  why->code = cli_report(why->arguments, HOOKE_EXIT_BAD_INPUT,
+                         "%s: taken on from its last frame the run does not blow up; what made it is not in "
+                         "the file, such as a callback",
+                         why->arguments->scene);
   return status;
 }
 
@@ -107,15 +105,15 @@ static void print_nothing(struct cli_json *json, const struct why *why) {
   }
 }
 
-/* HOOKE_NO_MEMORY if a command is missing. */
+/* HOOKE_NO_MEMORY if something is missing. */
 static int32_t print_advice(struct cli_json *json, const struct why *why) {
   int32_t status = HOOKE_OK;
   cli_json_open(json, "advice", '[');
-  for (int64_t k = 0; k < hooke_measurement_row_count(why->why, "advice"); k++) {
+  for (int64_t k = 0; why->why && k < hooke_measurement_row_count(why->why, "advice"); k++) {
     char *command;
     if (cli_advice_command(why->arguments, why->why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
     cli_json_open(json, NULL, '{');
-    cli_table_print_row(json, why->why, "advice", k);
+    cli_json_measured(json, NULL, why->why, "advice", k);
     cli_json_text(json, "command", command);
     cli_json_close(json);
     free(command);
@@ -124,27 +122,20 @@ static int32_t print_advice(struct cli_json *json, const struct why *why) {
   return status;
 }
 
-static void print_empty(struct cli_json *json, const char *key) {
-  cli_json_open(json, key, '[');
-  cli_json_close(json);
-}
-
-/* HOOKE_NO_MEMORY if a command is missing. */
+/* HOOKE_NO_MEMORY if something is missing. */
 static int32_t print_json(const struct why *why) {
   struct cli_json json;
-  int32_t status = HOOKE_OK;
   cli_json_begin(&json, stdout);
   if (why->why) {
-    cli_table_print_row(&json, why->why, "why", 0);
-    cli_limiting_json(&json, why->why);
-    status = print_advice(&json, why);
+    cli_json_measured(&json, NULL, why->why, "why", 0);
+    cli_json_measured(&json, "blame", why->why, "blame", -1);
   } else {
     print_nothing(&json, why);
-    print_empty(&json, "blame");
-    print_empty(&json, "advice");
+    cli_json_open(&json, "blame", '[');
+    cli_json_close(&json);
   }
-  cli_json_end(&json);
-  return status;
+  const int32_t status = print_advice(&json, why), rest = cli_json_end(&json);
+  return status == HOOKE_OK ? rest : status;
 }
 
 static void print_number(const char *label, double value, const char *unit) {
@@ -179,7 +170,7 @@ static int32_t print_words(const struct why *why) {
     return HOOKE_OK;
   }
   cli_say("%-12s%s\n", "cause", text_of(found, "cause"));
-  cli_print_fact(LABEL, WIDTH, "what", text_of(found, "sentence"));
+  cli_print_fact(LABEL, WIDTH, "what", "%s", text_of(found, "sentence"));
   cli_say("%-12s%s\n", "method", text_of(found, "method"));
   print_number("step", number_of(found, "step"), "s");
   print_number("limit", number_of(found, "limit"), "s");
@@ -187,26 +178,24 @@ static int32_t print_words(const struct why *why) {
   print_number("noticed", number_of(found, "noticed"), "s");
   if (!isnan(number_of(found, "particle"))) printf("%-12s%.0f\n", "particle", number_of(found, "particle"));
   cli_limiting_print(found);
-  if (text_of(found, "left_out")) cli_print_fact(LABEL, WIDTH, "left out", text_of(found, "left_out"));
+  if (text_of(found, "left_out")) cli_print_fact(LABEL, WIDTH, "left out", "%s", text_of(found, "left_out"));
   printf("\n");
   return cli_advice_print(why->arguments, found);
 }
 
 /* The exit code so far, or that of a page that could not be written. */
 static int write_report(const struct why *why, int code) {
-  const char *report = cli_arguments_text(why->arguments, "report");
   char *command = NULL;
-  if (!report || code != HOOKE_EXIT_DONE) return code;
+  if (!cli_arguments_text(why->arguments, "report") || code != HOOKE_EXIT_DONE) return code;
   if (!why->why) {
     cli_report_words(why->arguments, "no page is written, since the run did not blow up");
     return code;
   }
-  int32_t status = hooke_measurement_label(why->why, "title", cli_setup_title(why->arguments, &why->setup));
-  if (status == HOOKE_OK) status = cli_advice_command(why->arguments, why->why, 0, &command);
-  if (status == HOOKE_OK) status = hooke_measurement_label(why->why, "command", command);
-  if (status == HOOKE_OK) status = hooke_measurement_write(why->why, report);
+  const int32_t status = cli_advice_command(why->arguments, why->why, 0, &command);
+  if (status != HOOKE_OK) return cli_report_status(why->arguments, status);
+  code = cli_output_file_write_report(why->arguments, &why->setup, why->why, command, code);
   free(command);
-  return status == HOOKE_OK ? code : cli_report_status(why->arguments, status);
+  return code;
 }
 
 static int find_out(struct why *why) {

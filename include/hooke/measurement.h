@@ -6,10 +6,9 @@
  *   hooke_measurement_number(study, "rows", 0, "error");
  *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why", "verify", "estimate"
- * (estimate.h) or "view" (trajectory.h). Its
- * options are made by hooke_options_create() with the name of the kind. Its results are tables, with columns
- * that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
+ * A measurement is of one kind: "study", "limit", "needs", "cost", "why", "verify", "estimate" (estimate.h) or
+ * "view" (trajectory.h). Its options are made by hooke_options_create() with the name of the kind. Its results
+ * are tables, with columns that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
  * numbers of the whole. The record that is named like the kind describes the measurement itself.
  * hooke_measurement_table() lists kinds and tables, hooke_measurement_column() the columns.
  *
@@ -84,6 +83,11 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
  * another word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 
+/* JSON on one line, with every digit: the document of all tables, as in a .json file (`table` NULL), a table (row
+ * -1) or a row of it. Valid until the next call for this measurement, and until it is destroyed. NULL for a row
+ * or table that does not exist, and without memory. */
+HOOKE_API const char *hooke_measurement_json(hooke_measurement *measurement, const char *table, int64_t row);
+
 /* Writes the results so far in the format given by the ending of `path`: .csv (the table "rows"), .json and
  * .h5 (all tables), .html (a page to read offline). An older file is replaced when the new one is complete.
  * HOOKE_BAD_VALUE for another ending, HOOKE_BAD_CALL before hooke_measurement_run(), HOOKE_NOT_BUILT,
@@ -96,6 +100,11 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
  * reference is trusted, and fits orders. With the option `want` it recommends a run whose "error_max", the
  * largest distance of any free particle at any frame, is at most that; with `ensemble` it adds
  * statistics for motion that is not predictable to its end. Runs that diverge stay as rows. Needs SUNDIALS.
+ *
+ * With the option `once` each method runs once, with the step or the tolerances of `run`: a first look. Its HDF5
+ * file then has the motions, too, unless it was stopped: the reference under /particles/all, each method under
+ * /particles/<method>. hooke_measurement_write() makes these runs again, so the system has to be there still,
+ * callbacks are called again, and the progress callback may stop it (HOOKE_STOPPED, with no file).
  *
  * The reference gets two fifths of a `budget`, and at least half a second; an ensemble gets three tenths.
  * When the budget is spent, rows not begun or not finished are left out, and "budget_spent" of the table
@@ -178,28 +187,6 @@ HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, cons
  * are timed on both in alternating short blocks from the same state, and the shortest block counts. Times
  * differ between machines and calls. Callbacks are called, possibly at states that do not occur in a run. The
  * state is unchanged. */
-
-/* ---- comparison: one scene by several methods, against a checked reference ----
- * `run` gives step, duration, every, rtol and atol, the option `methods` the rows. A row that diverges stays
- * in the table. Errors are distances of the free particles from the reference, that of a study without a
- * budget, at every frame at which its two integrators agree. Needs SUNDIALS. */
-
-/* Receives frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
-typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
-                                       void *ctx);
-/* Sets the observer of the frames of a comparison; NULL removes it. HOOKE_BAD_CALL for another kind. */
-HOOKE_API int32_t hooke_comparison_on_frame(hooke_measurement *comparison, hooke_comparison_frame *observer,
-                                            void *ctx);
-
-/* Creates one HDF5 file for all runs of a comparison, before it is run: the reference under /particles/all,
- * each method under /particles/<method>. It replaces the observer of frames. hooke_comparison_file_close()
- * adds the tables and the errors over time under /comparison. The label "scene" is the text of the scene, as
- * for hooke_trajectory_create(). HOOKE_BAD_CALL for another kind, HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
- * HOOKE_NO_MEMORY, and the failures of running it. */
-typedef struct hooke_comparison_file hooke_comparison_file;
-HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measurement *comparison,
-                                               hooke_comparison_file **file);
-HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
 
 /* ---- a why: why a run ended early, where, and what to do ---- Its page (.html) shows the steps around the
  * trouble, which are taken again while it is written: the system has to be there still, and callbacks are

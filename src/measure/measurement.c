@@ -53,6 +53,7 @@ void hooke_measurement_destroy(hooke_measurement *m) {
   m->kind->destroy(m->object);
   for (int k = 0; k < HOOKE_LABELS; k++)
     hk_free(m->label[k]);
+  hk_free(m->json);
   hooke_options_destroy(m->run);
   hooke_options_destroy(m->options);
   hk_handle_free(m);

@@ -32,6 +32,7 @@ struct hooke_measurement {
   void *progress_ctx;
   int32_t has_run, outcome;  /* last return value of hooke_measurement_run(), unless it failed */
   char *label[HOOKE_LABELS]; /* texts that files show; NULL: none */
+  char *json;                /* last answer of hooke_measurement_json(); NULL: none */
   void *object;
 };
 

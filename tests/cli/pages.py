@@ -109,8 +109,6 @@ def data_of(page):
 
 def check_same(page, value, path=""):
     """What a page tells under the names of an answer in JSON is the same; returns the names that the page alone has."""
-    if isinstance(page, list) and isinstance(value, dict):  # by method there
-        value = [{"method": row["method"], **value.get(row["method"], row)} for row in page]
     if isinstance(page, dict) and isinstance(value, dict):
         alone = {key for key in page if key not in value}
         return alone.union(*(check_same(page[key], value[key], f"{path}.{key}") for key in page if key in value))

@@ -95,7 +95,7 @@ def test_warnings_diagnoses_and_advice(call, scene):
 def test_file_names(call, scene, tmp_path):
     here = os.fsencode(tmp_path) + b"/"
     os.rename(here + b"scene.json", here + FILE)
-    for words in ([b"run", FILE, b"-o", FILE + b".h5"], [b"verify", FILE + b".h5"], [b"compare", FILE, b"-o", FILE + b"2"],
+    for words in ([b"run", FILE, b"-o", FILE + b".h5"], [b"verify", FILE + b".h5"], [b"compare", FILE, b"-o", FILE + b"2.h5"],
                   [b"view", FILE + b".h5", b"-o", FILE + b".html"], [b"run", b"--resume", FILE + b".h5"]):
         code, out, err = call(*words)
         assert code == 0 and PLAIN in out + err, err

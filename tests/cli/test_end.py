@@ -59,8 +59,8 @@ def test_errors_are_judged_to_the_end(hooke, write, tmp_path):
     compared = json.loads(hooke("compare", write(scene), "--methods", "verlet,cvode-adams", "--json", "-o", "both.h5").out)
     assert compared["frames"] == len(TIMES)
     with h5py.File(tmp_path / "both.h5") as file:
-        assert file["comparison/series/time"][-1] == END
-        at = file["comparison/series/error"][0]
+        assert file["study/series/time"][-1] == END
+        at = file["study/series/error"][0]
         assert at[-1] == compared["rows"][0]["error_final"] != at[-2]
     ran = json.loads(hooke("run", write(scene), "--final", "--json").out)
     off = abs(ran["final"]["position"][1][0] - (1 + 0.1 * np.cos(np.sqrt(1000) * END)))

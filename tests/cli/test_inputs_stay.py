@@ -19,7 +19,8 @@ SCENE = {
 # The outputs of every verb: the words before the name of the file, and the ending that the verb demands of it.
 OUTPUTS = {
     "run": ("run scene.json -o", ""),
-    "compare": ("compare scene.json --methods verlet -o", ""),
+    "compare": ("compare scene.json --methods verlet -o", ".h5"),
+    "compare --report": ("compare scene.json --methods verlet --report", ""),
     "study": ("study scene.json --methods verlet -o", ".h5"),
     "study --report": ("study scene.json --methods verlet --report", ""),
     "limit": ("limit scene.json --methods verlet --report", ""),

@@ -32,9 +32,8 @@ def keys_of(value):
 def documented(verb):
     """The words of a verb's section in the page of the command line, and those of the section on JSON."""
     text = (DOCS / "command-line.md").read_text().split("## JSON", 1)[1]
-    if verb == "study":  # rows are those of compare
-        return documented("compare") | set(re.findall(r"\w+", re.split(r"\n`study`:\n", text)[1].split("\n`limit`:\n")[0]))
-    part = re.split(rf"\n`{verb}`(?:, with [^\n]*)?:\n", text)[1]
+    title = "`study` and `compare`" if verb in ("study", "compare") else f"`{verb}`"
+    part = re.split(rf"\n{title}(?:, with [^\n]*)?:\n", text)[1]
     return set(re.findall(r"\w+", re.split(r"\n`\w+`(?:, with [^\n]*)?:\n", part)[0]))
 
 

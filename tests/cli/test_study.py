@@ -15,7 +15,7 @@ from references import Reference
 
 everything = pytest.mark.everything
 
-TOP = ["scene", "duration", "reference", "rows", "orders", "recommendation"]
+TOP = ["scene", "duration", "frames", "budget_spent", "reference", "rows", "orders", "recommendation", "statistics"]
 ROW = ["method", "step", "rtol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
        "wall_seconds", "status"]  # fmt: skip
 RECOMMENDATION = ["want", "method", "step", "rtol", "error", "wall_seconds", "command"]
@@ -572,7 +572,7 @@ def test_statistics_of_chaos(hooke, write, tmp_path):
         assert group["mean"][1, 3] == found["quantities"][3]["methods"]["rk4"]["mean"]
         assert file["study/watched/error"].shape == (2, 1)
     page = (tmp_path / "page.html").read_text()
-    assert '"ensemble":{"members":6,"from":' in page and '"watched":[{"quantity":"2.y","unit":"m"' in page
+    assert '"statistics":{"members":6,"from":' in page and '"watched":[{"quantity":"2.y","unit":"m"' in page
     out = hooke("study", scene, *words, "--ensemble", 2).out
     assert "of 2 runs of each method" in out and "standard errors" in out
     assert "--ensemble 16" in hooke("study", scene, *words).out

@@ -72,9 +72,10 @@ hooke_measurement *make_comparison(struct attempt *a, const hooke_system *system
   hooke_options *options = NULL;
   hooke_measurement *comparison = NULL;
   if (run == NULL) return NULL;
-  TRY(a, hooke_options_create("comparison", &options));
+  TRY(a, hooke_options_create("study", &options));
   TRY(a, hooke_options_set_text(options, "methods", methods));
-  TRY(a, hooke_measurement_create("comparison", system, run, options, &comparison));
+  TRY(a, hooke_options_set_number(options, "once", 1));
+  TRY(a, hooke_measurement_create("study", system, run, options, &comparison));
 end:
   hooke_options_destroy(options);
   return comparison;

@@ -88,27 +88,13 @@ static void comparison(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
   hooke_options *run = system ? make_run(a, NULL, 1e-3, 0.004, 0.002) : NULL;
   hooke_measurement *comparison = make_comparison(a, system, run, "verlet");
-  hooke_comparison_file *file = NULL;
   (void)with;
   if (comparison == NULL) goto end;
+  TRY(a, hooke_measurement_run(comparison, NULL));
   TRY(a, hooke_measurement_label(comparison, "scene", of_files));
-  TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), comparison, &file));
-  if (a->on_file) {
-    /* a frame that cannot be written stops the run, and closing reports the reason */
-    const int32_t status = hooke_measurement_run(comparison, NULL);
-    if (status != HOOKE_OK && (status != HOOKE_STOPPED || fault_failures() == 0))
-      attempt_wrong(a, "hooke_measurement_run() returned %d: %s", (int)status, hooke_last_error());
-  } else {
-    TRY_ONCE(a, hooke_measurement_run(comparison, NULL));
-  }
-  {
-    hooke_comparison_file *closing = file;
-    file = NULL;
-    TRY_ONCE(a, hooke_comparison_file_close(closing));
-  }
+  TRY(a, hooke_measurement_write(comparison, path_of(a, "out.h5")));
   attempt_number(a, hooke_measurement_number(comparison, "rows", 0, "error"));
 end:
-  hooke_comparison_file_close(file);
   hooke_measurement_destroy(comparison);
   hooke_options_destroy(run);
   hooke_system_destroy(system);

@@ -63,13 +63,6 @@ module parts
     procedure :: warn
   end type
 
-  type, extends(hooke_comparison_observer) :: spectator
-    integer :: frames = 0, first_frame = -1
-    character(:), allocatable :: runs
-  contains
-    procedure :: see => see_frame
-  end type
-
 contains
 
   subroutine add_weight(self, n, t, q, v, force, stop_value)
@@ -182,19 +175,5 @@ contains
     self%spring = spring
     self%particle = particle
     if (t < 0) stop_value = 1
-  end subroutine
-
-  subroutine see_frame(self, run, frame, step, state, stop_value)
-    class(spectator), intent(inout) :: self
-    character(*), intent(in) :: run
-    integer, intent(in) :: frame
-    integer(hooke_long), intent(in) :: step
-    type(hooke_state), intent(in) :: state
-    integer, intent(inout) :: stop_value
-    if (self%frames == 0) self%first_frame = frame
-    if (self%frames == 0) self%runs = ""
-    self%frames = self%frames + 1
-    if (index(self%runs, run) == 0) self%runs = self%runs // run // " "
-    if (step < 0 .or. state%time() < 0) stop_value = 1
   end subroutine
 end module

@@ -191,17 +191,16 @@ contains
     type(hooke_system) :: system
     type(hooke_options) :: run, options
     type(hooke_measurement) :: comparison
-    type(hooke_comparison_file) :: file
-    logical :: there
+    type(hooke_record) :: record
     call make_oscillator(system)
     call make_run(run, "rk4", 1e-2_hooke_real, 0.1_hooke_real)
-    call options%create("comparison")
+    call options%create("study")
     call options%set("methods", "rk4")
-    call comparison%create("comparison", system, run, options)
-    call file%create(output("comparison.h5"), comparison)
+    call options%set("once", .true.)
+    call comparison%create("study", system, run, options)
     call comparison%run()
-    call file%close()
-    inquire (file=output("comparison.h5"), exist=there)
-    call expect(there .and. .not. file%exists(), "one file for a comparison")
+    call comparison%write(output("comparison.h5"))
+    call record%open(output("comparison.h5"))
+    call expect(record%frame_count() == 11, "the reference in the file of a comparison")
   end subroutine
 end program

@@ -164,19 +164,18 @@ contains
     type(hooke_system) :: system
     type(hooke_options) :: run, options
     type(hooke_measurement) :: comparison
-    type(spectator), target :: watch
     type(teller), target :: progress
     real(hooke_real), pointer :: time(:)
     integer :: status
     call make_oscillator(system)
     call make_run(run, "rk4", 1e-2_hooke_real, 0.5_hooke_real)
-    call options%create("comparison")
+    call options%create("study")
+    call options%set("once", .true.)
     call options%set("methods", "no such method")
-    call comparison%create("comparison", system, run, options, status)
+    call comparison%create("study", system, run, options, status)
     call expect(status == hooke_bad_value, "a method that is none")
     call options%set("methods", "rk4,forward-euler")
-    call comparison%create("comparison", system, run, options)
-    call comparison%on_frame(watch)
+    call comparison%create("study", system, run, options)
     call comparison%on_progress(progress)
     call comparison%run()
     call expect(comparison%row_count("rows") == 2 .and. comparison%text("rows", 1, "method") == "rk4", "rows")
@@ -184,19 +183,16 @@ contains
       "rk4 is better")
     call expect_text(comparison%text("reference", 1, "method"), "cvode", "the reference")
     time => comparison%series("reference", 1, "time")
-    call expect(size(time) == nint(comparison%number("comparison", 1, "frames")) .and. &
+    call expect(size(time) == nint(comparison%number("study", 1, "frames")) .and. &
       abs(time(size(time)) - 0.5_hooke_real) < 1e-12, "series")
     call expect(.not. associated(comparison%series("rows", 2, "nothing")), "of words that there are")
-    call expect(watch%first_frame == 1 .and. watch%frames == 3*size(time), "all frames were seen")
-    call expect_text(watch%runs, "reference rk4 forward-euler", "of all runs")
     call expect(progress%told > 0, "progress was told")
     progress%stop_after = progress%told + 1
-    call comparison%create("comparison", system, run)
+    call comparison%create("study", system, run, options)
     call comparison%on_progress(progress)
     call comparison%run(status=status)
     call expect(status == hooke_stopped, "and can stop it")
     call comparison%on_progress()
-    call comparison%on_frame()
   end subroutine
 
   subroutine studies()
@@ -334,8 +330,8 @@ contains
     call expect(status == hooke_bad_call .and. .not. lean%exists(), "no lean system before it was found")
     call needed%lean_position(position, position, status)
     call expect(status == hooke_bad_call, "nor positions")
-    call needed%on_frame(status=status)
-    call expect(status == hooke_bad_call, "nor frames of a comparison")
+    call needed%recommend(0.1_hooke_real, status)
+    call expect(status == hooke_bad_call, "nor what a study has")
     call needed%run()
     call expect(needed%row_count("rows") > 3 .and. progress%told > 0, "a row for each ingredient")
     do row = 1, needed%row_count("rows")

@@ -193,6 +193,7 @@ static const struct cli_verb verbs[] = {
     {.name = "study", HOOKE_VERB_ROWS(rows), .options = "view", .without = "method step"},
     {.name = "make", HOOKE_VERB_ROWS(rows), .takes_kind = 1},
 };
+static const struct cli_verb *const all_verbs[] = {&verbs[0], &verbs[1], &verbs[2], &verbs[3], NULL};
 
 /* Output of the program is formatted and discarded. */
 int cli_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
@@ -227,10 +228,6 @@ const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const v
   return candidate;
 }
 
-int cli_report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value) {
-  return cli_report(arguments, HOOKE_EXIT_USAGE, "%s%s", word, value ? value : "");
-}
-
 const char *cli_describe_operand(const struct cli_verb *verb) {
   return verb->input ? verb->input : "SCENE";
 }
@@ -251,7 +248,7 @@ static void parse_words(uint8_t which, const hooke_options *table, char **line, 
     argv[argc++] = word[k];
   }
   struct cli_arguments arguments;
-  const int answer = cli_arguments_parse(verb, argc, argv, &arguments);
+  const int answer = cli_arguments_parse(all_verbs, verb, argc, argv, &arguments);
   if (answer == HOOKE_EXIT_DONE && !arguments.help) {
     hooke_fuzz_is_past_syntax();
     hooke_fuzz_is_accepted();

@@ -314,14 +314,13 @@ static void tour_scenes(void) {
   ASK(hooke_options_destroy(options));
 
   hooke_measurement *comparison = NULL;
-  hooke_comparison_file *file = NULL;
-  OK(hooke_options_create("comparison", &options));
+  OK(hooke_options_create("study", &options));
   OK(hooke_options_set_text(options, "methods", "verlet"));
-  OK(hooke_measurement_create("comparison", system, run, options, &comparison));
+  OK(hooke_options_set_number(options, "once", 1));
+  OK(hooke_measurement_create("study", system, run, options, &comparison));
   ASK(hooke_options_destroy(options));
-  OK(hooke_comparison_file_create(trajectory_path, comparison, &file));
   OK(hooke_measurement_run(comparison, NULL));
-  OK(hooke_comparison_file_close(file));
+  OK(hooke_measurement_write(comparison, trajectory_path));
   ASK(hooke_measurement_destroy(comparison));
   ASK(hooke_state_destroy(state));
   ASK(hooke_scene_destroy(scene));

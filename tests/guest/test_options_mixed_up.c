@@ -9,9 +9,9 @@
 
 /* ---- every table of options ---- */
 
-static const char *const tables[] = {
-    "run",    "springs",    "altitude", "rope",   "cloth", "lattice", "mesh", "strand", "scene", "particles",
-    "driven", "comparison", "needs",    "verify", "study", "limit",   "cost", "why",    "view"};
+static const char *const tables[] = {"run",    "springs", "altitude", "rope",      "cloth",  "lattice",
+                                     "mesh",   "strand",  "scene",    "particles", "driven", "needs",
+                                     "verify", "study",   "limit",    "cost",      "why",    "view"};
 enum { TABLES = sizeof tables / sizeof tables[0] };
 
 /* ---- every function that takes options ---- */
@@ -99,8 +99,6 @@ static int32_t create_first_order(hooke_options *o) {
   }
 TAKES(create_integrator, hooke_integrator, hooke_integrator_create(system, o, &made),
       hooke_integrator_destroy)
-TAKES(create_comparison_of_run, hooke_measurement,
-      hooke_measurement_create("comparison", system, o, NULL, &made), hooke_measurement_destroy)
 TAKES(create_study_of_run, hooke_measurement, hooke_measurement_create("study", system, o, NULL, &made),
       hooke_measurement_destroy)
 TAKES(create_limit_of_run, hooke_measurement, hooke_measurement_create("limit", system, o, NULL, &made),
@@ -131,16 +129,6 @@ static int32_t study_with(hooke_system *system, hooke_options *run, hooke_option
 }
 static int32_t create_study(hooke_options *o) {
   return with_run(o, study_with);
-}
-
-static int32_t comparison_with(hooke_system *system, hooke_options *run, hooke_options *o) {
-  hooke_measurement *made = NULL;
-  const int32_t status = hooke_measurement_create("comparison", system, run, o, &made);
-  if (status == HOOKE_OK) hooke_measurement_destroy(made);
-  return status;
-}
-static int32_t create_comparison(hooke_options *o) {
-  return with_run(o, comparison_with);
 }
 
 static int32_t needs_with(hooke_system *system, hooke_options *run, hooke_options *o) {
@@ -194,8 +182,6 @@ static const struct {
                  {"scene_options_apply", "scene", apply_scene},
                  {"integrator_create", "run", create_integrator},
                  {"integrator_create_first_order", "run", create_first_order},
-                 {"comparison run", "run", create_comparison_of_run},
-                 {"comparison", "comparison", create_comparison},
                  {"limit_create run", "run", create_limit_of_run},
                  {"limit_create", "limit", create_limit},
                  {"cost_create run", "run", create_cost_of_run},
@@ -237,8 +223,7 @@ static void test_other_options_are_refused(void **unused) {
 static void test_missing_options_are_refused(void **unused) {
   (void)unused;
   static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",
-                                               "cost_create",      "study_create", "scene_of_system",
-                                               "comparison"};
+                                               "cost_create",      "study_create", "scene_of_system"};
   for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
     int may = 0;
     for (size_t k = 0; k < sizeof may_be_missing / sizeof may_be_missing[0]; k++)

@@ -51,15 +51,11 @@ static void check_models(const struct objects *o) {
 }
 
 static void check_measurements(const struct objects *o) {
-  hooke_measurement *cost;
   FAILS(hooke_measurement, hooke_measurement_create, "no such kind", o->system, NULL, NULL);
   FAILS(hooke_measurement, hooke_measurement_create, "limit", o->open, NULL, NULL);
   FAILS(hooke_measurement, hooke_measurement_create, "limit", o->system, NULL, o->wrong);
   FAILS(hooke_measurement, hooke_why_create, o->integrator, NULL);
   FAILS(hooke_measurement, hooke_why_create_kept, o->system, o->wrong, o->state, o->state, NULL);
-  check_ok(hooke_measurement_create("cost", o->system, NULL, NULL, &cost));
-  FAILS(hooke_comparison_file, hooke_comparison_file_create, "none/file.h5", cost);
-  hooke_measurement_destroy(cost);
 }
 
 static void check_files(const struct objects *o) {

@@ -199,6 +199,20 @@ def leak_complaints(files):
     return found
 
 
+# What the program shares between its files: at the left edge, with a body or a value.
+SHARED = re.compile(r"^(?!static|extern|typedef)\w[\w *]*?\b(cli_\w+)(?=[\[(]| =)[^;{]*\{", re.MULTILINE)
+
+
+def circle_complaints(files):
+    """Sources of the program of which each needs the others; `files` is {path: text}."""
+    clean = {path: re.sub(r'"(?:[^"\\\n]|\\.)*"', '""', without_comments(text)) for path, text in files.items()}
+    home = {name: path for path, text in clean.items() for name in SHARED.findall(text)}
+    needs = {path: {home.get(name, path) for name in re.findall(r"\bcli_\w+", text)} - {path} for path, text in clean.items()}
+    while aside := [path for path in needs if not needs[path] or path not in set().union(*needs.values())]:
+        needs = {path: others.difference(aside) for path, others in needs.items() if path not in aside}
+    return [f"{path} is in a circle, or between two, by {', '.join(sorted(others))}" for path, others in sorted(needs.items())]
+
+
 def shape_complaints(path, text):
     """Faults in a file's size, name or leftovers."""
     found = []

@@ -56,6 +56,19 @@ def test_planted_system():
     assert rules.system_complaints("src/core/os/os_file_posix.c", line) == []
 
 
+def test_sources_of_the_program_need_one_another_in_no_circle():
+    complaints = rules.circle_complaints({path: text for path, text in tree(".c") if path.startswith("cli/")})
+    assert not complaints, "\n".join(complaints)
+
+
+def test_planted_circle():
+    files = {"cli/a.c": "int cli_a(int k) {\n  return cli_b(k);\n}\n",
+             "cli/b.c": 'int cli_b(int k) {\n  return puts("cli_a");\n}\n',
+             "cli/c.c": "const struct row cli_rows[] = {{cli_a}};\n"}
+    assert rules.circle_complaints(files) == []
+    assert len(rules.circle_complaints(files | {"cli/b.c": "int cli_b(int k) {\n  return cli_rows[k](k);\n}\n"})) == 3
+
+
 def test_fences_do_not_leak():
     complaints = rules.leak_complaints(dict(tree(".c", ".h")))
     assert not complaints, "\n".join(complaints)

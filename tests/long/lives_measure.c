@@ -84,19 +84,18 @@ static uint64_t live_comparison(const char *detail) {
   (void)detail;
   hooke_scene *scene = life_scene(SEGMENTS);
   hooke_measurement *comparison = NULL;
-  hooke_comparison_file *file = NULL;
   hooke_options *options = NULL;
-  check_ok(hooke_options_create("comparison", &options));
+  check_ok(hooke_options_create("study", &options));
   check_ok(hooke_options_set_text(options, "methods", "verlet,rk4"));
-  check_ok(hooke_measurement_create("comparison", hooke_scene_system(scene), hooke_scene_run_options(scene),
+  check_ok(hooke_options_set_number(options, "once", 1));
+  check_ok(hooke_measurement_create("study", hooke_scene_system(scene), hooke_scene_run_options(scene),
                                     options, &comparison));
   hooke_options_destroy(options);
   check_ok(hooke_measurement_label(comparison, "scene", hooke_scene_text(scene, "text")));
-  check_ok(hooke_comparison_file_create(life_files.trajectory, comparison, &file));
   check_ok(hooke_measurement_run(comparison, NULL));
+  check_ok(hooke_measurement_write(comparison, life_files.trajectory));
   const double error[] = {hooke_measurement_number(comparison, "rows", 0, "error"),
                           hooke_measurement_number(comparison, "rows", 1, "error")};
-  check_ok(hooke_comparison_file_close(file));
   hooke_measurement_destroy(comparison);
   hooke_scene_destroy(scene);
   return hash_doubles(2, error, HASH_START);

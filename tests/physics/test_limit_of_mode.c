@@ -4,6 +4,7 @@
 #include "run.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static double of(const char *method, double frequency, double decay) {
@@ -191,6 +192,29 @@ static void test_reports_that_are_refused(void **ctx) {
   hooke_system_destroy(system);
 }
 
+/* A row is that of its table, and both stand in the document. */
+static void test_json(void **ctx) {
+  (void)ctx;
+  hooke_system *system = build(1.0);
+  hooke_measurement *limit = make(system);
+  check_ok(hooke_measurement_run(limit, NULL));
+  const int64_t last = hooke_measurement_row_count(limit, "rows") - 1;
+  assert_null(hooke_measurement_json(limit, "orders", 0));
+  assert_null(hooke_measurement_json(limit, "rows", last + 1));
+  assert_null(hooke_measurement_json(limit, "rows", -2));
+  char *row = strdup(hooke_measurement_json(limit, "rows", last));
+  char *rows = strdup(hooke_measurement_json(limit, "rows", -1));
+  const char *whole = hooke_measurement_json(limit, NULL, 0), *end = strstr(rows, row);
+  assert_int_equal(strncmp(rows, "[{\"method\": \"", 13), 0);
+  assert_string_equal(end ? end + strlen(row) : "no such row", "]");
+  assert_non_null(strstr(whole, rows));
+  assert_int_equal(strncmp(whole, "{\"time\": 0, \"method\": ", 22), 0);
+  free(row);
+  free(rows);
+  hooke_measurement_destroy(limit);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_closed_forms),
@@ -199,6 +223,7 @@ int main(void) {
       cmocka_unit_test(test_an_oscillator),
       cmocka_unit_test(test_limits_are_those_of_the_steps),
       cmocka_unit_test(test_reports_that_are_refused),
+      cmocka_unit_test(test_json),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

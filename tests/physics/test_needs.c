@@ -508,33 +508,30 @@ static void what_cannot_be_is_refused(void **state) {
   hooke_system_destroy(alone);
 }
 
-/* Functions for needs refuse comparisons, and the reverse. */
+/* Functions for needs refuse studies, and the reverse. */
 static void kinds_keep_to_what_is_theirs(void **state) {
   (void)state;
   hooke_system *system = hanging_rope(4, 0.0);
   hooke_options *run = run_options(half_a_second);
-  hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *comparison = NULL;
-  hooke_comparison_file *file = NULL;
+  hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *study = NULL;
   double q[15] = {0};
   assert_null(hooke_needs_lean(needs));
   check_status(hooke_needs_lean_position(needs, q, q), HOOKE_BAD_CALL);
   check_message("no lean system yet");
-  check_status(hooke_comparison_on_frame(needs, NULL, NULL), HOOKE_BAD_CALL);
-  check_message("\"comparison\", this is a \"needs\"");
-  check_status(hooke_comparison_file_create("needs.h5", needs, &file), HOOKE_BAD_CALL);
-  assert_null(file);
+  check_status(hooke_study_recommend(needs, 1.0), HOOKE_BAD_CALL);
+  check_message("\"study\", this is a \"needs\"");
   if (hooke_method_is_built("cvode-adams")) {
-    check_ok(hooke_measurement_create("comparison", system, run, NULL, &comparison));
-    assert_null(hooke_needs_lean(comparison));
-    assert_null(hooke_needs_lean_run(comparison));
-    assert_int_equal(hooke_needs_lean_particle(comparison, 0), -1);
-    check_status(hooke_needs_lean_position(comparison, q, q), HOOKE_BAD_CALL);
-    check_message("\"needs\", this is a \"comparison\"");
-    check_status(hooke_measurement_write(comparison, "comparison.csv"), HOOKE_BAD_CALL);
+    check_ok(hooke_measurement_create("study", system, run, NULL, &study));
+    assert_null(hooke_needs_lean(study));
+    assert_null(hooke_needs_lean_run(study));
+    assert_int_equal(hooke_needs_lean_particle(study, 0), -1);
+    check_status(hooke_needs_lean_position(study, q, q), HOOKE_BAD_CALL);
+    check_message("\"needs\", this is a \"study\"");
+    check_status(hooke_measurement_write(study, "study.csv"), HOOKE_BAD_CALL);
   }
-  check_status(hooke_measurement_create("verify", system, run, NULL, &comparison), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_create("verify", system, run, NULL, &study), HOOKE_BAD_VALUE);
   check_message("hooke_verify_create()");
-  hooke_measurement_destroy(comparison);
+  hooke_measurement_destroy(study);
   hooke_measurement_destroy(needs);
   hooke_options_destroy(run);
   hooke_system_destroy(system);

@@ -305,9 +305,6 @@ PATHS = [
     lambda exception: hooke.compare(
         build_oscillator(), ["forward-euler"], progress=raising(exception), **RUN
     ),
-    lambda exception: hooke.compare(
-        build_oscillator(), ["forward-euler"], on_frame=raising(exception), **RUN
-    ),
 ]
 
 

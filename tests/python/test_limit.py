@@ -182,7 +182,7 @@ def test_files(tmp_path):
     found = hooke.limit("examples/scenes/stiff-spring.json", predict=True)
     found.write(tmp_path / "limit.json")
     value = json.loads((tmp_path / "limit.json").read_text())
-    assert value["limit"]["frequency_max"] == found.frequency_max and value["limit"]["blamed"] == "symplectic-euler"
+    assert value["frequency_max"] == found.frequency_max and value["blamed"] == "symplectic-euler"
     assert [row["predicted"] for row in value["rows"]][1:4] == found.rows["predicted"][1:4].tolist()
     assert value["blame"][0]["number"] == found.blame[0].spring and value["changes"]["sentence"] == found.changes.sentence
     assert [mode["decay"] for mode in value["modes"]] == found.decay.tolist()

@@ -59,7 +59,6 @@ def alive(tmp_path_factory):
     if objects[p.TRAJECTORY]:
         lib.hooke_trajectory_write(objects[p.TRAJECTORY], 0, state)
     add(p.RECORD, "hooke_record_open", path)
-    add(p.MEASUREMENT, "hooke_measurement_create", b"comparison", system, run, None)
     add(p.MEASUREMENT, "hooke_measurement_create", b"study", system, run, None)
     add(p.MEASUREMENT, "hooke_measurement_create", b"limit", system, run, None)
     add(p.MEASUREMENT, "hooke_measurement_create", b"cost", system, run, None)

@@ -1,6 +1,9 @@
 """Studies: columns, the reference, orders, the recommendation, files and pictures."""
 
 import csv
+import json
+import os
+import subprocess
 
 import h5py
 import numpy as np
@@ -20,6 +23,26 @@ COLUMNS = (
 @pytest.fixture(scope="module")
 def study():
     return hooke.study(build_oscillator(), METHODS, want=1e-4, **RUN)
+
+
+def shape_of(value):
+    """Keys of a document, and those inside of them; of an array those of its first entry."""
+    if isinstance(value, list):
+        return [shape_of(one) for one in value[:1]]
+    return {key: shape_of(one) for key, one in value.items()} if isinstance(value, dict) else None
+
+
+@pytest.mark.skipif("HOOKE_CLI" not in os.environ, reason="needs the program")
+def test_a_file_has_the_keys_of_the_program(tmp_path):
+    scene = hooke.Scene.load("examples/scenes/oscillator.json")
+    more = {"duration": 0.5, "every": 0.1, "steps": [1e-2, 5e-3, 2e-3], "watch": ["energy"], "want": 1e-2}
+    hooke.study(scene, ["rk4"], **more).write(tmp_path / "study.json")
+    words = "--methods rk4 --duration 0.5 --every 0.1 --steps 1e-2,5e-3,2e-3 --watch energy --want 1e-2 --json".split()
+    command = [os.environ["HOOKE_CLI"], "study", "examples/scenes/oscillator.json", *words]
+    told = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    assert told.pop("scene") == command[2] and told["recommendation"].pop("command").startswith("hooke run ")
+    written = json.loads((tmp_path / "study.json").read_text())
+    assert shape_of(written) == shape_of(told) and written["orders"]["rk4"]["order"] == told["orders"]["rk4"]["order"]
 
 
 def test_columns(study):

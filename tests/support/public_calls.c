@@ -56,12 +56,6 @@ static int32_t warning(const char *kind, const char *sentence, double t, double 
   return ctx != NULL;
 }
 
-static int32_t comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
-                                void *ctx) {
-  (void)run, (void)frame, (void)step, (void)state;
-  return ctx != NULL;
-}
-
 /* So that no run takes long. */
 static int32_t stop_soon(double done, const char *what, void *ctx) {
   static int64_t calls;
@@ -80,8 +74,7 @@ static const struct {
                  CALL_BACK(rate),
                  CALL_BACK(observer),
                  CALL_BACK(progress),
-                 CALL_BACK(warning),
-                 CALL_BACK(comparison_frame)};
+                 CALL_BACK(warning)};
 
 /* ---- the pool ---- */
 
@@ -205,7 +198,7 @@ static void add_integrators(struct pool *pool, const hooke_system *system, hooke
 
 static void add_measurements(struct pool *pool, const hooke_system *system,
                              const hooke_integrator *integrator, const hooke_state *state) {
-  static const char *const kinds[] = {"limit", "cost", "needs", "study", "comparison"};
+  static const char *const kinds[] = {"limit", "cost", "needs", "study"};
   hooke_options *run = run_options((struct run){.step = 0.1, .duration = 0.5}),
                 *wanted = options_of("needs", "want", "0.1");
   hooke_measurement *made = NULL;
@@ -278,9 +271,9 @@ void destroy_object(const char *type, void *address) {
 }
 
 void pool_end(struct pool *pool) {
-  static const char *const order[] = {"hooke_comparison_file", "hooke_measurement", "hooke_trajectory",
-                                      "hooke_record",          "hooke_integrator",  "hooke_state",
-                                      "hooke_options",         "hooke_scene",       "hooke_system"};
+  static const char *const order[] = {"hooke_measurement", "hooke_trajectory", "hooke_record",
+                                      "hooke_integrator",  "hooke_state",      "hooke_options",
+                                      "hooke_scene",       "hooke_system"};
   for (size_t t = 0; t < sizeof order / sizeof order[0]; t++) {
     for (int32_t k = 0; k < pool->count; k++)
       if (strcmp(pool->object[k].type, order[t]) == 0) destroy_object(order[t], pool->object[k].address);

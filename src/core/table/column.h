@@ -48,10 +48,17 @@ struct hk_column {
   const double *(*series)(const void *object, int64_t row);
 };
 
+enum { HOOKE_LISTS = 2, HOOKE_LIST_SIZE = 4 };
+
 struct hk_table {
   const char *name, *doc;
   const char *group; /* name in HDF5, if other than `name`; tables may share one */
   int32_t record;    /* 1: one row at most, with numbers of the whole */
+  /* In the JSON document of a measurement: */
+  const char *inside; /* table in whose rows it stands, each with those of its inner indices; NULL: in none */
+  const char *key;    /* its name there; NULL: `name` */
+  const char *by;     /* column by whose texts its rows are an object; NULL: they are an array */
+  const char *lists[HOOKE_LISTS][HOOKE_LIST_SIZE]; /* arrays of a row: the name, and its columns */
   const struct hk_column *columns;
   int32_t column_count;
   int64_t (*count)(const void *object); /* of rows; NULL: the member below, or 1 */

@@ -58,10 +58,10 @@ static void add_quoted(struct hk_text *text, const char *words) {
 
 static void begin(struct hk_text *text, const char *key) {
   const char last = text->length > 0 ? text->bytes[text->length - 1] : '{';
-  if (last != '{' && last != '[') add(text, ",");
+  if (last != '{' && last != '[') add(text, text->is_spaced ? ", " : ",");
   if (key == NULL) return;
   add_quoted(text, key);
-  add(text, ":");
+  add(text, text->is_spaced ? ": " : ":");
 }
 
 void hk_text_open(struct hk_text *text, const char *key, char bracket) {

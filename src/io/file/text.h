@@ -8,6 +8,7 @@
 struct hk_text {
   char *bytes; /* not terminated */
   int64_t length, capacity;
+  int32_t is_spaced; /* 1: with blanks between the parts of JSON */
   int32_t status;
 };
 

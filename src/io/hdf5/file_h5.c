@@ -160,11 +160,6 @@ int32_t hk_h5_file_close(struct hk_h5_file *file) {
   return status == HOOKE_OK ? closed : status;
 }
 
-int32_t hk_h5_file_finish(struct hk_h5_guard *guard, struct hk_h5_file *file) {
-  const int32_t status = let_go(guard, file);
-  return status == HOOKE_OK ? hk_atomic_file_commit(&file->atomic, NULL) : status;
-}
-
 int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id) {
   void *handle = NULL;
   *id = H5Fopen(file->atomic.path, H5F_ACC_RDONLY, H5P_DEFAULT);

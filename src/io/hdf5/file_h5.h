@@ -58,9 +58,6 @@ int32_t hk_h5_file_publish(struct hk_h5_file *file);
 /* Flushes and closes the file. HOOKE_IO_FAILED, also if another file has taken the name meanwhile. */
 int32_t hk_h5_file_close(struct hk_h5_file *file);
 
-/* Closes for HDF5, flushes the file and replaces an older one. HOOKE_IO_FAILED. */
-int32_t hk_h5_file_finish(struct hk_h5_guard *guard, struct hk_h5_file *file);
-
 /* Opens the published file for HDF5 to read; HOOKE_IO_FAILED, also if another file has taken the name
  * meanwhile. The caller closes all objects that it opens in it. */
 int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id);

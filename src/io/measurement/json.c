@@ -1,38 +1,171 @@
-/* Measurements as JSON. */
+/* Measurements as JSON: every column of every table but series. Some tables stand inside of others, and rows
+ * have arrays of what columns say one by one. */
+#include "core/memory.h"
 #include "io/file/atomic_file.h"
 #include "io/measurement/measurement_file.h"
+#include "measure/needs/needs.h"
+#include "measure/study/study.h"
 #include "model/callbacks.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
+
+static void add_table(struct hk_text *text, const hooke_measurement *m, const char *key,
+                      const struct hk_table *table, int64_t of);
+static void add_quantities(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table);
+
+static int is_named(const char *name, const char *other) {
+  return name && other && strcmp(name, other) == 0;
+}
+
+static const char *key_of(const struct hk_table *table) {
+  return table->key ? table->key : table->name;
+}
+
+/* ---- values ---- */
+
+/* A want that is met as far as errors are known is not known to be met to the end. */
+static double number_of(const hooke_measurement *m, const struct hk_table *table,
+                        const struct hk_column *column, int64_t row) {
+  const int is_met = m->kind == &hk_study_kind && is_named("met", column->name);
+  return is_met && !hk_study_knows_met(m->object) ? NAN : hk_table_number(table, column, m->object, row);
+}
+
+static void add_value(struct hk_text *text, const hooke_measurement *m, const char *key,
+                      const struct hk_table *table, const struct hk_column *column, int64_t row) {
+  const double number = number_of(m, table, column, row);
+  if (column->type == HOOKE_COLUMN_TEXT)
+    hk_text_word(text, key, hk_table_text(table, column, m->object, row));
+  else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
+    hk_text_flag(text, key, number != 0.0);
+  else
+    hk_text_number(text, key, number);
+}
+
+static int is_known(const hooke_measurement *m, const struct hk_table *table, const struct hk_column *column,
+                    int64_t row) {
+  return hk_table_text(table, column, m->object, row) != NULL ||
+         !isnan(hk_table_number(table, column, m->object, row));
+}
+
+/* An array that is named like its first column stands in place of all of them. */
+static int replaces(const char *const *list) {
+  return is_named(list[0], list[1]);
+}
+
+/* Of the known values; null where the first is not known, if the columns say so as well. */
+static void add_list(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
+                     const char *const *list, int64_t row) {
+  if (!replaces(list) && !is_known(m, table, hk_table_find(table, list[1]), row)) {
+    hk_text_word(text, list[0], NULL);
+    return;
+  }
+  hk_text_open(text, list[0], '[');
+  for (int k = 1; k < HOOKE_LIST_SIZE && list[k]; k++) {
+    const struct hk_column *column = hk_table_find(table, list[k]);
+    if (is_known(m, table, column, row)) add_value(text, m, NULL, table, column, row);
+  }
+  hk_text_close(text, ']');
+}
+
+/* 1 if the key of the row or an array stands for the column. */
+static int is_said(const struct hk_table *table, const char *column) {
+  int said = is_named(table->by, column);
+  for (int k = 0; k < HOOKE_LISTS * HOOKE_LIST_SIZE; k++) {
+    const char *const *list = table->lists[k / HOOKE_LIST_SIZE];
+    said |= replaces(list) && is_named(list[k % HOOKE_LIST_SIZE], column);
+  }
+  return said;
+}
+
+/* ---- rows ---- */
+
+/* What the lean system is without. */
+static void add_left_out(struct hk_text *text, const hooke_measurement *m) {
+  const struct hk_needs *needs = m->object;
+  hk_text_open(text, "without", '[');
+  for (int64_t row = 0; row < hk_needs_known_rows(needs); row++)
+    if (needs->row[row].left_out) hk_text_word(text, NULL, needs->row[row].without);
+  hk_text_close(text, ']');
+}
 
 static void add_row(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
                     int64_t row) {
+  for (int k = 0; k < HOOKE_LISTS && table->lists[k][0]; k++)
+    add_list(text, m, table, table->lists[k], row);
   for (int32_t k = 0; k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
-    const double number = hk_table_number(table, column, m->object, row);
-    if (column->type == HOOKE_COLUMN_TEXT)
-      hk_text_word(text, column->name, hk_table_text(table, column, m->object, row));
-    else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
-      hk_text_flag(text, column->name, number != 0.0);
-    else if (column->type != HOOKE_COLUMN_SERIES)
-      hk_text_number(text, column->name, number);
+    if (column->type == HOOKE_COLUMN_SERIES || is_said(table, column->name)) continue;
+    add_value(text, m, column->name, table, column, row);
+  }
+  if (table == hk_measurement_table(&hk_needs_kind, "lean")) add_left_out(text, m);
+  for (const struct hk_table *other = m->kind->tables; other->name; other++) {
+    if (!is_named(other->inside, table->name)) continue;
+    if (is_named(other->key, "quantities"))
+      add_quantities(text, m, other);
+    else if (other->record || hk_table_count(other, m->object) > 0)
+      add_table(text, m, key_of(other), other, row);
   }
 }
 
-static void add_table(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table) {
-  const int64_t count = hk_table_count(table, m->object);
-  if (table->record && count == 0) {
-    hk_text_word(text, table->name, NULL);
-    return;
+/* ---- tables ---- */
+
+static void add_object(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
+                       int64_t row, const char *key) {
+  hk_text_open(text, key, '{');
+  add_row(text, m, table, row);
+  hk_text_close(text, '}');
+}
+
+static const char *text_of(const hooke_measurement *m, const struct hk_table *table, int64_t row,
+                           const char *column) {
+  return hk_table_text(table, hk_table_find(table, column), m->object, row);
+}
+
+/* The statistics of each quantity: of the reference, and by method. */
+static void add_quantities(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table) {
+  const int64_t count = hk_table_count(table, m->object), inner = table->inner(m->object);
+  hk_text_open(text, "quantities", '[');
+  for (int64_t k = 0; k < inner; k++) {
+    hk_text_open(text, NULL, '{');
+    hk_text_word(text, "quantity", text_of(m, table, k, "quantity"));
+    hk_text_word(text, "unit", text_of(m, table, k, "unit"));
+    add_object(text, m, table, k, "reference");
+    hk_text_open(text, "methods", '{');
+    for (int64_t row = k + inner; row < count; row += inner)
+      add_object(text, m, table, row, text_of(m, table, row, "method"));
+    hk_text_close(text, '}');
+    hk_text_close(text, '}');
   }
-  hk_text_open(text, table->name, table->record ? '{' : '[');
-  for (int64_t row = 0; row < count; row++) {
-    if (!table->record) hk_text_open(text, NULL, '{');
-    add_row(text, m, table, row);
-    if (!table->record) hk_text_close(text, '}');
+  hk_text_close(text, ']');
+}
+
+/* 1 unless the row is one of a table by name, and says nothing but the name. */
+static int is_there(const hooke_measurement *m, const struct hk_table *table, int64_t row) {
+  int there = table->by == NULL;
+  for (int32_t k = 0; k < table->column_count; k++)
+    there |= !isnan(hk_table_number(table, &table->columns[k], m->object, row));
+  return there;
+}
+
+/* `of`: row of the table that it stands inside of. */
+static void add_table(struct hk_text *text, const hooke_measurement *m, const char *key,
+                      const struct hk_table *table, int64_t of) {
+  const char *by = table->by;
+  int64_t count = hk_table_count(table, m->object), first = 0;
+  if (table->inside && table->inner) {
+    count = table->inner(m->object);
+    first = of * count;
   }
-  hk_text_close(text, table->record ? '}' : ']');
+  if (table->record && count > 0) add_object(text, m, table, 0, key);
+  if (table->record && count == 0) hk_text_word(text, key, NULL);
+  if (table->record) return;
+  hk_text_open(text, key, by ? '{' : '[');
+  for (int64_t row = first; row < first + count; row++)
+    if (!by || is_there(m, table, row))
+      add_object(text, m, table, row, by ? text_of(m, table, row, by) : NULL);
+  hk_text_close(text, by ? '}' : ']');
 }
 
 void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, const char *table,
@@ -41,25 +174,46 @@ void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, co
 }
 
 void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, const char *table) {
-  add_table(text, m, hk_measurement_table(m->kind, table));
+  const struct hk_table *found = hk_measurement_table(m->kind, table);
+  add_table(text, m, key_of(found), found, 0);
 }
 
-void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m) {
-  for (const struct hk_table *table = m->kind->tables; table->name; table++)
-    add_table(text, m, table);
+/* ---- documents ---- */
+
+static void add_document(struct hk_text *text, const hooke_measurement *m) {
+  const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
+  hk_text_open(text, NULL, '{');
+  if (calls) hk_text_word(text, "callbacks", hk_callbacks_text(calls));
+  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
+    if (is_named(table->name, m->kind->name))
+      add_row(text, m, table, 0);
+    else if (!table->inside)
+      add_table(text, m, key_of(table), table, 0);
+  }
+  hk_text_close(text, '}');
 }
 
 int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) {
   struct hk_text text = {.bytes = NULL}, laid = {.bytes = NULL};
-  const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
-  hk_text_open(&text, NULL, '{');
-  if (calls) hk_text_word(&text, "callbacks", hk_callbacks_text(calls));
-  hk_measurement_add_tables(&text, m);
-  hk_text_close(&text, '}');
+  add_document(&text, m);
   if (text.status == HOOKE_OK) hk_text_lay_out(&text, &laid);
   int32_t status = text.status == HOOKE_OK ? laid.status : text.status;
   if (status == HOOKE_OK) status = hk_file_write(path, laid.bytes, laid.length);
   hk_text_release(&laid);
   hk_text_release(&text);
   return status;
+}
+
+const char *hooke_measurement_json(hooke_measurement *m, const char *table, int64_t row) {
+  const struct hk_table *t = table ? hk_measurement_table(m->kind, table) : NULL;
+  struct hk_text text = {.is_spaced = 1};
+  if (table && (!t || row < -1 || row >= hk_table_count(t, m->object))) return NULL;
+  if (t && row < 0) add_table(&text, m, NULL, t, 0);
+  if (t && row >= 0) add_object(&text, m, t, row, NULL);
+  if (!t) add_document(&text, m);
+  hk_text_add(&text, "", 1);
+  hk_free(m->json);
+  m->json = text.status == HOOKE_OK ? text.bytes : NULL;
+  if (!m->json) hk_text_release(&text);
+  return m->json;
 }

@@ -8,14 +8,13 @@
 #include "measure/limit/limit.h"
 #include "measure/needs/needs.h"
 #include "measure/study/study.h"
-#include "measure/trial/comparison.h"
 #include "measure/why/why.h"
 
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
-    &hk_study_kind, &hk_limit_kind,  &hk_needs_kind,    &hk_cost_kind, &hk_comparison_kind,
-    &hk_why_kind,   &hk_verify_kind, &hk_estimate_kind, &hk_view_kind, NULL,
+    &hk_study_kind,  &hk_limit_kind,    &hk_needs_kind, &hk_cost_kind, &hk_why_kind,
+    &hk_verify_kind, &hk_estimate_kind, &hk_view_kind,  NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };
 

@@ -8,6 +8,7 @@
  *                               end of a run
  *   /<kind>/<table>             attributes of a record; arrays of other tables, [rows], or of a matrix
  *                               [outer][inner]
+ *   /particles, /observables    motions (motions_h5.h)
  *
  * Texts are padded with zeros. A table without rows is left out. An older file is replaced when the new one
  * is complete. */
@@ -19,6 +20,7 @@
 
 #include "io/hdf5/file_h5.h"
 #include "io/hdf5/object_h5.h"
+#include "io/measurement/motions_h5.h"
 #include "io/scene/scene.h"
 #include "io/trajectory/h5md_h5.h"
 
@@ -210,19 +212,36 @@ static double bytes_of(const hooke_measurement *m) {
   return bytes;
 }
 
-static int32_t write_file(const hooke_measurement *m, const char *path, const char *scene_text) {
+static int32_t write_results(const hooke_measurement *m, const char *path, const char *scene_text,
+                             struct hk_h5_file *file, struct hk_motions *motions) {
   struct hk_h5_guard guard;
-  struct hk_h5_file file;
   hk_h5_guard_begin(&guard);
-  int32_t status = hk_h5_file_create(&guard, path, bytes_of(m), &file);
+  int32_t status = hk_h5_file_create(&guard, path, bytes_of(m) + hk_motions_bytes(motions), file);
   if (status == HOOKE_OK) {
-    herr_t result = hk_h5md_describe(file.id, m->system, NULL, m->run, scene_text);
-    if (result >= 0) result = write_all(file.id, m);
-    if (result >= 0) result = hk_h5md_set_status(file.id, m->outcome);
-    status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_finish(&guard, &file);
+    herr_t result = hk_h5md_describe(file->id, m->system, NULL, m->run, scene_text);
+    if (result >= 0) result = write_all(file->id, m);
+    if (result >= 0) result = hk_motions_make(motions, file->id);
+    if (result >= 0) result = hk_h5md_set_status(file->id, m->outcome);
+    status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_settle(&guard, file);
   }
-  hk_h5_file_release(&file);
+  if (status != HOOKE_OK) hk_h5_file_release(file);
   hk_h5_guard_end(&guard);
+  return status;
+}
+
+/* Motions need no HDF5, which waits for nobody while they are made. */
+static int32_t write_file(const hooke_measurement *m, const char *path, const char *scene_text) {
+  struct hk_h5_file file;
+  struct hk_motions motions;
+  int32_t status = hk_motions_create(m, &motions);
+  if (status != HOOKE_OK) return status;
+  status = write_results(m, path, scene_text, &file, &motions);
+  if (status == HOOKE_OK) {
+    status = hk_motions_write(&motions, &file.atomic);
+    if (status == HOOKE_OK) status = hk_h5_file_publish(&file);
+    hk_h5_file_release(&file);
+  }
+  hk_free(motions.writer);
   return status;
 }
 

@@ -4,18 +4,6 @@
 #include "io/page/needs_picture.h"
 #include "measure/needs/needs.h"
 
-static void add_lean(struct hk_text *data, const hooke_measurement *m) {
-  if (hooke_measurement_row_count(m, "lean") == 0) {
-    hk_text_word(data, "lean", NULL);
-    return;
-  }
-  hk_text_open(data, "lean", '{');
-  hk_measurement_add_row(data, m, "lean", 0);
-  hk_measurement_add_table(data, m, "cheapest");
-  hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
-  hk_text_close(data, '}');
-}
-
 /* Ingredients that were not tested. */
 static void add_waiting(struct hk_text *data, const struct hk_needs *needs) {
   hk_text_open(data, "waiting", '[');
@@ -31,7 +19,8 @@ void hk_needs_page_add(struct hk_text *data, const void *measurement) {
   hk_measurement_add_table(data, m, "full");
   hk_measurement_add_table(data, m, "rows");
   add_waiting(data, m->object);
-  add_lean(data, m);
+  hk_measurement_add_table(data, m, "lean");
+  hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_measurement_add_table(data, m, "parts");
   hk_needs_picture_add(data, m->object);
 }

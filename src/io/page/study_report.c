@@ -56,18 +56,6 @@ static void add_rows(struct hk_text *text, const hooke_measurement *m) {
   hk_text_close(text, ']');
 }
 
-static void add_recommendation(struct hk_text *text, const hooke_measurement *m) {
-  if (hooke_measurement_row_count(m, "recommendation") < 1) {
-    hk_text_word(text, "recommendation", NULL);
-    return;
-  }
-  hk_text_open(text, "recommendation", '{');
-  hk_measurement_add_row(text, m, "recommendation", 0);
-  hk_measurement_add_row(text, m, "margin", 0);
-  hk_text_word(text, "command", m->label[HOOKE_LABEL_COMMAND]);
-  hk_text_close(text, '}');
-}
-
 void hk_study_page_add(struct hk_text *data, const void *measurement) {
   const hooke_measurement *m = measurement;
   hk_measurement_add_row(data, m, "study", 0);
@@ -75,9 +63,7 @@ void hk_study_page_add(struct hk_text *data, const void *measurement) {
   add_times(data, m);
   add_rows(data, m);
   hk_measurement_add_table(data, m, "orders");
-  add_recommendation(data, m);
-  hk_measurement_add_table(data, m, "watched");
-  hk_measurement_add_table(data, m, "watched_errors");
+  hk_measurement_add_table(data, m, "recommendation");
+  hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_measurement_add_table(data, m, "ensemble");
-  hk_measurement_add_table(data, m, "statistics");
 }

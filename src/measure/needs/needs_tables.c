@@ -163,6 +163,8 @@ const struct hk_table hk_needs_tables[] = {
      HOOKE_TABLE_COLUMNS(lean_columns),
      .count = count_lean},
     {.name = "cheapest",
+     .inside = "lean",
+     .key = "full",
      .doc = "the full system by the same method, likewise with the largest step within the wanted error",
      .record = 1,
      HOOKE_TABLE_COLUMNS(cheapest_columns),
@@ -175,6 +177,8 @@ const struct hk_table hk_needs_tables[] = {
     {.name = "parts",
      .doc = "the resolution of every part, with the option `refine`",
      HOOKE_TABLE_COLUMNS(part_columns),
+     .lists = {{"cells", "cells", "cells_second", "cells_third"},
+               {"wanted", "wanted", "wanted_second", "wanted_third"}},
      HOOKE_TABLE_COUNT(struct hk_needs, part_count),
      .row = find_part},
     {.name = NULL}};

@@ -63,16 +63,27 @@ static const struct hk_option_row study_rows[] = {
      HOOKE_OPTION_WHOLE(0.0, 9007199254740992.0),
      .fallback = "1",
      .doc = "of the noise of those starts"},
+    {.name = "once",
+     HOOKE_OPTION_UNSET,
+     .doc =
+         "a first look: each method once, with the step and the tolerances of the run, in place of ladders; "
+         "the reference ends where its integrators part, and an HDF5 file has the motions, too"},
 };
 
 static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
 
 /* ---- creating ---- */
 
+/* Rows of the run's own step share the frames of a run of it. */
 static int32_t read_times(struct hk_study *study) {
+  struct hk_schedule schedule;
+  int32_t status = HOOKE_OK;
   study->budget = hooke_options_number(study->options, "budget");
   if (isnan(study->budget)) study->budget = INFINITY;
-  return hk_step_times(study->run, &study->duration, &study->every);
+  study->once = hooke_options_number(study->options, "once") == 1.0;
+  for (int32_t m = 0; study->once && status == HOOKE_OK && m < study->method_count; m++)
+    status = hk_schedule_read(hk_method_find(study->method[m]), study->run, &schedule);
+  return status == HOOKE_OK ? hk_step_times(study->run, &study->duration, &study->every) : status;
 }
 
 static int32_t read_watch(struct hk_study *study) {
@@ -133,6 +144,7 @@ static int32_t make_reference(struct hk_study *study) {
       .run = study->run,
       .frame_count = hk_schedule_frames(study->duration, study->every),
       .digits = isnan(want) ? NAN : want / 10.0,
+      .brief = study->once,
       .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
       .listener = &listener,
       .watched = &study->watched};
@@ -160,7 +172,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   const double budget = study->budget;
   study->begun = hk_clock_seconds();
   if (hooke_options_number(study->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
-  status = hk_study_find_safe_steps(study);
+  if (!study->once) status = hk_study_find_safe_steps(study);
   if (status == HOOKE_OK) status = hk_study_prepare_guesses(study);
   if (status == HOOKE_OK) status = make_reference(study);
   if (study->reference.trusted == study->reference.frames.count) study->budget = budget;

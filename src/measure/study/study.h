@@ -55,7 +55,8 @@ struct hk_study {
   struct hk_study_order order[HOOKE_STUDY_METHODS];
 
   double duration, every;
-  double unit; /* largest step of which duration and every are whole multiples [s] */
+  int32_t once; /* 1: each method with the run's own step or tolerances, and no ladders */
+  double unit;  /* largest step of which duration and every are whole multiples [s] */
   struct hk_reference reference;
   int64_t row_count, row_capacity;
   struct hk_study_row *row;
@@ -112,6 +113,8 @@ double hk_study_guess(const struct hk_study *study, int32_t method, double value
 int32_t hk_study_run_row(const struct hk_study *study, int32_t method, double value,
                          const struct hk_listener *listener, struct hk_study_row *row);
 int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value, hooke_options **out);
+/* Options of the run of a row, or of the reference (-1). */
+int32_t hk_study_run_options(const struct hk_study *study, int64_t row, hooke_options **out);
 int32_t hk_study_time_row(struct hk_study *study, struct hk_study_row *row);
 /* A row that the deadline ended has no status, and the study is marked as late. */
 int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row);
@@ -126,6 +129,8 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 int32_t hk_study_find_margin(struct hk_study *study);
 
 /* 1 if the error of a row is within ten times of what the reference is known to, or of its rounding. */
+/* 1 unless the want is met as far as errors are known, and they are not known to the end. */
+int32_t hk_study_knows_met(const struct hk_study *study);
 int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row);
 
 /* Least-squares fit of log error against log step for a method (order.c). */

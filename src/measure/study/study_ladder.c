@@ -76,6 +76,7 @@ static double given(const hooke_options *options, const char *name, int32_t k) {
 double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k) {
   const int32_t adaptive = hk_study_is_adaptive(study, method);
   const char *own = adaptive ? "tolerances" : "steps";
+  if (study->once) return k == 0 ? hooke_options_number(study->run, adaptive ? "rtol" : "step") : NAN;
   if (hooke_options_is_set(study->options, own)) return given(study->options, own, k);
   if (!adaptive) return fixed_ladder(study, method, k);
   /* a quotient of integers is the nearest double to a power of ten, a product of powers is not */
@@ -113,7 +114,16 @@ static int32_t check_steps(const struct hk_study *study) {
   return HOOKE_OK;
 }
 
+static int32_t refuse_ladder(const struct hk_study *study) {
+  static const char *const of_ladders[] = {"points", "steps", "tolerances"};
+  for (int k = 0; k < 3; k++)
+    if (hooke_options_is_set(study->options, of_ladders[k]))
+      return hk_fail(HOOKE_BAD_VALUE, of_ladders[k], "is not for `once`, which takes the step of the run");
+  return HOOKE_OK;
+}
+
 int32_t hk_study_check_ladder(struct hk_study *study) {
+  if (study->once) return refuse_ladder(study);
   int32_t status = hk_step_unit(study->duration, study->every, &study->unit);
   if (status == HOOKE_OK) status = check_list(study->options, "steps");
   if (status == HOOKE_OK) status = check_steps(study);

@@ -17,14 +17,24 @@ int32_t hk_study_row_options(const struct hk_study *study, int32_t method, doubl
                              hooke_options **out) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(study->run, &options);
-  if (status == HOOKE_OK) status = hk_trial_set_value(options, study->method[method], value);
+  if (status == HOOKE_OK && study->once && value == hk_study_ladder(study, method, 0))
+    status = hooke_options_set_text(options, "method", study->method[method]);
+  else if (status == HOOKE_OK)
+    status = hk_trial_set_value(options, study->method[method], value);
   /* rows in parallel, each on its own thread */
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", 1);
+  if (status == HOOKE_OK && !study->once) status = hooke_options_set_number(options, "threads", 1);
   if (status == HOOKE_OK)
     *out = options;
   else
     hooke_options_destroy(options);
   return status;
+}
+
+int32_t hk_study_run_options(const struct hk_study *study, int64_t row, hooke_options **out) {
+  struct hk_reference r = study->reference;
+  if (row >= 0) return hk_study_row_options(study, study->row[row].method, study->row[row].value, out);
+  r.extent = r.run_extent;
+  return hk_reference_options(study->run, r.method, r.rtol, &r, out);
 }
 
 static int compare_seconds(const void *a, const void *b) {
@@ -70,7 +80,7 @@ int32_t hk_study_run_row(const struct hk_study *study, int32_t method, double va
 int32_t hk_study_time_row(struct hk_study *study, struct hk_study_row *row) {
   const struct hk_listener listener = {.on_progress = hk_study_tell, .ctx = study};
   hooke_options *options = NULL;
-  if (strcmp(row->trial.status, "finished") != 0) return HOOKE_OK;
+  if (study->once || strcmp(row->trial.status, "finished") != 0) return HOOKE_OK;
   study->under_way = study->method[row->method];
   int32_t status = hk_study_row_options(study, row->method, row->value, &options);
   if (status == HOOKE_OK) status = repeat_for_time(study, options, &listener, row);

@@ -206,7 +206,7 @@ static double end_of_rows(const struct hk_study *study) {
 }
 
 int32_t hk_study_run_ladders(struct hk_study *study) {
-  const int32_t threads = (int32_t)hooke_options_number(study->run, "threads");
+  const int32_t threads = study->once ? 1 : (int32_t)hooke_options_number(study->run, "threads");
   int32_t status = HOOKE_OK;
   struct level *level = hk_new(1, sizeof *level);
   if (level == NULL) return HOOKE_NO_MEMORY;

@@ -22,13 +22,14 @@ static const struct hk_column study_columns[] = {
 
 /* ---- the reference ---- */
 
-static const char *how_it_ended(const struct hk_reference *r) {
+static const char *how_it_ended(const struct hk_study *study) {
+  const struct hk_reference *r = &study->reference;
   if (r->trusted == r->frames.count && !r->coarse) return "agreed";
-  return r->hurried ? "time" : "rounding";
+  return r->hurried ? "time" : study->once ? "parted" : "rounding";
 }
 
 HOOKE_READER(const void *, find_reference, struct hk_study, is_made(it) ? &it->reference : NULL)
-HOOKE_READER(const char *, ended, struct hk_study, how_it_ended(&it->reference))
+HOOKE_READER(const char *, ended, struct hk_study, how_it_ended(it))
 HOOKE_READER(double, trusted_until, struct hk_study,
              hk_reference_time(&it->reference, it->reference.trusted, it->duration))
 HOOKE_READER(double, checked_until, struct hk_study,
@@ -55,8 +56,8 @@ static const struct hk_column reference_columns[] = {
                  "twice the largest difference of their energies there"),
     HOOKE_COLUMN_BY(
         ended, ended, TEXT, "",
-        "why they were tightened no further: agreed, time (the budget was short), or rounding (it keeps "
-        "them apart at the tightest tolerances)"),
+        "why they were tightened no further: agreed, time (the budget was short), rounding (it keeps "
+        "them apart at the tightest tolerances), or parted (which ends a first look)"),
     HOOKE_COLUMN(struct hk_reference, method, TEXT, "", "integrator that made the reference"),
     HOOKE_COLUMN(struct hk_reference, check, TEXT, "",
                  "integrator that checked it; they share only the forces"),
@@ -143,6 +144,12 @@ HOOKE_READER(double, recommended_step, struct hk_study,
 HOOKE_READER(double, recommended_rtol, struct hk_study,
              hk_study_setting(it, it->recommendation.method, it->recommendation.value, 1))
 
+int32_t hk_study_knows_met(const struct hk_study *study) {
+  const double until = trusted_until(study, 0);
+  const int32_t held = study->recommendation.met || !(until > 0.0);
+  return !held || until >= study->duration * (1.0 - 1e-9);
+}
+
 static const struct hk_column recommendation_columns[] = {
     HOOKE_COLUMN_AS(struct hk_study, recommendation.want, want, NUMBER, "m",
                     "the wanted error, a distance that no free particle exceeds"),
@@ -226,12 +233,15 @@ static const struct hk_watched_series *series_of(const struct hk_study *study, i
 HOOKE_COUNTER(count_errors, struct hk_study, it->row_count *count_watched(it))
 HOOKE_READER(double, row_number, struct hk_study, (double)(row / count_watched(it)))
 HOOKE_READER(const char *, error_quantity, struct hk_study, it->watched.item[row % count_watched(it)].text)
+HOOKE_READER(const char *, error_unit, struct hk_study,
+             hk_watched_unit(&it->watched.item[row % count_watched(it)]))
 HOOKE_READER(double, error, struct hk_study, series_of(it, row)->figure[row % count_watched(it)])
 HOOKE_READER(const double *, error_value, struct hk_study,
              hk_watched_series_of(series_of(it, row), row % count_watched(it)))
 
 static const struct hk_column error_columns[] = {
     HOOKE_COLUMN_ALONG(OUTER, row_number, row, COUNT, "", "row of the table \"rows\""),
+    HOOKE_COLUMN_ALONG(INNER, error_unit, unit, TEXT, "", "unit of the quantity"),
     HOOKE_COLUMN_ALONG(INNER, error_quantity, quantity, TEXT, "", "watched quantity"),
     HOOKE_COLUMN_BY(error, error, NUMBER, "of the quantity",
                     "the largest difference from the reference over the frames that are trusted; of a period "
@@ -351,6 +361,7 @@ const struct hk_table hk_study_tables[] = {
      .doc = "the solution that errors are measured against, made by two integrators that check each other",
      .record = 1,
      HOOKE_TABLE_COLUMNS(reference_columns),
+     .lists = {{"methods", "method", "check"}},
      .row = find_reference,
      .length = trusted},
     {.name = "rows",
@@ -361,6 +372,7 @@ const struct hk_table hk_study_tables[] = {
      .length = trusted},
     {.name = "orders",
      .doc = "the order that each method showed",
+     .by = "method",
      HOOKE_TABLE_COLUMNS(order_columns),
      .count = count_orders,
      .row = find_order},
@@ -372,10 +384,12 @@ const struct hk_table hk_study_tables[] = {
     {.name = "margin",
      .doc = "what the recommendation has to spare",
      .group = "recommendation",
+     .inside = "recommendation",
      .record = 1,
      HOOKE_TABLE_COLUMNS(margin_columns),
      HOOKE_TABLE_COUNT(struct hk_study, recommendation.made)},
     {.name = "watched",
+     .inside = "reference",
      .doc = "the watched quantities",
      HOOKE_TABLE_COLUMNS(watched_columns),
      .count = count_watched,
@@ -383,6 +397,8 @@ const struct hk_table hk_study_tables[] = {
      .length = trusted},
     {.name = "watched_errors",
      .group = "watched",
+     .inside = "rows",
+     .key = "watched",
      .doc = "the error of every row in every watched quantity",
      HOOKE_TABLE_COLUMNS(error_columns),
      .count = count_errors,
@@ -390,12 +406,15 @@ const struct hk_table hk_study_tables[] = {
      .length = trusted},
     {.name = "ensemble",
      .group = "statistics",
+     .key = "statistics",
      .doc = "the displaced runs that statistics are of, for motion that cannot be judged to the end",
      .record = 1,
      HOOKE_TABLE_COLUMNS(ensemble_columns),
      .count = count_ensembles,
      .row = find_ensemble},
     {.name = "statistics",
+     .inside = "ensemble",
+     .key = "quantities",
      .doc = "means and spreads of an ensemble, by quantity and method",
      HOOKE_TABLE_COLUMNS(statistic_columns),
      .count = count_statistics,

@@ -3,15 +3,15 @@
 #include "core/status.h"
 #include "integrate/method.h"
 
+#include <stdio.h>
 #include <string.h>
 
-/* Number of the method in the table; the count of methods if there is none of that name. */
-static int64_t find(const char *name, size_t length) {
-  int64_t k = 0;
-  while (k < hooke_method_count() &&
-         (strlen(hooke_method_name(k)) != length || strncmp(hooke_method_name(k), name, length) != 0))
-    k++;
-  return k;
+/* The method that a word of so many bytes means; NULL if there is none, or one for references alone. */
+static const struct hk_method *find(const char *word, size_t length) {
+  char given[64]; /* no name is as long */
+  snprintf(given, sizeof given, "%.*s", (int)(length < sizeof given ? length : sizeof given - 1), word);
+  const struct hk_method *method = hk_method_find(hooke_method_meant(given));
+  return method && !method->reference ? method : NULL;
 }
 
 static int32_t add(const hooke_system *system, const char *name, const char **method, int32_t *count) {
@@ -34,9 +34,9 @@ int32_t hk_method_list_read(const hooke_system *system, const char *names,
   }
   while (status == HOOKE_OK && *names) {
     const size_t length = strcspn(names, ", ");
-    const char *known = length > 0 ? hooke_method_name(find(names, length)) : NULL;
+    const struct hk_method *known = length > 0 ? find(names, length) : NULL;
     if (known)
-      status = add(system, known, method, count);
+      status = add(system, known->name, method, count);
     else if (length > 0)
       return hk_fail(HOOKE_BAD_VALUE, "methods", "there is no method \"%.*s\"", (int)length, names);
     names += length + strspn(names + length, ", ");

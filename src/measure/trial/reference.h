@@ -8,7 +8,7 @@
 struct hk_reference {
   struct hk_frames frames; /* of `method` at `rtol` */
   const char *method, *check;
-  double rtol, atol;            /* its tolerances, */
+  double rtol, run_extent;      /* its tolerances are for this extent; */
   double evaluations, run_work; /* force evaluations and counted work of its run */
   double extent;                /* diagonal of the box that holds all frames [m] */
   double farthest;              /* largest coordinate at the start, at least the extent then [m] */

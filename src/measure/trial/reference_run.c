@@ -96,7 +96,7 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
   watch->expired |= cost->too_long;
   if (status == HOOKE_STOPPED && watch->expired) status = HOOKE_OK;
   if (status != HOOKE_OK) return status;
-  r->atol = ABSOLUTE * r->rtol * r->extent;
+  r->run_extent = r->extent;
   r->evaluations = cost->force_evaluations;
   r->run_work = cost->work;
   if (watch->unit == 0.0) watch->unit = hk_clock_seconds() - watch->run_begun;

@@ -156,6 +156,7 @@ static void keep_counts(struct run *run) {
   trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
   trial->wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
   trial->work = work_of(run);
+  trial->frames = run->next;
 }
 
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,

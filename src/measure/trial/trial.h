@@ -25,6 +25,7 @@ struct hk_trial {
   double rounding; /* by how much it may have displaced a particle [m] */
   double force_evaluations, steps, linear_iterations, wall_seconds;
   double work;                                /* counted (measure/counted_work) [s] */
+  int64_t frames;                             /* that it came to */
   double *error_at, *error_max_at, *drift_at; /* one a frame of the reference, NaN where missing */
   struct hk_watched_series watched;           /* quantities watched by the reference, with their errors */
 };

@@ -30,7 +30,6 @@ except ModuleNotFoundError as missing:
 
 from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
-from .comparison import Comparison, compare
 from .cost import Cost, cost
 from .estimate import RunError
 from .first_order import FirstOrder
@@ -43,7 +42,7 @@ from .results import Frames, Result, resume, run, why
 from .scene import Scene
 from .second_order import SecondOrder
 from .state import State
-from .study import Study, study
+from .study import Study, compare, study
 from .system import System
 from .trajectory import Energy, Frame, Trajectory, open
 from .verify import Verification, verify
@@ -57,7 +56,6 @@ __all__ = [
     "BadValue",
     "Blocks",
     "BodyMotion",
-    "Comparison",
     "Cost",
     "Derived",
     "Energy",

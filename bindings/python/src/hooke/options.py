@@ -86,7 +86,6 @@ class Options(Owner, MutableMapping[str, Any]):
     for_limit = _of_table("limit", "Options of a limit: methods, predict, nonlinear, along, accuracy, budget [s].")
     for_cost = _of_table("cost", "Options of a cost: predict, budget [s], groups.")
     for_why = _of_table("why", "Options of an explanation: budget [s].")
-    for_comparison = _of_table("comparison", "Options of a comparison: methods.")
     for_needs = _of_table("needs", "Options of needs: want [m], watch, refine.")
     for_springs = _of_table("springs", "Options of a group of springs: law, stiffness, damping, rest_length [m], ...")
     for_altitude = _of_table(

@@ -21,7 +21,7 @@ from .trajectory import Trajectory
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: An HDF5 file of a run or a comparison, a `Trajectory`, a `Result`, or positions (n, 3) and springs (m, 2).
+#: An HDF5 file of a run or of `hooke.compare`, a `Trajectory`, a `Result`, or positions (n, 3) and springs (m, 2).
 Source = Union[Path, Trajectory, Result, tuple[Any, Any]]
 
 _AXES = {"x": 0, "y": 1, "z": 2}
@@ -40,10 +40,9 @@ def cloth(
 ) -> Any:
     """Draws the springs of a cloth, or of any other system, in space.
 
-    `source` is a file that a run or a comparison wrote, a `Trajectory`, a `Result`, or a pair of positions (n, 3) [m]
-    and spring ends (m, 2). In a file, `run` is "all" (the run, or the reference of a comparison) or a method of the
-    comparison, and `frame` counts the frames that were written, from the end if negative. `up` is the axis drawn
-    upwards.
+    `source` is a file that a run or `hooke.compare` wrote, a `Trajectory`, a `Result`, or a pair of positions (n, 3)
+    [m] and spring ends (m, 2). In a file, `run` is "all" (the run, or the reference) or one of the compared methods,
+    and `frame` counts the frames that were written, from the end if negative. `up` is the axis drawn upwards.
     """
     q, springs, time = _frame(source, run, frame)
     order = axis_order(up)
@@ -61,14 +60,14 @@ def cloth(
 
 
 def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
-    """Draws the root mean square error [m] of each method of a comparison over time, from the file that it
+    """Draws the root mean square error [m] of each row of a study over time, from the file that it or `hooke.compare`
     wrote; ``series="energy_drift"`` draws the size of the energy error [J] instead."""
     import h5py
 
     with h5py.File(path, "r") as file:
-        table = file["comparison"]
+        table = file["study"]
         methods = [_text(name) for name in table["method"][:]]
-        reference = _text(table["reference"][()])
+        reference = table["reference"].attrs["method"]
         time, values = table["series/time"][:], np.abs(table[f"series/{series}"][:])
     ax = _new_axes() if ax is None else ax
     for method, row in zip(methods, values):

@@ -24,7 +24,8 @@ class Reference(NamedTuple):
     distance [m], the floor of all errors; the time until which they agree [s], up to which errors are judged; and a
     bound on the growth of a small displacement of the start, true with `growth_probability`, both NaN if unknown.
     `growth_seen` is the largest growth of `displacements` displacements. `energy_agreement` [J] is the floor of
-    energy drift. `ended` says why it was not refined further: "agreed", "time" (the budget), or "rounding"."""
+    energy drift. `ended` says why it was not refined further: "agreed", "time" (the budget), "rounding", or "parted"
+    (which ends a first look)."""
 
     methods: tuple[str, str]
     agreement: float
@@ -210,6 +211,12 @@ class Study(Paged, Closing):
         found = [self._handle.series("rows", row, column) for column in ("error_at", "energy_drift_at")]
         return Series(time, *(np.full(len(time), np.nan) if one is None else one for one in found))
 
+    def write(self, path: Path, title: str | None = None) -> None:
+        """Writes the results as `Found.write` does. An HDF5 file of `compare` has the motions, too, of runs that are made
+        again for it."""
+        with self._handle.listening(self._progress if callable(self._progress) else None):
+            super().write(path, title)
+
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws error against cost and error against step; see `hooke.plot.study`."""
         return draw("plot.study", self, axes, **options)
@@ -233,6 +240,7 @@ def study(
     watch: str | Iterable[str] | None = None,
     ensemble: int | None = None,
     seed: int | None = None,
+    once: bool = False,
     output: Path | None = None,
     force: Force | None = None,
     progress: WorkProgress | bool | None = None,
@@ -245,11 +253,11 @@ def study(
     requests a recommendation, `budget` [s] limits the time. `watch` names quantities whose errors are reported, too:
     "57.y" (a particle), "part:0.y", "group:3.length", ".strain" or ".tension" (a spring), "energy", "kinetic",
     "potential", "period:57.y". `ensemble` is the number of starts displaced by noise from `seed`; their means and
-    spreads are reported if the motion is too chaotic to be judged. `output` is a file to write (see `Study.write`),
-    `force` is the callback force of these runs, ``progress(fraction, what)`` receives progress (``progress=True`` shows
-    a bar, with tqdm) and stops the study by returning a non-zero number. The keywords `options` are those of a run:
-    duration [s], every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same
-    study.
+    spreads are reported if the motion is too chaotic to be judged. `once` is what `compare` asks for. `output` is a file
+    to write (see `Study.write`), `force` is the callback force of these runs, ``progress(fraction, what)`` receives
+    progress (``progress=True`` shows a bar, with tqdm) and stops the study by returning a non-zero number. The keywords
+    `options` are those of a run: duration [s], every [s], threads, ... ``hooke study --report FILE.html`` makes a page
+    with diagrams of the same study.
     """
     chosen = Options.for_study().set(
         methods=joined(methods),
@@ -261,8 +269,16 @@ def study(
         watch=joined(watch),
         ensemble=ensemble,
         seed=seed,
+        once=once,
     )
     made = Study(*measured("study", problem, options, chosen, progress, force=force), progress)
     if output is not None:
         made.write(output)
     return made
+
+
+def compare(problem: Runnable, methods: str | Iterable[str] | None = None, **options: Any) -> Study:
+    """A first look: a `study` with one row a method, run once with the step [s] or the tolerances of the run, against a
+    reference that ends where its two integrators part. The keywords are those of `study`; an HDF5 file as `output` has
+    every motion, too, for which the runs are made again (`hooke.plot.cloth` and `hooke.plot.error` draw it)."""
+    return study(problem, methods, once=True, **options)

@@ -2,7 +2,7 @@
 /* The diagrams of needs. */
 
 const { full, lean, want } = data;
-for (const cost of [full, ...data.rows, ...(lean ? [lean, lean.cheapest] : [])])
+for (const cost of [full, ...data.rows, ...(lean ? [lean, lean.full] : [])])
   if (cost.unlimited) cost.step_limit = "none";
 const ran = full.wall_seconds !== null;
 const judgedAll = data.judged_until >= data.duration * (1 - 1e-9);
@@ -128,7 +128,7 @@ function drawCosts(key) {
   const list = [["nothing (the full scene)", "full", full],
     ...data.rows.filter((row) => row.wall_seconds !== null).map((row) => [row.without, kindOf(row), row]),
     ...(lean ? [["all that is left out (the lean scene)", "lean", lean],
-      ["nothing, within what is wanted", "full", lean.cheapest]] : [])];
+      ["nothing, within what is wanted", "full", lean.full]] : [])];
   const bars = list.map(([label, kind, cost]) => ({ label, kind, value: of(cost) === "none" ? null : of(cost),
     text: text(of(cost)), lines: [`${words(cost.wall_seconds)} s in ${whole(cost.steps)} steps`,
       `${whole(cost.springs)} springs, ${whole(cost.particles)} particles`] }));

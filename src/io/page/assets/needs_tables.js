@@ -22,12 +22,12 @@ function writeLean(box) {
   box.append(element("p", `The lean scene was run: it is at most ${words(lean.error)} m off the full one, whose own error is counted in,` +
     `${judgedAll ? "" : ` up to ${words(data.judged_until, 6)} s`} with ${whole(lean.springs)} springs instead of ` +
     `${whole(full.springs)}. Within what is wanted it takes ${words(lean.wall_seconds)} s of wall time, and the full one ` +
-    `${words(lean.cheapest.wall_seconds)} s by the same method with the largest step that does ` +
+    `${words(lean.full.wall_seconds)} s by the same method with the largest step that does ` +
     (faster >= 1 ? `(${words(faster, 2)} times less).` : `(${words(1 / faster, 2)} times more).`)));
   if (lean.other_method) box.append(element("p", `${lean.other_method} would bring the full scene there in ` +
     `${words(lean.other_seconds)} s.`));
   if (lean.note) box.append(element("p", `${lean.note}.`));
-  if (lean.command) box.append(element("pre", lean.command));
+  if (data.command) box.append(element("pre", data.command));
 }
 
 function writeVerdict() {
@@ -58,8 +58,7 @@ function writeVerdict() {
 
 /* Along all axes, of "cells" or "wanted". */
 function cellsOf(part, what) {
-  const list = ["", "_second", "_third"].map((axis) => part[what + axis]).filter((count) => count !== null);
-  return list.length > 0 ? list.map(whole).join(" \u00d7 ") : "\u2013";
+  return part[what].length > 0 ? part[what].map(whole).join(" \u00d7 ") : "\u2013";
 }
 
 function askFor(part) {
@@ -95,7 +94,7 @@ function writeRows() {
     ...data.rows.map((row) => [row.without, KINDS[kindOf(row)][1], row,
       [KINDS[kindOf(row)][0], row.note].filter(Boolean).join("; ")]),
     ...(lean ? [["all that is left out (the lean scene)", LEAN, lean, "within what is wanted"],
-      ["nothing, within what is wanted", FULL, lean.cheapest, "within what is wanted"]] : [])];
+      ["nothing, within what is wanted", FULL, lean.full, "within what is wanted"]] : [])];
   const columns = COLUMNS.filter(([what]) => lines.some(([, , row]) => what === "per_step" || (row[what] ?? null) !== null));
   const body = element("tbody");
   for (const [name, colour, row, says] of lines) {

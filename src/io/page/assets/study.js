@@ -5,6 +5,8 @@ const study = data;
 const floor = study.reference.agreement;
 const recommended = study.recommendation;
 const want = recommended ? recommended.want : null;
+/* As far as errors are known: where they are not known to the end, `met` is null. */
+const meets = recommended !== null && recommended.met !== false && recommended.error !== null;
 const trusted = study.reference.trusted_until, duration = study.duration;
 const wholeRun = trusted === null || trusted >= duration * (1 - 1e-9);
 
@@ -80,7 +82,7 @@ function drawCost(what) {
   const lines = methods.map((method) => curve(method, rowsOf(method), what, across, up.edge));
   if (recommended && recommended.error !== null) {
     const row = { ...recommended, status: "finished" };
-    lines.push({ label: recommended.met ? "recommended" : "closest", role: "star", showLine: false,
+    lines.push({ label: meets ? "recommended" : "closest", role: "star", showLine: false,
       data: [{ x: row[what], y: row.error, row }], pointStyle: "star", pointRadius: 11, pointHoverRadius: 12,
       pointBorderWidth: 2, borderColor: "#111", backgroundColor: "#111", order: -1, clip: 12 });
   }
@@ -90,7 +92,7 @@ function drawCost(what) {
 
 /* Through the finest point clear of the floor, with the slope of the order. */
 function slopeLine(method, rows) {
-  const order = study.orders.find((one) => one.method === method);
+  const order = study.orders[method];
   const clear = rows.filter((row) => finished(row) && !row.near_floor && errorOf(row) > 0);
   if (!order || order.order === null || clear.length < 2) return [];
   const from = clear[clear.length - 1], to = clear[0].step;

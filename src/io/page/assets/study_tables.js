@@ -22,24 +22,24 @@ function change(words_of, holds, error) {
 }
 
 function writeMargin(box) {
-  const share = recommended.limit_share;
+  const margin = recommended.margin, share = margin.limit_share;
   box.append(element("p",
-    `Margin: the error is between ${words(recommended.error_low)} and ${words(recommended.error_high)} m` +
+    `Margin: the error is between ${words(margin.error_low)} and ${words(margin.error_high)} m` +
     (share > 0 ? `; the step is ${words(share, 2)} of the largest stable one at the start` : "") + ". " +
-    change("Stiffness 10 % more or less", recommended.holds_stiffness, recommended.error_stiffness) + ". " +
+    change("Stiffness 10 % more or less", margin.holds_stiffness, margin.error_stiffness) + ". " +
     change("All started faster or slower along (1, 1, 1) by 10 % of the largest speed",
-      recommended.holds_start, recommended.error_start) + "."));
+      margin.holds_start, margin.error_start) + "."));
 }
 
 function writeRecommendation() {
   const box = document.getElementById("recommendation");
-  box.append(element("h2", !recommended || recommended.met ? "Recommendation" : "Nothing meets what is wanted"));
+  box.append(element("h2", !recommended || meets ? "Recommendation" : "Nothing meets what is wanted"));
   if (!recommended) {
     box.classList.add("none");
     box.append(element("p", "None was asked for. Say how large an error you can live with, such as --want 1mm."));
     return;
   }
-  box.classList.add(recommended.met ? "met" : "unmet");
+  box.classList.add(meets ? "met" : "unmet");
   if (recommended.note) box.append(element("p", recommended.note + "."));
   if (recommended.method) {
     const cost = `it takes ${words(recommended.wall_seconds)} s of wall time and ` +
@@ -47,12 +47,12 @@ function writeRecommendation() {
     const choice = `${recommended.method} with ${setting(recommended)}`;
     const limit = `${words(want)} m${wholeRun ? "" : ` up to ${words(trusted, 6)} s`}`;
     const error = `its error is ${words(recommended.error)} m, and ${cost}`;
-    box.append(element("p", recommended.met
+    box.append(element("p", meets
       ? `For an error of at most ${limit} take ${choice}: it was run, ${error}`
       : `Wanted: ${limit}. The closest is ${choice}: ${error}`));
   }
-  if (recommended.met) writeMargin(box);
-  if (recommended.command) box.append(element("pre", recommended.command));
+  if (meets) writeMargin(box);
+  if (study.command) box.append(element("pre", study.command));
 }
 
 /* ---- tables ---- */
@@ -92,10 +92,10 @@ function writeRows() {
 
 function writeOrders() {
   const body = element("tbody");
-  for (const order of study.orders.filter(({ theory }) => theory !== null)) {
+  for (const [method, order] of Object.entries(study.orders)) {
     const line = element("tr");
     const range = order.low === null ? "\u2013" : `${order.low.toFixed(2)} to ${order.high.toFixed(2)}`;
-    line.append(methodCell(order.method), element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
+    line.append(methodCell(method), element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
       element("td", range), element("td", words(order.theory)), element("td", order.note, { className: "word note" }));
     body.append(line);
   }
@@ -117,22 +117,22 @@ function errorCell(value, agreement) {
 }
 
 function writeWatched() {
-  document.getElementById("watched-section").hidden = study.watched.length === 0;
-  if (study.watched.length === 0) return;
+  const watched = study.reference.watched || [];
+  document.getElementById("watched-section").hidden = watched.length === 0;
+  if (watched.length === 0) return;
   const body = element("tbody"), first = element("tr");
   first.append(element("td", "agreement", { className: "word" }), element("td", ""),
-    ...study.watched.map((item) => element("td", words(item.agreement, 4))));
+    ...watched.map((item) => element("td", words(item.agreement, 4))));
   body.append(first);
   study.rows.forEach((row, k) => {
     const line = element("tr", undefined, { className: row.status });
     if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
     line.append(methodCell(row.method), numberCell(row, "setting"),
-      ...study.watched.map((item, q) =>
-        errorCell(study.watched_errors[k * study.watched.length + q].error, item.agreement)));
+      ...watched.map((item, q) => errorCell(row.watched[q].error, item.agreement)));
     body.append(line);
   });
   document.getElementById("watched").append(headOf([["", "method", "", "word"], ["", "step [s]", "or rtol"],
-    ...study.watched.map((item) => ["", item.quantity, inUnit(item)])]), body);
+    ...watched.map((item) => ["", item.quantity, inUnit(item)])]), body);
 }
 
 /* ---- statistics ---- */
@@ -146,7 +146,7 @@ function biasWords(source) {
 }
 
 function writeStatistics() {
-  const found = study.ensemble, quantities = [...new Set(study.statistics.map(({ quantity }) => quantity))];
+  const found = study.statistics;
   document.getElementById("statistics-section").hidden = !found;
   if (!found) return;
   document.getElementById("statistics-words").textContent =
@@ -155,8 +155,8 @@ function writeStatistics() {
     "standard deviation of the runs. Bias: the difference from the mean of the reference, in standard errors of it; " +
     "below 2 none is seen, and where there is none, one figure in twenty is above, more with few runs.";
   const body = element("tbody");
-  for (const quantity of quantities) {
-    study.statistics.filter((source) => source.quantity === quantity).forEach((source, k) => {
+  for (const { quantity, reference, methods: others } of found.quantities) {
+    [reference, ...Object.values(others)].forEach((source, k) => {
       const line = element("tr");
       if (k === 0) line.classList.add("first");
       line.append(element("td", k === 0 ? `${quantity} ${inUnit(source)}` : "", { className: "word" }),
@@ -175,8 +175,8 @@ function writeStatistics() {
 function writeReference() {
   document.getElementById("about-head").textContent = "Reference";
   const { method, check, agreement, growth, growth_seen: seen, growth_probability: sure, displacements, ended } = study.reference;
-  const why = ended === "rounding" ? "rounding keeps the two apart after that"
-    : "the time was too short to know more";
+  const why = { rounding: "rounding keeps the two apart after that", parted: "the two part after that" }[ended]
+    || "the time was too short to know more";
   fact("about", "made by", method);
   fact("about", "checked by", check);
   fact("about", "agreement", agreement === null ? ""

@@ -1,12 +1,59 @@
-#include "advice.h"
+#include "command.h"
 #include "os.h"
 #include "print.h"
-#include "report.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { MOST_SETTINGS = 16 };
+
+static int32_t is_set_by(const struct cli_setting *settings, const char *name) {
+  for (; settings->name; settings++) {
+    if (settings->text && strcmp(settings->name, name) == 0) return 1;
+  }
+  return 0;
+}
+
+/* Options that show a run that diverges: one that is advised does not. */
+static int32_t shows_divergence(const char *name) {
+  return strcmp(name, "past_divergence") == 0 || strcmp(name, "frames_after") == 0;
+}
+
+void cli_command_print(FILE *file, const struct cli_arguments *arguments, const char *verb,
+                       const struct cli_setting *settings) {
+  int32_t same = strcmp(verb, arguments->verb->name) == 0;
+  char flag[HOOKE_FLAG_SIZE];
+  fprintf(file, "hooke %s ", verb);
+  cli_print_quoted(file, arguments->scene);
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const struct cli_argument *argument = &arguments->all[i];
+    if (!argument->text || is_set_by(settings, argument->name) || shows_divergence(argument->name)) continue;
+    if (!same && argument->table != arguments->run) continue;
+    /* the options that --want would choose are given */
+    if (strcmp(argument->name, "want") == 0 && is_set_by(settings, "method")) continue;
+    const char *instead = arguments->verb->for_scene;
+    if (instead && strcmp(argument->name, instead) == 0) continue; /* replaced by the scene */
+    fprintf(file, " --%s", cli_arguments_flag(argument->name, flag));
+    if (argument->own && !argument->own->value) continue;
+    fputc(cli_argument_is_flag(argument) ? '=' : ' ', file);
+    cli_print_quoted(file, argument->text);
+  }
+  for (; settings->name; settings++) {
+    if (!settings->text) continue;
+    fprintf(file, " --%s ", cli_arguments_flag(settings->name, flag));
+    cli_print_quoted(file, settings->text);
+  }
+}
+
+int32_t cli_command_make(const struct cli_arguments *arguments, const struct cli_setting *settings,
+                         char **command) {
+  size_t size;
+  FILE *stream = cli_os_open_text(command, &size);
+  if (stream) cli_command_print(stream, arguments, "run", settings);
+  return cli_print_end(stream, command);
+}
+
+/* ---- suggestions ---- */
 
 static int32_t changes_any(const hooke_options *changes) {
   int32_t any = 0;
@@ -47,18 +94,14 @@ int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_me
                            char **command) {
   struct cli_setting settings[MOST_SETTINGS];
   char text[MOST_SETTINGS][HOOKE_NUMBER_SIZE];
-  size_t size;
   hooke_options *changes = NULL;
   *command = NULL;
   int32_t status = hooke_options_create("run", &changes);
   if (status == HOOKE_OK) status = hooke_why_advice_apply(why, place, changes);
   const int32_t was_picked = cli_arguments_text(arguments, "want") != NULL;
   if (status == HOOKE_OK && was_picked && changes_any(changes)) status = add_chosen(why, changes);
-  if (status == HOOKE_OK && collect(changes, settings, text) > 0) {
-    FILE *stream = cli_os_open_text(command, &size);
-    if (stream) cli_report_command(stream, arguments, "run", settings);
-    status = cli_print_end(stream, command);
-  }
+  if (status == HOOKE_OK && collect(changes, settings, text) > 0)
+    status = cli_command_make(arguments, settings, command);
   hooke_options_destroy(changes);
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
