@@ -92,11 +92,10 @@ static const double START[3] = {0.9, 0.0, 0.8}, AT[3] = {0.3, -0.2, 0.1}, GOING[
 /* Largest error of the angular velocities about the body's axes at `time`. */
 static double error_of(struct run run) {
   double q[3 * SIX], v[3 * SIX], found[3], expected[3];
-  hooke_system *system = free_body(AT, GOING, START);
+  owned_system *system = free_body(AT, GOING, START);
   run_to_end(system, run, q, v);
   own_rotation(q, v, found);
   euler(START, run.duration, expected);
-  hooke_system_destroy(system);
   return largest_difference(3, found, expected);
 }
 
@@ -121,12 +120,10 @@ static const struct order *order_of(const char *method) {
 }
 
 static void check_refuses_a_body(const char *method) {
-  hooke_system *system = free_body(AT, GOING, START);
-  hooke_options *options = run_options((struct run){.method = method, .step = 0.01, .duration = 1.0});
+  owned_system *system = free_body(AT, GOING, START);
+  owned_options *options = run_options((struct run){.method = method, .step = 0.01, .duration = 1.0});
   hooke_integrator *integrator = NULL;
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* Every method refuses a body, or has its order with one. */
@@ -174,18 +171,15 @@ static void reference_follows_jacobi(void **unused) {
 /* Time at which the rotation about the middle axis, at first `start`, changes sign, between two steps. */
 static double turning_time(const char *method, double step) {
   const double rotation[3] = {0.0, 1.0, 1e-3}, still[3] = {0.0, 0.0, 0.0};
-  hooke_system *system = free_body(AT, still, rotation);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  hooke_state *state = start_state(system);
+  owned_system *system = free_body(AT, still, rotation);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
+  owned_state *state = start_state(system);
   double now[3], before = 1.0, t = 0.0;
   for (now[1] = 1.0; now[1] > 0.0; t = hooke_state_time(state)) {
     before = now[1];
     check_ok(hooke_integrator_step(integrator, state, 1));
     own_rotation(hooke_state_position(state), hooke_state_velocity(state), now);
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return t - step * now[1] / (now[1] - before);
 }
 
@@ -217,9 +211,9 @@ struct drift {
 
 static struct drift drift_of(const char *method, double step, int64_t blocks) {
   const double still[3] = {0.0, 0.0, 0.0}, rotation[3] = {0.9123, 0.0777, 0.7654};
-  hooke_system *system = free_body(still, still, rotation);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  hooke_state *state = start_state(system);
+  owned_system *system = free_body(still, still, rotation);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state), first[3], now[3];
   const double energy = hooke_system_energy(system, "total", q, v);
   struct drift drift = {0.0, {0.0, 0.0}};
@@ -231,9 +225,6 @@ static struct drift drift_of(const char *method, double step, int64_t blocks) {
     drift.momentum[1] = fmax(drift.momentum[1], largest_difference(3, first, now));
     if (10 * k < blocks) drift.momentum[0] = drift.momentum[1];
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return drift;
 }
 
@@ -294,7 +285,7 @@ static hooke_system *bar(int count, int pins, double angle, double *length) {
 static double angle_at_the_bottom(int count, int pins, const char *method, double parts) {
   const double angle = 2.0;
   double length, q[3 * 16];
-  hooke_system *system = bar(count, pins, angle, &length);
+  owned_system *system = bar(count, pins, angle, &length);
   const double quarter = elliptic_k(sin(0.5 * angle)) * sqrt(length / 9.81);
   run_to_end(system,
              (struct run){.method = method,
@@ -304,7 +295,6 @@ static double angle_at_the_bottom(int count, int pins, const char *method, doubl
                           .rtol = 1e-13,
                           .atol = 1e-13},
              q, NULL);
-  hooke_system_destroy(system);
   return atan2(q[3 * (count - 1)], -q[3 * (count - 1) + 1]);
 }
 
@@ -330,7 +320,7 @@ static void three_pins_hold(void **unused) {
   (void)unused;
   const double place[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 1}, mass = 1.0;
   double q[12];
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 3, (int64_t[]){0, 1, 2}));
@@ -339,7 +329,6 @@ static void three_pins_hold(void **unused) {
   check_ok(hooke_system_commit(system));
   run_to_end(system, (struct run){.method = "backward-euler", .step = 0.1, .duration = 1.0}, q, NULL);
   check_same_bits(12, q, place);
-  hooke_system_destroy(system);
 }
 
 /* ---- the heavy symmetric top ---- */
@@ -363,7 +352,7 @@ static void top_precesses_steadily(void **unused) {
     memcpy(q + 3 * p, arm, sizeof arm);
     memcpy(v + 3 * p, swing, sizeof swing);
   }
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, ALL, q, v, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, all + RIM));
@@ -384,7 +373,6 @@ static void top_precesses_steadily(void **unused) {
   }
   check_order("verlet", 4, error, 1.8, 2.2);
   check_between(error[3], 0.0, 1e-3);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -45,7 +45,7 @@ static hooke_system *plate(double stiffness, double stretch) {
                mass = 0.25;
   const int64_t body[] = {0, 1, 2, 3, 4}, post = 5, ends[] = {4, 5};
   hooke_system *system = NULL;
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 6, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, &post));
@@ -55,24 +55,20 @@ static hooke_system *plate(double stiffness, double stretch) {
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
   check_ok(hooke_system_add_body(system, "plate", 5, body, 0));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
 /* Energy after `steps` over that at first, with h omega as given. */
 static double energy_left(const char *method, double h_omega, int64_t steps) {
   const double stiffness = 1e6, step = h_omega / sqrt(stiffness / 1.25);
-  hooke_system *system = plate(stiffness, 1e-3);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  hooke_state *state = start_state(system);
+  owned_system *system = plate(stiffness, 1e-3);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double before = hooke_system_energy(system, "total", q, v);
   check_ok(hooke_integrator_step(integrator, state, steps));
   assert_int_equal(hooke_integrator_count(integrator, "nonlinear_failures"), 0);
   const double left = hooke_system_energy(system, "total", q, v) / before;
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return left;
 }
 
@@ -160,8 +156,8 @@ static void add_up(const double *q, const double *u, int first, int count, int p
  * which there is not. */
 static void check_step(const hooke_system *system, double step, int pinned) {
   static const int first[] = {1, 2, 5, 6, 10}, count[] = {1, 3, 1, 4, 1};
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = step});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = step});
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double start[2][3 * CHAIN], change[3 * CHAIN], before[6], after[6], pushed[6];
   memcpy(start[0], q, sizeof start[0]);
@@ -184,15 +180,13 @@ static void check_step(const hooke_system *system, double step, int pinned) {
       check_close(left[a] - along / 0.36 * axis, 0.0, 1e-8);
     }
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* Twenty steps are taken, and backward Euler adds no energy. */
 static void check_run(const hooke_system *system, const char *method, double step, const char *newton) {
   const struct run run = {.method = method, .step = step, .newton = newton, .newton_tolerance = BY_DEFAULT};
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double before = hooke_system_energy(system, "total", q, v);
   check_ok(hooke_integrator_step(integrator, state, 20));
@@ -200,15 +194,13 @@ static void check_run(const hooke_system *system, const char *method, double ste
     assert_true(isfinite(q[k]) && isfinite(v[k]));
   if (strcmp(method, "backward-euler") == 0)
     check_between(hooke_system_energy(system, "total", q, v), -1e3, before + 1e-6 * fabs(before));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 static void stiff_chains_are_solved(void **unused) {
   (void)unused;
   for (int how = 0; how < 4; how++) {
     for (double stiffness = 1e2; stiffness < 2e6; stiffness *= 100.0) {
-      hooke_system *system = chain(stiffness, how & 1 ? 10.0 : 0.0, how & 2);
+      owned_system *system = chain(stiffness, how & 1 ? 10.0 : 0.0, how & 2);
       for (double step = 1e-5; step < 0.02; step *= 10.0) {
         check_step(system, step, how & 2);
         for (int m = 0; m < METHODS; m++) {
@@ -218,7 +210,6 @@ static void stiff_chains_are_solved(void **unused) {
       }
       check_run(system, "backward-euler", 0.1, "converged");
       check_run(system, "tr-bdf2", 0.1, "converged");
-      hooke_system_destroy(system);
     }
   }
 }
@@ -256,7 +247,7 @@ static void momentum_is_kept(void **unused) {
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0.2, 0, 2.5, 1, 0.5, 2, 0.5, 1},
                v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 0, 0.2, 0, -0.5, 1, 0, -1, 0.5}, mass = 0.4;
   const int64_t one[] = {0, 1, 2}, other[] = {3, 4, 5, 6}, ends[] = {1, 3, 2, 6};
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 7, q, v, 1, &mass, NULL));
   add_springs(system, 2, ends, 50.0, 0.2);
@@ -265,8 +256,8 @@ static void momentum_is_kept(void **unused) {
   check_ok(hooke_system_commit(system));
   for (int m = 0; m < METHODS; m++) {
     double before[6], after[6];
-    hooke_integrator *integrator = start_run(system, (struct run){.method = NAMES[m], .step = 0.02});
-    hooke_state *state = start_state(system);
+    owned_integrator *integrator = start_run(system, (struct run){.method = NAMES[m], .step = 0.02});
+    owned_state *state = start_state(system);
     const double *x = hooke_state_position(state), *u = hooke_state_velocity(state);
     hooke_system_momentum(system, u, before);
     hooke_system_angular_momentum(system, x, u, before + 3);
@@ -275,10 +266,7 @@ static void momentum_is_kept(void **unused) {
     hooke_system_angular_momentum(system, x, u, after + 3);
     check_close(largest_difference(3, before, after), 0.0, 1e-11);
     check_between(largest_difference(3, before + 3, after + 3), m == 2 ? 0.0 : 1e-8, m == 2 ? 1e-10 : 1.0);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
 }
 
 int main(void) {

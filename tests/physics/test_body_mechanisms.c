@@ -65,7 +65,7 @@ static double error_of_height(const hooke_system *system, struct run run) {
 
 static void top_nutates(void **unused) {
   (void)unused;
-  hooke_system *system = spinning_top();
+  owned_system *system = spinning_top();
   double unused_height;
   const double period = nutation(0.0, &unused_height), time = 3.3 * period;
   check_between(period, 0.1, 2.0);
@@ -87,7 +87,6 @@ static void top_nutates(void **unused) {
                                                        .rtol = 1e-13,
                                                        .atol = 1e-13}),
                   0.0, 1e-10);
-  hooke_system_destroy(system);
 }
 
 /* ---- motions in a few angles, for comparison ---- */
@@ -160,7 +159,7 @@ static hooke_system *governor(double stiffness) {
   memcpy(q + 6 * ROD, below, sizeof below);
   mass[2 * ROD] = SLIDER;
   hooke_system *system = NULL;
-  hooke_options *link = NULL;
+  owned_options *link = NULL;
   check_ok(hooke_options_create("springs", &link));
   check_ok(hooke_options_set_text(link, "law", "length"));
   check_ok(hooke_options_set_number(link, "stiffness", stiffness));
@@ -174,7 +173,6 @@ static hooke_system *governor(double stiffness) {
   check_ok(hooke_system_add_body(system, "right", ROD, (int64_t[]){3, 4, 5}, 0));
   check_ok(hooke_system_add_springs(system, "links", 2, (int64_t[]){1, 2 * ROD, ROD + 1, 2 * ROD}, link));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(link);
   return system;
 }
 
@@ -215,12 +213,10 @@ static int32_t follow_frame(int64_t step, const hooke_state *state, void *ctx) {
 /* Consumes the system. */
 static double follow(hooke_system *system, struct run run, struct followed followed) {
   run.every = FRAME;
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, follow_frame, &followed));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   hooke_system_destroy(system);
   return followed.off;
 }
@@ -265,7 +261,7 @@ static hooke_system *linkage(double stiffness) {
     memcpy(start, along, sizeof along); /* the end of the first */
   }
   hooke_system *system = NULL;
-  hooke_options *joint = NULL;
+  owned_options *joint = NULL;
   check_ok(hooke_options_create("springs", &joint));
   check_ok(hooke_options_set_text(joint, "law", "length"));
   check_ok(hooke_options_set_number(joint, "stiffness", stiffness));
@@ -278,7 +274,6 @@ static hooke_system *linkage(double stiffness) {
   check_ok(hooke_system_add_body(system, "lower", ROD, (int64_t[]){3, 4, 5}, 0));
   check_ok(hooke_system_add_springs(system, "joint", 1, (int64_t[]){2, 3}, joint));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(joint);
   return system;
 }
 
@@ -325,7 +320,7 @@ static void list_frame(int64_t particle[FRAME_COUNT]) {
 }
 
 static hooke_system *framed_cloth(double drag) {
-  hooke_options *cloth = NULL;
+  owned_options *cloth = NULL;
   hooke_system *system = NULL;
   int64_t frame[FRAME_COUNT];
   list_frame(frame);
@@ -342,7 +337,6 @@ static hooke_system *framed_cloth(double drag) {
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -G, 0.0}));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(cloth);
   return system;
 }
 
@@ -367,8 +361,8 @@ static double bent(const double *from, const double *to) {
 static void framed_cloth_keeps_its_energy(void **unused) {
   (void)unused;
   enum { N = CLOTH * CLOTH };
-  hooke_system *system = framed_cloth(0.0);
-  hooke_state *start = start_state(system);
+  owned_system *system = framed_cloth(0.0);
+  owned_state *start = start_state(system);
   const double *q0 = hooke_state_position(start);
   const double before = hooke_system_energy(system, "total", q0, hooke_state_velocity(start));
   double error[4], q[3 * N], v[3 * N];
@@ -379,8 +373,6 @@ static void framed_cloth_keeps_its_energy(void **unused) {
   }
   check_order("verlet", 4, error, 1.8, 2.2);
   check_between(hooke_system_energy(system, "kinetic", q, v), 0.05, 5.0);
-  hooke_state_destroy(start);
-  hooke_system_destroy(system);
 }
 
 /* Once it has come to rest, what acts on the frame adds up to no force and no torque; on its particles it
@@ -388,7 +380,7 @@ static void framed_cloth_keeps_its_energy(void **unused) {
 static void frame_hangs_in_balance(void **unused) {
   (void)unused;
   enum { N = CLOTH * CLOTH };
-  hooke_system *system = framed_cloth(0.03);
+  owned_system *system = framed_cloth(0.03);
   double q[3 * N], v[3 * N], f[3 * N], force[3] = {0.0}, torque[3] = {0.0}, most = 0.0;
   int64_t frame[FRAME_COUNT];
   list_frame(frame);
@@ -407,7 +399,6 @@ static void frame_hangs_in_balance(void **unused) {
   check_between(most, 0.05, 10.0);
   check_between(largest(3, force), 0.0, 1e-8);
   check_between(largest(3, torque), 0.0, 1e-8);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

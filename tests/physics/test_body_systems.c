@@ -42,10 +42,9 @@ static void join(hooke_system *system, double stiffness) {
       ends[2 * count++ + 1] = j;
     }
   }
-  hooke_options *options = material("springs", stiffness, 0.0);
+  owned_options *options = material("springs", stiffness, 0.0);
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_system_add_springs(system, "inside", count, ends, options));
-  hooke_options_destroy(options);
 }
 
 static hooke_system *cube(struct cube how) {
@@ -66,11 +65,10 @@ static hooke_system *cube(struct cube how) {
   if (how.stiffness > 0.0) join(system, how.stiffness);
   if (how.anchored) {
     const double points[9] = {0.1, 1.0, 0.3, -0.6, 1.2, 0.2, 0.5, 0.9, -0.5};
-    hooke_options *options = material("anchors", 20.0, how.damping);
+    owned_options *options = material("anchors", 20.0, how.damping);
     check_ok(hooke_options_set_numbers(options, "points", 9,
                                        points)); /* at its point an anchor has no direction */
     check_ok(hooke_system_add_anchors(system, "hung", 3, ALL + 1, options));
-    hooke_options_destroy(options);
   }
   if (how.rigid) check_ok(hooke_system_add_body(system, "cube", CUBE, ALL, how.project));
   return system;
@@ -102,7 +100,7 @@ static void hung_cube_has_the_order_of_its_method(void **unused) {
                  {"tr-bdf2", 1.0 / 64, 1.85, 2.15},
                  {"implicit-midpoint", 1.0 / 64, 1.85, 2.15}};
   for (int damped = 0; damped < 2; damped++) {
-    hooke_system *system = committed((struct cube){
+    owned_system *system = committed((struct cube){
         .rigid = 1, .anchored = 1, .turning = 1, .drag = damped ? 0.1 : 0.0, .damping = damped ? 0.5 : 0.0});
     double exact[3 * CUBE], q[3 * CUBE], error[4];
     end_of(system, "rk4", 1.0 / 2048, exact);
@@ -113,7 +111,6 @@ static void hung_cube_has_the_order_of_its_method(void **unused) {
       }
       check_order(methods[m].name, 4, error, methods[m].low, methods[m].high);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -121,8 +118,8 @@ static void hung_cube_has_the_order_of_its_method(void **unused) {
 static void acceleration_is_that_of_the_motion(void **unused) {
   (void)unused;
   const double h = 2e-5;
-  hooke_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
-  hooke_state *state = start_state(system);
+  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
+  owned_state *state = start_state(system);
   double a[3 * CUBE], v[2][3 * CUBE];
   check_ok(
       hooke_system_acceleration(system, 0.0, hooke_state_position(state), hooke_state_velocity(state), a));
@@ -136,8 +133,6 @@ static void acceleration_is_that_of_the_motion(void **unused) {
     const double slope = (4.0 * v[0][i] - v[1][i] - 3.0 * hooke_state_velocity(state)[i]) / (2.0 * h);
     check_close(slope, a[i], 1e-5);
   }
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- the largest stable step ---- */
@@ -157,21 +152,17 @@ static void bar_on_springs_has_its_limit(void **unused) {
       v[3 * p + 1] = w[2] * x[0] - w[0] * x[2] + 1e-5;
       v[3 * p + 2] = w[0] * x[1] - w[1] * x[0];
     }
-    hooke_system *system = NULL;
-    hooke_options *options = material("anchors", k, 0.0);
+    owned_system *system = NULL;
+    owned_options *options = material("anchors", k, 0.0);
     check_ok(hooke_system_create(&system));
     check_ok(hooke_system_add_particles(system, 5, q, v, 5, mass, NULL));
     check_ok(hooke_system_add_anchors(system, "feet", 4, ALL, options));
     check_ok(hooke_system_add_body(system, "bar", 5, ALL, 0));
     check_ok(hooke_system_commit(system));
-    hooke_options_destroy(options);
     const double step = (above ? 1.01 : 0.99) * 2.0 * sqrt(m / k);
-    hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
-    hooke_state *state = start_state(system);
+    owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
+    owned_state *state = start_state(system);
     check_status(hooke_integrator_step(integrator, state, 1000), above ? HOOKE_DIVERGED : HOOKE_OK);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
@@ -192,15 +183,12 @@ static int32_t keep(int64_t step, const hooke_state *state, void *ctx) {
 
 static struct path path_of(struct cube how, double step) {
   struct path path = {.frames = 0};
-  hooke_system *system = committed(how);
-  hooke_integrator *integrator = start_run(
+  owned_system *system = committed(how);
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "verlet", .step = step, .duration = 1.0, .every = 1.0 / FRAMES});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, keep, &path));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return path;
 }
 
@@ -229,23 +217,20 @@ static void a_step_is_a_map_of_the_state(void **unused) {
   const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet",  "heun",
                                  "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint"};
   for (int damped = 0; damped < 2; damped++) {
-    hooke_system *system = committed((struct cube){
+    owned_system *system = committed((struct cube){
         .rigid = 1, .anchored = 1, .turning = 1, .damping = damped ? 0.3 : 0.0, .stiffness = 10.0});
     for (int m = 0; m < 8; m++) {
       const struct run run = {.method = methods[m], .step = 1.0 / 128, .duration = 0.25, .every = 0.25};
       double q[3 * CUBE], v[3 * CUBE];
       run_to_end(system, run, q, v);
-      hooke_state *state = start_state(system);
+      owned_state *state = start_state(system);
       for (int k = 0; k < 32; k++) {
-        hooke_integrator *integrator = start_run(system, run);
+        owned_integrator *integrator = start_run(system, run);
         check_ok(hooke_integrator_step(integrator, state, 1));
-        hooke_integrator_destroy(integrator);
       }
       check_same_bits(3 * CUBE, hooke_state_position(state), q);
       check_same_bits(3 * CUBE, hooke_state_velocity(state), v);
-      hooke_state_destroy(state);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -254,8 +239,8 @@ static void threads_do_not_change_bits(void **unused) {
   (void)unused;
   enum { SIDE = 100, N = SIDE * SIDE };
   const int64_t corner[] = {0, 1, 2, SIDE, SIDE + 1, SIDE + 2, 2 * SIDE, 2 * SIDE + 1};
-  hooke_options *options = NULL;
-  hooke_system *system = NULL;
+  owned_options *options = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_options_create("cloth", &options));
   check_ok(hooke_options_set_numbers(options, "size", 2, (double[]){SIDE, SIDE}));
   check_ok(hooke_options_set_numbers(options, "edges", 6, (double[]){1, 0, 0, 0, 0.2, 1}));
@@ -270,7 +255,6 @@ static void threads_do_not_change_bits(void **unused) {
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_add_body(system, "frame", 8, corner, 0));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   double *q[2], *v[2];
   for (int k = 0; k < 2; k++) {
     q[k] = new_doubles(3 * N);
@@ -291,27 +275,25 @@ static void threads_do_not_change_bits(void **unused) {
     free(q[k]);
     free(v[k]);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- what is dropped, and sums over particles ---- */
 
 static void inner_springs_are_dropped(void **unused) {
   (void)unused;
-  hooke_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
+  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
   assert_int_equal(hooke_system_count(system, "springs"), 0);
   assert_int_equal(hooke_system_count(system, "inside_bodies"), PAIRS);
   assert_int_equal(hooke_system_count(system, "dropped_springs"), 0);
   assert_int_equal(hooke_system_count(system, "anchors"), 3);
   assert_int_equal(hooke_system_count(system, "bodies"), 1);
   assert_string_equal(hooke_system_body_name(system, 0), "cube");
-  hooke_system_destroy(system);
 }
 
 static void motion_adds_up_to_energy(void **unused) {
   (void)unused;
-  hooke_system *system = committed((struct cube){.rigid = 1, .turning = 1});
-  hooke_state *state = start_state(system);
+  owned_system *system = committed((struct cube){.rigid = 1, .turning = 1});
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double inertia[4], motion[13], momentum[3], energy = 0.0;
   check_ok(hooke_system_body_inertia(system, 0, inertia));
@@ -330,8 +312,6 @@ static void motion_adds_up_to_energy(void **unused) {
     energy += 0.5 * inertia[0] * motion[7 + k] * motion[7 + k];
   }
   check_close(energy, hooke_system_energy(system, "kinetic", q, v), 1e-15);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- bad input ---- */
@@ -374,22 +354,21 @@ static void bad_bodies_are_refused(void **unused) {
       continue;
     }
     check_ok(hooke_system_commit(system));
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     double momentum[3], spin[3];
     hooke_system_momentum(system, hooke_state_velocity(state), momentum);
     hooke_system_angular_momentum(system, row, hooke_state_velocity(state), spin);
     check_close(momentum[0], 0.5, 1e-15);
     check_close(largest(3, spin), 0.0, 1e-15);
-    hooke_state_destroy(state);
     hooke_system_destroy(system);
   }
 }
 
 static void unknown_is_said(void **unused) {
   (void)unused;
-  hooke_system *system = committed((struct cube){.rigid = 1, .anchored = 1});
-  hooke_state *state = start_state(system);
-  hooke_options *options = run_options((struct run){.method = "shardlow", .step = 0.01, .duration = 1.0});
+  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1});
+  owned_state *state = start_state(system);
+  owned_options *options = run_options((struct run){.method = "shardlow", .step = 0.01, .duration = 1.0});
   hooke_integrator *integrator = NULL;
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("shardlow does not know rigid bodies yet");
@@ -408,15 +387,12 @@ static void unknown_is_said(void **unused) {
   check_ok(hooke_integrator_step(integrator, state, 1));
   check_status(hooke_integrator_put(integrator, 1, ALL, hooke_state_position(state), NULL), HOOKE_UNSUITED);
   hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* A driven body follows its drive. */
 static void driven_bodies_follow(void **unused) {
   (void)unused;
-  hooke_system *system = cube((struct cube){.rigid = 1});
+  owned_system *system = cube((struct cube){.rigid = 1});
   double q[3 * CUBE], corner[3];
   check_ok(hooke_system_drive_harmonic(system, CUBE, ALL, (double[]){0, 0.5, 0}, 1.0, 0.0));
   check_ok(hooke_system_commit(system));
@@ -427,7 +403,6 @@ static void driven_bodies_follow(void **unused) {
     corner[1] += 0.5;
     check_close(largest_difference(3, q + 3 * p, corner), 0.0, 1e-15);
   }
-  hooke_system_destroy(system);
 }
 
 int main(void) {

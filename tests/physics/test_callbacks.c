@@ -40,7 +40,7 @@ static void test_difference_quotients(void **unused) {
   for (int with = 0; with < 2; with++) {
     struct linear linear = {0, 0, 0};
     double out[6], expected[6] = {0};
-    hooke_system *system = small_system(2, q, v, 1.0, 0);
+    owned_system *system = small_system(2, q, v, 1.0, 0);
     check_ok(hooke_system_set_force(system, linear_force, with ? linear_product : NULL, &linear));
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_derivative_product(system, 0.0, q, v, dq, dv, out));
@@ -48,7 +48,6 @@ static void test_difference_quotients(void **unused) {
     assert_true(linear.force_calls >= 1);
     linear_force(2, 0.0, dq, dv, expected, &linear);
     check_between(largest_difference(6, out, expected) / largest(6, expected), 0.0, with ? 1e-15 : 1e-7);
-    hooke_system_destroy(system);
   }
 }
 
@@ -77,10 +76,10 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
   const double place[] = {1, -2, 0.5, 3, 2, -1, 0}, weight[] = {0.3, 2.0, 0.7, 1.1, 0.2, 5.0, 1.0};
   struct linear linear = {.coordinates = strcmp(kind, "coordinates") == 0};
   hooke_force_product *product = with ? linear_product : NULL;
-  hooke_system *system = linear.coordinates ? NULL : linear_system(kind, product, &linear);
+  owned_system *system = linear.coordinates ? NULL : linear_system(kind, product, &linear);
   hooke_integrator *it;
   hooke_state *state;
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   if (system) {
     check_ok(hooke_integrator_create(system, options, &it));
     state = start_state(system);
@@ -95,10 +94,8 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
   memset(end, 0, STATE * sizeof *end);
   memcpy(end, hooke_state_position(state), size * sizeof *end);
   memcpy(end + size, hooke_state_velocity(state), size * sizeof *end);
-  hooke_options_destroy(options);
   hooke_integrator_destroy(it);
   hooke_state_destroy(state);
-  hooke_system_destroy(system);
   return linear.product_calls;
 }
 
@@ -164,7 +161,7 @@ static void test_what_a_callback_sees(void **unused) {
   const int64_t ends[] = {0, 1};
   struct shown shown = {0};
   double a[6];
-  hooke_system *system = small_system(2, q, v, 2.0, 0);
+  owned_system *system = small_system(2, q, v, 2.0, 0);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 4, .rest_length = 1});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.5));
@@ -179,7 +176,6 @@ static void test_what_a_callback_sees(void **unused) {
   const double before[] = {4, -0.5, 0, -4, 0, -1.5}, after[] = {2, -0.25, -10, -2, 0.5, -10.75};
   check_same_bits(6, shown.force, before);
   check_same_bits(6, a, after);
-  hooke_system_destroy(system);
 }
 
 /* ---- a force for some runs, and what it holds ---- */
@@ -225,14 +221,12 @@ static hooke_system *spring_and_pins(hooke_force *force, void *ctx) {
 
 /* Ends a run of some method, and gives its memory back. */
 static void go(const hooke_system *system, const char *method, double end[6]) {
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = method, .step = 0.01, .duration = 0.2});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   memcpy(end, hooke_state_position(state) + 3 * (FAR - 1), 3 * sizeof *end);
   memcpy(end + 3, hooke_state_velocity(state) + 3 * (FAR - 1), 3 * sizeof *end);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 static void test_a_force_for_some_runs(void **unused) {
@@ -277,13 +271,11 @@ static void test_what_a_callback_holds(void **unused) {
     double end[6], expected[6];
     holder.calls = 0;
     other.calls = HELD;
-    hooke_system *system = spring_and_pins(pull_and_hold, &holder),
+    owned_system *system = spring_and_pins(pull_and_hold, &holder),
                  *same = spring_and_pins(pull_and_hold, &other);
     go(system, methods[k], end);
     go(same, methods[k], expected);
     check_same_bits(6, end, expected);
-    hooke_system_destroy(system);
-    hooke_system_destroy(same);
     for (int c = 0; c < HELD; c++) {
       check_same_bits(9 * FAR, holder.q[c], holder.copy[c]);
       for (int other_call = 0; other_call < c; other_call++)
@@ -404,9 +396,9 @@ static int32_t note_state(int64_t step, const hooke_state *state, void *ctx) {
  * of those that go on from there. */
 static void check_stop(const char *problem, const char *method, struct stopper *stopper) {
   double found[MOST_NUMBERS];
-  hooke_system *system;
-  hooke_integrator *it;
-  hooke_state *state;
+  owned_system *system;
+  owned_integrator *it;
+  owned_state *state;
   start_pulled(problem, method, &system, &it, &state, stopper);
   check_ok(hooke_integrator_on_step(it, 1, note_state, stopper));
   check_status(hooke_integrator_step(it, state, WHOLE), stopper->stop < 0 ? HOOKE_OK : HOOKE_STOPPED);
@@ -420,38 +412,30 @@ static void check_stop(const char *problem, const char *method, struct stopper *
     state_numbers(state, found);
     check_same_bits(MOST_NUMBERS, found, stopper->whole[WHOLE]);
   }
-  hooke_integrator_destroy(it);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* The same of an error-controlled method: the driven particle is where it is at that time. */
 static void check_adaptive_stop(const char *problem, const char *method, struct stopper *stopper) {
   double q[3], v[3];
-  hooke_system *system;
-  hooke_integrator *it;
-  hooke_state *state;
+  owned_system *system;
+  owned_integrator *it;
+  owned_state *state;
   start_pulled(problem, method, &system, &it, &state, stopper);
   check_status(hooke_integrator_run(it, state), HOOKE_STOPPED);
   check_message("77");
   assert_int_equal(hooke_integrator_count(it, "stop_value"), 77);
   wander(1, hooke_state_time(state), q, v, stopper);
   if (system) check_same_bits(3, hooke_state_position(state), q);
-  hooke_integrator_destroy(it);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 static void check_stops(const char *problem, const char *method, hooke_force_product *product) {
   struct stopper stopper = {.stop = -1, .product = product};
-  hooke_system *system;
+  owned_system *system;
   hooke_integrator *it;
-  hooke_state *state;
+  owned_state *state;
   start_pulled(problem, method, &system, &it, &state, &stopper);
   state_numbers(state, stopper.whole[0]);
   hooke_integrator_destroy(it);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
   if (is_fixed_step(method)) check_stop(problem, method, &stopper);
   const int64_t calls = is_fixed_step(method) ? stopper.calls : 40;
   assert_true(calls >= WHOLE);
@@ -480,12 +464,11 @@ static void test_a_force_alone_stops(void **unused) {
   const double q[] = {0, 0, 0};
   struct stopper stopper = {.stop = 1};
   double force[3];
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  owned_system *system = small_system(1, q, NULL, 1.0, 0);
   check_ok(hooke_system_set_force(system, pull_back, NULL, &stopper));
   check_ok(hooke_system_commit(system));
   check_status(hooke_system_force(system, 0.0, q, q, force), HOOKE_STOPPED);
   check_message("77");
-  hooke_system_destroy(system);
 }
 
 int main(void) {

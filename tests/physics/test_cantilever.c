@@ -32,7 +32,7 @@ static hooke_system *commit(hooke_system *system) {
 
 static hooke_system *new_rope(int segments, const char *of_mass, double mass, double piece) {
   hooke_system *system = NULL;
-  hooke_options *rope = NULL;
+  owned_options *rope = NULL;
   const double from[3] = {-0.5 * piece, 0.0, 0.0}, to[3] = {(segments - 0.5) * piece, 0.0, 0.0};
   check_ok(hooke_system_create(&system));
   check_ok(hooke_options_create("rope", &rope));
@@ -43,7 +43,6 @@ static hooke_system *new_rope(int segments, const char *of_mass, double mass, do
   check_ok(hooke_options_set_number(rope, "bending", stiffness()));
   check_ok(hooke_options_set_number(rope, "stretch.stiffness", 1e5));
   check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
-  hooke_options_destroy(rope);
   pin_first(system, 2);
   return commit(system);
 }
@@ -51,7 +50,7 @@ static hooke_system *new_rope(int segments, const char *of_mass, double mass, do
 /* `along` pieces from the wall, `across` particles over 0.5 m. */
 static hooke_system *new_sheet(int along, int across) {
   hooke_system *system = NULL;
-  hooke_options *cloth = NULL;
+  owned_options *cloth = NULL;
   const double piece = LENGTH / (along - 0.5);
   const double edges[6] = {0.0, 0.5, 0.0, along * piece, 0.0, 0.0}, size[2] = {across, along + 1};
   const double origin[3] = {-0.5 * piece, 0.0, 0.0};
@@ -64,7 +63,6 @@ static hooke_system *new_sheet(int along, int across) {
   check_ok(hooke_options_set_number(cloth, "bending", stiffness()));
   check_ok(hooke_options_set_number(cloth, "structural.stiffness", 1e5));
   check_ok(hooke_system_add_part(system, "cloth", "sheet", cloth, NULL, NULL));
-  hooke_options_destroy(cloth);
   pin_first(system, 2 * across);
   return commit(system);
 }
@@ -127,7 +125,7 @@ static void solve(int64_t size, int64_t width, double *band, double *x) {
 static double sag_of(hooke_system *system, int64_t across) {
   const int64_t n = hooke_system_particle_count(system), held = 2 * across, width = 3 * (2 * across + 1);
   const int64_t size = 3 * (n - held);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double *band = new_doubles(size * width), *force = new_doubles(3 * n), moved = 1.0;
   for (int turn = 0; turn < 20 && moved > 1e-13; turn++) {
@@ -142,7 +140,6 @@ static double sag_of(hooke_system *system, int64_t across) {
   const double sag = -q[3 * n - 1];
   free(band);
   free(force);
-  hooke_state_destroy(state);
   hooke_system_destroy(system);
   return sag;
 }
@@ -188,12 +185,11 @@ static void other_masses_and_walls_are_noticed(void **unused) {
 static void backward_euler_comes_to_rest_there(void **unused) {
   (void)unused;
   const double expected = tip_of(16);
-  hooke_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
+  owned_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
   double q[3 * 17];
   run_to_end(system, (struct run){.method = "backward-euler", .step = 0.5, .duration = 5.0, .every = 5.0}, q,
              NULL);
   check_close(-q[3 * 17 - 1], expected, 1e-6 * expected);
-  hooke_system_destroy(system);
 }
 
 /* ---- sheets ---- */

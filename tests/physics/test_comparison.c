@@ -65,9 +65,9 @@ static double true_error(const struct reference *reference, const hooke_system *
 static void errors_are_true_errors(void **unused) {
   (void)unused;
   const struct reference *reference = find_reference("six-particles");
-  hooke_system *system = build_reference(reference);
+  owned_system *system = build_reference(reference);
   const struct run run = {.step = 1e-3, .duration = 1.0, .every = 0.1};
-  hooke_measurement *comparison = compare(system, run, NULL);
+  owned_measurement *comparison = compare(system, run, NULL);
   check_ok(hooke_measurement_run(comparison, NULL));
   assert_int_equal(hooke_measurement_row_count(comparison, "rows"), hooke_method_count());
   int64_t judged = 0;
@@ -100,14 +100,12 @@ static void errors_are_true_errors(void **unused) {
               0.1 * figure(comparison, "symplectic-euler", "error"));
   assert_true(hooke_measurement_series(comparison, "rows", row, "energy_drift_at", NULL)[10] > 0.0);
   assert_int_equal((int)figure(comparison, "symplectic-euler", "force_evaluations"), 1000);
-  hooke_measurement_destroy(comparison);
-  hooke_system_destroy(system);
 }
 
 static void a_diverged_row_stays(void **unused) {
   (void)unused;
-  hooke_system *system = small_oscillator(100.0);
-  hooke_measurement *comparison = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5},
+  owned_system *system = small_oscillator(100.0);
+  owned_measurement *comparison = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5},
                                           "symplectic-euler, cvode-adams");
   check_ok(hooke_measurement_run(comparison, NULL));
   assert_int_equal(hooke_measurement_row_count(comparison, "rows"), 2);
@@ -117,8 +115,6 @@ static void a_diverged_row_stays(void **unused) {
   assert_string_equal(hooke_measurement_text(comparison, "rows", 1, "status"), "finished");
   check_between(hooke_measurement_number(comparison, "rows", 1, "error"), 0.0, 0.1);
   check_status(hooke_measurement_run(comparison, NULL), HOOKE_BAD_CALL);
-  hooke_measurement_destroy(comparison);
-  hooke_system_destroy(system);
 }
 
 static int32_t stop_at_half(double done, const char *what, void *ctx) {
@@ -129,8 +125,8 @@ static int32_t stop_at_half(double done, const char *what, void *ctx) {
 
 static void progress_goes_on_and_stops(void **unused) {
   (void)unused;
-  hooke_system *system = small_oscillator(10.0);
-  hooke_measurement *comparison =
+  owned_system *system = small_oscillator(10.0);
+  owned_measurement *comparison =
       compare(system, (struct run){.step = 1e-3, .duration = 2.0, .every = 0.1}, NULL);
   double done = -1.0;
   hooke_measurement_on_progress(comparison, stop_at_half, &done);
@@ -139,20 +135,17 @@ static void progress_goes_on_and_stops(void **unused) {
   const int64_t last = hooke_measurement_row_count(comparison, "rows") - 1;
   assert_string_equal(hooke_measurement_text(comparison, "rows", 0, "status"), "finished");
   assert_string_equal(hooke_measurement_text(comparison, "rows", last, "status"), "not run");
-  hooke_measurement_destroy(comparison);
-  hooke_system_destroy(system);
 }
 
 static void bad_requests(void **unused) {
   (void)unused;
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   hooke_measurement *comparison = compare(system, (struct run){.step = 1e-3}, NULL);
   check_status(hooke_measurement_run(comparison, NULL), HOOKE_BAD_VALUE);
   check_message("duration");
   hooke_measurement_destroy(comparison);
   check_status(create(system, (struct run){.step = 1e-3}, "no-such-method", &comparison), HOOKE_BAD_VALUE);
   check_message("no-such-method");
-  hooke_system_destroy(system);
 }
 
 /* The oscillator of small.h, of another length [m]. */
@@ -170,16 +163,14 @@ static void errors_scale_with_the_scene(void **unused) {
   const double length[] = {1.0, 1e-6, 1e-9};
   double share[3];
   for (int k = 0; k < 3; k++) {
-    hooke_system *system = oscillator_of_length(length[k]);
-    hooke_measurement *comparison =
+    owned_system *system = oscillator_of_length(length[k]);
+    owned_measurement *comparison =
         compare(system, (struct run){.step = 0.01, .duration = 2.0, .every = 0.1}, "rk4");
     check_ok(hooke_measurement_run(comparison, NULL));
     share[k] = figure(comparison, "rk4", "error_max") / length[k];
     check_between(hooke_measurement_number(comparison, "reference", 0, "agreement"), 1e-16 * length[k],
                   1e-2 * share[k] * length[k]);
     check_close(hooke_measurement_number(comparison, "reference", 0, "trusted_until"), 2.0, 1e-12);
-    hooke_measurement_destroy(comparison);
-    hooke_system_destroy(system);
   }
   /* rk4 is behind by (omega step)^4 / 120 of a turn of omega t: 1.7e-5 */
   check_between(share[0], 1e-5, 3e-5);
@@ -190,8 +181,8 @@ static void errors_scale_with_the_scene(void **unused) {
 /* Chaotic motion is compared as long as the reference is known, and no further. */
 static void chaos_is_compared_for_a_while(void **unused) {
   (void)unused;
-  hooke_system *system = small_crumpling_cloth(4);
-  hooke_measurement *comparison =
+  owned_system *system = small_crumpling_cloth(4);
+  owned_measurement *comparison =
       compare(system, (struct run){.step = 1e-3, .duration = 6.0, .every = 0.1}, "rk4");
   check_ok(hooke_measurement_run(comparison, NULL));
   const double until = hooke_measurement_number(comparison, "reference", 0, "trusted_until");
@@ -202,8 +193,6 @@ static void chaos_is_compared_for_a_while(void **unused) {
   check_between(error[last], 0.0, 1.0);
   assert_true(isnan(error[last + 1]));
   check_close(figure(comparison, "rk4", "error_final"), error[last], 0.0);
-  hooke_measurement_destroy(comparison);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -149,12 +149,11 @@ static void test_blocks_are_products(void **unused) {
       }
     }
     /* either array may be left out */
-    double *again = new_doubles(9 * blocks.count);
+    owned_doubles *again = new_doubles(9 * blocks.count);
     check_ok(hooke_system_derivative_blocks(scene.system, scene.q, scene.v, again, NULL));
     check_same_bits(9 * blocks.count, again, blocks.dfdq);
     check_ok(hooke_system_derivative_blocks(scene.system, scene.q, scene.v, NULL, again));
     check_same_bits(9 * blocks.count, again, blocks.dfdv);
-    free(again);
     free(matrix);
     release_blocks(&blocks);
     law_scene_destroy(&scene);
@@ -198,7 +197,7 @@ static void test_symmetry(void **unused) {
   for (int k = 0; k < LAW_COUNT; k++) {
     struct law_scene scene;
     struct blocks blocks;
-    double *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
+    owned_doubles *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
     law_scene_create(&laws[k], 31, &scene);
     take_blocks(&scene, &blocks);
     dense(&blocks, blocks.dfdv, matrix);
@@ -209,7 +208,6 @@ static void test_symmetry(void **unused) {
       check_between(asymmetry(matrix), 1e-3 * size, 10.0 * size);
     else
       check_between(asymmetry(matrix), 0.0, 1e-14 * size);
-    free(matrix);
     release_blocks(&blocks);
     law_scene_destroy(&scene);
   }

@@ -23,8 +23,8 @@ static struct extrapolation problem_of(struct long_force *force, long double tol
 /* ---- solutions ---- */
 
 static double worst_error(const struct reference *reference, long double tolerance) {
-  hooke_system *system = build_reference(reference);
-  hooke_state *state = start_state(system);
+  owned_system *system = build_reference(reference);
+  owned_state *state = start_state(system);
   const int64_t size = 3 * reference->particle_count;
   struct canonical canonical;
   canonical_create(system, &canonical);
@@ -44,8 +44,6 @@ static double worst_error(const struct reference *reference, long double toleran
   }
   free(y);
   canonical_destroy(&canonical);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
   return (double)worst;
 }
 
@@ -70,7 +68,7 @@ static void compare_forces(uint64_t seed, int32_t features) {
                                                     .features = features},
                       &scene);
   const int64_t size = 3 * scene.canonical.particle_count;
-  double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
   long double *y = new_block(2 * size, (int64_t)sizeof *y), *f = new_block(2 * size, (int64_t)sizeof *f);
   random_scene_shake(&scene, seed, q, v);
   canonical_acceleration(&scene.canonical, 0.0, q, v, a);
@@ -86,9 +84,6 @@ static void compare_forces(uint64_t seed, int32_t features) {
     check_close((double)f[k], held ? 0.0 : v[k], 0.0);
     check_close((double)f[size + k], a[k], 1e-12 * scale);
   }
-  free(q);
-  free(v);
-  free(a);
   free(y);
   free(f);
   random_scene_destroy(&scene);
@@ -137,8 +132,8 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
   const double gravity[3] = {0.0, -9.81, 1.0};
   double a[3 * NET];
   long double y[6 * NET], f[6 * NET];
-  hooke_system *system = make_net(q, pinned, overdamped);
-  hooke_state *state = start_state(system);
+  owned_system *system = make_net(q, pinned, overdamped);
+  owned_state *state = start_state(system);
   struct canonical canonical;
   canonical_create(system, &canonical);
   canonical.gravity = gravity;
@@ -162,8 +157,6 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
     check_close((double)f[(overdamped ? 3 * NET : 0) + k], overdamped ? 0.0 : v[k], 0.0);
   }
   canonical_destroy(&canonical);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 static void test_bodies(void **unused) {
@@ -184,7 +177,7 @@ static void test_overdamped(void **unused) {
 static void compare_motion(const struct long_drive *drive, double t) {
   const double origin[3] = {0.3, -0.2, 0.1}, mass = 1.0;
   const int64_t one = 0;
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
   if (drive->samples > 0)
@@ -192,8 +185,8 @@ static void compare_motion(const struct long_drive *drive, double t) {
   else
     check_ok(hooke_system_drive_harmonic(system, 1, &one, drive->amplitude, drive->frequency, drive->phase));
   check_ok(hooke_system_commit(system));
-  hooke_state *state = start_state(system);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
+  owned_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
   hooke_state_set_time(state, t);
   check_ok(hooke_integrator_step(integrator, state, 0));
   long double d[3], u[3];
@@ -202,9 +195,6 @@ static void compare_motion(const struct long_drive *drive, double t) {
     check_close(hooke_state_position(state)[a], origin[a] + (double)d[a], 1e-14);
     check_close(hooke_state_velocity(state)[a], (double)u[a], 1e-12);
   }
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 static void test_motions(void **unused) {

@@ -172,8 +172,8 @@ static void drift(const char *method, double *momentum, double *angular) {
   law_scene_create(&laws[1], 5, &scene);
   memcpy(q, scene.q, sizeof q);
   memcpy(v, scene.v, sizeof v);
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
+  owned_system *system = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_system_create(&system));
   for (int p = 0; p < LAW_PARTICLES; p++)
     mass[p] = 0.5 + 0.1 * p;
@@ -184,7 +184,6 @@ static void drift(const char *method, double *momentum, double *angular) {
   check_ok(hooke_options_set_number(options, "rest_scale", 0.8));
   check_ok(hooke_system_add_springs(system, NULL, LAW_SPRINGS, scene.ends, options));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   for (int k = 0; k < LAW_SIZE; k++)
     size += mass[k / 3] * fabs(v[k]);
 
@@ -197,7 +196,6 @@ static void drift(const char *method, double *momentum, double *angular) {
   *momentum = largest_difference(3, before, after) / size;
   *angular = largest_difference(3, before + 3, after + 3) / size;
   assert_true(largest_difference(LAW_SIZE, q, scene.q) > 0.1); /* it did move */
-  hooke_system_destroy(system);
   law_scene_destroy(&scene);
 }
 
@@ -218,7 +216,7 @@ static void test_momentum_of_two(void **unused) {
   const double q[] = {1, 0, 0, 0, 2, 0, 5, 5, 5}, v[] = {0, 3, 0, 0, 0, 4, 0, 0, 0}, mass[] = {2, 0.5, 9};
   const int64_t pinned = 2;
   double momentum[3], angular[3];
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 3, q, v, 3, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
@@ -229,7 +227,6 @@ static void test_momentum_of_two(void **unused) {
   check_same_bits(3, momentum, expected);
   check_same_bits(3, angular, expected_angular);
   check_close(hooke_system_energy(system, "kinetic", NULL, v), 0.5 * (2 * 9 + 0.5 * 16), 1e-15);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -23,7 +23,7 @@ static void add_marks(hooke_system *system, int64_t count) {
 /* A cloth that hangs from its upper corners, with `before` and `after` idle particles. */
 static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
   hooke_system *system;
-  hooke_options *cloth;
+  owned_options *cloth;
   const double origin[3] = {0, 0, 0}, edges[6] = {1, 0, 0, 0, 0, 1}, size[2] = {12, 11};
   const double gravity[3] = {0, -9.81, 0};
   check_ok(hooke_system_create(&system));
@@ -38,7 +38,6 @@ static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
   check_ok(hooke_options_set_number(cloth, "structural.damping", damping));
   check_ok(hooke_options_set_number(cloth, "shear.stiffness", 20));
   check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  hooke_options_destroy(cloth);
   add_marks(system, after);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.01));
@@ -47,11 +46,11 @@ static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
 }
 
 static void check_method(const char *method, int64_t before, int64_t after, double damping) {
-  hooke_system *alone = new_scene(0, 0, damping), *among = new_scene(before, after, damping);
+  owned_system *alone = new_scene(0, 0, damping), *among = new_scene(before, after, damping);
   const int64_t n = hooke_system_particle_count(alone), all = hooke_system_particle_count(among);
   const struct run run = {.method = method, .step = 1e-3, .duration = 0.05, .every = 0.01};
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *q2 = new_doubles(3 * all),
-         *v2 = new_doubles(3 * all);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *q2 = new_doubles(3 * all),
+                *v2 = new_doubles(3 * all);
   assert_int_equal(all, n + before + after);
   assert_int_equal(hooke_system_count(among, "idle"), before + after);
   assert_int_equal(hooke_system_count(alone, "idle"), 0);
@@ -66,20 +65,13 @@ static void check_method(const char *method, int64_t before, int64_t after, doub
   } else {
     check_between(largest_difference(3 * n, q2 + 3 * before, q), 0.0, is_fixed_step(method) ? 1e-13 : 1e-7);
   }
-  hooke_state *state = start_state(among);
+  owned_state *state = start_state(among);
   const double *at = hooke_state_position(state);
   check_same_bits(3 * before, q2, at);
   check_same_bits(3 * after, q2 + 3 * (before + n), at + 3 * (before + n));
   for (int64_t k = 0; k < 3 * all; k++) {
     if (k < 3 * before || k >= 3 * (before + n)) assert_true(v2[k] == 0.0);
   }
-  hooke_state_destroy(state);
-  hooke_system_destroy(alone);
-  hooke_system_destroy(among);
-  free(q);
-  free(v);
-  free(q2);
-  free(v2);
 }
 
 static void marks_change_nothing(void **state) {

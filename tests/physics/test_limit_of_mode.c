@@ -49,7 +49,7 @@ static hooke_system *build_one(double damping, int as_body) {
   const double q[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, mass = 0.5;
   const int64_t ends[2] = {0, 1}, pinned = 0;
   hooke_system *system;
-  hooke_options *options;
+  owned_options *options;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
@@ -58,7 +58,6 @@ static hooke_system *build_one(double damping, int as_body) {
   check_ok(hooke_options_set_number(options, "damping", damping));
   check_ok(hooke_options_set_number(options, "rest_length", 1.0));
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
-  hooke_options_destroy(options);
   if (as_body) check_ok(hooke_system_add_body(system, NULL, 1, ends + 1, 0));
   check_ok(hooke_system_commit(system));
   return system;
@@ -80,8 +79,8 @@ static void test_an_oscillator(void **ctx) {
   (void)ctx;
   const double dampings[] = {0.4, 3.0, 12.0, 90.0};
   for (int j = 0; j < 4; j++) {
-    hooke_system *system = build(dampings[j]);
-    hooke_measurement *limit = make(system);
+    owned_system *system = build(dampings[j]);
+    owned_measurement *limit = make(system);
     check_ok(hooke_measurement_run(limit, NULL)); /* the initial state */
     const double w = sqrt(40.0), d = dampings[j]; /* 20/0.5, and gamma/0.5 = 2 d */
     for (int64_t k = 0; k < hooke_measurement_row_count(limit, "rows"); k++) {
@@ -97,8 +96,6 @@ static void test_an_oscillator(void **ctx) {
       check_close(hooke_measurement_number(limit, "modes", k, "frequency"), w, 1e-12 * w);
       check_close(hooke_measurement_number(limit, "modes", k, "decay"), d, 1e-12 * d);
     }
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
@@ -109,15 +106,13 @@ static double radius(const hooke_system *system, const char *method, double h) {
   double m[2][2];
   for (int k = 0; k < 2; k++) {
     const double by = 1e-3;
-    hooke_integrator *it = start_run(system, (struct run){.method = method, .step = h});
-    hooke_state *state = start_state(system);
+    owned_integrator *it = start_run(system, (struct run){.method = method, .step = h});
+    owned_state *state = start_state(system);
     double *x = hooke_state_position(state) + 3, *v = hooke_state_velocity(state) + 3;
     *(k == 0 ? x : v) += by;
     check_ok(hooke_integrator_step(it, state, 1));
     m[0][k] = (*x - 1.0) / by;
     m[1][k] = *v / by;
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(it);
   }
   const double half = 0.5 * (m[0][0] + m[1][1]), product = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   const double root = half * half - product;
@@ -147,8 +142,8 @@ static void test_limits_are_those_of_the_steps(void **ctx) {
   for (int k = 0; k < 12; k++) {
     const double decay = ratios[k % 6] * w;
     const int as_body = k >= 6;
-    hooke_system *system = build_one(decay, as_body);
-    hooke_measurement *limit = as_body ? make(system) : NULL;
+    owned_system *system = build_one(decay, as_body);
+    owned_measurement *limit = as_body ? make(system) : NULL;
     if (limit) check_ok(hooke_measurement_run(limit, NULL));
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
@@ -158,8 +153,6 @@ static void test_limits_are_those_of_the_steps(void **ctx) {
                   limit ? hooke_measurement_number(limit, "rows", row, "predicted") : of(method, w, decay),
                   w);
     }
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
@@ -170,9 +163,9 @@ static int32_t stop(double done, const char *what, void *ctx) {
 
 static void test_reports_that_are_refused(void **ctx) {
   (void)ctx;
-  hooke_system *system = build(1.0), *other;
-  hooke_measurement *limit = make(system);
-  hooke_state *foreign;
+  owned_system *system = build(1.0), *other;
+  owned_measurement *limit = make(system);
+  owned_state *foreign;
   assert_int_equal(hooke_measurement_write(limit, "page.html"), HOOKE_BAD_CALL);
   hooke_measurement_on_progress(limit, stop, NULL);
   assert_int_equal(hooke_measurement_run(limit, NULL), HOOKE_STOPPED);
@@ -185,10 +178,6 @@ static void test_reports_that_are_refused(void **ctx) {
   assert_int_equal(hooke_measurement_run(limit, foreign), HOOKE_BAD_VALUE);
   check_ok(hooke_measurement_run(limit, NULL));
   assert_int_equal(hooke_measurement_write(limit, "page.pdf"), HOOKE_BAD_VALUE);
-  hooke_state_destroy(foreign);
-  hooke_system_destroy(other);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

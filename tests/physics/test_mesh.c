@@ -94,12 +94,11 @@ static hooke_system *build_with(const struct mesh *mesh, const char *option, dou
 /* ---- springs ---- */
 
 static void check_euler(struct mesh mesh, int64_t characteristic, int64_t border) {
-  hooke_system *system = build_with(&mesh, "mass", 1);
+  owned_system *system = build_with(&mesh, "mass", 1);
   const int64_t edges = hooke_system_group_size(system, "springs", 0);
   assert_int_equal(mesh.vertices - edges + mesh.triangles, characteristic);
   assert_int_equal(2 * edges, 3 * mesh.triangles + border);
   assert_int_equal(hooke_system_group_size(system, "springs", 1), edges - border);
-  hooke_system_destroy(system);
 }
 
 static void edges_obey_euler(void **unused) {
@@ -113,11 +112,11 @@ static void edges_obey_euler(void **unused) {
 static void springs_are_in_order(void **unused) {
   (void)unused;
   struct mesh mesh = sheet(5, 4);
-  hooke_system *system = build_with(&mesh, "mass", 1);
+  owned_system *system = build_with(&mesh, "mass", 1);
   const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
-  double *material = new_doubles(3 * count);
+  owned_doubles *material = new_doubles(3 * count);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(system, "springs", NULL, material, material + count, material + 2 * count));
   assert_string_equal(hooke_system_group_name(system, "springs", 0), "m.structural");
@@ -154,9 +153,7 @@ static void springs_are_in_order(void **unused) {
     check_close(material[2 * count + k], sqrt(x * x + y * y + z * z), 1e-15);
     check_close(material[k] * material[2 * count + k], k < edges ? 30.0 : 4.0, 1e-13);
   }
-  free(material);
   free(ends);
-  hooke_system_destroy(system);
 }
 
 /* ---- masses ---- */
@@ -197,20 +194,18 @@ static void damping_by_ratio_is_that_of_both_ends(void **unused) {
   hooke_options *options = options_of(&mesh);
   check_ok(hooke_options_set_number(options, "mass", 0.6));
   check_ok(hooke_options_set_number(options, "structural.damping_ratio", 0.3));
-  hooke_system *system = build(options);
+  owned_system *system = build(options);
   const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
-  double *kappa = new_doubles(3 * count);
+  owned_doubles *kappa = new_doubles(3 * count);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(system, "springs", NULL, kappa, kappa + count, kappa + 2 * count));
   for (int64_t k = 0; k < edges; k++) {
     const double a = hooke_system_mass(system)[ends[2 * k]], b = hooke_system_mass(system)[ends[2 * k + 1]];
     check_close(kappa[count + k], 2 * 0.3 * sqrt(kappa[k] / (1 / a + 1 / b)), 1e-14);
   }
-  free(kappa);
   free(ends);
-  hooke_system_destroy(system);
 }
 
 /* ---- vertices ---- */
@@ -235,10 +230,10 @@ static void vertices_at_one_place_are_one(void **unused) {
     if (s == kept) memcpy(expected + 3 * kept, shared.vertex + 3 * v, 3 * sizeof(double));
     if (s == kept) seen[kept++] = v;
   }
-  hooke_system *system = build_with(&loose, "mass", 1);
+  owned_system *system = build_with(&loose, "mass", 1);
   assert_int_equal(hooke_system_particle_count(system), 12);
   assert_int_equal(hooke_system_count(system, "springs"), 60);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   for (int k = 0; k < 36; k++)
     check_close(hooke_state_position(state)[k], expected[k], 0.0);
   int told = 0;
@@ -248,17 +243,14 @@ static void vertices_at_one_place_are_one(void **unused) {
     told++;
   }
   assert_int_equal(told, 1);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 static int64_t particles_with_weld(const struct mesh *mesh, double weld) {
   hooke_options *options = options_of(mesh);
   check_ok(hooke_options_set_number(options, "mass", 1));
   check_ok(hooke_options_set_number(options, "weld", weld));
-  hooke_system *system = build(options);
+  owned_system *system = build(options);
   const int64_t count = hooke_system_particle_count(system);
-  hooke_system_destroy(system);
   return count;
 }
 
@@ -287,26 +279,22 @@ static void the_transform_scales_then_moves(void **unused) {
   check_ok(hooke_options_set_number(options, "mass", 1));
   check_ok(hooke_options_set_number(options, "transform.scale", 0.25));
   check_ok(hooke_options_set_numbers(options, "transform.translate", 3, (double[]){1, 2, 3}));
-  hooke_system *system = build(options);
-  hooke_state *state = start_state(system);
+  owned_system *system = build(options);
+  owned_state *state = start_state(system);
   for (int k = 0; k < 36; k++)
     check_close(hooke_state_position(state)[k], 0.25 * mesh.vertex[k] + 1 + k % 3, 0.0);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- refusals ---- */
 
 static void check_refused(struct mesh mesh, const char *message) {
-  hooke_options *options = options_of(&mesh);
-  hooke_system *system;
+  owned_options *options = options_of(&mesh);
+  owned_system *system;
   check_ok(hooke_options_set_number(options, "mass", 1));
   check_ok(hooke_system_create(&system));
   check_status(hooke_system_add_part(system, "mesh", NULL, options, NULL, NULL), HOOKE_BAD_VALUE);
   check_message(message);
   assert_int_equal(hooke_system_particle_count(system), 0);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 static void planted_faults_are_found(void **unused) {
@@ -345,8 +333,8 @@ static void planted_faults_are_found(void **unused) {
 
 static void a_mesh_needs_its_numbers(void **unused) {
   (void)unused;
-  hooke_options *options, *rope;
-  hooke_system *system;
+  owned_options *options, *rope;
+  owned_system *system;
   const struct mesh mesh = icosahedron();
   check_ok(hooke_options_create("rope", &rope));
   check_status(hooke_mesh_set(rope, 12, mesh.vertex, 20, mesh.triangle), HOOKE_BAD_VALUE);
@@ -361,9 +349,6 @@ static void a_mesh_needs_its_numbers(void **unused) {
   check_ok(hooke_system_create(&system));
   check_status(hooke_system_add_part(system, "mesh", NULL, options, NULL, NULL), HOOKE_BAD_VALUE);
   check_message("hooke_mesh_read()");
-  hooke_options_destroy(options);
-  hooke_options_destroy(rope);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -14,7 +14,7 @@ static void test_coincident_ends(void **unused) {
   const double q[] = {0, 0, 0, 1, 2, 3, 1, 2, 3, 4, 2, 3}, v[] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0};
   const int64_t ends[] = {1, 2, 2, 1, 2, 3};
   double a[12];
-  hooke_system *system = small_system(4, q, v, 1.0, 1);
+  owned_system *system = small_system(4, q, v, 1.0, 1);
   small_springs(system, 2, ends, (struct springs){.stiffness = 100, .damping = 5, .rest_length = 0.5});
   small_springs(system, 1, ends + 4, (struct springs){.stiffness = 100, .rest_length = 3.0});
   check_ok(hooke_system_commit(system));
@@ -24,8 +24,8 @@ static void test_coincident_ends(void **unused) {
     check_close(a[k], 0.0, 0.0); /* the third spring is at rest */
 
   /* the run counts them too, and there are none once the ends have parted */
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 1e-3});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 1e-3});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 1));
   assert_int_equal(hooke_integrator_count(integrator, "coincident_springs"), 2);
   check_ok(hooke_integrator_step(integrator, state, 1));
@@ -33,9 +33,6 @@ static void test_coincident_ends(void **unused) {
   assert_int_equal(hooke_system_coincident_springs(system, hooke_state_position(state)), 0);
   for (int k = 0; k < 12; k++)
     assert_true(isfinite(hooke_state_position(state)[k]));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* With rest length 0 the force is -k x everywhere: smooth at the origin, and not counted as coincident. */
@@ -63,20 +60,17 @@ static void test_springs_without_length(void **unused) {
 static void fall(double damping, double drag, double h, int64_t steps, double *velocity, double *height) {
   const double q[] = {0, 0, 0, 1, 0.3, 0}, v[] = {0, 0, 0, 0, 0, 2}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, v, 0.5, 0);
+  owned_system *system = small_system(2, q, v, 0.5, 0);
   small_springs(system, 1, ends, (struct springs){.stiffness = 20, .damping = damping, .rest_length = 0.7});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, steps));
   const double *x = hooke_state_position(state), *u = hooke_state_velocity(state);
   *height = 0.5 * (x[1] + x[4]) - 0.15;
   *velocity = 0.5 * (u[1] + u[4]);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 static void test_drag_or_damping(void **unused) {
@@ -101,7 +95,7 @@ static void test_drag_or_damping(void **unused) {
  * number of segments. */
 static double hanging_length(const char *law, int64_t segments, double step) {
   const double gravity[] = {0, 0, -10}, piece = 1.0 / (double)segments;
-  double *q = new_doubles(3 * (segments + 1)), *mass = new_doubles(segments + 1);
+  owned_doubles *q = new_doubles(3 * (segments + 1)), *mass = new_doubles(segments + 1);
   int64_t *ends = new_block(2 * segments, (int64_t)sizeof(int64_t)), first = 0;
   for (int64_t k = 0; k <= segments; k++) {
     q[3 * k + 2] = -(double)k * piece;
@@ -110,7 +104,7 @@ static double hanging_length(const char *law, int64_t segments, double step) {
   for (int64_t k = 0; k < 2 * segments; k++)
     ends[k] = (k + 1) / 2;
   mass[segments] = 0.2 * piece + 0.2;
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, segments + 1, q, NULL, segments + 1, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &first));
@@ -118,16 +112,11 @@ static double hanging_length(const char *law, int64_t segments, double step) {
                 (struct springs){.law = law, .stiffness = 16, .damping = 1.2, .rest_length = piece});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = step});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = step});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 500000));
   const double length = -hooke_state_position(state)[3 * segments + 2];
   check_between(largest(3 * (segments + 1), hooke_state_velocity(state)), 0.0, 1e-6); /* it hangs still */
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
-  free(q);
-  free(mass);
   free(ends);
   return length;
 }
@@ -156,7 +145,7 @@ static void test_pinned_never_move(void **unused) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
     double end[9], speed[9];
-    hooke_system *system = small_system(3, q, NULL, 1.0, 1);
+    owned_system *system = small_system(3, q, NULL, 1.0, 1);
     small_springs(system, 3, ends, (struct springs){.stiffness = 30, .damping = 0.3, .rest_length = 0.4});
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_set_drag(system, 0.1));
@@ -166,7 +155,6 @@ static void test_pinned_never_move(void **unused) {
     check_same_bits(3, end, q);
     check_same_bits(3, speed, zero);
     assert_true(fabs(end[3] - q[3]) > 1e-2);
-    hooke_system_destroy(system);
   }
 }
 
@@ -186,7 +174,7 @@ static void test_cables(void **unused) {
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const double q[] = {0, 0, 0, cases[k].distance, 0, 0}, v[] = {0, 0, 0, cases[k].velocity, 0, 0};
     double force[6];
-    hooke_system *system = small_system(2, q, v, 1.0, 0);
+    owned_system *system = small_system(2, q, v, 1.0, 0);
     small_springs(
         system, 1, ends,
         (struct springs){.law = "length", .stiffness = 100, .damping = 3, .rest_length = 1, .pull_only = 1});
@@ -196,7 +184,6 @@ static void test_cables(void **unused) {
     check_close(force[3], -cases[k].pull, cases[k].pull == 0.0 ? 0.0 : 1e-13);
     const double stretch = fmax(0.0, cases[k].distance - 1.0);
     check_close(hooke_system_energy(system, "springs", q, NULL), 50.0 * stretch * stretch, 1e-14);
-    hooke_system_destroy(system);
   }
 }
 
@@ -204,7 +191,7 @@ static void test_cables(void **unused) {
 static void test_forces_that_are_there(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -1, 0};
-  hooke_system *empty = small_system(2, q, NULL, 1.0, 0), *full = small_system(2, q, NULL, 1.0, 0);
+  owned_system *empty = small_system(2, q, NULL, 1.0, 0), *full = small_system(2, q, NULL, 1.0, 0);
   const int64_t ends[] = {0, 1};
   small_springs(full, 1, ends, (struct springs){.stiffness = 1, .rest_length = -1});
   check_ok(hooke_system_set_gravity(full, gravity));
@@ -218,8 +205,6 @@ static void test_forces_that_are_there(void **unused) {
   for (int64_t k = 0; k < 3; k++)
     assert_string_equal(hooke_system_force_name(full, k), expected[k]);
   assert_null(hooke_system_force_name(full, 3));
-  hooke_system_destroy(empty);
-  hooke_system_destroy(full);
 }
 
 /* Without damping velocities are not read: not even a NaN there affects the forces. */
@@ -229,12 +214,11 @@ static void test_velocities_are_not_read(void **unused) {
   const int64_t ends[] = {0, 1};
   double force[6];
   for (int damped = 0; damped < 2; damped++) {
-    hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+    owned_system *system = small_system(2, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 10, .damping = damped, .rest_length = 0.5});
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_force(system, 0.0, q, lost, force));
     assert_int_equal(isfinite(force[0]) != 0, !damped);
-    hooke_system_destroy(system);
   }
 }
 

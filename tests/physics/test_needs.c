@@ -33,7 +33,7 @@ static hooke_measurement *start(const hooke_system *system, struct run run, doub
 /* A rope that hangs from its start, released unstretched; with weak springs two apart. */
 static hooke_system *hanging_rope(int segments, double bend) {
   hooke_system *system;
-  hooke_options *rope;
+  owned_options *rope;
   const double from[3] = {0, 0, 0}, to[3] = {0, -1, 0}, gravity[3] = {0, -9.81, 0};
   const int64_t first = 0;
   check_ok(hooke_system_create(&system));
@@ -49,7 +49,6 @@ static hooke_system *hanging_rope(int segments, double bend) {
   check_ok(hooke_system_pin(system, 1, &first));
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(rope);
   return system;
 }
 
@@ -83,23 +82,20 @@ static int32_t keep_frame(int64_t step, const hooke_state *state, void *ctx) {
 /* All particles but the first at every frame; of a finer rope those that the coarse one has, too. */
 static struct frames *run_frames(const hooke_system *system, const hooke_options *options, int64_t every) {
   struct frames *frames = new_block(1, sizeof *frames);
-  hooke_integrator *integrator;
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator;
+  owned_state *state = start_state(system);
   frames->every = every;
   frames->size = 3 * ((hooke_system_particle_count(system) - 1) / every);
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, keep_frame, frames));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   return frames;
 }
 
 static struct frames *run_fine(const hooke_system *system, double step, int64_t every) {
-  hooke_options *options =
+  owned_options *options =
       run_options((struct run){.method = "rk4", .step = step, .duration = 0.5, .every = 0.02});
   struct frames *frames = run_frames(system, options, every);
-  hooke_options_destroy(options);
   return frames;
 }
 
@@ -124,8 +120,8 @@ static const struct run half_a_second = {.method = "rk4", .duration = 0.5, .ever
 static void changes_are_those_of_runs_made_apart(void **state) {
   (void)state;
   const double want = 1e-3;
-  hooke_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
-  hooke_measurement *needs = start(system, half_a_second, want, NULL);
+  owned_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
+  owned_measurement *needs = start(system, half_a_second, want, NULL);
   check_ok(hooke_measurement_run(needs, NULL));
   struct frames *full = run_fine(system, 1e-4, 1), *no_bend = run_fine(without, 1e-4, 1);
   const int64_t bend = row_of(needs, "rope.bend");
@@ -157,9 +153,6 @@ static void changes_are_those_of_runs_made_apart(void **state) {
   check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_CALL);
   free(full);
   free(no_bend);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
-  hooke_system_destroy(without);
 }
 
 /* ---- errors and costs of the two runs within the want ---- */
@@ -195,23 +188,21 @@ static void check_said(const hooke_measurement *needs, const char *table, const 
 static void errors_include_that_of_the_full_run(void **state) {
   (void)state;
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
-  hooke_system *system = hanging_rope(12, 1e-3);
+  owned_system *system = hanging_rope(12, 1e-3);
   struct frames *truth = run_fine(system, 1e-4, 1);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     if (!hooke_method_is_built(methods[k])) continue;
     struct run run = half_a_second;
     run.method = methods[k];
-    hooke_measurement *needs = start(system, run, 3e-4, NULL);
+    owned_measurement *needs = start(system, run, 3e-4, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     const double own = hooke_measurement_number(needs, "full", 0, "own_error");
     check_between(own, 1e-10, 0.0625 * 3e-4);
     assert_int_equal(hooke_system_particle_count(hooke_needs_lean(needs)), 13);
     check_said(needs, "lean", hooke_needs_lean(needs), truth);
     check_said(needs, "cheapest", system, truth);
-    hooke_measurement_destroy(needs);
   }
   free(truth);
-  hooke_system_destroy(system);
 }
 
 /* By a method of order 1, whose error alone limits the step: omitting weak springs saves no steps, though the
@@ -221,9 +212,9 @@ static void savings_are_those_at_equal_error(void **state) {
   const double want = 4e-4;
   struct run run = half_a_second;
   run.method = "symplectic-euler";
-  hooke_system *system = hanging_rope(12, 1e-5);
+  owned_system *system = hanging_rope(12, 1e-5);
   struct frames *truth = run_fine(system, 1e-4, 1);
-  hooke_measurement *needs = start(system, run, want, "0-12");
+  owned_measurement *needs = start(system, run, want, "0-12");
   check_ok(hooke_measurement_run(needs, NULL));
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "rope.bend"), "left_out") == 1.0);
   const double lean = hooke_measurement_number(needs, "lean", 0, "steps"),
@@ -238,16 +229,13 @@ static void savings_are_those_at_equal_error(void **state) {
   struct frames *within = run_found(needs, system, "cheapest");
   run.step = half_a_second.every /
              floor(half_a_second.every / hooke_measurement_number(needs, "cheapest", 0, "step") / 1.4);
-  hooke_options *coarse = run_options(run);
+  owned_options *coarse = run_options(run);
   struct frames *beyond = run_frames(system, coarse, 1);
   check_between(distance(truth, within), 0.6 * want, want);
   check_between(distance(truth, beyond), want, 2.0 * want);
-  hooke_options_destroy(coarse);
   free(within);
   free(beyond);
   free(truth);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 /* ---- scenes without motion ---- */
@@ -272,7 +260,7 @@ static hooke_measurement *find_hung(const hooke_system *system) {
 
 static void a_scene_that_rests_is_told_so(void **state) {
   (void)state;
-  hooke_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
+  owned_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
                *moving = hung_mass(9.81, 0.1);
   hooke_measurement *needs = find_hung(rest);
   assert_non_null(strstr(hooke_measurement_text(needs, "needs", 0, "note"), "nothing moves"));
@@ -304,10 +292,6 @@ static void a_scene_that_rests_is_told_so(void **state) {
   assert_string_equal(hooke_measurement_text(needs, "needs", 0, "note"), "");
   check_between(hooke_measurement_number(needs, "full", 0, "moved"), 0.19, 0.2);
   hooke_measurement_destroy(needs);
-  hooke_system_destroy(rest);
-  hooke_system_destroy(balance);
-  hooke_system_destroy(little);
-  hooke_system_destroy(moving);
 }
 
 /* ---- resolutions ---- */
@@ -315,8 +299,8 @@ static void a_scene_that_rests_is_told_so(void **state) {
 /* The remaining error at 8 pieces, predicted from 8, 16 and 32, compared with 128. */
 static void refinement_predicts_a_much_finer_rope(void **state) {
   (void)state;
-  hooke_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
-  hooke_measurement *needs = make(coarse, half_a_second, 1e-4, NULL, 1);
+  owned_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
+  owned_measurement *needs = make(coarse, half_a_second, 1e-4, NULL, 1);
   check_ok(hooke_measurement_run(needs, NULL));
   assert_int_equal(hooke_measurement_row_count(needs, "parts"), 1);
   assert_string_equal(hooke_measurement_text(needs, "parts", 0, "part"), "rope");
@@ -334,9 +318,6 @@ static void refinement_predicts_a_much_finer_rope(void **state) {
   check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_CALL);
   free(at_coarse);
   free(at_fine);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(coarse);
-  hooke_system_destroy(fine);
 }
 
 /* ---- callbacks, methods, chaos ---- */
@@ -361,13 +342,11 @@ static void a_callback_is_an_ingredient(void **state) {
   (void)state;
   double strengths[2] = {1e-6, 1.0};
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = pushed_pair(&strengths[k]);
-    hooke_measurement *needs =
+    owned_system *system = pushed_pair(&strengths[k]);
+    owned_measurement *needs =
         start(system, (struct run){.method = "verlet", .duration = 1, .every = 0.05}, 1e-3, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "callback"), "needed") == (double)k);
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
 }
 
@@ -376,8 +355,8 @@ static void every_method_finds_the_same(void **state) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (!hooke_method_is_built(method)) continue;
-    hooke_system *system = hanging_rope(4, 0.01);
-    hooke_measurement *needs =
+    owned_system *system = hanging_rope(4, 0.01);
+    owned_measurement *needs =
         start(system, (struct run){.method = method, .duration = 0.2, .every = 0.02}, 2e-3, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     assert_string_equal(hooke_measurement_text(needs, "needs", 0, "method"), method);
@@ -392,8 +371,6 @@ static void every_method_finds_the_same(void **state) {
                   strstr(hooke_measurement_text(needs, "lean", 0, "note"), "clear of") != NULL);
     assert_true(isnan(hooke_measurement_number(needs, "full", 0, "step")) ==
                 hooke_method_is_adaptive(method));
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
 }
 
@@ -402,19 +379,17 @@ static void chaos_is_judged_as_far_as_a_step_can_follow(void **state) {
   (void)state;
   const double position[9] = {0, 0, 0, 0.1, 1, 0, 0.25, 2, 0}, gravity[3] = {0, -9.81, 0};
   const int64_t ends[4] = {0, 1, 1, 2};
-  hooke_system *system = small_system(3, position, NULL, 1.0, 1);
+  owned_system *system = small_system(3, position, NULL, 1.0, 1);
   small_springs(system, 2, ends, (struct springs){.stiffness = 2e3, .damping = 5, .rest_length = -1});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 1e-9));
   check_ok(hooke_system_commit(system));
-  hooke_measurement *needs =
+  owned_measurement *needs =
       start(system, (struct run){.method = "symplectic-euler", .duration = 8, .every = 0.05}, 0.01, NULL);
   check_ok(hooke_measurement_run(needs, NULL));
   check_between(hooke_measurement_number(needs, "needs", 0, "judged_until"), 0.8, 7.0);
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "gravity"), "needed") == 1.0);
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "drag"), "needed") == 0.0);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 /* ---- stopping, refusals ---- */
@@ -433,7 +408,7 @@ static int32_t listen(double done, const char *what, void *ctx) {
 
 static void whoever_stops_it_keeps_what_is_known(void **state) {
   (void)state;
-  hooke_system *system = hanging_rope(12, 0.05);
+  owned_system *system = hanging_rope(12, 0.05);
   struct listener all = {.most = INT64_MAX};
   hooke_measurement *needs = start(system, half_a_second, 1e-3, NULL);
   hooke_measurement_on_progress(needs, listen, &all);
@@ -457,26 +432,22 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
     hooke_measurement_destroy(needs);
   }
   check_between((double)stopped, 2.0, 8.0);
-  hooke_system_destroy(system);
 }
 
 static void check_watch(const hooke_system *system, const char *watch, const char *message) {
-  hooke_options *run = run_options(half_a_second), *options;
-  hooke_measurement *needs = NULL;
+  owned_options *run = run_options(half_a_second), *options;
+  owned_measurement *needs = NULL;
   check_ok(hooke_options_create("needs", &options));
   check_ok(hooke_options_set_number(options, "want", 1e-3));
   check_ok(hooke_options_set_text(options, "watch", watch));
   check_status(hooke_measurement_create("needs", system, run, options, &needs),
                message ? HOOKE_BAD_VALUE : HOOKE_OK);
   if (message) check_message(message);
-  hooke_measurement_destroy(needs);
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
 }
 
 static void what_cannot_be_is_refused(void **state) {
   (void)state;
-  hooke_system *system = hanging_rope(12, 0.05);
+  owned_system *system = hanging_rope(12, 0.05);
   static const char *const good[] = {"rope", "rope.bend", "0", "12", "1-5", "0,3-4,12"};
   static const char *const bad[] = {"robe", "13", "5-1", "1,",   ",1",
                                     "1-",   "-1", "1 2", "0-13", "99999999999999999999"};
@@ -484,7 +455,7 @@ static void what_cannot_be_is_refused(void **state) {
     check_watch(system, good[k], NULL);
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
     check_watch(system, bad[k], "rope, rope.stretch, rope.bend, or particle numbers");
-  hooke_options *run = run_options((struct run){.method = "rk4"}), *options;
+  owned_options *run = run_options((struct run){.method = "rk4"}), *options;
   hooke_measurement *needs = NULL;
   check_ok(hooke_options_create("needs", &options));
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
@@ -496,23 +467,19 @@ static void what_cannot_be_is_refused(void **state) {
   check_ok(hooke_options_set_text(run, "method", "rk5"));
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("\"rk5\" is not a method");
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 
-  hooke_system *alone = small_oscillator(1.0);
+  owned_system *alone = small_oscillator(1.0);
   needs = make(alone, half_a_second, 1e-3, NULL, 1);
   check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_VALUE);
   check_message("no parts");
   hooke_measurement_destroy(needs);
-  hooke_system_destroy(alone);
 }
 
 /* Functions for needs refuse comparisons, and the reverse. */
 static void kinds_keep_to_what_is_theirs(void **state) {
   (void)state;
-  hooke_system *system = hanging_rope(4, 0.0);
-  hooke_options *run = run_options(half_a_second);
+  owned_system *system = hanging_rope(4, 0.0);
+  owned_options *run = run_options(half_a_second);
   hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *comparison = NULL;
   hooke_comparison_file *file = NULL;
   double q[15] = {0};
@@ -536,8 +503,6 @@ static void kinds_keep_to_what_is_theirs(void **state) {
   check_message("hooke_verify_create()");
   hooke_measurement_destroy(comparison);
   hooke_measurement_destroy(needs);
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
 }
 
 /* ---- groups of triples and tetrahedra that no part adds ---- */
@@ -581,15 +546,15 @@ static void groups_without_parts_are_ingredients(void **unused) {
               {"damping", GROUPS - DAMPING},
               {"drag", GROUPS - DRAG}};
   const double want = 1.5e-3;
-  hooke_system *system = body_and_line(GROUPS);
-  hooke_measurement *needs = start(system, half_a_second, want, NULL);
+  owned_system *system = body_and_line(GROUPS);
+  owned_measurement *needs = start(system, half_a_second, want, NULL);
   check_ok(hooke_measurement_run(needs, NULL));
   struct frames *full = run_fine(system, 1e-4, 1);
   const double judged =
       hooke_measurement_number(needs, "needs", 0, "judged_until"); /* altitude springs jump */
   check_between(judged, 0.1, 0.5);
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-    hooke_system *without = body_and_line(rows[k].left);
+    owned_system *without = body_and_line(rows[k].left);
     struct frames *frames = run_fine(without, 1e-4, 1);
     full->count = frames->count = 1 + llround(judged / half_a_second.every);
     const double change = distance(full, frames);
@@ -598,11 +563,8 @@ static void groups_without_parts_are_ingredients(void **unused) {
     check_close(hooke_measurement_number(needs, "rows", row, "error"), change, 0.2 * want);
     assert_true(hooke_measurement_number(needs, "rows", row, "needed") == (change > want));
     free(frames);
-    hooke_system_destroy(without);
   }
   free(full);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 /* Groups with the name of an ingredient, without a name, or without members. */
@@ -622,8 +584,8 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
                                          "drag",
                                          "resistance to compression",
                                          "a particle that touches nothing"};
-  hooke_system *system = small_system(5, place, NULL, 0.1, 1);
-  hooke_options *springs, *altitude;
+  owned_system *system = small_system(5, place, NULL, 0.1, 1);
+  owned_options *springs, *altitude;
   check_ok(hooke_options_create("springs", &springs));
   check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
   for (int k = 0; k < 5; k++)
@@ -637,15 +599,11 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
   check_ok(hooke_system_add_altitude(system, NULL, 1, corners, altitude));
   check_ok(hooke_system_set_drag(system, 0.01));
   check_ok(hooke_system_commit(system));
-  hooke_measurement *needs = start(system, half_a_second, 1.0, "0-3");
+  owned_measurement *needs = start(system, half_a_second, 1.0, "0-3");
   check_ok(hooke_measurement_run(needs, NULL));
   for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++)
     row_of(needs, expected[k]);
   assert_int_equal(hooke_measurement_row_count(needs, "rows"), sizeof expected / sizeof expected[0]);
-  hooke_measurement_destroy(needs);
-  hooke_options_destroy(altitude);
-  hooke_options_destroy(springs);
-  hooke_system_destroy(system);
 }
 
 /* Springs that only pull have no resistance to compression that could be left out. */
@@ -653,23 +611,20 @@ static void what_is_not_there_is_no_ingredient(void **unused) {
   (void)unused;
   const double place[] = {0, 0, 0, 0.3, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_options *springs;
+  owned_options *springs;
   check_ok(hooke_options_create("springs", &springs));
   check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
   for (int32_t pushes = 0; pushes < 2; pushes++) {
-    hooke_system *system = small_system(2, place, NULL, 0.1, 1);
+    owned_system *system = small_system(2, place, NULL, 0.1, 1);
     check_ok(hooke_options_set_number(springs, "compression", (double)pushes));
     check_ok(hooke_system_add_springs(system, "line", 1, ends, springs));
     check_ok(hooke_system_commit(system));
-    hooke_measurement *needs = start(system, half_a_second, 1.0, NULL);
+    owned_measurement *needs = start(system, half_a_second, 1.0, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     row_of(needs, "line");
     if (pushes) row_of(needs, "resistance to compression");
     assert_int_equal(hooke_measurement_row_count(needs, "rows"), 1 + pushes);
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
-  hooke_options_destroy(springs);
 }
 
 int main(void) {

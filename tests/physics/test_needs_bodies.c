@@ -29,7 +29,7 @@ static hooke_options *plate_options(double stiffness) {
 /* Let go where its four soft springs are slack. */
 static hooke_system *hanging_plate(double stiffness) {
   const double corner[] = {0, 0.5, 0, 0.4, 0.5, 0, 0, 0.5, 0.4, 0.4, 0.5, 0.4}, mass = 1.0;
-  hooke_options *plate = plate_options(stiffness), *soft = NULL;
+  owned_options *plate = plate_options(stiffness), *soft = NULL;
   hooke_system *system = NULL;
   int64_t first, pinned[4], ends[8];
   check_ok(hooke_system_create(&system));
@@ -46,21 +46,17 @@ static hooke_system *hanging_plate(double stiffness) {
   check_ok(hooke_options_set_number(soft, "damping", 0.3));
   check_ok(hooke_system_add_springs(system, "hangers", 4, ends, soft));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(plate);
-  hooke_options_destroy(soft);
   return system;
 }
 
 static hooke_measurement *needs_of(const hooke_system *system, const char *method) {
-  hooke_options *options,
+  owned_options *options,
       *run = run_options((struct run){.method = method, .duration = DURATION, .every = EVERY});
   hooke_measurement *needs = NULL;
   check_ok(hooke_options_create("needs", &options));
   check_ok(hooke_options_set_number(options, "want", WANT));
   check_ok(hooke_measurement_create("needs", system, run, options, &needs));
   check_ok(hooke_measurement_run(needs, NULL));
-  hooke_options_destroy(options);
-  hooke_options_destroy(run);
   return needs;
 }
 
@@ -134,8 +130,8 @@ static void a_stiff_plate_is_offered_as_a_body(void **unused) {
   const char *const methods[] = {"verlet", "symplectic-euler"};
   for (int m = 0; m < 2; m++) {
     if (left_out(m, 2)) continue;
-    hooke_system *system = hanging_plate(2e4);
-    hooke_measurement *needs = needs_of(system, methods[m]);
+    owned_system *system = hanging_plate(2e4);
+    owned_measurement *needs = needs_of(system, methods[m]);
     const int64_t row = body_row(needs);
     assert_true(hooke_measurement_number(needs, "rows", row, "needed") == 0.0);
     assert_true(hooke_measurement_number(needs, "rows", row, "left_out") == 1.0);
@@ -146,7 +142,7 @@ static void a_stiff_plate_is_offered_as_a_body(void **unused) {
     assert_non_null(
         strstr(hooke_measurement_text(needs, "lean", 0, "note"), "plate: rigid (\"rigid\": true); "));
 
-    hooke_options *fine = run_options((struct run){.method = methods[m],
+    owned_options *fine = run_options((struct run){.method = methods[m],
                                                    .step = of_run(needs, "full", "step") / 8,
                                                    .duration = DURATION,
                                                    .every = EVERY});
@@ -157,24 +153,19 @@ static void a_stiff_plate_is_offered_as_a_body(void **unused) {
     check_between(told, 1e-5, WANT);
     free(full);
     free(lean);
-    hooke_options_destroy(fine);
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
 }
 
 static void a_plate_that_bends_is_not(void **unused) {
   (void)unused;
-  hooke_system *system = hanging_plate(100.0);
-  hooke_measurement *needs = needs_of(system, "verlet");
+  owned_system *system = hanging_plate(100.0);
+  owned_measurement *needs = needs_of(system, "verlet");
   const int64_t row = body_row(needs);
   check_between(hooke_measurement_number(needs, "rows", row, "error"), 2.0 * WANT, 1.0);
   assert_true(hooke_measurement_number(needs, "rows", row, "needed") == 1.0);
   assert_true(hooke_measurement_number(needs, "rows", row, "left_out") == 0.0);
   assert_int_equal(hooke_system_count(hooke_needs_lean(needs), "bodies"), 0);
   assert_null(strstr(hooke_measurement_text(needs, "lean", 0, "note"), "rigid"));
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

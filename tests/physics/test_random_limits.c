@@ -91,7 +91,7 @@ static void draw_springs(struct random_source *source, struct scene *s) {
     if (rest[k] == 0.0) rest[k] = random_whole(source, 0, 1) ? 0.3 : 0.0;
     add_spring(s, 2, pair, d, kappa[k], gamma[k], rest[k]);
   }
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, kappa));
@@ -99,7 +99,6 @@ static void draw_springs(struct random_source *source, struct scene *s) {
   check_ok(hooke_options_set_numbers(options, "rest_length", SPRINGS, rest));
   if (random_whole(source, 0, 2) == 0) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(s->system, "springs", SPRINGS, ends, options));
-  hooke_options_destroy(options);
 }
 
 /* At their own places by default, or tied to points elsewhere. */
@@ -118,14 +117,13 @@ static void draw_anchors(struct random_source *source, struct scene *s) {
     const double d[3] = {x[0] - point[3 * k], x[1] - point[3 * k + 1], x[2] - point[3 * k + 2]};
     add_spring(s, 1, tied + k, d, kappa[k], gamma[k], rest[k]);
   }
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_options_create("anchors", &options));
   if (elsewhere) check_ok(hooke_options_set_numbers(options, "points", 3 * ANCHORS, point));
   check_ok(hooke_options_set_numbers(options, "stiffness", ANCHORS, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", ANCHORS, gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", ANCHORS, rest));
   check_ok(hooke_system_add_anchors(s->system, "anchors", ANCHORS, tied, options));
-  hooke_options_destroy(options);
 }
 
 static void draw_triples(struct random_source *source, struct scene *s) {
@@ -155,7 +153,7 @@ static void draw_tetrahedron(struct random_source *source, struct scene *s) {
   const int64_t corners[4] = {0, 1, 2, 3};
   const double stiffness = between(source, 5.0, 50.0), damping = s->overdamped ? 0.0 : some_damping(source);
   hooke_options *options = altitude_options(0.0, 1.0);
-  hooke_system *damper = NULL;
+  owned_system *damper = NULL;
   double v[DOF] = {0.0}, force[DOF];
   check_ok(hooke_system_create(&damper));
   check_ok(hooke_system_add_particles(damper, N, s->q, NULL, N, s->mass, NULL));
@@ -169,7 +167,6 @@ static void draw_tetrahedron(struct random_source *source, struct scene *s) {
     for (int i = 0; i < DOF; i++)
       s->k[i][j] -= stiffness * force[i], s->c[i][j] -= damping * force[i];
   }
-  hooke_system_destroy(damper);
   options = altitude_options(stiffness, damping);
   check_ok(hooke_system_add_altitude(s->system, "altitude", 1, corners, options));
   hooke_options_destroy(options);
@@ -409,12 +406,11 @@ static void check_scene(uint64_t seed) {
       check_failed("scene %d, %s: grows below the bound %.8g s", (int)seed, methods[m], bound);
     /* what grows at every step is slow to measure */
     if (!(limit > 0.0) || (needs_damping(methods[m]) && !getenv("HOOKE_LONG"))) continue;
-    hooke_measurement *measured = limits_of(&s, methods[m], 0);
+    owned_measurement *measured = limits_of(&s, methods[m], 0);
     const double found = hooke_measurement_number(measured, "rows", 0, "measured");
     /* or growth is too slow to be seen, which a note says */
     if (!isnan(found) || !needs_damping(methods[m]) || !hooke_measurement_text(measured, "rows", 0, "note"))
       check_limit(&s, seed, methods[m], "measured", found);
-    hooke_measurement_destroy(measured);
   }
   hooke_measurement_destroy(predicted);
   hooke_system_destroy(s.system);

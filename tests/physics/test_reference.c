@@ -44,18 +44,15 @@ static void reach_references(const char *method) {
   if (hooke_method_is_built(method) != 1) skip();
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     struct visit visit = {&references[k], method, 0};
-    hooke_system *system = build_reference(&references[k]);
+    owned_system *system = build_reference(&references[k]);
     const double end = references[k].state[references[k].state_count - 1].time;
-    hooke_integrator *integrator = start_run(
+    owned_integrator *integrator = start_run(
         system, (struct run){.method = method, .rtol = 1e-10, .atol = 1e-12, .duration = end, .every = 0.05});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_on_frame(integrator, at_frame, &visit));
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(visit.seen, references[k].state_count);
     compare_state(&visit, &references[k].state[references[k].state_count - 1], state);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
@@ -74,7 +71,7 @@ static void test_bdf(void **unused) {
 static void test_energies(void **unused) {
   (void)unused;
   for (int k = 0; k < REFERENCE_COUNT; k++) {
-    hooke_system *system = build_reference(&references[k]);
+    owned_system *system = build_reference(&references[k]);
     for (int64_t s = 0; s < references[k].state_count; s++) {
       const struct reference_state *state = &references[k].state[s];
       const double scale = state->kinetic_energy + state->spring_energy + fabs(state->gravity_energy);
@@ -85,7 +82,6 @@ static void test_energies(void **unused) {
       check_close(hooke_system_energy(system, "springs", state->position, NULL), state->spring_energy,
                   1e-11 * scale);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -102,7 +98,7 @@ static void climb(const char *method, double order, int points, struct ladder la
   const struct reference *reference = find_reference(ladder.scene);
   const struct reference_state *expected = &reference->state[ladder.state];
   const int64_t size = 3 * reference->particle_count;
-  hooke_system *system = build_reference(reference);
+  owned_system *system = build_reference(reference);
   double *q = new_doubles(size), error[5];
   double step = ladder.coarsest;
   assert_in_range(points, 4, 5);
@@ -114,7 +110,6 @@ static void climb(const char *method, double order, int points, struct ladder la
   snprintf(what, sizeof what, "%s by %s from h = %g s", ladder.scene, method, ladder.coarsest);
   check_order(what, points, error, order - 0.15, order + 0.25);
   free(q);
-  hooke_system_destroy(system);
 }
 
 static void climb_all(const char *method, double order, int points,
@@ -198,7 +193,7 @@ static void test_known_errors(void **unused) {
   const struct reference *reference = find_reference("six-particles");
   const struct reference_state *expected = &reference->state[1];
   check_close(expected->time, 1.0, 0.0);
-  hooke_system *system = build_reference(reference);
+  owned_system *system = build_reference(reference);
   double q[18];
   for (int m = 0; m < REFERENCE_ERROR_COUNT; m++) {
     for (int k = 0; k < 5; k++) {
@@ -214,7 +209,6 @@ static void test_known_errors(void **unused) {
       check_close(error, known, reference_errors[m].allowed * known + 2e-15);
     }
   }
-  hooke_system_destroy(system);
 }
 
 int main(void) {

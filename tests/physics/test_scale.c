@@ -23,20 +23,18 @@ static double bytes_in_use(void) {
 
 /* The stated memory equals that allocated since `before`. */
 static double bytes_of_run(const hooke_system *system, const char *method, double before) {
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
-  hooke_state *made = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
+  owned_state *made = start_state(system);
   const double taken = bytes_in_use() - before, size = (double)hooke_state_size(made);
   const double bytes = (double)hooke_system_count(system, "memory") + 8.0 * (2.0 * size + 1.0) +
                        (double)hooke_integrator_count(integrator, "memory_bytes");
   if (taken > 0.0) check_between(taken / bytes, 0.99, 1.02);
-  hooke_state_destroy(made);
-  hooke_integrator_destroy(integrator);
   return bytes;
 }
 
 static hooke_system *build_cloth(void) {
   const double edges[] = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, sizes[] = {SIDE, SIDE}, origin[] = {0.0, 0.0, 0.0};
-  hooke_options *options;
+  owned_options *options;
   hooke_system *system;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_options_create("cloth", &options));
@@ -49,7 +47,6 @@ static hooke_system *build_cloth(void) {
   check_ok(hooke_options_set_number(options, "shear.stiffness", 50.0));
   check_ok(hooke_options_set_number(options, "bend.stiffness", 50.0));
   check_ok(hooke_system_add_part(system, "cloth", "cloth", options, NULL, NULL));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
@@ -70,7 +67,7 @@ static hooke_system *build_sheet(int kinds, int moving) {
   struct random_source source = {77};
   int64_t *number = new_order(&source, PARTICLES), *place = new_order(&source, (int64_t)kinds * PARTICLES);
   int64_t *ends = new_block(2 * kinds * PARTICLES, (int64_t)sizeof *ends), count = 0;
-  double *q = new_doubles(3 * PARTICLES), *v = new_doubles(3 * PARTICLES);
+  owned_doubles *q = new_doubles(3 * PARTICLES), *v = new_doubles(3 * PARTICLES);
   for (int64_t k = 0; k < kinds * PARTICLES; k++) {
     const int64_t p = place[k] / kinds, row = p / SIDE + step[place[k] % kinds][0],
                   column = p % SIDE + step[place[k] % kinds][1];
@@ -83,7 +80,7 @@ static hooke_system *build_sheet(int kinds, int moving) {
     q[3 * number[p] + 2] = (double)(p / SIDE) + random_between(&source, 0.0, 0.1);
     v[3 * p] = moving ? random_between(&source, -1.0, 1.0) : 0.0;
   }
-  hooke_options *options;
+  owned_options *options;
   hooke_system *system;
   const double mass = 1.0;
   check_ok(hooke_system_create(&system));
@@ -93,12 +90,9 @@ static hooke_system *build_sheet(int kinds, int moving) {
   check_ok(hooke_options_set_number(options, "damping", 0.01));
   check_ok(hooke_system_add_springs(system, "net", count, ends, options));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   free(number);
   free(place);
   free(ends);
-  free(q);
-  free(v);
   return system;
 }
 
@@ -106,10 +100,9 @@ static hooke_system *build_sheet(int kinds, int moving) {
 static void test_memory_of_a_cloth(void **unused) {
   (void)unused;
   const double before = bytes_in_use();
-  hooke_system *system = build_cloth();
+  owned_system *system = build_cloth();
   check_between(bytes_of_run(system, "symplectic-euler", before) / PARTICLES, 96.0, 150.0);
   check_between(bytes_of_run(system, "forward-euler", before) / PARTICLES, 96.0, 150.0);
-  hooke_system_destroy(system);
 }
 
 static void test_memory_without_order(void **unused) {
@@ -117,12 +110,11 @@ static void test_memory_without_order(void **unused) {
   const int kinds[] = {3, 6, 3, 6};
   for (int k = 0; k < 4; k++) {
     const double before = bytes_in_use();
-    hooke_system *system = build_sheet(kinds[k], k >= 2);
+    owned_system *system = build_sheet(kinds[k], k >= 2);
     const double springs = (double)hooke_system_count(system, "springs");
     const double least = 96.0 * PARTICLES + 16.0 * springs, most = 200.0 * PARTICLES + 24.0 * springs;
     check_between(bytes_of_run(system, "symplectic-euler", before), least, most);
     check_between((double)hooke_system_count(system, "spring_memory") / springs, 16.0, 34.0);
-    hooke_system_destroy(system);
   }
 }
 
@@ -146,14 +138,14 @@ static int32_t drive(int64_t count, double t, double *q, double *v, void *ctx) {
 static void build_rope(int driven, struct rope *rope) {
   struct random_source source = {3};
   int64_t *ends = new_block(2 * LONG_ROPE, (int64_t)sizeof *ends);
-  double *q = new_doubles(3 * LONG_ROPE);
+  owned_doubles *q = new_doubles(3 * LONG_ROPE);
   const double mass = 1.0;
   for (int64_t p = 0; p < LONG_ROPE; p++) {
     q[3 * p] = (double)p + random_between(&source, 0.0, 0.3);
     ends[2 * p] = p;
     ends[2 * p + 1] = p + 1;
   }
-  hooke_options *options;
+  owned_options *options;
   check_ok(hooke_system_create(&rope->system));
   check_ok(hooke_system_add_particles(rope->system, LONG_ROPE, q, NULL, 1, &mass, NULL));
   check_ok(hooke_options_create("springs", &options));
@@ -164,9 +156,7 @@ static void build_rope(int driven, struct rope *rope) {
   const int64_t last = LONG_ROPE - 1;
   if (driven) check_ok(hooke_system_drive_callback(rope->system, 1, &last, drive, rope));
   check_ok(hooke_system_commit(rope->system));
-  hooke_options_destroy(options);
   free(ends);
-  free(q);
 }
 
 static int32_t look(int64_t step, const hooke_state *state, void *ctx) {
@@ -210,7 +200,7 @@ static void check_same(const struct outcome *found, const struct outcome *wanted
 }
 
 static void check_recent(const struct rope *rope, const struct outcome *outcome) {
-  hooke_state *recent = start_state(rope->system);
+  owned_state *recent = start_state(rope->system);
   assert_int_equal(hooke_integrator_count(outcome->integrator, "recent"), 1);
   check_ok(hooke_integrator_recent(outcome->integrator, 0, recent));
   check_status(hooke_integrator_recent(outcome->integrator, 1, recent), HOOKE_BAD_VALUE);
@@ -219,7 +209,6 @@ static void check_recent(const struct rope *rope, const struct outcome *outcome)
                   hooke_state_position(outcome->state));
   check_same_bits(hooke_state_size(recent), hooke_state_velocity(recent),
                   hooke_state_velocity(outcome->state));
-  hooke_state_destroy(recent);
 }
 
 static void compare(struct rope *rope, double step, int32_t status) {

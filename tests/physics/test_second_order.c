@@ -19,26 +19,23 @@ struct problem {
 };
 
 static void start_problem(struct problem *p, struct run run, hooke_integrator **it, hooke_state **state) {
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   check_ok(
       hooke_integrator_create_second_order(p->size, p->force, NULL, p, 1, &p->inverse_mass, options, it));
   check_ok(hooke_state_create_second_order(p->size, state));
   assert_int_equal(hooke_state_size(*state), p->size);
   memcpy(hooke_state_position(*state), p->q, (size_t)p->size * sizeof(double));
   memcpy(hooke_state_velocity(*state), p->v, (size_t)p->size * sizeof(double));
-  hooke_options_destroy(options);
 }
 
 /* q and v at the end of a run. */
 static void run_problem(struct problem *p, struct run run, double end[8]) {
-  hooke_integrator *it;
-  hooke_state *state;
+  owned_integrator *it;
+  owned_state *state;
   start_problem(p, run, &it, &state);
   check_ok(hooke_integrator_run(it, state));
   memcpy(end, hooke_state_position(state), (size_t)p->size * sizeof(double));
   memcpy(end + p->size, hooke_state_velocity(state), (size_t)p->size * sizeof(double));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(it);
 }
 
 /* ---- forces ---- */
@@ -205,18 +202,17 @@ static void test_outcomes(void **unused) {
 
 static void check_refused(int64_t size, hooke_force *force, int64_t count, double mass, const char *message) {
   const double masses[3] = {mass, mass, mass};
-  hooke_options *options = run_options((struct run){.method = "rk4", .step = 1.0});
+  owned_options *options = run_options((struct run){.method = "rk4", .step = 1.0});
   hooke_integrator *it = NULL;
   check_status(hooke_integrator_create_second_order(size, force, NULL, NULL, count, masses, options, &it),
                HOOKE_BAD_VALUE);
   check_message(message);
-  hooke_options_destroy(options);
 }
 
 static void test_refusals(void **unused) {
   (void)unused;
   struct problem p = pendulum;
-  hooke_integrator *it;
+  owned_integrator *it;
   hooke_state *state, *other;
   check_refused(0, swing, 1, 1.0, "size");
   check_refused(3, NULL, 1, 1.0, "force");
@@ -233,7 +229,6 @@ static void test_refusals(void **unused) {
   check_message("position[0]");
   hooke_state_destroy(other);
   hooke_state_destroy(state);
-  hooke_integrator_destroy(it);
 }
 
 static int32_t save_and_stop(int64_t step, const hooke_state *state, void *ctx) {

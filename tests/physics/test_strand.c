@@ -48,11 +48,9 @@ static void about_axis(const double *q, double *along, double *distance) {
 
 static void check_at_rest(const hooke_system *system, const double *q) {
   const int64_t n = hooke_system_particle_count(system);
-  double *force = new_doubles(3 * n), *still = new_doubles(3 * n);
+  owned_doubles *force = new_doubles(3 * n), *still = new_doubles(3 * n);
   check_ok(hooke_system_force(system, 0.0, q, still, force));
   check_between(largest(3 * n, force), 0.0, 1e-12);
-  free(force);
-  free(still);
 }
 
 static void check_counts(const hooke_system *system, int64_t n) {
@@ -74,9 +72,9 @@ static void check_counts(const hooke_system *system, int64_t n) {
 static void a_straight_strand_winds_about_its_axis(void **unused) {
   (void)unused;
   enum { SEGMENTS = 9, N = 2 * SEGMENTS + 1 };
-  hooke_options *options = new_options(SEGMENTS, 0.0, 0.0);
-  hooke_system *system = new_strand(options);
-  hooke_state *state = start_state(system);
+  owned_options *options = new_options(SEGMENTS, 0.0, 0.0);
+  owned_system *system = new_strand(options);
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), piece = 3.0 / SEGMENTS;
   check_counts(system, N);
   double mass = 0.0;
@@ -102,18 +100,15 @@ static void a_straight_strand_winds_about_its_axis(void **unused) {
     check_between(second / first, 1.3, 1.4);
     check_close(rest[7 * k + 4] + rest[7 * k + 5] + rest[7 * k + 6], rest[4] + rest[5] + rest[6], 1e-14);
   }
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
-  hooke_options_destroy(options);
 }
 
 static void a_curl_is_a_helix(void **unused) {
   (void)unused;
   enum { SEGMENTS = 20, N = SEGMENTS + 1 };
   for (int left = 0; left <= 1; left++) {
-    hooke_options *options = new_options(SEGMENTS, 0.2, left ? -2.5 : 2.5);
-    hooke_system *system = new_strand(options);
-    hooke_state *state = start_state(system);
+    owned_options *options = new_options(SEGMENTS, 0.2, left ? -2.5 : 2.5);
+    owned_system *system = new_strand(options);
+    owned_state *state = start_state(system);
     const double *q = hooke_state_position(state);
     check_counts(system, N);
     double length = 0.0, mass = 0.0, rest[7 * (N - 3)];
@@ -132,9 +127,6 @@ static void a_curl_is_a_helix(void **unused) {
     check_ok(hooke_system_members(system, "altitude", NULL, NULL, NULL, rest));
     for (int k = 0; k < 7 * (N - 3); k++)
       assert_true((rest[k] < 0.0) == left && fabs(rest[k]) == fabs(rest[k % 7]));
-    hooke_state_destroy(state);
-    hooke_system_destroy(system);
-    hooke_options_destroy(options);
   }
 }
 
@@ -158,13 +150,11 @@ static void short_strands(void **unused) {
 
 static void ends_are_pinned_by_name(void **unused) {
   (void)unused;
-  hooke_options *options = new_options(4, 0.0, 0.0);
+  owned_options *options = new_options(4, 0.0, 0.0);
   check_ok(hooke_options_set_text(options, "pinned", "end,start,1"));
-  hooke_system *system = new_strand(options);
+  owned_system *system = new_strand(options);
   for (int k = 0; k < 9; k++)
     assert_true((hooke_system_inverse_mass(system)[k] == 0.0) == (k == 0 || k == 1 || k == 8));
-  hooke_system_destroy(system);
-  hooke_options_destroy(options);
 }
 
 int main(void) {

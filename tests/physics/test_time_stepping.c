@@ -38,9 +38,9 @@ static void test_real_factor(void **unused) {
   const double h = 0.1;
   for (size_t k = 0; k < sizeof rates / sizeof rates[0]; k++) {
     struct rate a = {rates[k], 0.0, 0};
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_first_order(1, multiply, &a, (struct run){.method = "forward-euler", .step = h});
-    hooke_state *state = start_at_one(1);
+    owned_state *state = start_at_one(1);
     const double factor = 1.0 + rates[k] * h;
     for (int step = 0; step < 20; step++) {
       const double before = hooke_state_position(state)[0];
@@ -50,8 +50,6 @@ static void test_real_factor(void **unused) {
     }
     assert_int_equal(a.calls, 20);
     assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 20);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
 }
 
@@ -59,9 +57,9 @@ static void test_complex_factor(void **unused) {
   (void)unused;
   struct rate a = {-0.8, 5.0, 0};
   const double h = 0.05, real = 1.0 + a.real * h, imaginary = a.imaginary * h;
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_first_order(2, multiply, &a, (struct run){.method = "forward-euler", .step = h});
-  hooke_state *state = start_at_one(2);
+  owned_state *state = start_at_one(2);
   for (int step = 0; step < 50; step++) {
     double *x = hooke_state_position(state);
     const double expected[] = {real * x[0] - imaginary * x[1], real * x[1] + imaginary * x[0]};
@@ -70,8 +68,6 @@ static void test_complex_factor(void **unused) {
     check_close(x[0], expected[0], 4 * DBL_EPSILON * size);
     check_close(x[1], expected[1], 4 * DBL_EPSILON * size);
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* ---- every method that takes first-order problems ---- */
@@ -82,23 +78,20 @@ static double error_of(const char *method, double step, double rtol) {
   const struct run run =
       adaptive ? (struct run){.method = method, .rtol = rtol, .atol = rtol * 1e-2, .duration = 2.0}
                : (struct run){.method = method, .step = step, .duration = 2.0};
-  hooke_integrator *integrator = start_first_order(2, multiply, &a, run);
-  hooke_state *state = start_at_one(2);
+  owned_integrator *integrator = start_first_order(2, multiply, &a, run);
+  owned_state *state = start_at_one(2);
   check_ok(hooke_integrator_run(integrator, state));
   check_close(hooke_state_time(state), 2.0, 0.0);
   const double *x = hooke_state_position(state), decay = exp(-1.0);
   const double error = hypot(x[0] - decay * cos(6.0), x[1] - decay * sin(6.0));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
   return error;
 }
 
 static int32_t takes_first_order(const char *method) {
   struct rate a = {-1.0, 0.0, 0};
   hooke_integrator *integrator = NULL;
-  hooke_options *options = run_options((struct run){.method = method, .step = 0.1});
+  owned_options *options = run_options((struct run){.method = method, .step = 0.1});
   const int32_t status = hooke_integrator_create_first_order(1, multiply, &a, options, &integrator);
-  hooke_options_destroy(options);
   if (status == HOOKE_OK)
     hooke_integrator_destroy(integrator);
   else

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "hooke.h"
+#include "owned.h"
 
 /* The call returned exactly this status; prints the library's message otherwise. */
 #define check_status(call, status) check_status_at((call), (status), #call, __FILE__, __LINE__)

@@ -19,7 +19,7 @@ static const int64_t STEPS = 250;
 static hooke_system *cloth(double damping, void (*place)(double *q), double rest_scale) {
   const double origin[] = {0, 0, 0}, edges[] = {0.7, 0, 0, 0, 0, 0.7}, sides[] = {SIDE, SIDE};
   const double mass = 0.01;
-  hooke_options *part = NULL;
+  owned_options *part = NULL;
   hooke_system *plan = NULL, *system = NULL;
   check_ok(hooke_options_create("cloth", &part));
   check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
@@ -38,7 +38,7 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
   double *kappa = new_doubles(springs), *rest = new_doubles(springs), *brake = new_doubles(springs), q[SIZE];
   check_ok(hooke_system_members(plan, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(plan, "springs", NULL, kappa, NULL, rest));
-  hooke_state *state = NULL;
+  owned_state *state = NULL;
   check_ok(hooke_state_create(plan, &state));
   memcpy(q, hooke_state_position(state), sizeof q);
   place(q);
@@ -47,7 +47,7 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
     q[k] += random_between(&source, -1e-3, 1e-3);
   for (int64_t k = 0; k < springs; k++)
     brake[k] = damping * kappa[k];
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", springs, kappa));
@@ -59,9 +59,6 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
   check_ok(hooke_system_pin(system, 2, corners));
   check_ok(hooke_system_add_springs(system, NULL, springs, ends, options));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(part);
-  hooke_options_destroy(options);
-  hooke_state_destroy(state);
   hooke_system_destroy(plan);
   free(ends);
   free(kappa);
@@ -84,7 +81,7 @@ static void pull_through(double *q) {
 }
 
 static void check_cloth(const char *name, double damping, void (*place)(double *q), double rest_scale) {
-  hooke_system *system = cloth(damping, place, rest_scale);
+  owned_system *system = cloth(damping, place, rest_scale);
   struct extreme_outcome reference;
   extreme_run(system, (struct extreme_run){"rk4", STEP / 16.0, 16 * STEPS, 16 * STEPS, 0, 0, 0, 0, 0},
               &reference);
@@ -110,7 +107,6 @@ static void check_cloth(const char *name, double damping, void (*place)(double *
     extreme_release(&outcome);
   }
   extreme_release(&reference);
-  hooke_system_destroy(system);
 }
 
 static void test_compressed(void **unused) {

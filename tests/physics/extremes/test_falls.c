@@ -68,7 +68,7 @@ static void test_fall(void **unused) {
   const double gravity[] = {0, -FALL, 0}, q[] = {0, 0, 0}, h = 0.25, mass = 2.0;
   for (int k = 0; k < 6; k++) {
     const double drag = resolved[k] * mass / h;
-    hooke_system *system = NULL;
+    owned_system *system = NULL;
     check_ok(hooke_system_create(&system));
     check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
     check_ok(hooke_system_set_gravity(system, gravity));
@@ -80,7 +80,6 @@ static void test_fall(void **unused) {
       const char *method = hooke_method_name(m);
       if (hooke_method_is_built(method) == 1) check_method(system, name, method, resolved[k], h, drag, mass);
     }
-    hooke_system_destroy(system);
   }
 }
 

@@ -9,18 +9,16 @@
 #include <string.h>
 
 static void good_run(struct extreme_outcome *outcome) {
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   extreme_run(system, (struct extreme_run){.method = "symplectic-euler", .step = 0.01, .steps = 100},
               outcome);
-  hooke_system_destroy(system);
   assert_null(extreme_unsound(outcome));
   assert_null(extreme_not_right(outcome, 1e-3, 1e-4, 1e-2));
 }
 
 static void bad_run(struct extreme_outcome *outcome) {
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   extreme_run(system, (struct extreme_run){.method = "forward-euler", .step = 0.1, .steps = 100}, outcome);
-  hooke_system_destroy(system);
   assert_null(extreme_unsound(outcome));
   assert_null(extreme_not_refused(outcome));
   assert_null(extreme_not_ended(outcome, HOOKE_DIVERGED, "diverged"));
@@ -67,14 +65,13 @@ static void test_watch(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0};
   struct extreme_outcome outcome;
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  owned_system *system = small_system(1, q, NULL, 1.0, 0);
   check_ok(hooke_system_set_force(system, poison, NULL, NULL));
   check_ok(hooke_system_commit(system));
   extreme_run(system, (struct extreme_run){.method = "symplectic-euler", .step = 0.1, .steps = 10}, &outcome);
   assert_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, "not finite"));
   assert_int_equal(outcome.frames, 7); /* 0 to 0.6 s, the last before the NaN */
   extreme_release(&outcome);
-  hooke_system_destroy(system);
 }
 
 static void test_answers(void **unused) {

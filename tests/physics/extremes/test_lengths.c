@@ -30,15 +30,13 @@ static void test_rest_length(void **unused) {
 static int32_t add_spring(const char *law, double stiffness, double rest_length) {
   const double q[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_options *options = NULL;
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_options *options = NULL;
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", law));
   check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_options_set_number(options, "rest_length", rest_length));
   const int32_t status = hooke_system_add_springs(system, NULL, 1, ends, options);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
   return status;
 }
 
@@ -79,7 +77,7 @@ struct pair {
 static void check_pair(const struct pair *pair) {
   const double q[] = {0, 0, 0, pair->distance, 0, 0}, h = 0.01, steps = 100, d = pair->distance;
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 2.0, 0);
+  owned_system *system = small_system(2, q, NULL, 2.0, 0);
   small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 1.0});
   check_ok(hooke_system_commit(system));
   const double moved = pair->coincident ? 0.0 : 0.5 * (1.0 - d) * (1.0 - cos(h * steps));
@@ -99,7 +97,6 @@ static void check_pair(const struct pair *pair) {
     extreme_record("lengths", pair->name, method, &outcome, error);
     extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 static void test_coincident(void **unused) {
@@ -126,14 +123,13 @@ static void test_direction(void **unused) {
     const double q[] = {0, 0, 0, 0, at[k].distance, 0}, v[6] = {0};
     const int64_t ends[] = {0, 1};
     double force[6];
-    hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+    owned_system *system = small_system(2, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 1.0});
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_force(system, 0.0, q, v, force));
     check_between(fabs(force[4] - 1.0), at[k].low, at[k].high);
     assert_true(force[1] == -force[4] && force[0] == 0.0 && force[5] == 0.0);
     assert_int_equal(hooke_system_coincident_springs(system, q), at[k].low == 1.0);
-    hooke_system_destroy(system);
   }
 }
 

@@ -108,7 +108,7 @@ static void check_walk(const char *name, struct ensemble e) {
   const double h = (double)(0.1L / e.omega);
   const int64_t shorter = is_long() ? 1000000 : 100000, longer = 100 * shorter / (is_long() ? 1 : 5);
   hooke_integrator *integrator = start_run(e.system, (struct run){.method = method, .step = h});
-  hooke_state *start = start_state(e.system), *state = start_state(e.system);
+  owned_state *start = start_state(e.system), *state = start_state(e.system);
   check_ok(hooke_integrator_step(integrator, state, shorter));
   const struct errors first = compare(&e, start, state, method, h * e.omega, shorter);
   check_ok(hooke_integrator_step(integrator, state, longer - shorter));
@@ -131,8 +131,6 @@ static void check_walk(const char *name, struct ensemble e) {
   snprintf(words, sizeof words, "%.0e", last.rounding);
   if (!is_long()) extreme_note(FAMILY, name, method, words);
   hooke_integrator_destroy(integrator);
-  hooke_state_destroy(start);
-  hooke_state_destroy(state);
   hooke_system_destroy(e.system);
 }
 
@@ -149,7 +147,7 @@ static void test_every_method(void **unused) {
   struct ensemble e = ensemble("length", 7.3, 0.37, 0.0, 0.3);
   const double h = (double)(0.05L / e.omega), tolerance = 1e-9;
   const int64_t steps = 20000;
-  hooke_state *start = start_state(e.system);
+  owned_state *start = start_state(e.system);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
@@ -187,7 +185,6 @@ static void test_every_method(void **unused) {
     extreme_record(FAMILY, name, method, &outcome, error);
     extreme_release(&outcome);
   }
-  hooke_state_destroy(start);
   hooke_system_destroy(e.system);
 }
 
@@ -196,12 +193,12 @@ static void test_time(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0}, mass = 1.0, h = 0.1;
   const int64_t steps = 3000000;
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
+  owned_state *state = start_state(system);
   double sum = 0.0;
   for (int64_t k = 0; k < steps; k++)
     sum += h;
@@ -209,9 +206,6 @@ static void test_time(void **unused) {
   check_ok(hooke_integrator_step(integrator, state, steps - steps / 3));
   assert_true(hooke_state_time(state) == (double)steps * h);
   check_between(fabs(sum - (double)steps * h), 1e-7, 1e-3);
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 int main(int argc, char **argv) {

@@ -39,8 +39,8 @@ static double lost_at(double distance, const char *method, double h) {
   for (int far = 0; far < 2; far++) {
     const double x = far ? distance : 0.0, q[] = {x, 0, 0, x + 1.1, 0, 0}, mass = 1.0;
     const int64_t first = 0, ends[] = {0, 1};
-    hooke_system *system = NULL;
-    hooke_options *options = NULL;
+    owned_system *system = NULL;
+    owned_options *options = NULL;
     check_ok(hooke_system_create(&system));
     check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
     check_ok(hooke_system_pin(system, 1, &first));
@@ -55,8 +55,6 @@ static double lost_at(double distance, const char *method, double h) {
     extreme_demand("origin", "digits", method, extreme_not_right(&outcome, 0.0, 0.0, 0.0), &outcome);
     end[far] = outcome.q[3] - outcome.q[0];
     extreme_release(&outcome);
-    hooke_options_destroy(options);
-    hooke_system_destroy(system);
   }
   return fabs(end[1] - end[0]) / amplitude;
 }
@@ -88,8 +86,8 @@ static void test_same_forces(void **unused) {
   (void)unused;
   enum { SIDE = 9, COUNT = SIDE * SIDE, SIZE = 3 * COUNT };
   const double origin[] = {0, 0, 0}, edges[] = {1, 0, 0, 0, 0, 1}, sides[] = {SIDE, SIDE};
-  hooke_options *part = NULL;
-  hooke_system *system = NULL;
+  owned_options *part = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_options_create("cloth", &part));
   check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
@@ -106,7 +104,6 @@ static void test_same_forces(void **unused) {
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_part(system, "cloth", NULL, part, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(part);
   struct random_source source = {7};
   double near[SIZE], far[SIZE], v[SIZE], at_origin[SIZE], away[SIZE];
   for (int k = 0; k < SIZE; k++) {
@@ -121,7 +118,6 @@ static void test_same_forces(void **unused) {
   far[0] += 0x1p-20; /* a shift by one spacing is noticed */
   check_ok(hooke_system_force(system, 0.0, far, v, away));
   assert_true(away[0] != at_origin[0]);
-  hooke_system_destroy(system);
 }
 
 int main(int argc, char **argv) {

@@ -52,7 +52,7 @@ static void test_free_floating(void **unused) {
     }
   }
   const int64_t ends[] = {0, 2, 1, 3};
-  hooke_system *system = small_system(4, q, v, mass, 0);
+  owned_system *system = small_system(4, q, v, mass, 0);
   small_springs(system, 2, ends, (struct springs){.stiffness = stiffness, .rest_length = rest});
   check_ok(hooke_system_commit(system));
   check_scene(system, "free floating", expected, 0.06);
@@ -68,7 +68,6 @@ static void test_free_floating(void **unused) {
       check_close(after[a], before[a], 1e-12);
     extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- all pinned ---- */
@@ -77,14 +76,13 @@ static void test_all_pinned(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 3, 0, 0, 0, 4, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1, 1, 2}, particles[] = {0, 1, 2};
-  hooke_system *system = small_system(3, q, NULL, 1.0, 0);
+  owned_system *system = small_system(3, q, NULL, 1.0, 0);
   small_springs(system, 2, ends, (struct springs){.stiffness = 1e6, .rest_length = 1.0, .damping = 1.0});
   check_ok(hooke_system_pin(system, 3, particles));
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_commit(system));
   check_scene(system, "all pinned", NULL, 0.0);
-  hooke_system_destroy(system);
 }
 
 /* ---- disconnected ---- */
@@ -161,13 +159,12 @@ static void test_empty(void **unused) {
   (void)unused;
   const double gravity[] = {0, -10, 0};
   for (int weight = 0; weight <= 1; weight++) {
-    hooke_system *system = NULL;
+    owned_system *system = NULL;
     check_ok(hooke_system_create(&system));
     if (weight) check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_commit(system));
     check_scene(system, weight ? "empty, with gravity" : "empty", NULL, 0.0);
     assert_true(hooke_system_energy(system, "total", NULL, NULL) == 0.0);
-    hooke_system_destroy(system);
   }
 }
 
@@ -202,7 +199,7 @@ static void test_at_rest(void **unused) {
     ends[2 * k] = k;
     ends[2 * k + 1] = k + 1;
   }
-  hooke_system *system = small_system(COUNT, q, NULL, 0.01, 1);
+  owned_system *system = small_system(COUNT, q, NULL, 0.01, 1);
   small_springs(system, COUNT - 1, ends, (struct springs){.stiffness = 50.0, .rest_length = 0.1});
   check_ok(hooke_system_commit(system));
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -221,7 +218,6 @@ static void test_at_rest(void **unused) {
     extreme_record(FAMILY, "at rest but for rounding", method, &outcome, error);
     extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 int main(int argc, char **argv) {

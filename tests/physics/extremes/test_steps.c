@@ -24,7 +24,7 @@ static const struct {
 static void test_refused(void **unused) {
   (void)unused;
   const char *options[] = {"step", "duration", "every"};
-  hooke_options *run = NULL;
+  owned_options *run = NULL;
   check_ok(hooke_options_create("run", &run));
   for (size_t k = 0; k < sizeof refused / sizeof refused[0]; k++) {
     for (int o = 0; o < 3; o++) {
@@ -39,7 +39,6 @@ static void test_refused(void **unused) {
     for (int64_t m = 0; m < hooke_method_count(); m++)
       extreme_note("steps", refused[k].name, hooke_method_name(m), "bad value");
   }
-  hooke_options_destroy(run);
 }
 
 /* ---- accepted ---- */

@@ -19,11 +19,10 @@ static void note_all(const char *name, const char *words) {
 
 static int32_t add_mass(double mass) {
   const double q[] = {0, 0, 0};
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   check_ok(hooke_system_create(&system));
   const int32_t status = hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL);
   assert_int_equal(hooke_system_particle_count(system), status == HOOKE_OK ? 1 : 0);
-  hooke_system_destroy(system);
   return status;
 }
 
@@ -44,7 +43,7 @@ static void test_materials(void **unused) {
   (void)unused;
   const char *names[] = {"stiffness", "damping", "rest_length", "rest_scale"};
   const double refused[] = {-1.0, NAN, INFINITY, 1e301};
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_options_create("springs", &options));
   for (int n = 0; n < 4; n++) {
     for (int k = 0; k < 4; k++) {
@@ -53,7 +52,6 @@ static void test_materials(void **unused) {
       check_message("allowed");
     }
   }
-  hooke_options_destroy(options);
   note_all("stiffness, damping, lengths negative or not finite", "bad value");
 }
 
@@ -61,15 +59,15 @@ static void test_materials(void **unused) {
 static void check_state(double wrong, int place, const char *named) {
   const double q[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 1.0});
   check_ok(hooke_system_commit(system));
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    hooke_options *options = NULL;
-    hooke_integrator *integrator = NULL;
-    hooke_state *state = NULL;
+    owned_options *options = NULL;
+    owned_integrator *integrator = NULL;
+    owned_state *state = NULL;
     check_ok(hooke_options_create("run", &options));
     check_ok(hooke_options_set_text(options, "method", method));
     check_ok(hooke_options_set_number(options, "step", 0.1));
@@ -84,11 +82,7 @@ static void check_state(double wrong, int place, const char *named) {
     check_message(named);
     check_message("allowed");
     check_status(hooke_integrator_step(integrator, state, 1), HOOKE_BAD_VALUE);
-    hooke_integrator_destroy(integrator);
-    hooke_options_destroy(options);
-    hooke_state_destroy(state);
   }
-  hooke_system_destroy(system);
 }
 
 static void test_states(void **unused) {
@@ -105,7 +99,7 @@ static void test_states(void **unused) {
 /* A free flight at a speed whose energy overflows, or underflows. */
 static void check_flight(const char *name, double speed, double energy) {
   const double q[] = {0, 0, 0}, v[] = {speed, 0, 0}, h = 0.25, expected[] = {speed * h * 40.0, 0, 0};
-  hooke_system *system = small_system(1, q, v, 1.0, 0);
+  owned_system *system = small_system(1, q, v, 1.0, 0);
   check_ok(hooke_system_commit(system));
   assert_true(hooke_system_energy(system, "total", q, v) == energy);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -121,7 +115,6 @@ static void check_flight(const char *name, double speed, double energy) {
     extreme_record(FAMILY, name, method, &outcome, error);
     extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 static void test_flights(void **unused) {
@@ -139,7 +132,7 @@ static void test_oscillators(void **unused) {
     snprintf(name, sizeof name, "oscillator of %.0e m", amplitude[k]);
     const double q[] = {0, 0, 0, amplitude[k], 0, 0}, h = 0.05;
     const int64_t ends[] = {0, 1}, steps = 200;
-    hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+    owned_system *system = small_system(2, q, NULL, 1.0, 1);
     small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 1.0, .rest_length = 0.0});
     check_ok(hooke_system_commit(system));
     const double expected[] = {0, 0, 0, amplitude[k] * cos(h * (double)steps), 0, 0};
@@ -156,7 +149,6 @@ static void test_oscillators(void **unused) {
       extreme_record(FAMILY, name, method, &outcome, error);
       extreme_release(&outcome);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -166,7 +158,7 @@ static void test_too_long(void **unused) {
   const char *name = "oscillator of 1e+160 m";
   const double q[] = {0, 0, 0, 1e160, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 1.0, .rest_length = 0.0});
   check_ok(hooke_system_commit(system));
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -179,7 +171,6 @@ static void test_too_long(void **unused) {
     extreme_record(FAMILY, name, method, &outcome, NAN);
     extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 /* A million equal energies add up to a million times one, to the last digits. */
@@ -192,7 +183,7 @@ static void test_long_sums(void **unused) {
     v[3 * k] = 1.0;
     q[3 * k + 2] = 1.0;
   }
-  hooke_system *system = small_system(COUNT, q, v, mass, 0);
+  owned_system *system = small_system(COUNT, q, v, mass, 0);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.1));
   check_ok(hooke_system_commit(system));
@@ -206,7 +197,6 @@ static void test_long_sums(void **unused) {
     plain += 0.1;
   check_between(fabs(plain / (0.1 * COUNT) - 1.0), 1e-12, 1e-10);
   note_all("energy of 1e6 equal particles", "4e-16");
-  hooke_system_destroy(system);
   free(q);
   free(v);
 }
