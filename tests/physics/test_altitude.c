@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -27,17 +28,13 @@ static double volume_of(const double *q, const int64_t *p) {
  * are scaled by `scale`. */
 static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const int64_t *tetrahedra,
                                double stiffness, double damping, double scale) {
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
   double *mass = new_doubles(n);
   for (int64_t p = 0; p < n; p++)
     mass[p] = 0.5 + 0.1 * (double)(p % 4);
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, n, q, NULL, n, mass, NULL));
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
-  check_ok(hooke_options_set_number(options, "rest_scale", scale));
+  hooke_options *options =
+      options_with("altitude", "stiffness=%.17g damping=%.17g rest_scale=%.17g", stiffness, damping, scale);
   check_ok(hooke_system_add_altitude(system, "altitude", count, tetrahedra, options));
   hooke_options_destroy(options);
   free(mass);
@@ -45,9 +42,7 @@ static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const 
 }
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness) {
-  owned_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
+  owned_options *options = options_with("springs", "stiffness=%.17g", stiffness);
   check_ok(hooke_system_add_springs(system, "edges", count, ends, options));
 }
 
@@ -80,8 +75,7 @@ static double width_along(const double *q, const double n[3]) {
 
 /* The shortest altitude is the minimum width of the tetrahedron: no direction has a smaller one, and that of
  * the force has it. */
-static void the_shortest_is_the_least_width(void **unused) {
-  (void)unused;
+static void the_shortest_is_the_least_width(no_state) {
   struct random_source source = {3};
   const double still[12] = {0};
   for (int trial = 0; trial < 200; trial++) {
@@ -120,8 +114,7 @@ static void the_shortest_is_the_least_width(void **unused) {
 
 /* Rest lengths are three volumes over the area of a face, or the volume over the parallelogram of two
  * edges. */
-static void rest_lengths_are_altitudes(void **unused) {
-  (void)unused;
+static void rest_lengths_are_altitudes(no_state) {
   const double q[12] = {0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0, 2}; /* at a corner of three right angles: 6 V = 24 */
   double rest[7];
   owned_system *system = commit(new_scene(4, q, 1, corners, 1.0, 0.0, 1.0));
@@ -135,8 +128,7 @@ static void rest_lengths_are_altitudes(void **unused) {
 
 /* Pushed through the opposite face, the particle comes back; held by edges alone it stays on the wrong side.
  */
-static void what_is_inside_out_turns_back(void **unused) {
-  (void)unused;
+static void what_is_inside_out_turns_back(no_state) {
   const double q0[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.5};
   for (int with = 0; with <= 1; with++) {
     double q[12], v[12] = {0};
@@ -188,8 +180,7 @@ static double energy_error(double step) {
   return fabs(after - before) / before;
 }
 
-static void verlet_keeps_the_energy_to_its_order(void **unused) {
-  (void)unused;
+static void verlet_keeps_the_energy_to_its_order(no_state) {
   const double coarse = energy_error(5e-3), fine = energy_error(5e-4);
   check_between(coarse, 1e-6, 1e-2);
   check_between(fine / coarse, 0.005, 0.02);
@@ -197,8 +188,7 @@ static void verlet_keeps_the_energy_to_its_order(void **unused) {
 
 /* At a change of the altitude the energy jumps by the difference due to the rest lengths, and momentum is
  * conserved. */
-static void the_energy_jumps_where_another_altitude_acts(void **unused) {
-  (void)unused;
+static void the_energy_jumps_where_another_altitude_acts(no_state) {
   double q[12], jump = 0.0, last = NAN, at = NAN;
   memcpy(q, pyramid, sizeof q);
   owned_system *system = commit(new_scene(4, q, 1, corners, 40.0, 0.0, 1.0));
@@ -216,15 +206,11 @@ static void the_energy_jumps_where_another_altitude_acts(void **unused) {
 }
 
 /* Far from rest the jumps are a source of energy at any step; a run that they end reports it. */
-static void a_run_that_jumps_drive_is_explained(void **unused) {
-  (void)unused;
+static void a_run_that_jumps_drive_is_explained(no_state) {
   const double v[12] = {0.1, -0.1, 0.3, 0.1, -0.3, 0.2, 0.7, 0.5, -0.4, -0.6, -0.3, 0.0}, mass = 0.5;
-  owned_system *system = NULL;
-  owned_options *options = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 4, pyramid, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 40.0));
+  owned_options *options = options_with("altitude", "stiffness=40");
   check_ok(hooke_system_add_altitude(system, "a", 1, corners, options));
   add_springs(system, 6, edges, 1.0);
   commit(system);
@@ -249,18 +235,11 @@ enum { SEGMENTS = 24, CURL = SEGMENTS + 1 };
 /* A curl as a part: 24 segments, two turns, 1 cm about 8 cm. */
 static hooke_system *new_curl(double turns, double twist, double altitude, double damping,
                               const char *pinned) {
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
   const char *const family[] = {"stretch", "bend", "twist", "altitude"};
   const double stiffness[] = {40.0, 4.0, twist, altitude};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("strand", &options));
-  check_ok(hooke_options_set_text(options, "from", "0,0,0"));
-  check_ok(hooke_options_set_text(options, "to", "0,-0.08,0"));
-  check_ok(hooke_options_set_number(options, "segments", SEGMENTS));
-  check_ok(hooke_options_set_number(options, "curl", 0.01));
-  check_ok(hooke_options_set_number(options, "turns", turns));
-  check_ok(hooke_options_set_number(options, "mass", 1e-3));
+  hooke_system *system = new_system();
+  hooke_options *options = options_with(
+      "strand", "from=0,0,0 to=0,-0.08,0 segments=%d curl=0.01 turns=%.17g mass=1e-3", SEGMENTS, turns);
   if (pinned) check_ok(hooke_options_set_text(options, "pinned", pinned));
   for (int k = 0; k < 4; k++) {
     char name[64];
@@ -275,8 +254,7 @@ static hooke_system *new_curl(double turns, double twist, double altitude, doubl
   return system;
 }
 
-static void momenta_stay(void **unused) {
-  (void)unused;
+static void momenta_stay(no_state) {
   struct random_source source = {8};
   owned_system *system = commit(new_curl(2.0, 2.0, 1.0, 1e-5, NULL));
   double q[3 * CURL], v[3 * CURL], before[6], after[6];
@@ -295,8 +273,7 @@ static void momenta_stay(void **unused) {
 }
 
 /* Every method agrees with Runge-Kutta with a fine step. */
-static void methods_agree(void **unused) {
-  (void)unused;
+static void methods_agree(no_state) {
   owned_system *system = new_curl(2.0, 2.0, 1.0, 1e-4, "0,1,2");
   const double gravity[3] = {0.0, -9.81, 0.0};
   check_ok(hooke_system_set_gravity(system, gravity));
@@ -349,8 +326,7 @@ static double share_kept(double turns, double twist, double altitude) {
 
 /* Released, a curl keeps its handedness by altitude and twist springs, for either hand; not without both of
  * them, nor by twist springs alone. */
-static void a_hanging_curl_stays_a_curl(void **unused) {
-  (void)unused;
+static void a_hanging_curl_stays_a_curl(no_state) {
   check_between(share_kept(2.0, 2.0, 1.0), 1.0, 1.0);
   check_between(share_kept(-2.0, 2.0, 1.0), 1.0, 1.0);
   check_between(share_kept(2.0, 0.0, 0.0), 0.0, 0.8);
@@ -359,12 +335,10 @@ static void a_hanging_curl_stays_a_curl(void **unused) {
 
 /* ---- numbers ---- */
 
-static void groups_and_numbers(void **unused) {
-  (void)unused;
+static void groups_and_numbers(no_state) {
   double q[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
   const int64_t two[8] = {3, 2, 1, 0, 4, 1, 2, 3};
   owned_system *system = new_curl(2.0, 2.0, 1.0, 0.0, NULL);
-  owned_options *options = NULL;
   int64_t first = 0;
   const double mass = 1.0;
   check_ok(hooke_system_add_particles(system, 5, q, NULL, 1, &mass, &first));
@@ -372,7 +346,7 @@ static void groups_and_numbers(void **unused) {
   int64_t shifted[8];
   for (int k = 0; k < 8; k++)
     shifted[k] = two[k] + first;
-  check_ok(hooke_options_create("altitude", &options));
+  owned_options *options = new_options("altitude");
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, (const double[]){0.0, 3.0}));
   check_ok(hooke_system_add_altitude(system, "mine", 2, shifted, options));
   assert_int_equal(hooke_system_count(system, "altitude"), 2 + CURL - 3);
@@ -402,8 +376,7 @@ static void groups_and_numbers(void **unused) {
 }
 
 /* Altitude springs without stiffness and damping add no force and no memory, and change no bit. */
-static void no_strength_is_no_altitude_spring(void **unused) {
-  (void)unused;
+static void no_strength_is_no_altitude_spring(no_state) {
   double q[12], v[12] = {0.1, 0.2, 0.3}, other_q[12], other_v[12];
   memcpy(q, pyramid, sizeof q);
   owned_system *with = new_scene(4, q, 1, corners, 0.0, 0.0, 1.0),
@@ -424,8 +397,7 @@ static void no_strength_is_no_altitude_spring(void **unused) {
 }
 
 /* All particles in one line, or at one point: no altitude, no force, no NaN. */
-static void a_line_has_no_altitude(void **unused) {
-  (void)unused;
+static void a_line_has_no_altitude(no_state) {
   double line[12], force[12], length = 1.0;
   const double still[12] = {0};
   owned_system *system = commit(new_scene(4, pyramid, 1, corners, 40.0, 1.0, 1.0));
@@ -440,14 +412,13 @@ static void a_line_has_no_altitude(void **unused) {
   }
 }
 
-static void bad_tetrahedra_are_refused(void **unused) {
-  (void)unused;
+static void bad_tetrahedra_are_refused(no_state) {
   const double q[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1e-10, 0, 0, 1};
   const int64_t flat[8] = {0, 1, 2, 4, 0, 1, 2, 3}, far[4] = {0, 1, 5, 2}, twice[4] = {0, 4, 2, 4};
   owned_options *options = NULL, *springs = NULL;
   owned_system *system = new_scene(5, q, 0, flat, 1.0, 0.0, 1.0);
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_create("springs", &springs));
+  options = new_options("altitude");
+  springs = new_options("springs");
   check_status(hooke_system_add_altitude(system, "a", 1, flat, options), HOOKE_BAD_VALUE);
   check_message("stiffness: is required");
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));

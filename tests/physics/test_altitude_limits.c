@@ -3,6 +3,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,32 +11,23 @@
 
 static void add_altitude(hooke_system *system, int64_t count, const int64_t *tetrahedra, double stiffness,
                          double damping, double scale) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
-  check_ok(hooke_options_set_number(options, "rest_scale", scale));
+  hooke_options *options =
+      options_with("altitude", "stiffness=%.17g damping=%.17g rest_scale=%.17g", stiffness, damping, scale);
   check_ok(hooke_system_add_altitude(system, "heights", count, tetrahedra, options));
   hooke_options_destroy(options);
 }
 
 static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_text(options, "methods", methods));
-  check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  hooke_options *options =
+      options_with("limit", "methods=%s accuracy=1e-3 predict=%d budget=200", methods, predict);
   return limit_at_start(system, NULL, options);
 }
 
 /* A particle over a fixed face: one spring of ks/h, whose whole weight is on it. */
-static void a_top_over_a_held_face(void **unused) {
-  (void)unused;
+static void a_top_over_a_held_face(no_state) {
   const double q[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3}, mass = 0.2;
   const int64_t corners[4] = {0, 1, 2, 3}, held[3] = {0, 1, 2};
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 4, q, NULL, 1, &mass, NULL));
   add_altitude(system, 1, corners, 6.0, 0.01, 1.0);
   check_ok(hooke_system_pin(system, 3, held));
@@ -81,8 +73,7 @@ static double volume_of(const double *q, const int64_t *p) {
 
 /* Random tetrahedra, some with tension, with springs, drag, and particles of all masses, some of them
  * constrained. */
-static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
-  (void)unused;
+static void random_tetrahedra_run_up_to_the_prediction(no_state) {
   for (uint64_t seed = 1; seed <= 12; seed++) {
     enum { N = 9, TETRAHEDRA = 6, SPRINGS = 8 };
     struct random_source source = {seed};
@@ -100,12 +91,9 @@ static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
     }
     for (int k = 0; k < SPRINGS; k++)
       ends[2 * k] = k, ends[2 * k + 1] = k + 1;
-    hooke_system *system = NULL;
-    owned_options *springs = NULL;
-    check_ok(hooke_system_create(&system));
+    hooke_system *system = new_system();
     check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
-    check_ok(hooke_options_create("springs", &springs));
-    check_ok(hooke_options_set_number(springs, "stiffness", 10.0));
+    owned_options *springs = options_with("springs", "stiffness=10");
     check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));
     add_altitude(system, TETRAHEDRA, tetrahedra, 20.0, seed % 2 ? 0.3 : 0.0, seed % 3 ? 1.0 : 0.8);
     if (seed % 4 == 0) check_ok(hooke_system_pin(system, 1, &pinned));
@@ -119,24 +107,17 @@ static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
 
 /* A straight strand whose altitude springs are its stiffest. */
 static hooke_system *new_strand(double altitude) {
-  hooke_system *system = NULL;
-  owned_options *options = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("strand", &options));
-  check_ok(hooke_options_set_text(options, "from", "0,0,0"));
-  check_ok(hooke_options_set_text(options, "to", "1,0,0"));
-  check_ok(hooke_options_set_number(options, "segments", 12));
-  check_ok(hooke_options_set_number(options, "mass", 0.1));
-  check_ok(hooke_options_set_text(options, "pinned", "0,1,2"));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 1.0));
-  check_ok(hooke_options_set_number(options, "altitude.stiffness", altitude));
+  hooke_system *system = new_system();
+  owned_options *options = options_with(
+      "strand",
+      "from=0,0,0 to=1,0,0 segments=12 mass=0.1 pinned=0,1,2 stretch.stiffness=1 altitude.stiffness=%.17g",
+      altitude);
   check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void a_limit_by_altitude_names_it(void **unused) {
-  (void)unused;
+static void a_limit_by_altitude_names_it(no_state) {
   owned_system *system = new_strand(40.0);
   owned_measurement *limit = find_limit(system, "verlet", 1);
   const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
@@ -149,8 +130,7 @@ static void a_limit_by_altitude_names_it(void **unused) {
     check_between(hooke_measurement_number(limit, "blame", k, "share"), 0.0, 0.02);
 }
 
-static void a_run_above_the_limit_is_explained(void **unused) {
-  (void)unused;
+static void a_run_above_the_limit_is_explained(no_state) {
   owned_system *system = new_strand(40.0);
   hooke_measurement *limit = find_limit(system, "verlet", 1);
   const double step = 1.05 * hooke_measurement_number(limit, "rows", 0, "predicted");
@@ -171,15 +151,12 @@ static void a_run_above_the_limit_is_explained(void **unused) {
 
 /* ---- their cost, and variants without them ---- */
 
-static void they_are_an_ingredient(void **unused) {
-  (void)unused;
+static void they_are_an_ingredient(no_state) {
   owned_system *system = new_strand(0.5);
   owned_options *options = NULL, *run = NULL;
   owned_measurement *cost = NULL;
-  check_ok(hooke_options_create("cost", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1.0));
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_number(run, "step", 1e-4));
+  options = options_with("cost", "predict=1");
+  run = options_with("run", "step=1e-4");
   check_ok(hooke_measurement_create("cost", system, run, options, &cost));
   owned_state *state = start_state(system);
   check_ok(hooke_measurement_run(cost, state));

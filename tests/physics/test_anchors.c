@@ -1,6 +1,7 @@
 /* Anchors: the force law, limits by formula, and every query on a scene that has anchors only. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,28 +11,22 @@
 static hooke_system *chain(double stiffness, double damping, double rest_length) {
   const double place[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 0.5, point[3] = {2, 2, 0};
   const int64_t ends[4] = {0, 1, 1, 2}, pinned = 0, tied = 2;
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 3, place, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 2.0));
+  hooke_options *options = options_with("springs", "stiffness=2");
   check_ok(hooke_system_add_springs(system, "line", 2, ends, options));
   hooke_options_destroy(options);
-  check_ok(hooke_options_create("anchors", &options));
+  options = options_with("anchors", "stiffness=%.17g damping=%.17g rest_length=%.17g", stiffness, damping,
+                         rest_length);
   check_ok(hooke_options_set_numbers(options, "points", 3, point));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
-  check_ok(hooke_options_set_number(options, "rest_length", rest_length));
   check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
-  (void)unused;
+static void the_force_is_that_of_a_spring_to_the_point(no_state) {
   owned_system *system = chain(30.0, 0.7, 0.5);
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, v[9] = {0, 0, 0, 0, 0, 0, 3, -1, 2};
   double force[9];
@@ -54,11 +49,9 @@ static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
 static hooke_system *oscillator(double stiffness) {
   const double place[6] = {1, 2, 3, 4, 5, 6}, mass = 0.25;
   const int64_t both[2] = {0, 1};
-  hooke_system *system;
-  owned_options *options;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("anchors", &options));
+  owned_options *options = new_options("anchors");
   const double stiffnesses[2] = {stiffness, 1.0};
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffnesses));
   check_ok(hooke_system_add_anchors(system, NULL, 2, both, options));
@@ -66,8 +59,7 @@ static hooke_system *oscillator(double stiffness) {
   return system;
 }
 
-static void without_points_they_hold_particles_where_they_are(void **unused) {
-  (void)unused;
+static void without_points_they_hold_particles_where_they_are(no_state) {
   owned_system *system = oscillator(100.0);
   owned_state *state = start_state(system);
   double *q = hooke_state_position(state), force[6];
@@ -84,8 +76,7 @@ static void without_points_they_hold_particles_where_they_are(void **unused) {
 }
 
 #if HOOKE_HAVE_LAPACK
-static void limits_are_those_of_the_oscillator(void **unused) {
-  (void)unused;
+static void limits_are_those_of_the_oscillator(no_state) {
   const struct {
     const char *method;
     double limit;
@@ -110,20 +101,15 @@ static void limits_are_those_of_the_oscillator(void **unused) {
 static hooke_system *damped_at_its_place(double damping) {
   const double place[3] = {1, 2, 3}, velocity[3] = {0, 1, 0}, mass = 1.0;
   const int64_t tied = 0;
-  hooke_system *system;
-  owned_options *options;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 1, place, velocity, 1, &mass, NULL));
-  check_ok(hooke_options_create("anchors", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  owned_options *options = options_with("anchors", "stiffness=1 damping=%.17g", damping);
   check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void damping_at_its_place_limits_the_step(void **unused) {
-  (void)unused;
+static void damping_at_its_place_limits_the_step(no_state) {
   const double c = 1000.0, euler = 4.0 / (c + sqrt(c * c + 4.0)),
                fast = 2.0 / (c / 2.0 + sqrt(c * c / 4.0 - 1.0));
   const struct {
@@ -152,8 +138,7 @@ static void damping_at_its_place_limits_the_step(void **unused) {
 }
 
 /* A run just below that limit ends, and one above it diverges and is blamed on the anchor. */
-static void damping_at_its_place_is_blamed_on_the_anchor(void **unused) {
-  (void)unused;
+static void damping_at_its_place_is_blamed_on_the_anchor(no_state) {
   owned_system *system = damped_at_its_place(1000.0);
   const double limit = 4.0 / (1000.0 + sqrt(1e6 + 4.0));
   for (int above = 0; above <= 1; above++) {
@@ -174,8 +159,7 @@ static void damping_at_its_place_is_blamed_on_the_anchor(void **unused) {
 }
 
 /* The stiffest element of the scene is named, whatever its force. */
-static void a_run_that_diverges_by_one_blames_it(void **unused) {
-  (void)unused;
+static void a_run_that_diverges_by_one_blames_it(no_state) {
   owned_system *system = chain(5e5, 0.0, 0.0);
   owned_state *state = start_state(system);
   owned_integrator *run = start_run(
@@ -189,16 +173,14 @@ static void a_run_that_diverges_by_one_blames_it(void **unused) {
 }
 #endif
 
-static void what_is_wrong_is_said(void **unused) {
-  (void)unused;
+static void what_is_wrong_is_said(no_state) {
   const double place[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0, three[3] = {1, 2, 3};
   const int64_t particles[2] = {0, 2}, twice[2] = {1, 1};
-  owned_system *system;
   owned_options *options, *spring;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("anchors", &options));
-  check_ok(hooke_options_create("springs", &spring));
+  options = new_options("anchors");
+  spring = new_options("springs");
   check_status(hooke_system_add_anchors(system, NULL, 1, particles, options), HOOKE_BAD_VALUE);
   check_message("stiffness");
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));

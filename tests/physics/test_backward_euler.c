@@ -14,8 +14,7 @@ static const char *const forms[] = {"converged", "one-iteration"};
 
 /* ---- linear scenes: both forms equal the formula ---- */
 
-static void one_step_is_the_formula(void **unused) {
-  (void)unused;
+static void one_step_is_the_formula(no_state) {
   const double omega = 3.0, zeta = 0.4, mass = 0.5, q[] = {0, 0, 0, 1, 0, 0}, down[] = {2.5, 0, 0};
   const int64_t ends[] = {0, 1};
   const double steps[] = {0.01, 0.3, 1e3 / 3.0};
@@ -71,8 +70,7 @@ static hooke_system *pulled(int with_product) {
 }
 
 /* Along one line springs of no length are linear, so one iteration solves the equations. */
-static void forms_agree_where_all_is_linear(void **unused) {
-  (void)unused;
+static void forms_agree_where_all_is_linear(no_state) {
   for (int with_product = 0; with_product < 2; with_product++) {
     owned_system *system = pulled(with_product);
     double q[2][9], v[2][9];
@@ -89,8 +87,7 @@ static void forms_agree_where_all_is_linear(void **unused) {
   }
 }
 
-static void order_with_a_drive(void **unused) {
-  (void)unused;
+static void order_with_a_drive(no_state) {
   owned_system *system = pulled(1);
   double fine[9], error[4];
   run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 1.0}, fine, NULL);
@@ -112,8 +109,7 @@ static void order_with_a_drive(void **unused) {
 
 /* A pendulum on a stiff rod, in steps of a fifth of its swing and of h omega = 2000 along the rod: energy
  * never rises. */
-static void strides_over_a_stiff_rod(void **unused) {
-  (void)unused;
+static void strides_over_a_stiff_rod(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, down[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
@@ -138,20 +134,13 @@ static void strides_over_a_stiff_rod(void **unused) {
 }
 
 /* A hanging cloth that crumples, in steps at which Newton's matrix is no longer positive. */
-static void gets_through_compression(void **unused) {
-  (void)unused;
-  owned_system *system = NULL;
-  owned_options *options = NULL;
+static void gets_through_compression(no_state) {
   const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {16, 16};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  owned_system *system = new_system();
+  owned_options *options = options_with(
+      "cloth", "origin=0,0,0 mass=1 pinned=top-corners structural.stiffness=50 shear.stiffness=50");
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 50.0));
   check_ok(hooke_system_set_gravity(system, down));
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
@@ -163,8 +152,7 @@ static void gets_through_compression(void **unused) {
   check_between(energy, -9.81, -0.1); /* it has fallen, and gained nothing */
 }
 
-static void work_is_counted(void **unused) {
-  (void)unused;
+static void work_is_counted(no_state) {
   owned_system *system = build_reference(find_reference("six-particles"));
   int64_t force[2], newton[2], linear[2], products[2];
   for (int form = 0; form < 2; form++) {
@@ -202,8 +190,7 @@ static hooke_system *cable(double damping) {
 }
 
 /* The step has no solution, and parts of it have. */
-static void a_step_is_split(void **unused) {
-  (void)unused;
+static void a_step_is_split(no_state) {
   for (int form = 0; form < 2; form++) {
     owned_system *system = cable(1000);
     owned_integrator *integrator = start_run(
@@ -218,8 +205,7 @@ static void a_step_is_split(void **unused) {
   }
 }
 
-static void a_step_without_solution(void **unused) {
-  (void)unused;
+static void a_step_without_solution(no_state) {
   const double q[] = {0, 0, 0, 0.9, 0, 0}, v[] = {0, 0, 0, 10, 0.5, 0};
   owned_system *system = cable(1e12);
   owned_integrator *integrator =
@@ -242,8 +228,7 @@ static int32_t decay(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void refusals(void **unused) {
-  (void)unused;
+static void refusals(no_state) {
   hooke_integrator *integrator = NULL;
   owned_options *options = run_options((struct run){.method = "backward-euler", .step = 0.1});
   check_status(hooke_integrator_create_first_order(1, decay, NULL, options, &integrator), HOOKE_UNSUITED);

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +12,6 @@ enum { N = 30, TRIPLES = N - 2 };
 
 /* A line of particles 0.1 m apart with bending alone, or with springs as well; of unequal masses. */
 static hooke_system *new_line(double coefficient, double stiffness, double damping, int64_t pinned) {
-  hooke_system *system = NULL;
   double q[3 * N] = {0}, mass[N];
   int64_t triples[3 * TRIPLES], ends[2 * (N - 1)], still[] = {0, 1};
   for (int p = 0; p < N; p++) {
@@ -24,15 +24,12 @@ static hooke_system *new_line(double coefficient, double stiffness, double dampi
   }
   for (int64_t k = 0; k < N - 1; k++)
     ends[2 * k] = k, ends[2 * k + 1] = k + 1;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
   if (coefficient > 0.0)
     check_ok(hooke_system_add_bending(system, "line", TRIPLES, triples, 1, &coefficient));
   if (stiffness > 0.0) {
-    owned_options *options = NULL;
-    check_ok(hooke_options_create("springs", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-    check_ok(hooke_options_set_number(options, "damping", damping));
+    owned_options *options = options_with("springs", "stiffness=%.17g damping=%.17g", stiffness, damping);
     check_ok(hooke_system_add_springs(system, "springs", N - 1, ends, options));
   }
   check_ok(hooke_system_pin(system, pinned, still));
@@ -45,8 +42,7 @@ static hooke_system *commit(hooke_system *system) {
 }
 
 /* A straight line with equal distances has no bending force under any affine map; a bend has. */
-static void straight_lines_have_no_force(void **unused) {
-  (void)unused;
+static void straight_lines_have_no_force(no_state) {
   struct random_source source = {5};
   const double still[3 * N] = {0};
   owned_system *system = commit(new_line(3.0, 0.0, 0.0, 0));
@@ -69,8 +65,7 @@ static void straight_lines_have_no_force(void **unused) {
 }
 
 /* Energies add up, and each counts its own force only. */
-static void energies_are_apart(void **unused) {
-  (void)unused;
+static void energies_are_apart(no_state) {
   double q[3 * N];
   owned_system *both = commit(new_line(3.0, 20.0, 0.0, 0)), *bends = commit(new_line(3.0, 0.0, 0.0, 0)),
                *springs = commit(new_line(0.0, 20.0, 0.0, 0));
@@ -118,16 +113,14 @@ static double energy_error(const hooke_system *system, double step) {
   return fabs(hooke_system_energy(system, "total", q, v) - before) / before;
 }
 
-static void verlet_keeps_the_energy(void **unused) {
-  (void)unused;
+static void verlet_keeps_the_energy(no_state) {
   owned_system *system = commit(new_line(3.0, 20.0, 0.0, 0));
   const double coarse = energy_error(system, 1e-3), fine = energy_error(system, 1e-4);
   check_between(coarse, 1e-6, 1e-2);
   check_between(fine / coarse, 0.001, 0.05);
 }
 
-static void momenta_stay(void **unused) {
-  (void)unused;
+static void momenta_stay(no_state) {
   double q[3 * N], v[3 * N], before[6], after[6];
   owned_system *system = commit(new_line(3.0, 20.0, 0.05, 0));
   kick(q, v);
@@ -142,8 +135,7 @@ static void momenta_stay(void **unused) {
 }
 
 /* Every method agrees with Runge-Kutta with a fine step. */
-static void methods_agree(void **unused) {
-  (void)unused;
+static void methods_agree(no_state) {
   owned_system *system = commit(new_line(3.0, 20.0, 0.02, 2));
   double expected[3 * N], expected_v[3 * N];
   kick(expected, expected_v);
@@ -177,20 +169,12 @@ static void methods_agree(void **unused) {
 
 /* ---- numbers ---- */
 
-static void explicit_triples_come_first(void **unused) {
-  (void)unused;
-  owned_system *system = NULL;
-  owned_options *rope = NULL;
+static void explicit_triples_come_first(no_state) {
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 1.0, c[4] = {2.0, 0.0, 3.0, 0.0};
   const int64_t triples[12] = {2, 0, 1, 0, 1, 2, 1, 2, 0, 0, 1, 2};
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_text(rope, "from", "0,0,0"));
-  check_ok(hooke_options_set_text(rope, "to", "4,0,0"));
-  check_ok(hooke_options_set_number(rope, "segments", 4));
-  check_ok(hooke_options_set_number(rope, "mass", 1));
-  check_ok(hooke_options_set_number(rope, "bending", 5));
+  owned_options *rope = options_with("rope", "from=0,0,0 to=4,0,0 segments=4 mass=1 bending=5");
   check_ok(hooke_system_add_part(system, "rope", "r", rope, NULL, NULL));
   check_ok(hooke_system_add_bending(system, "mine", 4, triples, 4, c));
   check_ok(hooke_system_add_bending(system, NULL, 1, triples, 1, c + 1));
@@ -220,8 +204,7 @@ static void explicit_triples_come_first(void **unused) {
 }
 
 /* Bending without stiffness adds no force and no memory, and changes no bit. */
-static void no_stiffness_is_no_bending(void **unused) {
-  (void)unused;
+static void no_stiffness_is_no_bending(no_state) {
   const double zero = 0.0;
   int64_t triples[3 * TRIPLES];
   for (int64_t k = 0; k < 3 * TRIPLES; k++)
@@ -245,8 +228,7 @@ static void no_stiffness_is_no_bending(void **unused) {
   assert_true(hooke_system_count(bending, "memory") > hooke_system_count(with, "memory"));
 }
 
-static void bad_triples_are_refused(void **unused) {
-  (void)unused;
+static void bad_triples_are_refused(no_state) {
   owned_system *system = new_line(1.0, 0.0, 0.0, 0);
   const double one = 1.0, two[2] = {1.0, -2.0};
   const int64_t fine[6] = {0, 1, 2, 1, 2, 3}, far[3] = {0, 30, 1}, twice[6] = {0, 1, 2, 3, 4, 3};

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,21 +10,14 @@
 
 /* A rope of `segments` pieces of 0.1 m and 0.01 kg a particle, whose springs are soft (or are not there). */
 static hooke_system *new_rope(int segments, double bending, double stiffness, double damping, double drag) {
-  hooke_system *system = NULL;
-  owned_options *rope = NULL;
   const double to[3] = {0.1 * segments, 0.0, 0.0};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_text(rope, "from", "0,0,0"));
+  hooke_system *system = new_system();
+  owned_options *rope = options_with("rope", "from=0,0,0 segments=%d mass=%.17g bending=%.17g", segments,
+                                     0.01 * (segments + 1), bending);
   check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, "segments", segments));
-  check_ok(hooke_options_set_number(rope, "mass", 0.01 * (segments + 1)));
-  check_ok(hooke_options_set_number(rope, "bending", bending));
-  if (stiffness > 0.0) {
-    check_ok(hooke_options_set_number(rope, "stretch.stiffness", stiffness));
-    check_ok(hooke_options_set_number(rope, "stretch.damping", damping));
-    check_ok(hooke_options_set_number(rope, "stretch.rest_scale", 0.9));
-  }
+  if (stiffness > 0.0)
+    set_options(rope, "stretch.stiffness=%.17g stretch.damping=%.17g stretch.rest_scale=0.9", stiffness,
+                damping);
   check_ok(hooke_options_set_text(rope, "pinned", "0,1"));
   check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
   check_ok(hooke_system_set_drag(system, drag));
@@ -32,8 +26,7 @@ static hooke_system *new_rope(int segments, double bending, double stiffness, do
 }
 
 /* The row sum of a particle far from the ends is 16 c, and a long beam comes arbitrarily close to it. */
-static void a_beam_is_bounded_by_its_middle(void **unused) {
-  (void)unused;
+static void a_beam_is_bounded_by_its_middle(no_state) {
   const double c = 0.5 / (0.1 * 0.1 * 0.1), slowest = 2.0 / sqrt(16.0 * c / 0.01);
   owned_system *beam = new_rope(100, 0.5, 0.0, 0.0, 0.0), *short_one = new_rope(2, 0.5, 0.0, 0.0, 0.0);
   check_close(bound_at_start(beam, "verlet"), slowest, 1e-12 * slowest);
@@ -45,8 +38,7 @@ static void a_beam_is_bounded_by_its_middle(void **unused) {
 }
 
 /* Damped springs do not damp bending: forward Euler has only the drag. */
-static void forward_euler_needs_drag(void **unused) {
-  (void)unused;
+static void forward_euler_needs_drag(no_state) {
   owned_system *without = new_rope(20, 0.5, 5.0, 0.1, 0.0), *with = new_rope(20, 0.5, 5.0, 0.1, 0.3);
   check_between(bound_at_start(without, "forward-euler"), 0.0, 0.0);
   check_between(bound_at_start(with, "forward-euler"), 1e-9, 1.0);
@@ -55,12 +47,8 @@ static void forward_euler_needs_drag(void **unused) {
 /* ---- predicted and measured ---- */
 
 static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_text(options, "methods", methods));
-  check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  hooke_options *options =
+      options_with("limit", "methods=%s accuracy=1e-3 predict=%d budget=200", methods, predict);
   return limit_at_start(system, NULL, options);
 }
 
@@ -81,8 +69,7 @@ static void compare(hooke_system *system, const char *methods) {
   hooke_system_destroy(system);
 }
 
-static void limits_are_met(void **unused) {
-  (void)unused;
+static void limits_are_met(no_state) {
   compare(new_rope(3, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
   compare(new_rope(25, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
   compare(new_rope(25, 0.5, 40.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
@@ -92,8 +79,7 @@ static void limits_are_met(void **unused) {
 }
 
 /* Random triples, with springs and particles of all masses, some of them constrained. */
-static void random_triples_run_up_to_the_prediction(void **unused) {
-  (void)unused;
+static void random_triples_run_up_to_the_prediction(no_state) {
   for (uint64_t seed = 1; seed <= 20; seed++) {
     enum { N = 9, TRIPLES = 10, SPRINGS = 8 };
     struct random_source source = {seed};
@@ -111,13 +97,9 @@ static void random_triples_run_up_to_the_prediction(void **unused) {
     }
     for (int k = 0; k < SPRINGS; k++)
       ends[2 * k] = k, ends[2 * k + 1] = k + 1;
-    hooke_system *system = NULL;
-    owned_options *springs = NULL;
-    check_ok(hooke_system_create(&system));
+    hooke_system *system = new_system();
     check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
-    check_ok(hooke_options_create("springs", &springs));
-    check_ok(hooke_options_set_number(springs, "stiffness", 20.0));
-    check_ok(hooke_options_set_number(springs, "rest_scale", seed % 3 ? 0.9 : 1.1));
+    owned_options *springs = options_with("springs", "stiffness=20 rest_scale=%.17g", seed % 3 ? 0.9 : 1.1);
     check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));
     check_ok(hooke_system_add_bending(system, "bends", TRIPLES, triples, TRIPLES, c));
     if (seed % 4 == 0) check_ok(hooke_system_pin(system, 1, &pinned));
@@ -129,8 +111,7 @@ static void random_triples_run_up_to_the_prediction(void **unused) {
 
 /* ---- limiting elements ---- */
 
-static void a_limit_by_bending_names_it(void **unused) {
-  (void)unused;
+static void a_limit_by_bending_names_it(no_state) {
   owned_system *system = new_rope(40, 0.5, 1.0, 0.0, 0.0);
   owned_measurement *limit = find_limit(system, "verlet", 1);
   const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
@@ -153,8 +134,7 @@ static int32_t hear(const char *kind, const char *sentence, double t, double lim
   return 0;
 }
 
-static void a_run_above_the_limit_is_explained(void **unused) {
-  (void)unused;
+static void a_run_above_the_limit_is_explained(no_state) {
   owned_system *system = new_rope(25, 0.5, 1.0, 0.0, 0.0);
   hooke_measurement *limit = find_limit(system, "verlet", 1);
   const double most = hooke_measurement_number(limit, "rows", 0, "predicted");

@@ -5,6 +5,7 @@
 #include "order.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,8 +41,7 @@ static hooke_system *free_body(const double centre[3], const double velocity[3],
       v[3 * p + a] = velocity[a] + swing[a];
     }
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, SIX, q, v, 1, &mass, NULL));
   check_ok(hooke_system_add_body(system, "top", SIX, all, 0));
   check_ok(hooke_system_commit(system));
@@ -127,8 +127,7 @@ static void check_refuses_a_body(const char *method) {
 }
 
 /* Every method refuses a body, or has its order with one. */
-static void free_body_has_the_order_of_its_method(void **unused) {
-  (void)unused;
+static void free_body_has_the_order_of_its_method(no_state) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *name = hooke_method_name(m);
     if (!hooke_method_is_built(name)) continue;
@@ -150,8 +149,7 @@ static void free_body_has_the_order_of_its_method(void **unused) {
 }
 
 /* 100 turns about the axis of largest moment. */
-static void reference_follows_jacobi(void **unused) {
-  (void)unused;
+static void reference_follows_jacobi(no_state) {
   const char *const names[] = {"rk8pd", "cvode-adams", "cvode-bdf", "arkode-esdirk"};
   const double bound[] = {1e-8, 1e-6, 1e-6, 1e-5};
   for (int k = 0; k < 4; k++) {
@@ -193,8 +191,7 @@ static double turning_time_of_euler(void) {
   return euler(start, 0.0, rotation);
 }
 
-static void middle_axis_turns_in_time(void **unused) {
-  (void)unused;
+static void middle_axis_turns_in_time(no_state) {
   const double exact = turning_time_of_euler();
   double error[4];
   for (int k = 0; k < 4; k++)
@@ -229,8 +226,7 @@ static struct drift drift_of(const char *method, double step, int64_t blocks) {
 }
 
 /* 1e6 steps: the error of energy is bounded and of order 2, that of angular momentum is rounding. */
-static void verlet_conserves(void **unused) {
-  (void)unused;
+static void verlet_conserves(no_state) {
   if (left_out(1, 2)) skip(); /* the code is that of the next one */
   const struct drift coarse = drift_of("verlet", 0.2, 5000), fine = drift_of("verlet", 0.1, 10000),
                      euler_drift = drift_of("symplectic-euler", 0.1, 10000);
@@ -243,8 +239,7 @@ static void verlet_conserves(void **unused) {
 
 /* Implicit methods keep the angular momentum of a free body to rounding at any tolerance. That of its energy is of
  * the order of the method: implicit midpoint does not lose or gain it steadily, the others lose it. */
-static void implicit_methods_conserve(void **unused) {
-  (void)unused;
+static void implicit_methods_conserve(no_state) {
   const char *const names[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
   for (int m = 0; m < 3; m++) {
     const struct drift coarse = drift_of(names[m], 0.2, 25), fine = drift_of(names[m], 0.1, 50);
@@ -271,8 +266,7 @@ static hooke_system *bar(int count, int pins, double angle, double *length) {
     second += mass * arm * arm;
   }
   *length = second / first; /* of the simple pendulum of the same period */
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, count, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, pins, all));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
@@ -298,8 +292,7 @@ static double angle_at_the_bottom(int count, int pins, const char *method, doubl
   return atan2(q[3 * (count - 1)], -q[3 * (count - 1) + 1]);
 }
 
-static void pendulum_has_its_period(void **unused) {
-  (void)unused;
+static void pendulum_has_its_period(no_state) {
   for (int pins = 1; pins <= 2; pins++) {
     double error[4];
     for (int k = 0; k < 4; k++)
@@ -316,12 +309,10 @@ static void pendulum_has_its_period(void **unused) {
 }
 
 /* A body held at three points is still, and its free particle weighs on nothing. */
-static void three_pins_hold(void **unused) {
-  (void)unused;
+static void three_pins_hold(no_state) {
   const double place[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 1}, mass = 1.0;
   double q[12];
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 3, (int64_t[]){0, 1, 2}));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
@@ -335,8 +326,7 @@ static void three_pins_hold(void **unused) {
 
 /* Steady precession: a wheel on an axle pinned at its end, horizontal, turns about the vertical at W with
  * m g d = W (I3 s) for a spin s, and the inclination stays. */
-static void top_precesses_steadily(void **unused) {
-  (void)unused;
+static void top_precesses_steadily(no_state) {
   enum { RIM = 8, ALL = RIM + 1 };
   const double d = 0.5, r = 0.3, g = 9.81, spin = 60.0, i3 = r * r, mass = 1.0 / RIM;
   const double w = g * d / (i3 * spin); /* of a horizontal axle: exact */
@@ -352,8 +342,7 @@ static void top_precesses_steadily(void **unused) {
     memcpy(q + 3 * p, arm, sizeof arm);
     memcpy(v + 3 * p, swing, sizeof swing);
   }
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, ALL, q, v, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, all + RIM));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -g}));

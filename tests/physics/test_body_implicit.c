@@ -2,6 +2,7 @@
  * between bodies, and what is conserved. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <complex.h>
 #include <math.h>
@@ -12,10 +13,7 @@ static const char *const NAMES[METHODS] = {"backward-euler", "tr-bdf2", "implici
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness,
                         double damping) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  hooke_options *options = options_with("springs", "stiffness=%.17g damping=%.17g", stiffness, damping);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
   hooke_options_destroy(options);
 }
@@ -44,14 +42,10 @@ static hooke_system *plate(double stiffness, double stretch) {
                       0},
                mass = 0.25;
   const int64_t body[] = {0, 1, 2, 3, 4}, post = 5, ends[] = {4, 5};
-  hooke_system *system = NULL;
-  owned_options *options = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 6, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, &post));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+  owned_options *options = options_with("springs", "stiffness=%.17g rest_length=1", stiffness);
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
   check_ok(hooke_system_add_body(system, "plate", 5, body, 0));
   check_ok(hooke_system_commit(system));
@@ -83,8 +77,7 @@ static double amplification(int method, double z) {
 }
 
 /* However stiff the spring: backward Euler and tr-bdf2 let the motion die, and midpoint keeps its energy. */
-static void unresolved_motion_dies_out(void **unused) {
-  (void)unused;
+static void unresolved_motion_dies_out(no_state) {
   for (double z = 0.1; z < 2e4; z *= 10.0) {
     for (int m = 0; m < METHODS; m++) {
       const double expected = amplification(m, z);
@@ -114,8 +107,7 @@ static hooke_system *chain(double stiffness, double damping, int pinned) {
     v[3 * p + 1] = -0.7 * q[3 * p + 2];
     v[3 * p + 2] = 0.7 * q[3 * p + 1];
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, MASS, NULL));
   check_ok(hooke_system_pin(system, 1, &post));
   if (pinned) check_ok(hooke_system_pin(system, 1, &corner));
@@ -196,8 +188,7 @@ static void check_run(const hooke_system *system, const char *method, double ste
     check_between(hooke_system_energy(system, "total", q, v), -1e3, before + 1e-6 * fabs(before));
 }
 
-static void stiff_chains_are_solved(void **unused) {
-  (void)unused;
+static void stiff_chains_are_solved(no_state) {
   for (int how = 0; how < 4; how++) {
     for (double stiffness = 1e2; stiffness < 2e6; stiffness *= 100.0) {
       owned_system *system = chain(stiffness, how & 1 ? 10.0 : 0.0, how & 2);
@@ -217,8 +208,7 @@ static void stiff_chains_are_solved(void **unused) {
 /* ---- one iteration ---- */
 
 /* It has the order of its method, for it solves the linearised equations. */
-static void one_iteration_has_the_order(void **unused) {
-  (void)unused;
+static void one_iteration_has_the_order(no_state) {
   hooke_system *system = chain(200.0, 0.1, 0);
   double exact[3 * CHAIN], q[3 * CHAIN], error[2];
   run_to_end(system, (struct run){.method = "rk4", .step = 1.0 / 65536, .duration = 0.125, .every = 0.125},
@@ -242,13 +232,11 @@ static void one_iteration_has_the_order(void **unused) {
 
 /* Two turning bodies that two springs join, with nothing else: both momenta stay, by implicit midpoint the
  * angular one too. */
-static void momentum_is_kept(void **unused) {
-  (void)unused;
+static void momentum_is_kept(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0.2, 0, 2.5, 1, 0.5, 2, 0.5, 1},
                v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 0, 0.2, 0, -0.5, 1, 0, -1, 0.5}, mass = 0.4;
   const int64_t one[] = {0, 1, 2}, other[] = {3, 4, 5, 6}, ends[] = {1, 3, 2, 6};
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 7, q, v, 1, &mass, NULL));
   add_springs(system, 2, ends, 50.0, 0.2);
   check_ok(hooke_system_add_body(system, NULL, 3, one, 0));

@@ -12,8 +12,7 @@ static const double G = 9.81;
 /* With the run's velocities, `methods` (NULL: all), measured or predicted alone. A build without LAPACK
  * skips. */
 static hooke_measurement *limit_of(hooke_system *system, const char *methods, int measured) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
+  hooke_options *options = new_options("limit");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "predict", measured ? 0.0 : 1.0));
   return limit_at_start(system, NULL, options);
@@ -52,8 +51,6 @@ static const double PLACE[BAR] = {-1.0, -0.4, 0.1, 0.5, 1.2}, BAR_MASS[BAR] = {1
 static hooke_system *bar_on_springs(double beta, double uneven) {
   double q[3 * BAR_ALL], mass[BAR_ALL], stiffness[BAR - 1], damping[BAR - 1];
   int64_t ends[2 * BAR - 2], body[BAR], posts[BAR - 1], count = 0;
-  hooke_system *system = NULL;
-  owned_options *options = NULL;
   memset(q, 0, sizeof q);
   for (int p = 0; p < BAR; p++) {
     q[3 * p] = PLACE[p];
@@ -70,11 +67,10 @@ static hooke_system *bar_on_springs(double beta, double uneven) {
     damping[count] = beta * BAR_K[p] * (count == 0 ? 1.0 + uneven : 1.0);
     count++;
   }
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, BAR_ALL, q, NULL, BAR_ALL, mass, NULL));
   check_ok(hooke_system_pin(system, count, posts));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", count, damping));
   check_ok(hooke_system_add_springs(system, "feet", count, ends, options));
@@ -103,8 +99,7 @@ static void find_bar_frequencies(double frequency[2]) {
   frequency[1] = sqrt(half + root);
 }
 
-static void a_bar_has_its_two_modes(void **unused) {
-  (void)unused;
+static void a_bar_has_its_two_modes(no_state) {
   double expected[2];
   find_bar_frequencies(expected);
   check_frequencies(bar_on_springs(0.0, 0.0), 2, expected);
@@ -119,8 +114,7 @@ static double exact_limit(const char *method, double w, double beta) {
   return hooke_limit_of_mode(method, w, 0.5 * c);
 }
 
-static void bar_runs_up_to_its_limits(void **unused) {
-  (void)unused;
+static void bar_runs_up_to_its_limits(no_state) {
   const char *const methods[2] = {"symplectic-euler,verlet,rk4",
                                   "symplectic-euler,verlet,forward-euler,heun,rk4"};
   double frequency[2];
@@ -142,8 +136,7 @@ static void bar_runs_up_to_its_limits(void **unused) {
 }
 
 /* Damping out of proportion. */
-static void bar_runs_up_to_its_limits_where_one_spring_is_damped_more(void **unused) {
-  (void)unused;
+static void bar_runs_up_to_its_limits_where_one_spring_is_damped_more(no_state) {
   owned_system *system = bar_on_springs(0.01, 8.0);
   owned_measurement *limit = limit_of(system, "symplectic-euler,verlet,forward-euler,rk4", 1);
   for (int64_t k = 0; k < 4; k++)
@@ -164,8 +157,7 @@ static hooke_system *pendulum(int pins, double angle) {
   return system;
 }
 
-static void a_pendulum_swings_by_gravity(void **unused) {
-  (void)unused;
+static void a_pendulum_swings_by_gravity(no_state) {
   const double w = sqrt(G), both[2] = {w, w}, tilted[2] = {sqrt(G * cos(0.4)), sqrt(G * cos(0.4))};
   for (int pins = 1; pins <= 2; pins++) {
     hooke_system *system = pendulum(pins, 0.0);
@@ -185,8 +177,7 @@ static void a_pendulum_swings_by_gravity(void **unused) {
 }
 
 /* It falls by itself, at any step, and that is not a limit of the step. */
-static void a_pendulum_upside_down_is_said_to_tip(void **unused) {
-  (void)unused;
+static void a_pendulum_upside_down_is_said_to_tip(no_state) {
   owned_system *system = pendulum(1, 3.14159265358979323846);
   check_ok(hooke_system_commit(system));
   owned_measurement *limit = limit_of(system, "verlet", 1);
@@ -197,8 +188,7 @@ static void a_pendulum_upside_down_is_said_to_tip(void **unused) {
 
 /* A bar of length 2a between two springs of length l and tension t, in a line: it moves along by 2 kappa/m,
  * across by 2t/(l m), and turns by 2 t a (1 + a/l) over its inertia m a^2; the second and the third twice. */
-static void tension_holds_a_bar(void **unused) {
-  (void)unused;
+static void tension_holds_a_bar(no_state) {
   const double a = 0.3, l = 0.5, kappa = 40.0, t = kappa * (l - 0.35), m = 2.0;
   const double q[12] = {-a, 0, 0, a, 0, 0, -a - l, 0, 0, a + l, 0, 0};
   const double across = sqrt(2.0 * t / (l * m)), turn = sqrt(2.0 * t * a * (1.0 + a / l) / (m * a * a));
@@ -219,10 +209,8 @@ static void tension_holds_a_bar(void **unused) {
 
 /* The bar on its springs, which turns about the vertical. */
 static hooke_measurement *limit_at_spin(const hooke_system *system, double spin) {
-  owned_options *options;
   hooke_measurement *limit = NULL;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_text(options, "methods", "symplectic-euler,verlet,rk4"));
+  owned_options *options = options_with("limit", "methods=symplectic-euler,verlet,rk4");
   check_ok(hooke_measurement_create("limit", system, NULL, options, &limit));
   owned_state *state = start_state(system);
   for (int p = 0; p < BAR; p++)
@@ -232,8 +220,7 @@ static hooke_measurement *limit_at_spin(const hooke_system *system, double spin)
 }
 
 /* Known up to 1e-3 rad in the time in which the limiting mode swings by 1 rad; else not measured either. */
-static void spin_makes_a_limit_unknown(void **unused) {
-  (void)unused;
+static void spin_makes_a_limit_unknown(no_state) {
   owned_system *system = bar_on_springs(0.0, 0.0);
   hooke_measurement_destroy(limit_of(system, "verlet", 0)); /* skips without LAPACK */
   double frequency[2];
@@ -272,8 +259,7 @@ static double tetrahedron_limit(double stiffness) {
   return found;
 }
 
-static void limit_of_a_lattice_falls_and_that_of_its_body_stays(void **unused) {
-  (void)unused;
+static void limit_of_a_lattice_falls_and_that_of_its_body_stays(no_state) {
   const double body = tetrahedron_limit(0.0);
   double before = tetrahedron_limit(1e4);
   check_between(body, 10.0 * before, 100.0 * before);
@@ -286,8 +272,7 @@ static void limit_of_a_lattice_falls_and_that_of_its_body_stays(void **unused) {
 
 /* ---- why ---- */
 
-static void why_names_the_spring_at_a_body(void **unused) {
-  (void)unused;
+static void why_names_the_spring_at_a_body(no_state) {
   double frequency[2];
   owned_system *system = bar_on_springs(0.0, 0.0);
   find_bar_frequencies(frequency);

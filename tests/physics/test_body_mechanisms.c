@@ -4,6 +4,7 @@
 #include "elliptic.h"
 #include "order.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -30,8 +31,7 @@ static hooke_system *spinning_top(void) {
       v[3 * p + a] = SPIN * (c * across[a] - s * f[a]);
     }
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, TOP, q, v, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, all + RIM));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -G}));
@@ -63,8 +63,7 @@ static double error_of_height(const hooke_system *system, struct run run) {
   return fabs(height - expected);
 }
 
-static void top_nutates(void **unused) {
-  (void)unused;
+static void top_nutates(no_state) {
   owned_system *system = spinning_top();
   double unused_height;
   const double period = nutation(0.0, &unused_height), time = 3.3 * period;
@@ -158,14 +157,9 @@ static hooke_system *governor(double stiffness) {
   }
   memcpy(q + 6 * ROD, below, sizeof below);
   mass[2 * ROD] = SLIDER;
-  hooke_system *system = NULL;
-  owned_options *link = NULL;
-  check_ok(hooke_options_create("springs", &link));
-  check_ok(hooke_options_set_text(link, "law", "length"));
-  check_ok(hooke_options_set_number(link, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(link, "damping", 0.05 * stiffness));
-  check_ok(hooke_options_set_number(link, "rest_length", LINK));
-  check_ok(hooke_system_create(&system));
+  owned_options *link = options_with("springs", "law=length stiffness=%.17g damping=%.17g rest_length=%.17g",
+                                     stiffness, 0.05 * stiffness, LINK);
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, GOVERNOR, q, v, GOVERNOR, mass, NULL));
   check_ok(hooke_system_pin(system, 2, (int64_t[]){0, ROD}));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -G}));
@@ -231,8 +225,7 @@ static double slider_risen(const double *q, const double *angle) {
 }
 
 /* The links give by force over stiffness. */
-static void governor_follows_its_angle(void **unused) {
-  (void)unused;
+static void governor_follows_its_angle(no_state) {
   const struct run rk4 = {.method = "rk4", .step = 1e-4, .duration = 2.0};
   struct followed governed = {1, accelerate_governor, slider_off, {PI / 3}, {0.0}, 0, 0.0};
   double off[3];
@@ -260,13 +253,8 @@ static hooke_system *linkage(double stiffness) {
     fill_rod(start, along, BAR[k], q + 9 * k, mass + ROD * k);
     memcpy(start, along, sizeof along); /* the end of the first */
   }
-  hooke_system *system = NULL;
-  owned_options *joint = NULL;
-  check_ok(hooke_options_create("springs", &joint));
-  check_ok(hooke_options_set_text(joint, "law", "length"));
-  check_ok(hooke_options_set_number(joint, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(joint, "rest_length", 0.0));
-  check_ok(hooke_system_create(&system));
+  owned_options *joint = options_with("springs", "law=length stiffness=%.17g rest_length=0", stiffness);
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, LINKAGE, q, NULL, LINKAGE, mass, NULL));
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -G, 0.0}));
@@ -294,8 +282,7 @@ static double end_off(const double *q, const double *angle) {
   return hypot(end[0] - sin(angle[0]) - sin(angle[1]), end[1] + cos(angle[0]) + cos(angle[1]));
 }
 
-static void linkage_follows_its_angles(void **unused) {
-  (void)unused;
+static void linkage_follows_its_angles(no_state) {
   const struct followed swinging = {2, accelerate_linkage, end_off, {START[0], START[1]}, {0.0, 0.0}, 0, 0.0};
   double off[4];
   for (int k = 0; k < 4; k++)
@@ -320,18 +307,13 @@ static void list_frame(int64_t particle[FRAME_COUNT]) {
 }
 
 static hooke_system *framed_cloth(double drag) {
-  owned_options *cloth = NULL;
-  hooke_system *system = NULL;
   int64_t frame[FRAME_COUNT];
   list_frame(frame);
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, (double[]){CLOTH, CLOTH}));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0.3, 1}));
-  check_ok(hooke_options_set_number(cloth, "mass", 0.5));
-  check_ok(hooke_options_set_text(cloth, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 20.0));
-  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 5.0));
-  check_ok(hooke_system_create(&system));
+  owned_options *cloth = options_with("cloth",
+                                      "size=%d,%d edges=1,0,0,0,0.3,1 mass=0.5 pinned=top-corners "
+                                      "structural.stiffness=20 shear.stiffness=5",
+                                      CLOTH, CLOTH);
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
   check_ok(hooke_system_add_body(system, "frame", FRAME_COUNT, frame, 0));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -G, 0.0}));
@@ -358,8 +340,7 @@ static double bent(const double *from, const double *to) {
   return most;
 }
 
-static void framed_cloth_keeps_its_energy(void **unused) {
-  (void)unused;
+static void framed_cloth_keeps_its_energy(no_state) {
   enum { N = CLOTH * CLOTH };
   owned_system *system = framed_cloth(0.0);
   owned_state *start = start_state(system);
@@ -377,8 +358,7 @@ static void framed_cloth_keeps_its_energy(void **unused) {
 
 /* Once it has come to rest, what acts on the frame adds up to no force and no torque; on its particles it
  * does not. */
-static void frame_hangs_in_balance(void **unused) {
-  (void)unused;
+static void frame_hangs_in_balance(no_state) {
   enum { N = CLOTH * CLOTH };
   owned_system *system = framed_cloth(0.03);
   double q[3 * N], v[3 * N], f[3 * N], force[3] = {0.0}, torque[3] = {0.0}, most = 0.0;

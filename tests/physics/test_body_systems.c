@@ -3,6 +3,7 @@
 #include "check.h"
 #include "order.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,10 +28,7 @@ static void place_corner(int p, double q[3]) {
 }
 
 static hooke_options *material(const char *kind, double stiffness, double damping) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create(kind, &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  hooke_options *options = options_with(kind, "stiffness=%.17g damping=%.17g", stiffness, damping);
   return options;
 }
 
@@ -57,8 +55,7 @@ static hooke_system *cube(struct cube how) {
     v[3 * p + 1] = 0.8 * q[3 * p] - 0.5 * q[3 * p + 2];
     v[3 * p + 2] = 0.5 * q[3 * p + 1];
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, CUBE, q, v, CUBE, mass, NULL));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 1.0}));
   check_ok(hooke_system_set_drag(system, how.drag));
@@ -86,8 +83,7 @@ static void end_of(const hooke_system *system, const char *method, double step, 
   run_to_end(system, (struct run){.method = method, .step = step, .duration = 1.0, .every = 1.0}, q, NULL);
 }
 
-static void hung_cube_has_the_order_of_its_method(void **unused) {
-  (void)unused;
+static void hung_cube_has_the_order_of_its_method(no_state) {
   const struct {
     const char *name;
     double step, low, high;
@@ -115,8 +111,7 @@ static void hung_cube_has_the_order_of_its_method(void **unused) {
 }
 
 /* The acceleration of the particles is the second derivative of their motion. */
-static void acceleration_is_that_of_the_motion(void **unused) {
-  (void)unused;
+static void acceleration_is_that_of_the_motion(no_state) {
   const double h = 2e-5;
   owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
   owned_state *state = start_state(system);
@@ -140,8 +135,7 @@ static void acceleration_is_that_of_the_motion(void **unused) {
 /* A bar with a heavy middle on four anchors at the corners: it rises and sways at sqrt(4 k/M), and turns about its
  * axes at sqrt(k (the sum of squared distances)/I) = sqrt(k/m), m the mass of a corner, which is faster. verlet is
  * stable up to 2 over that. */
-static void bar_on_springs_has_its_limit(void **unused) {
-  (void)unused;
+static void bar_on_springs_has_its_limit(no_state) {
   const double k = 500.0, m = 0.2, mass[5] = {0.2, 0.2, 0.2, 0.2, 3.0};
   const double q[15] = {1, 0, 0.1, 1, 0, -0.1, -1, 0, 0.1, -1, 0, -0.1, 0, 0, 0};
   for (int above = 0; above < 2; above++) {
@@ -152,9 +146,8 @@ static void bar_on_springs_has_its_limit(void **unused) {
       v[3 * p + 1] = w[2] * x[0] - w[0] * x[2] + 1e-5;
       v[3 * p + 2] = w[0] * x[1] - w[1] * x[0];
     }
-    owned_system *system = NULL;
     owned_options *options = material("anchors", k, 0.0);
-    check_ok(hooke_system_create(&system));
+    owned_system *system = new_system();
     check_ok(hooke_system_add_particles(system, 5, q, v, 5, mass, NULL));
     check_ok(hooke_system_add_anchors(system, "feet", 4, ALL, options));
     check_ok(hooke_system_add_body(system, "bar", 5, ALL, 0));
@@ -193,8 +186,7 @@ static struct path path_of(struct cube how, double step) {
 }
 
 /* Its distance from the body falls as 1/stiffness over three decades. */
-static void stiff_lattice_tends_to_the_body(void **unused) {
-  (void)unused;
+static void stiff_lattice_tends_to_the_body(no_state) {
   struct cube how = {.rigid = 1, .anchored = 1, .turning = 1};
   const struct path body = path_of(how, 1.0 / 4000);
   double apart[4];
@@ -212,8 +204,7 @@ static void stiff_lattice_tends_to_the_body(void **unused) {
 /* ---- bits ---- */
 
 /* Steps by other integrators, each from the state that the last one left, are those of one run. */
-static void a_step_is_a_map_of_the_state(void **unused) {
-  (void)unused;
+static void a_step_is_a_map_of_the_state(no_state) {
   const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet",  "heun",
                                  "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint"};
   for (int damped = 0; damped < 2; damped++) {
@@ -235,22 +226,16 @@ static void a_step_is_a_map_of_the_state(void **unused) {
 }
 
 /* A cloth with a rigid corner, large enough for two threads. */
-static void threads_do_not_change_bits(void **unused) {
-  (void)unused;
+static void threads_do_not_change_bits(no_state) {
   enum { SIDE = 100, N = SIDE * SIDE };
   const int64_t corner[] = {0, 1, 2, SIDE, SIDE + 1, SIDE + 2, 2 * SIDE, 2 * SIDE + 1};
-  owned_options *options = NULL;
-  owned_system *system = NULL;
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_numbers(options, "size", 2, (double[]){SIDE, SIDE}));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, (double[]){1, 0, 0, 0, 0.2, 1}));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
+  owned_options *options =
+      options_with("cloth", "size=%d,%d edges=1,0,0,0,0.2,1 mass=1 pinned=top-corners", SIDE, SIDE);
   for (int k = 0; k < 3; k++) {
     const char *const family[] = {"structural.stiffness", "shear.stiffness", "bend.stiffness"};
     check_ok(hooke_options_set_number(options, family[k], 100.0));
   }
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_add_body(system, "frame", 8, corner, 0));
@@ -279,8 +264,7 @@ static void threads_do_not_change_bits(void **unused) {
 
 /* ---- what is dropped, and sums over particles ---- */
 
-static void inner_springs_are_dropped(void **unused) {
-  (void)unused;
+static void inner_springs_are_dropped(no_state) {
   owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
   assert_int_equal(hooke_system_count(system, "springs"), 0);
   assert_int_equal(hooke_system_count(system, "inside_bodies"), PAIRS);
@@ -290,8 +274,7 @@ static void inner_springs_are_dropped(void **unused) {
   assert_string_equal(hooke_system_body_name(system, 0), "cube");
 }
 
-static void motion_adds_up_to_energy(void **unused) {
-  (void)unused;
+static void motion_adds_up_to_energy(no_state) {
   owned_system *system = committed((struct cube){.rigid = 1, .turning = 1});
   owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
@@ -322,8 +305,7 @@ static void refuse(hooke_system *system, const char *words) {
   hooke_system_destroy(system);
 }
 
-static void bad_bodies_are_refused(void **unused) {
-  (void)unused;
+static void bad_bodies_are_refused(no_state) {
   const double mass = 1.0, same[] = {1, 2, 3, 1, 2, 3}, uneven[] = {0, 0, 1, 0, 0, 0, 0, 0, 0},
                row[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   hooke_system *system = cube((struct cube){.rigid = 1});
@@ -332,21 +314,21 @@ static void bad_bodies_are_refused(void **unused) {
   system = cube((struct cube){.rigid = 0});
   check_ok(hooke_system_add_body(system, "twice", 2, (int64_t[]){3, 3}, 0));
   refuse(system, "bodies[0]: particle 3 is named twice");
-  check_ok(hooke_system_create(&system));
+  system = new_system();
   check_ok(hooke_system_add_particles(system, 2, same, NULL, 1, &mass, NULL));
   check_ok(hooke_system_add_body(system, NULL, 2, ALL, 0));
   refuse(system, "all at one position");
   system = cube((struct cube){.rigid = 1});
   check_ok(hooke_system_drive_harmonic(system, 1, ALL + 2, (double[]){0, 1, 0}, 1.0, 0.0));
   refuse(system, "particle 2 is driven and others of the body are not");
-  check_ok(hooke_system_create(&system));
+  system = new_system();
   check_ok(hooke_system_add_particles(system, 3, row, uneven, 1, &mass, NULL));
   check_ok(hooke_system_add_body(system, NULL, 2, ALL, 0));
   check_ok(hooke_system_commit(system)); /* 2 points can turn so */
   hooke_system_destroy(system);
   const double apart[9] = {0, 0, 0, 0.5, 0, 0, 0, 0, 0};
   for (int project = 0; project < 2; project++) {
-    check_ok(hooke_system_create(&system));
+    system = new_system();
     check_ok(hooke_system_add_particles(system, 3, row, apart, 1, &mass, NULL));
     check_ok(hooke_system_add_body(system, NULL, 3, ALL, project));
     if (!project) {
@@ -364,16 +346,14 @@ static void bad_bodies_are_refused(void **unused) {
   }
 }
 
-static void unknown_is_said(void **unused) {
-  (void)unused;
+static void unknown_is_said(no_state) {
   owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1});
   owned_state *state = start_state(system);
   owned_options *options = run_options((struct run){.method = "shardlow", .step = 0.01, .duration = 1.0});
   hooke_integrator *integrator = NULL;
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("shardlow does not know rigid bodies yet");
-  check_ok(hooke_options_set_text(options, "method", "tr-bdf2"));
-  check_ok(hooke_options_set_text(options, "linear_solver", "direct"));
+  set_options(options, "method=tr-bdf2 linear_solver=direct");
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("direct does not know rigid bodies yet; allowed with tr-bdf2: auto, blocks");
   double bound = 0.0;
@@ -390,8 +370,7 @@ static void unknown_is_said(void **unused) {
 }
 
 /* A driven body follows its drive. */
-static void driven_bodies_follow(void **unused) {
-  (void)unused;
+static void driven_bodies_follow(no_state) {
   owned_system *system = cube((struct cube){.rigid = 1});
   double q[3 * CUBE], corner[3];
   check_ok(hooke_system_drive_harmonic(system, CUBE, ALL, (double[]){0, 0.5, 0}, 1.0, 0.0));

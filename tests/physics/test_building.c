@@ -11,8 +11,7 @@ static hooke_system *three(void) {
   return small_system(3, place, NULL, 1.0, 0);
 }
 
-static void test_particles(void **unused) {
-  (void)unused;
+static void test_particles(no_state) {
   const double bad_place[] = {0, 0, 0, 1, NAN, 0}, bad_velocity[] = {0, 0, 0, 0, 0, INFINITY};
   const double mass = 1.0, none = 0.0, negative[] = {1.0, -2.5}, masses[] = {1, 2, 3};
   owned_system *system = three();
@@ -35,9 +34,7 @@ static void test_particles(void **unused) {
 }
 
 static hooke_options *spring_options(const char *name, double value) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
+  hooke_options *options = options_with("springs", "stiffness=10");
   if (name != NULL) check_ok(hooke_options_set_number(options, name, value));
   return options;
 }
@@ -57,8 +54,7 @@ static void refuse_springs(int64_t count, const int64_t *ends, const hooke_optio
   hooke_system_destroy(system);
 }
 
-static void test_springs(void **unused) {
-  (void)unused;
+static void test_springs(no_state) {
   const int64_t outside[] = {0, 1, 1, 7}, below[] = {-1, 2}, same[] = {0, 1, 2, 2}, good[] = {0, 1, 1, 2};
   const double three_values[] = {1, 2, 3}, with_zero[] = {1, 0};
   hooke_options *options = spring_options(NULL, 0.0);
@@ -81,8 +77,7 @@ static void test_springs(void **unused) {
 }
 
 /* Coincident ends have no initial length for the strain law. */
-static void test_initial_length_of_nothing(void **unused) {
-  (void)unused;
+static void test_initial_length_of_nothing(no_state) {
   const double q[] = {0, 0, 0, 1, 1, 1, 1, 1, 1};
   const int64_t ends[] = {0, 1, 1, 2};
   owned_system *system = small_system(3, q, NULL, 1.0, 0);
@@ -94,8 +89,7 @@ static void test_initial_length_of_nothing(void **unused) {
   check_ok(hooke_system_commit(system));
 }
 
-static void test_spring_options(void **unused) {
-  (void)unused;
+static void test_spring_options(no_state) {
   owned_options *options = spring_options(NULL, 0.0);
   const double bad[] = {1.0, -3.0};
   check_status(hooke_options_set_number(options, "stiffness", -5.0), HOOKE_BAD_VALUE);
@@ -113,8 +107,7 @@ static void test_spring_options(void **unused) {
   check_close(hooke_options_number(options, "stiffness"), 10.0, 0.0); /* kept */
 }
 
-static void test_pins_and_drives(void **unused) {
-  (void)unused;
+static void test_pins_and_drives(no_state) {
   const int64_t outside[] = {0, 3}, one = 1, two = 2, twice[] = {0, 0};
   const double amplitude[] = {1, 0, 0}, lost[] = {1, NAN, 0}, time[] = {0, 1, 1}, moved[9] = {0};
   owned_system *system = three();
@@ -146,8 +139,7 @@ static void test_pins_and_drives(void **unused) {
   assert_true(hooke_system_inverse_mass(system)[1] == 0.0 && hooke_system_inverse_mass(system)[2] == 0.0);
 }
 
-static void test_gravity_and_drag(void **unused) {
-  (void)unused;
+static void test_gravity_and_drag(no_state) {
   const double gravity[] = {0, 0, -INFINITY};
   owned_system *system = three();
   check_status(hooke_system_set_gravity(system, gravity), HOOKE_BAD_VALUE);
@@ -160,8 +152,7 @@ static void test_gravity_and_drag(void **unused) {
 }
 
 /* A pinned particle with a velocity is refused at commit; the system stays open. */
-static void test_moving_pin(void **unused) {
-  (void)unused;
+static void test_moving_pin(no_state) {
   const double v[] = {0, 0, 0, 0, 0.25, 0, 0, 0, 0};
   const int64_t one = 1;
   owned_system *system = small_system(3, place, v, 1.0, 0);
@@ -173,8 +164,7 @@ static void test_moving_pin(void **unused) {
   check_ok(hooke_system_set_drag(system, 1.0)); /* still open */
 }
 
-static void test_calls_out_of_order(void **unused) {
-  (void)unused;
+static void test_calls_out_of_order(no_state) {
   const double gravity[] = {0, 0, 1}, mass = 1.0;
   const int64_t ends[] = {0, 1}, one = 1;
   double out[9];
@@ -182,8 +172,7 @@ static void test_calls_out_of_order(void **unused) {
   hooke_integrator *integrator = NULL;
   owned_options *options = spring_options(NULL, 0.0), *run = NULL;
   owned_system *system = three();
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_number(run, "step", 0.1));
+  run = options_with("run", "step=0.1");
   check_status(hooke_system_force(system, 0.0, place, place, out), HOOKE_BAD_CALL);
   check_status(hooke_system_acceleration(system, 0.0, place, place, out), HOOKE_BAD_CALL);
   check_status(hooke_state_create(system, &state), HOOKE_BAD_CALL);
@@ -201,8 +190,7 @@ static void test_calls_out_of_order(void **unused) {
 }
 
 /* Groups keep their order, names and sizes; springs are numbered through them. */
-static void test_spring_numbers(void **unused) {
-  (void)unused;
+static void test_spring_numbers(no_state) {
   const int64_t first[] = {2, 0}, second[] = {0, 1, 1, 2}, expected[] = {2, 0, 0, 1, 1, 2};
   int64_t ends[6];
   double kappa[3], gamma[3], rest[3];
@@ -262,9 +250,8 @@ static const struct kind {
 
 /* Every number that each member may have, of members `first` to `first` + `count`. */
 static hooke_options *numbers_of(const char *force, int64_t first, int64_t count) {
-  hooke_options *options;
   int64_t set = 0;
-  check_ok(hooke_options_create(force, &options));
+  hooke_options *options = new_options(force);
   for (int64_t row = 0; row < hooke_options_row_count(options); row++) {
     double value[MOST];
     const char *name = hooke_options_row(options, row, "name");
@@ -285,8 +272,7 @@ static hooke_options *numbers_of(const char *force, int64_t first, int64_t count
 static hooke_system *built_of(const struct kind *kind, int one_by_one, const double *q, const double *mass) {
   const int64_t size = hooke_member_particles(kind->force), count = one_by_one ? 1 : MEMBERS,
                 particles = one_by_one ? 1 : CORNERS;
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   for (int64_t p = 0; p < CORNERS; p += particles)
     check_ok(hooke_system_add_particles(system, particles, q + 3 * p, NULL, particles, mass + p, NULL));
   for (int64_t k = 0; k < MEMBERS; k += count) {
@@ -298,8 +284,7 @@ static hooke_system *built_of(const struct kind *kind, int one_by_one, const dou
 }
 
 /* Unequal numbers in arrays act as when they are given one by one. */
-static void test_each_has_its_numbers(void **unused) {
-  (void)unused;
+static void test_each_has_its_numbers(no_state) {
   double q[3 * CORNERS], moved[3 * CORNERS], v[3 * CORNERS], mass[CORNERS], a[2][3 * CORNERS];
   for (int k = 0; k < 3 * CORNERS; k++) {
     q[k] = sin(1.0 + k * k);

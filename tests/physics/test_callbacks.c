@@ -33,8 +33,7 @@ static int32_t linear_product(int64_t n, double t, const double *q, const double
   return linear_force(n, t, dq, dv, out, ctx);
 }
 
-static void test_difference_quotients(void **unused) {
-  (void)unused;
+static void test_difference_quotients(no_state) {
   const double q[] = {1, -2, 3, 100, 0.5, -40}, v[] = {0, 1, 0, -3, 0, 5}, dq[] = {1, 2, -1, 0.5, 0, 3},
                dv[] = {0.25, 0, -4, 1, 1, 1};
   for (int with = 0; with < 2; with++) {
@@ -59,8 +58,7 @@ static hooke_system *linear_system(const char *kind, hooke_force_product *produc
   const double q[3 * LINEAR] = {1, -2, 3, 1, 0.5, -4, 0, 0, 2, 1, 0, 0, 0, 1, 0, 0, 0, 1},
                      mass[] = {0.5, 2.0, 1.0, 0.7, 1.3, 0.4};
   const int64_t pinned = 0, body[] = {3, 4, 5};
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, LINEAR, q, NULL, LINEAR, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   if (strcmp(kind, "overdamped") == 0) check_ok(hooke_system_set_dynamics(system, kind));
@@ -101,8 +99,7 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
 
 /* The force is linear, so but for turning bodies one iteration solves a step, with the derivative that is
  * given and with difference quotients. */
-static void test_derivative_in_steps(void **unused) {
-  (void)unused;
+static void test_derivative_in_steps(no_state) {
   static const char *const kinds[] = {"second-order", "bodies", "overdamped", "coordinates"};
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
     int64_t products = 0;
@@ -155,8 +152,7 @@ static int32_t look(int64_t n, double t, const double *q, const double *v, doubl
   return 0;
 }
 
-static void test_what_a_callback_sees(void **unused) {
-  (void)unused;
+static void test_what_a_callback_sees(no_state) {
   const double q[] = {0, 0, 0, 2, 0, 0}, v[] = {0, 1, 0, 0, 0, 3}, gravity[] = {0, 0, -10};
   const int64_t ends[] = {0, 1};
   struct shown shown = {0};
@@ -229,8 +225,7 @@ static void go(const hooke_system *system, const char *method, double end[6]) {
   memcpy(end + 3, hooke_state_velocity(state) + 3 * (FAR - 1), 3 * sizeof *end);
 }
 
-static void test_a_force_for_some_runs(void **unused) {
-  (void)unused;
+static void test_a_force_for_some_runs(no_state) {
   static const char *const methods[] = {"rk4", "verlet", "backward-euler", "cvode-adams"};
   static struct holder own, lent;
   hooke_system *plain = spring_and_pins(NULL, NULL), *forced = spring_and_pins(pull_and_hold, &own), *with;
@@ -256,15 +251,14 @@ static void test_a_force_for_some_runs(void **unused) {
   assert_int_equal(hooke_system_count(with, "idle"), hooke_system_count(plain, "idle"));
   hooke_system_destroy(with);
   hooke_system_destroy(plain);
-  check_ok(hooke_system_create(&plain));
+  plain = new_system();
   check_status(hooke_system_with_force(plain, NULL, NULL, NULL, &with), HOOKE_BAD_CALL);
   hooke_system_destroy(plain);
 }
 
 /* The arrays of a call outlast the run, with the numbers of the call; implicit methods take difference
  * quotients. */
-static void test_what_a_callback_holds(void **unused) {
-  (void)unused;
+static void test_what_a_callback_holds(no_state) {
   static const char *const methods[] = {"rk4", "backward-euler"};
   for (int k = 0; k < 2; k++) {
     static struct holder holder, other;
@@ -444,8 +438,7 @@ static void check_stops(const char *problem, const char *method, hooke_force_pro
 }
 
 /* In a step, a residual or a derivative, of every method and every kind of unknowns. */
-static void test_every_call_may_stop(void **unused) {
-  (void)unused;
+static void test_every_call_may_stop(no_state) {
   static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order",
                                          "coordinates"};
   for (size_t k = 0; k < sizeof problems / sizeof problems[0]; k++) {
@@ -459,8 +452,7 @@ static void test_every_call_may_stop(void **unused) {
   }
 }
 
-static void test_a_force_alone_stops(void **unused) {
-  (void)unused;
+static void test_a_force_alone_stops(no_state) {
   const double q[] = {0, 0, 0};
   struct stopper stopper = {.stop = 1};
   double force[3];

@@ -6,6 +6,7 @@
  * which converges to w L^4/(8 B), w = rho g, like 1/N^2. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,17 +32,13 @@ static hooke_system *commit(hooke_system *system) {
 }
 
 static hooke_system *new_rope(int segments, const char *of_mass, double mass, double piece) {
-  hooke_system *system = NULL;
-  owned_options *rope = NULL;
   const double from[3] = {-0.5 * piece, 0.0, 0.0}, to[3] = {(segments - 0.5) * piece, 0.0, 0.0};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &rope));
+  hooke_system *system = new_system();
+  owned_options *rope = options_with("rope", "segments=%d", segments);
   check_ok(hooke_options_set_numbers(rope, "from", 3, from));
   check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, "segments", segments));
   check_ok(hooke_options_set_number(rope, of_mass, mass));
-  check_ok(hooke_options_set_number(rope, "bending", stiffness()));
-  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 1e5));
+  set_options(rope, "bending=%.17g stretch.stiffness=1e5", stiffness());
   check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
   pin_first(system, 2);
   return commit(system);
@@ -49,19 +46,15 @@ static hooke_system *new_rope(int segments, const char *of_mass, double mass, do
 
 /* `along` pieces from the wall, `across` particles over 0.5 m. */
 static hooke_system *new_sheet(int along, int across) {
-  hooke_system *system = NULL;
-  owned_options *cloth = NULL;
   const double piece = LENGTH / (along - 0.5);
   const double edges[6] = {0.0, 0.5, 0.0, along * piece, 0.0, 0.0}, size[2] = {across, along + 1};
   const double origin[3] = {-0.5 * piece, 0.0, 0.0};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &cloth));
+  hooke_system *system = new_system();
+  owned_options *cloth =
+      options_with("cloth", "density=%.17g bending=%.17g structural.stiffness=1e5", DENSITY, stiffness());
   check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "density", DENSITY));
-  check_ok(hooke_options_set_number(cloth, "bending", stiffness()));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 1e5));
   check_ok(hooke_system_add_part(system, "cloth", "sheet", cloth, NULL, NULL));
   pin_first(system, 2 * across);
   return commit(system);
@@ -150,8 +143,7 @@ static double tip_of(int segments) {
   return sag_of(new_rope(segments, "density", DENSITY, LENGTH / (segments - 0.5)), 1);
 }
 
-static void tips_sink_as_beams_do(void **unused) {
-  (void)unused;
+static void tips_sink_as_beams_do(no_state) {
   const int segments[4] = {16, 32, 64, 128};
   double tip[4];
   for (int k = 0; k < 4; k++) {
@@ -168,8 +160,7 @@ static void tips_sink_as_beams_do(void **unused) {
 
 /* Equal masses give the tip twice its proper mass; with a wall at the first particle the length is off by
  * half a piece. */
-static void other_masses_and_walls_are_noticed(void **unused) {
-  (void)unused;
+static void other_masses_and_walls_are_noticed(no_state) {
   const double piece = LENGTH / 15.5, other = LENGTH / 16.0, unit = SAG * LENGTH;
   const double shared = sag_of(new_rope(16, "mass", DENSITY * 16.0 * piece, piece), 1) / unit;
   const double wall = sag_of(new_rope(16, "density", DENSITY, other), 1) / unit;
@@ -182,8 +173,7 @@ static void other_masses_and_walls_are_noticed(void **unused) {
 }
 
 /* The library's own way to equilibrium: backward Euler, which damps modes that it does not resolve. */
-static void backward_euler_comes_to_rest_there(void **unused) {
-  (void)unused;
+static void backward_euler_comes_to_rest_there(no_state) {
   const double expected = tip_of(16);
   owned_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
   double q[3 * 17];
@@ -194,8 +184,7 @@ static void backward_euler_comes_to_rest_there(void **unused) {
 
 /* ---- sheets ---- */
 
-static void sheets_sink_as_beams_do(void **unused) {
-  (void)unused;
+static void sheets_sink_as_beams_do(no_state) {
   const int along[3] = {16, 64, 128}, across[3] = {2, 5, 9};
   for (int k = 0; k < 3; k++) {
     double first = 0.0;

@@ -11,7 +11,7 @@
 static int32_t create(const hooke_system *system, struct run run, const char *methods,
                       hooke_measurement **comparison) {
   hooke_options *of_run = run_options(run), *options = NULL;
-  check_ok(hooke_options_create("comparison", &options));
+  options = new_options("comparison");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   const int32_t status = hooke_measurement_create("comparison", system, of_run, options, comparison);
   hooke_options_destroy(options);
@@ -62,8 +62,7 @@ static double true_error(const struct reference *reference, const hooke_system *
   return sqrt(sum / count);
 }
 
-static void errors_are_true_errors(void **unused) {
-  (void)unused;
+static void errors_are_true_errors(no_state) {
   const struct reference *reference = find_reference("six-particles");
   owned_system *system = build_reference(reference);
   const struct run run = {.step = 1e-3, .duration = 1.0, .every = 0.1};
@@ -102,8 +101,7 @@ static void errors_are_true_errors(void **unused) {
   assert_int_equal((int)figure(comparison, "symplectic-euler", "force_evaluations"), 1000);
 }
 
-static void a_diverged_row_stays(void **unused) {
-  (void)unused;
+static void a_diverged_row_stays(no_state) {
   owned_system *system = small_oscillator(100.0);
   owned_measurement *comparison = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5},
                                           "symplectic-euler, cvode-adams");
@@ -123,8 +121,7 @@ static int32_t stop_at_half(double done, const char *what, void *ctx) {
   return done >= 0.5 ? 7 : 0;
 }
 
-static void progress_goes_on_and_stops(void **unused) {
-  (void)unused;
+static void progress_goes_on_and_stops(no_state) {
   owned_system *system = small_oscillator(10.0);
   owned_measurement *comparison =
       compare(system, (struct run){.step = 1e-3, .duration = 2.0, .every = 0.1}, NULL);
@@ -137,8 +134,7 @@ static void progress_goes_on_and_stops(void **unused) {
   assert_string_equal(hooke_measurement_text(comparison, "rows", last, "status"), "not run");
 }
 
-static void bad_requests(void **unused) {
-  (void)unused;
+static void bad_requests(no_state) {
   owned_system *system = small_oscillator(10.0);
   hooke_measurement *comparison = compare(system, (struct run){.step = 1e-3}, NULL);
   check_status(hooke_measurement_run(comparison, NULL), HOOKE_BAD_VALUE);
@@ -158,8 +154,7 @@ static hooke_system *oscillator_of_length(double length) {
   return system;
 }
 
-static void errors_scale_with_the_scene(void **unused) {
-  (void)unused;
+static void errors_scale_with_the_scene(no_state) {
   const double length[] = {1.0, 1e-6, 1e-9};
   double share[3];
   for (int k = 0; k < 3; k++) {
@@ -179,8 +174,7 @@ static void errors_scale_with_the_scene(void **unused) {
 }
 
 /* Chaotic motion is compared as long as the reference is known, and no further. */
-static void chaos_is_compared_for_a_while(void **unused) {
-  (void)unused;
+static void chaos_is_compared_for_a_while(no_state) {
   owned_system *system = small_crumpling_cloth(4);
   owned_measurement *comparison =
       compare(system, (struct run){.step = 1e-3, .duration = 6.0, .every = 0.1}, "rk4");

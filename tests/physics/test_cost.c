@@ -20,14 +20,10 @@ static hooke_system *open_oscillators(double damping, double drag, int gravity, 
   static const double q[] = {0, 0, 0, 1, 0, 0, 0, 5, 0, 1, 5, 0}, down[] = {0, 0, -9.81};
   static const int64_t pinned[] = {0, 2}, stiff[] = {0, 1}, soft[] = {2, 3}, zero[] = {1, 3};
   hooke_system *system = small_system(4, q, NULL, 1.0, 0);
-  owned_options *options;
   check_ok(hooke_system_pin(system, 2, pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 100.0));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  owned_options *options = options_with("springs", "stiffness=100 damping=%.17g", damping);
   check_ok(hooke_system_add_springs(system, "stiff", 1, stiff, options));
-  check_ok(hooke_options_set_number(options, "damping", 0.0));
-  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  set_options(options, "damping=0 stiffness=0");
   check_ok(hooke_system_add_springs(system, "zero", 1, zero, options));
   check_ok(hooke_options_set_number(options, "stiffness", 16.0));
   check_ok(hooke_system_add_springs(system, NULL, 1, soft, options));
@@ -47,9 +43,7 @@ static hooke_measurement *cost_within(double budget, const hooke_system *system,
                                       int predict) {
   hooke_options *given = run_options(run), *options;
   hooke_measurement *cost;
-  check_ok(hooke_options_create("cost", &options));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", budget));
+  options = options_with("cost", "predict=%d budget=%.17g", predict, budget);
   check_ok(hooke_measurement_create("cost", system, given, options, &cost));
   hooke_options_destroy(given);
   hooke_options_destroy(options);
@@ -73,8 +67,7 @@ static hooke_measurement *cost_of_all_rows(const hooke_system *system, struct ru
   }
 }
 
-static void rows_are_what_is_there(void **unused) {
-  (void)unused;
+static void rows_are_what_is_there(no_state) {
   static const char *const kinds[] = {"springs", "springs",  "bending", "damping",
                                       "drag",    "callback", "gravity"};
   static const char *const names[] = {"stiff", "", "curl", "damping", "drag", "callback", "gravity"};
@@ -120,8 +113,7 @@ static void rows_are_what_is_there(void **unused) {
 }
 
 /* One mode each: h omega = 2 (sqrt(1 + z^2) - z) for symplectic Euler, 2 without damping. */
-static void limits_are_those_without(void **unused) {
-  (void)unused;
+static void limits_are_those_without(no_state) {
   const double z = 0.25;
   hooke_system *system = two_oscillators(2.0 * z * 10.0, 0.0, 1, 0);
   hooke_measurement *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
@@ -155,8 +147,7 @@ static void limits_are_those_without(void **unused) {
 
 /* Groups of 1, 3 and 2 springs and of 2 triples: as many as requested, the largest first, of equal size the
  * first; and all ingredients without group. */
-static void the_largest_groups_are_looked_at(void **unused) {
-  (void)unused;
+static void the_largest_groups_are_looked_at(no_state) {
   enum { GROUPS = 4, MOST = GROUPS + 1 };
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, down[] = {0, 0, -9.81}, coefficient = 1.0;
   static const int64_t size[] = {1, 3, 2}, place[GROUPS] = {3, 0, 1, 2}; /* of each group among them */
@@ -168,9 +159,7 @@ static void the_largest_groups_are_looked_at(void **unused) {
   check_ok(hooke_system_set_gravity(system, down));
   check_ok(hooke_system_commit(system));
   owned_state *state = start_state(system);
-  owned_options *options;
-  check_ok(hooke_options_create("cost", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1));
+  owned_options *options = options_with("cost", "predict=1");
   for (int64_t most = 0; most <= MOST; most++) {
     owned_measurement *cost;
     check_ok(hooke_options_set_number(options, "groups", (double)most));
@@ -185,8 +174,7 @@ static void the_largest_groups_are_looked_at(void **unused) {
 }
 
 /* Every method can be timed, with steps that are far too large, or none given. */
-static void times_are_numbers(void **unused) {
-  (void)unused;
+static void times_are_numbers(no_state) {
   owned_system *system = two_oscillators(1.0, 0.5, 1, 1);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -219,8 +207,7 @@ static int32_t see(double done, const char *what, void *ctx) {
   return ++watch->calls == watch->stop_at;
 }
 
-static void can_be_stopped(void **unused) {
-  (void)unused;
+static void can_be_stopped(no_state) {
   owned_system *system = two_oscillators(1.0, 0.5, 1, 0);
   owned_state *state = start_state(system);
   struct watch watch = {.stop_at = 4};
@@ -233,12 +220,11 @@ static void can_be_stopped(void **unused) {
   assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "memory_bytes")));
 }
 
-static void wrong_calls(void **unused) {
-  (void)unused;
+static void wrong_calls(no_state) {
   owned_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
   owned_state *state = start_state(other);
   hooke_measurement *cost = NULL;
-  check_ok(hooke_system_create(&open));
+  open = new_system();
   check_status(hooke_measurement_create("cost", open, NULL, NULL, &cost), HOOKE_BAD_CALL);
   check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
   check_status(hooke_measurement_run(cost, state), HOOKE_BAD_VALUE);

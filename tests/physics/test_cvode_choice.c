@@ -92,8 +92,7 @@ static const struct ask LOOSE = {"cvode-bdf", 1e-4, 1e-7, 0.3, 0};
 
 /* ---- lowered ---- */
 
-static void test_stiff_and_weakly_damped(void **unused) {
-  (void)unused;
+static void test_stiff_and_weakly_damped(no_state) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   const struct outcome exact = run_once(system, (struct ask){"cvode-adams", 1e-8, 1e-11, 0.3, 0});
@@ -111,8 +110,7 @@ static void test_stiff_and_weakly_damped(void **unused) {
   }
 }
 
-static void test_a_given_order_stays(void **unused) {
-  (void)unused;
+static void test_a_given_order_stays(no_state) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   const struct outcome chosen = run_with(system, LOOSE, 0);
@@ -125,8 +123,7 @@ static void test_a_given_order_stays(void **unused) {
 }
 
 /* A run chooses anew, independently of the previous one. */
-static void test_again(void **unused) {
-  (void)unused;
+static void test_again(no_state) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   owned_integrator *integrator = start(system, LOOSE);
@@ -147,16 +144,14 @@ static void check_left_alone(double stiffness, double damping, struct ask ask) {
   assert_true(low.steps != high.steps);
 }
 
-static void test_strongly_damped(void **unused) {
-  (void)unused;
+static void test_strongly_damped(no_state) {
   needs_cvode();
   check_left_alone(STIFF, STRONG, LOOSE);
 }
 
 /* With a wide absolute tolerance, steps are long for both of these; only the first drops the higher orders.
  */
-static void test_tight_tolerance(void **unused) {
-  (void)unused;
+static void test_tight_tolerance(no_state) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   const struct ask last = {"cvode-bdf", 1e-6, 1e-5, 0.3, 0}, tight = {"cvode-bdf", 0.999e-6, 1e-5, 0.3, 0};
@@ -167,8 +162,7 @@ static void test_tight_tolerance(void **unused) {
 }
 
 /* Steps that follow the fastest motion: accuracy limits them. */
-static void test_soft(void **unused) {
-  (void)unused;
+static void test_soft(no_state) {
   needs_cvode();
   check_left_alone(20.0, 0.0, (struct ask){"cvode-bdf", 1e-5, 1e-8, 0.3, 0});
 }

@@ -41,8 +41,7 @@ static void compare_product(const struct law_scene *scene, const double *dq, con
     check_close(product[k], expected[k], 1e-8 * size);
 }
 
-static void test_products(void **unused) {
-  (void)unused;
+static void test_products(no_state) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     for (uint64_t seed = 1; seed <= 4; seed++) {
@@ -98,8 +97,7 @@ static void dense(const struct blocks *blocks, const double *values, double *mat
   }
 }
 
-static void test_pattern(void **unused) {
-  (void)unused;
+static void test_pattern(no_state) {
   struct law_scene scene;
   struct blocks blocks;
   law_scene_create(&laws[0], 9, &scene);
@@ -121,8 +119,7 @@ static void test_pattern(void **unused) {
 
 /* Blocks times unit vectors are the products with unit vectors; contributions of a callback are in the
  * products only. */
-static void test_blocks_are_products(void **unused) {
-  (void)unused;
+static void test_blocks_are_products(no_state) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue;
@@ -160,8 +157,7 @@ static void test_blocks_are_products(void **unused) {
   }
 }
 
-static void test_callback_is_not_in_blocks(void **unused) {
-  (void)unused;
+static void test_callback_is_not_in_blocks(no_state) {
   struct law with = laws[9], without = laws[9];
   without.callback = 0;
   assert_int_equal(with.callback, 1);
@@ -192,8 +188,7 @@ static double asymmetry(const double *matrix) {
 }
 
 /* D is symmetric always, K unless a damped spring rotates. */
-static void test_symmetry(void **unused) {
-  (void)unused;
+static void test_symmetry(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     struct law_scene scene;
     struct blocks blocks;

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,18 +12,14 @@ static const char *const METHODS[] = {"backward-euler", "tr-bdf2", "implicit-mid
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness,
                         double rest) {
-  hooke_options *springs = NULL;
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(springs, "rest_length", rest));
+  hooke_options *springs = options_with("springs", "stiffness=%.17g rest_length=%.17g", stiffness, rest);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, springs));
   hooke_options_destroy(springs);
 }
 
 /* An open system of particles of this mass, with drag 1. */
 static hooke_system *open_scene(int64_t n, const double *q, double mass, double gravity) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_add_particles(system, n, q, NULL, 1, &mass, NULL));
@@ -106,8 +103,7 @@ static double largest_rise(const hooke_system *system, struct run run, int steps
 
 /* Of the implicit midpoint rule, which swings on about where it would rest, large steps may have no solution
  * that does not raise the energy; it says so. */
-static void test_energy_falls(void **unused) {
-  (void)unused;
+static void test_energy_falls(no_state) {
   int midpoint = 0;
   for (uint64_t seed = 1; seed <= 8; seed++) {
     owned_system *system = random_sheet(seed);
@@ -133,8 +129,7 @@ static void test_energy_falls(void **unused) {
 /* ---- rest ---- */
 
 /* No force is left that a step of 1e6 times the explicit bound would not have used up. */
-static void test_rest(void **unused) {
-  (void)unused;
+static void test_rest(no_state) {
   for (uint64_t seed = 1; seed <= 4; seed++) {
     owned_system *system = random_sheet(seed);
     const double bound = bound_at_start(system, "forward-euler");
@@ -174,8 +169,7 @@ static double sag_after(const hooke_system *system, struct run run, int steps) {
 }
 
 /* Nothing resists its fall at first, and soon the springs do by the third power of it. */
-static void test_sagging_rope(void **unused) {
-  (void)unused;
+static void test_sagging_rope(no_state) {
   owned_system *system = sagging_rope();
   const double sag = exact_sag();
   for (int m = 0; m < 2; m++) {
@@ -195,8 +189,7 @@ static void test_sagging_rope(void **unused) {
 
 /* Where an end moves, the functional of a step falls from the old places of free particles and the new one of
  * the end: here the rope is pushed together by a tenth of its length. */
-static void test_driven(void **unused) {
-  (void)unused;
+static void test_driven(no_state) {
   owned_system *system = open_rope(1.0);
   const int64_t end = ROPE - 1;
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
@@ -220,8 +213,7 @@ static void test_driven(void **unused) {
 }
 
 /* A step in parts is the same where another integrator goes on from the state before. */
-static void test_parts_repeat(void **unused) {
-  (void)unused;
+static void test_parts_repeat(no_state) {
   owned_system *system = sagging_rope();
   const struct run run = {
       .method = METHODS[2], .step = 1e-2, .duration = 0.08, .newton_tolerance = BY_DEFAULT};
@@ -240,26 +232,18 @@ static void test_parts_repeat(void **unused) {
 
 /* A cloth that is pressed together: with 98 x 98 particles it would be too small for two threads. */
 static hooke_system *pressed_cloth(void) {
-  owned_options *part = NULL;
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -9.81}));
-  check_ok(hooke_options_create("cloth", &part));
-  check_ok(hooke_options_set_numbers(part, "size", 2, (double[]){104, 104}));
-  check_ok(hooke_options_set_numbers(part, "edges", 6, (double[]){1, 0, 0, 0, 1, 0}));
-  check_ok(hooke_options_set_number(part, "mass", 1.0));
-  check_ok(hooke_options_set_text(part, "pinned", "corners"));
-  check_ok(hooke_options_set_number(part, "structural.stiffness", 1e3));
-  check_ok(hooke_options_set_number(part, "structural.rest_scale", 1.02));
+  owned_options *part = options_with("cloth", "size=104,104 edges=1,0,0,0,1,0 mass=1 pinned=corners "
+                                              "structural.stiffness=1e3 structural.rest_scale=1.02");
   check_ok(hooke_system_add_part(system, "cloth", NULL, part, NULL, NULL));
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void test_threads(void **unused) {
-  (void)unused;
+static void test_threads(no_state) {
   owned_system *system = pressed_cloth();
   const int64_t numbers = 3 * hooke_system_particle_count(system);
   double *q[2];

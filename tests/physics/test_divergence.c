@@ -83,8 +83,7 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
   hooke_integrator_destroy(integrator);
 }
 
-static void test_step_above_the_limit(void **unused) {
-  (void)unused;
+static void test_step_above_the_limit(no_state) {
   owned_system *system = small_oscillator(10.0);
   const struct verdict at_limit = predict(system, NULL, "symplectic-euler", 0.21, 2000, 1);
   check_between((double)at_limit.step, 3.0, 30.0);
@@ -100,8 +99,7 @@ static void test_step_above_the_limit(void **unused) {
 }
 
 /* Between frames the check comes every 1000 steps. */
-static void test_check_every_thousand(void **unused) {
-  (void)unused;
+static void test_check_every_thousand(no_state) {
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(
       system, (struct run){.method = "forward-euler", .step = 0.01, .duration = 30.0, .every = 30.0});
@@ -113,8 +111,7 @@ static void test_check_every_thousand(void **unused) {
 
 /* A long fall gains more than 100 times the initial energy of springs and motion: the term for gravity allows
  * for it. */
-static void test_falling_is_not_diverging(void **unused) {
-  (void)unused;
+static void test_falling_is_not_diverging(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 0);
@@ -129,8 +126,7 @@ static void test_falling_is_not_diverging(void **unused) {
 
 /* Forward Euler gives particles at rest a velocity before they have moved: there is no energy to compare with
  * yet, and no divergence at any step. */
-static void test_first_step_of_a_fall(void **unused) {
-  (void)unused;
+static void test_first_step_of_a_fall(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   for (double h = 1.0; h > 1e-6; h /= 8.0) {
@@ -171,8 +167,7 @@ static int32_t run_pushed(double strength, double *diverged_at, double *end) {
   return status;
 }
 
-static void test_callbacks(void **unused) {
-  (void)unused;
+static void test_callbacks(no_state) {
   double diverged_at, end;
   assert_int_equal(run_pushed(1e9, &diverged_at, &end), HOOKE_OK);
   assert_true(isnan(diverged_at));
@@ -193,8 +188,7 @@ static int32_t explode(int64_t n, double t, const double *x, double *rate, void 
   return 0;
 }
 
-static void test_first_order(void **unused) {
-  (void)unused;
+static void test_first_order(no_state) {
   owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(1, &state));
   hooke_state_position(state)[0] = 1.0;
@@ -274,8 +268,7 @@ static struct beyond run_beyond(const hooke_system *system, double after, int64_
   return b;
 }
 
-static void test_frames_after(void **unused) {
-  (void)unused;
+static void test_frames_after(no_state) {
   owned_system *system = small_oscillator(10.0);
   struct beyond b = run_beyond(system, -1.0, -1);
   check_between((double)b.after, 100.0, 1000.0);

@@ -72,8 +72,7 @@ static void harmonic_motion(double t, double *q, double *v) {
   }
 }
 
-static void test_harmonic(void **unused) {
-  (void)unused;
+static void test_harmonic(no_state) {
   const double amplitude[] = {0.3, 0.0, -0.1};
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
@@ -96,8 +95,7 @@ static int32_t callback_drive(int64_t count, double t, double *q, double *v, voi
   return 0;
 }
 
-static void test_callback(void **unused) {
-  (void)unused;
+static void test_callback(no_state) {
   int64_t calls = 0;
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
@@ -144,8 +142,7 @@ static void table_motion(double t, double *q, double *v) {
   }
 }
 
-static void test_table(void **unused) {
-  (void)unused;
+static void test_table(no_state) {
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
   check_ok(hooke_system_drive_table(system, 1, &driven, SAMPLES, table_time, &table_place[0][0]));
@@ -164,8 +161,7 @@ static void place_at(const hooke_system *system, double t, double *q, double *v)
 }
 
 /* At inner samples the position is the sample, and the velocity the same from both sides. */
-static void test_table_is_smooth(void **unused) {
-  (void)unused;
+static void test_table_is_smooth(no_state) {
   const int64_t driven = 0;
   const double origin[] = {0.25, -0.5, 1.0}, near = 1e-9;
   owned_system *system = driven_pair();
@@ -187,8 +183,7 @@ static void test_table_is_smooth(void **unused) {
 }
 
 /* The velocity of every drive is the derivative of its position. */
-static void test_velocity_is_derivative(void **unused) {
-  (void)unused;
+static void test_velocity_is_derivative(no_state) {
   const int64_t driven[] = {0, 1};
   const double amplitude[] = {0.3, 0.2, -0.1};
   hooke_system *systems[2] = {driven_pair(), driven_pair()};

@@ -74,8 +74,7 @@ static void check_estimate(const hooke_system *system, const char *method, int64
   assert_true(isnan(number_of(estimate, "met")));
 }
 
-static void test_errors_are_at_most_what_is_said_and_not_much_less(void **unused) {
-  (void)unused;
+static void test_errors_are_at_most_what_is_said_and_not_much_less(no_state) {
   owned_system *system = small_oscillator(OMEGA);
   int64_t known = 0, methods = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -106,8 +105,7 @@ static hooke_measurement *estimated_later(const hooke_system *system, const hook
   return estimate;
 }
 
-static void test_the_integrator_may_be_gone(void **unused) {
-  (void)unused;
+static void test_the_integrator_may_be_gone(no_state) {
   owned_system *system = small_oscillator(OMEGA);
   owned_options *options =
       run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = DURATION, .every = EVERY});
@@ -120,8 +118,7 @@ static void test_the_integrator_may_be_gone(void **unused) {
 }
 
 /* At a step of 0.2 s, h omega is 1.2, and the phase is lost after some periods, whatever half the step does. */
-static void test_a_run_that_lost_the_motion_is_not_known(void **unused) {
-  (void)unused;
+static void test_a_run_that_lost_the_motion_is_not_known(no_state) {
   owned_system *system = small_oscillator(OMEGA);
   owned_measurement *estimate;
   owned_options *options =
@@ -142,21 +139,18 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-static void test_callbacks_are_not_called_again_unless_asked(void **unused) {
-  (void)unused;
+static void test_callbacks_are_not_called_again_unless_asked(no_state) {
   for (int asked = 0; asked < 2; asked++) {
-    owned_system *system;
     owned_options *own,
         *options =
             run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = 0.5, .every = EVERY});
     owned_measurement *estimate;
     const double mass = 1.0;
-    check_ok(hooke_system_create(&system));
+    owned_system *system = new_system();
     check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){1, 0, 0}, 1, &mass, NULL));
     check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    check_ok(hooke_options_create("estimate", &own));
-    check_ok(hooke_options_set_number(own, "callbacks", asked));
+    own = options_with("estimate", "callbacks=%d", asked);
     check_ok(hooke_measurement_create("estimate", system, NULL, own, &estimate));
     owned_integrator *integrator;
     owned_state *state = start_state(system);
@@ -181,8 +175,7 @@ static double number_of_run(const hooke_system *system, const char *method, doub
 }
 
 /* With forward Euler the energy grows by the factor 1 + (h omega)^2 a step. */
-static void test_energy_that_grows_by_itself_is_seen(void **unused) {
-  (void)unused;
+static void test_energy_that_grows_by_itself_is_seen(no_state) {
   owned_system *system = small_oscillator(OMEGA);
   const double step = 1e-3, rate = OMEGA * OMEGA * step;
   const double expected = exp(rate * DURATION) - exp(0.5 * rate * DURATION);
@@ -195,9 +188,8 @@ static void test_energy_that_grows_by_itself_is_seen(void **unused) {
 
 /* One particle slowed by drag alone, by h lambda a step. */
 static hooke_system *slowed_particle(double rate) {
-  hooke_system *system;
   const double mass = 2.0;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){0, 3, 0}, 1, &mass, NULL));
   check_ok(hooke_system_set_drag(system, rate * mass));
   check_ok(hooke_system_commit(system));
@@ -207,8 +199,7 @@ static hooke_system *slowed_particle(double rate) {
 /* With forward Euler the velocity is multiplied by r = 1 - h lambda a step. For r < -1/2 all heat from the
  * third step on is that of a reversing velocity: 2 h lambda r^6/(1 - r^2) of the energy. The sum may be cut
  * short on a busy machine. */
-static void test_heat_that_was_not_there_is_seen(void **unused) {
-  (void)unused;
+static void test_heat_that_was_not_there_is_seen(no_state) {
   const double step = 1e-3, r = -0.9;
   owned_system *system = slowed_particle((1.0 - r) / step);
   const double expected = 2.0 * (1.0 - r) * pow(r, 6.0) / (1.0 - r * r);
@@ -219,8 +210,7 @@ static void test_heat_that_was_not_there_is_seen(void **unused) {
 }
 
 /* Motion that decays without overshooting, or oscillates, has no spurious heat at any of these steps. */
-static void test_heat_that_was_there_is_no_excess(void **unused) {
-  (void)unused;
+static void test_heat_that_was_there_is_no_excess(no_state) {
   for (double x = 0.1; x < 2.0; x += 0.1) {
     owned_system *system = slowed_particle(x / 1e-3);
     const double found = number_of_run(system, "rk4", 1e-3, "heat_excess");
@@ -243,19 +233,15 @@ static hooke_system *damped_chain(double gamma, int driven) {
   const double mass = 0.1;
   const int64_t first = 0;
   int64_t ends[2 * (COUNT - 1)];
-  owned_options *options;
-  hooke_system *system;
   for (int k = 0; k < 3 * COUNT; k++) {
     place[k] = k % 3 ? 0.0 : 0.1 * (k / 3);
     velocity[k] = k < 3 ? 0.0 : (k * 29 % 17 - 8) / 8.0;
   }
   for (int k = 0; k < 2 * (COUNT - 1); k++)
     ends[k] = (k + 1) / 2;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, COUNT, place, velocity, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-  check_ok(hooke_options_set_number(options, "damping", gamma));
+  owned_options *options = options_with("springs", "stiffness=1 damping=%.17g", gamma);
   check_ok(hooke_system_add_springs(system, "", COUNT - 1, ends, options));
   if (driven)
     check_ok(hooke_system_drive_harmonic(system, 1, &first, (double[]){0, 0.2, 0}, 1.5, 0.0));
@@ -267,8 +253,7 @@ static hooke_system *damped_chain(double gamma, int driven) {
 
 /* Euler's step is just below the limit of the damping. Verlet has no such limit, since its second half takes
  * the damping at the new velocity; from h lambda = 2 on its velocities reverse. */
-static void test_a_damper_too_stiff_for_the_step_is_seen(void **unused) {
-  (void)unused;
+static void test_a_damper_too_stiff_for_the_step_is_seen(no_state) {
   static const struct {
     const char *method;
     double gamma;
@@ -307,8 +292,7 @@ static void check_want(const hooke_system *system, const char *method, double wa
   hooke_options_destroy(options);
 }
 
-static void test_what_is_picked_keeps_to_the_wanted_error(void **unused) {
-  (void)unused;
+static void test_what_is_picked_keeps_to_the_wanted_error(no_state) {
   owned_system *system = small_oscillator(OMEGA);
   static const double wants[] = {0.1, 1e-3, 1e-6};
   for (int k = 0; k < 3; k++)
@@ -319,17 +303,10 @@ static void test_what_is_picked_keeps_to_the_wanted_error(void **unused) {
 
 /* A soft block of 3 x 3 x 3 particles, fixed at one side, that sags: its bound lies far below its limit. */
 static hooke_system *sagging_block(void) {
-  owned_options *options;
-  hooke_system *system;
-  check_ok(hooke_options_create("lattice", &options));
-  check_ok(hooke_options_set_numbers(options, "edges", 9, (double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}));
-  check_ok(hooke_options_set_numbers(options, "size", 3, (double[]){3, 3, 3}));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_text(options, "pinned", "bottom"));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 500.0));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 500.0));
-  check_ok(hooke_options_set_number(options, "structural.damping", 0.2));
-  check_ok(hooke_system_create(&system));
+  owned_options *options =
+      options_with("lattice", "edges=1,0,0,0,1,0,0,0,1 size=3,3,3 mass=1 pinned=bottom "
+                              "structural.stiffness=500 shear.stiffness=500 structural.damping=0.2");
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_gravity(system, (double[]){0, -1, 0}));
   check_ok(hooke_system_add_part(system, "lattice", "block", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
@@ -338,12 +315,10 @@ static hooke_system *sagging_block(void) {
 
 /* The smallest limit of its method at the frames of a run. */
 static double least_limit_along(const hooke_system *system, const hooke_options *run) {
-  owned_options *options;
   owned_measurement *limit;
   owned_state *state = start_state(system);
-  check_ok(hooke_options_create("limit", &options));
+  owned_options *options = options_with("limit", "along=1");
   check_ok(hooke_options_set_text(options, "methods", hooke_options_text(run, "method")));
-  check_ok(hooke_options_set_number(options, "along", 1.0));
   check_ok(hooke_measurement_create("limit", system, run, options, &limit));
   check_ok(hooke_measurement_run(limit, state));
   const double least = hooke_measurement_number(limit, "rows", 0, "smallest");
@@ -364,16 +339,14 @@ static double picked_over_bound(const hooke_system *system, const char *method) 
   return step / bound;
 }
 
-static void test_a_picked_step_may_pass_the_bound_but_not_the_limit(void **unused) {
-  (void)unused;
+static void test_a_picked_step_may_pass_the_bound_but_not_the_limit(no_state) {
   if (!hooke_method_is_built("cvode-adams") || !hooke_build_fact("lapack")[0]) skip();
   owned_system *system = sagging_block();
   check_between(picked_over_bound(system, "symplectic-euler"), 0.95, 2.0);
   check_between(picked_over_bound(system, "rk4"), 0.95, 2.0);
 }
 
-static void test_what_cannot_be_asked_for(void **unused) {
-  (void)unused;
+static void test_what_cannot_be_asked_for(no_state) {
   owned_system *system = small_oscillator(OMEGA);
   hooke_measurement *estimate = NULL;
   owned_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
@@ -401,8 +374,7 @@ static void test_what_cannot_be_asked_for(void **unused) {
 }
 
 /* Nothing of a state that does not fit is read, and the run stops where it would be seen. */
-static void test_states_that_do_not_fit_are_refused(void **unused) {
-  (void)unused;
+static void test_states_that_do_not_fit_are_refused(no_state) {
   owned_system *system = small_oscillator(OMEGA);
   const struct run run = {.method = "rk4", .step = 0.01, .duration = 0.1};
   owned_integrator *integrator = start_run(system, run),

@@ -47,8 +47,7 @@ static double worst_error(const struct reference *reference, long double toleran
   return (double)worst;
 }
 
-static void test_solutions(void **unused) {
-  (void)unused;
+static void test_solutions(no_state) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     check_between(worst_error(&references[k], 1e-15L), 0.0, 1e-13);
     check_between(worst_error(&references[k], 1e-5L), 1e-10, 1e-2);
@@ -89,8 +88,7 @@ static void compare_forces(uint64_t seed, int32_t features) {
   random_scene_destroy(&scene);
 }
 
-static void test_forces(void **unused) {
-  (void)unused;
+static void test_forces(no_state) {
   for (uint64_t seed = 1; seed <= 40; seed++)
     compare_forces(seed,
                    (SCENE_EVERYTHING & ~SCENE_CALLBACK & ~SCENE_DRIVEN) & (int32_t)(seed * 0x9e3779b9u));
@@ -110,8 +108,7 @@ static hooke_system *make_net(const double *q, int64_t pinned, int32_t overdampe
       v[3 * p + a] = spin[(a + 1) % 3] * (q[3 * p + (a + 2) % 3] - q[(a + 2) % 3]) -
                      spin[(a + 2) % 3] * (q[3 * p + (a + 1) % 3] - q[(a + 1) % 3]);
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   if (overdamped) check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_add_particles(system, NET, q, overdamped ? NULL : v, NET, mass, NULL));
   small_springs(system, 6, ends,
@@ -159,14 +156,12 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
   canonical_destroy(&canonical);
 }
 
-static void test_bodies(void **unused) {
-  (void)unused;
+static void test_bodies(no_state) {
   compare_net(-1, 0);
   compare_net(0, 0);
 }
 
-static void test_overdamped(void **unused) {
-  (void)unused;
+static void test_overdamped(no_state) {
   compare_net(-1, 1);
   compare_net(0, 1);
 }
@@ -177,8 +172,7 @@ static void test_overdamped(void **unused) {
 static void compare_motion(const struct long_drive *drive, double t) {
   const double origin[3] = {0.3, -0.2, 0.1}, mass = 1.0;
   const int64_t one = 0;
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
   if (drive->samples > 0)
     check_ok(hooke_system_drive_table(system, 1, &one, drive->samples, drive->time, drive->displacement));
@@ -197,8 +191,7 @@ static void compare_motion(const struct long_drive *drive, double t) {
   }
 }
 
-static void test_motions(void **unused) {
-  (void)unused;
+static void test_motions(no_state) {
   double time[] = {0.1, 0.25, 0.4, 0.9};
   double displacement[] = {0, 0, 0, 0.01, 0.02, -0.01, 0.015, -0.01, 0.0, 0.03, 0.01, 0.02};
   const struct long_drive wave = {.amplitude = {0.1, -0.2, 0.05}, .frequency = 3.0, .phase = 0.7};
@@ -229,8 +222,7 @@ static void equally(const long double *y, const long double *f, long double *sca
 }
 
 /* From y = 1/2 at rest: 0 at t = 1 with speed -1, back there at 3/2 with speed 1, at rest at 1/2 at 5/2. */
-static void test_jumps(void **unused) {
-  (void)unused;
+static void test_jumps(no_state) {
   struct extrapolation problem = {
       .size = 2, .rate = jumping, .scale = equally, .tolerance = 1e-15L, .most_evaluations = 100000};
   long double y[2] = {0.5L, 0.0L}, step = 0.1L;
@@ -254,8 +246,7 @@ static void by_one(const long double *y, const long double *f, long double *scal
 }
 
 /* y' = y^2 from 1 has y = 1/(1 - t): it ends before t = 1, and the number of steps shows it. */
-static void test_giving_up(void **unused) {
-  (void)unused;
+static void test_giving_up(no_state) {
   struct extrapolation problem = {
       .size = 1, .rate = blowing_up, .scale = by_one, .tolerance = 1e-15L, .most_evaluations = 20000};
   long double y = 1.0L, step = 0.1L;

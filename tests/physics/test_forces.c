@@ -2,6 +2,7 @@
 #include "check.h"
 #include "law_scene.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,8 +30,7 @@ static void energy_along(double s, double *value, void *ctx) {
   *value = hooke_system_energy(curve->system, "potential", q, NULL);
 }
 
-static void test_force_is_gradient(void **unused) {
-  (void)unused;
+static void test_force_is_gradient(no_state) {
   const double rest[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* has no energy */
@@ -53,8 +53,7 @@ static void test_force_is_gradient(void **unused) {
 
 /* The scenes of springs that only pull contain both taut and slack ones, so that the test above covers the
  * switch. */
-static void test_pull_only_scenes_have_both_sides(void **unused) {
-  (void)unused;
+static void test_pull_only_scenes_have_both_sides(no_state) {
   int64_t slack = 0, unloaded = 0, taut = 0;
   for (int k = 0; k < LAW_COUNT; k++) {
     if (!laws[k].pull_only) continue;
@@ -73,8 +72,7 @@ static void test_pull_only_scenes_have_both_sides(void **unused) {
 }
 
 /* M g and m a: the force is the mass times the acceleration, on free particles. */
-static void test_force_is_mass_times_acceleration(void **unused) {
-  (void)unused;
+static void test_force_is_mass_times_acceleration(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     struct law_scene scene;
     double force[LAW_SIZE], acceleration[LAW_SIZE];
@@ -108,8 +106,7 @@ static void energy_in_time(double s, double *value, void *ctx) {
   *value = hooke_system_energy(curve->system, "total", q, v);
 }
 
-static void test_dissipated_power(void **unused) {
-  (void)unused;
+static void test_dissipated_power(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* does work of its own */
     for (uint64_t seed = 1; seed <= 5; seed++) {
@@ -136,8 +133,7 @@ static void test_dissipated_power(void **unused) {
 
 /* ---- action and reaction, momentum, angular momentum ---- */
 
-static void test_third_law(void **unused) {
-  (void)unused;
+static void test_third_law(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].gravity || laws[k].drag || laws[k].callback || laws[k].anchors) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
@@ -172,16 +168,11 @@ static void drift(const char *method, double *momentum, double *angular) {
   law_scene_create(&laws[1], 5, &scene);
   memcpy(q, scene.q, sizeof q);
   memcpy(v, scene.v, sizeof v);
-  owned_system *system = NULL;
-  owned_options *options = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   for (int p = 0; p < LAW_PARTICLES; p++)
     mass[p] = 0.5 + 0.1 * p;
   check_ok(hooke_system_add_particles(system, LAW_PARTICLES, q, v, LAW_PARTICLES, mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 20.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.1));
-  check_ok(hooke_options_set_number(options, "rest_scale", 0.8));
+  owned_options *options = options_with("springs", "stiffness=20 damping=0.1 rest_scale=0.8");
   check_ok(hooke_system_add_springs(system, NULL, LAW_SPRINGS, scene.ends, options));
   check_ok(hooke_system_commit(system));
   for (int k = 0; k < LAW_SIZE; k++)
@@ -199,8 +190,7 @@ static void drift(const char *method, double *momentum, double *angular) {
   law_scene_destroy(&scene);
 }
 
-static void test_momentum(void **unused) {
-  (void)unused;
+static void test_momentum(no_state) {
   double momentum, angular;
   drift("symplectic-euler", &momentum, &angular);
   check_between(momentum, 0.0, 1e-14);
@@ -211,13 +201,11 @@ static void test_momentum(void **unused) {
 }
 
 /* The sums themselves, by hand. */
-static void test_momentum_of_two(void **unused) {
-  (void)unused;
+static void test_momentum_of_two(no_state) {
   const double q[] = {1, 0, 0, 0, 2, 0, 5, 5, 5}, v[] = {0, 3, 0, 0, 0, 4, 0, 0, 0}, mass[] = {2, 0.5, 9};
   const int64_t pinned = 2;
   double momentum[3], angular[3];
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 3, q, v, 3, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   check_ok(hooke_system_commit(system));

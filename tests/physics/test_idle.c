@@ -3,6 +3,7 @@
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,21 +23,17 @@ static void add_marks(hooke_system *system, int64_t count) {
 
 /* A cloth that hangs from its upper corners, with `before` and `after` idle particles. */
 static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
-  hooke_system *system;
-  owned_options *cloth;
   const double origin[3] = {0, 0, 0}, edges[6] = {1, 0, 0, 0, 0, 1}, size[2] = {12, 11};
   const double gravity[3] = {0, -9.81, 0};
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   add_marks(system, before);
-  check_ok(hooke_options_create("cloth", &cloth));
+  owned_options *cloth = options_with(
+      "cloth",
+      "mass=1 pinned=top-corners structural.stiffness=50 structural.damping=%.17g shear.stiffness=20",
+      damping);
   check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "mass", 1));
-  check_ok(hooke_options_set_text(cloth, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 50));
-  check_ok(hooke_options_set_number(cloth, "structural.damping", damping));
-  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 20));
   check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
   add_marks(system, after);
   check_ok(hooke_system_set_gravity(system, gravity));
@@ -74,8 +71,7 @@ static void check_method(const char *method, int64_t before, int64_t after, doub
   }
 }
 
-static void marks_change_nothing(void **state) {
-  (void)state;
+static void marks_change_nothing(no_state) {
   enum { COUNTS = 4 };
   static const int64_t count[COUNTS][2] = {{MARKS, 0}, {0, MARKS}, {MARKS + 3, MARKS - 100}, {5, 1}};
   for (int64_t k = 0; k < hooke_method_count(); k++) {

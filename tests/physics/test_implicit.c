@@ -51,8 +51,7 @@ static void check_step(const char *method, const char *form, double zeta, double
   }
 }
 
-static void amplification_is_the_closed_form(void **unused) {
-  (void)unused;
+static void amplification_is_the_closed_form(no_state) {
   const double zetas[] = {0.0, 0.01, 0.5, 1.0, 30.0}, starts[][2] = {{1.0, 0.0}, {0.6, -0.8}};
   for (int m = 0; m < METHODS * FORMS; m++) {
     for (int z = 0; z < 5; z++) {
@@ -66,8 +65,7 @@ static void amplification_is_the_closed_form(void **unused) {
 
 /* Between 0 and 1 of the energy after one step that resolves nothing: all of it by the midpoint rule, almost
  * nothing by the others. */
-static void what_no_step_resolves(void **unused) {
-  (void)unused;
+static void what_no_step_resolves(no_state) {
   const double low[] = {0.0, 0.0, 1.0 - 1e-12}, high[] = {1e-10, 1e-8, 1.0 + 1e-12};
   for (int m = 0; m < METHODS; m++) {
     owned_system *system = oscillator(40.0, 0.0);
@@ -81,8 +79,7 @@ static void what_no_step_resolves(void **unused) {
 }
 
 /* A free net that turns: the midpoint rule keeps momentum and angular momentum, whose flow is quadratic. */
-static void midpoint_keeps_angular_momentum(void **unused) {
-  (void)unused;
+static void midpoint_keeps_angular_momentum(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.3}, v[] = {0, -1, 0, 1, 0, 0.5, 0, 2, 0, -1, 0, 0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 3, 3, 0, 0, 2, 1, 3};
   owned_system *system = small_system(4, q, v, 0.5, 0);

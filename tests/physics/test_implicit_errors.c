@@ -20,8 +20,7 @@ static hooke_measurement *ladder(const hooke_system *system, const char *form, i
   owned_options *run = run_options((struct run){
                     .newton = form, .newton_tolerance = tolerance, .duration = DURATION, .every = EVERY}),
                 *options;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", METHODS));
+  options = options_with("study", "methods=%s", METHODS);
   check_ok(hooke_options_set_numbers(options, "steps", count, steps));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status == HOOKE_NOT_BUILT) skip();
@@ -53,8 +52,7 @@ static void check_cloth(int64_t side, double stiffness, double damping, const ch
   check_ladder(study, form, count);
 }
 
-static void errors_fall_on_cloths_of_20(void **unused) {
-  (void)unused;
+static void errors_fall_on_cloths_of_20(no_state) {
   check_cloth(20, 1e3, 0.0, "converged", MOST_STEPS);
   if (HOOKE_SANITIZED) return;
   check_cloth(20, 1e3, 0.0, "one-iteration", MOST_STEPS);
@@ -62,8 +60,7 @@ static void errors_fall_on_cloths_of_20(void **unused) {
   check_cloth(20, 1e4, 20.0, "one-iteration", MOST_STEPS);
 }
 
-static void errors_fall_on_cloths_of_41(void **unused) {
-  (void)unused;
+static void errors_fall_on_cloths_of_41(no_state) {
   if (HOOKE_SANITIZED) skip(); /* the code is that of the other, which is shorter */
   check_cloth(41, 1e3, 0.5, "converged", MOST_STEPS - 2);
 }

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "hooke.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,24 +12,18 @@
 static const double EDGES[9] = {1.2, 0, 0, 0, 0.6, 0, 0, 0, 0.9};
 
 static hooke_options *lattice_options(const double *size, const double *edges) {
-  hooke_options *options;
-  check_ok(hooke_options_create("lattice", &options));
-  check_ok(hooke_options_set_numbers(options, "origin", 3, (double[]){0.1, -0.2, 0.3}));
+  hooke_options *options = options_with("lattice", "origin=0.1,-0.2,0.3");
   check_ok(hooke_options_set_numbers(options, "edges", 9, edges));
   check_ok(hooke_options_set_numbers(options, "size", 3, size));
   return options;
 }
 
 static void set_springs(hooke_options *options) {
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 50));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
-  check_ok(hooke_options_set_number(options, "shear.damping", 0.01));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 5));
+  set_options(options, "structural.stiffness=50 shear.stiffness=20 shear.damping=0.01 bend.stiffness=5");
 }
 
 static hooke_system *build(hooke_options *options) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "lattice", "block", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   hooke_options_destroy(options);
@@ -44,8 +39,7 @@ static hooke_system *full(int nx, int ny, int nz) {
 
 /* ---- counts and order ---- */
 
-static void families_have_the_springs_of_the_formula(void **unused) {
-  (void)unused;
+static void families_have_the_springs_of_the_formula(no_state) {
   for (int64_t nx = 2; nx <= 5; nx++) {
     for (int64_t ny = 2; ny <= 4; ny++) {
       for (int64_t nz = 2; nz <= 4; nz++) {
@@ -65,8 +59,7 @@ static void families_have_the_springs_of_the_formula(void **unused) {
 }
 
 /* Direction by direction, as steps along x, y and z; in each x fastest, then y, then z. */
-static void springs_are_in_order(void **unused) {
-  (void)unused;
+static void springs_are_in_order(no_state) {
   enum { NX = 4, NY = 3, NZ = 5 };
   static const int step[16][3] = {{1, 0, 0},   {0, 1, 0}, {0, 0, 1},  {1, 1, 0}, {-1, 1, 0}, {1, 0, 1},
                                   {-1, 0, 1},  {0, 1, 1}, {0, -1, 1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, 1},
@@ -118,19 +111,16 @@ static hooke_system *one_by_one(const hooke_system *part) {
   const int64_t n = hooke_system_particle_count(part), count = hooke_system_count(part, "springs");
   int64_t *ends = new_block(2 * count, sizeof *ends), first = 0;
   owned_doubles *material = new_doubles(3 * count);
-  hooke_system *system;
   owned_state *state = start_state(part);
   check_ok(hooke_system_members(part, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(part, "springs", NULL, material, material + count, material + 2 * count));
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, n, hooke_state_position(state), NULL, n,
                                       hooke_system_mass(part), NULL));
   for (int g = 0; g < 3; g++) {
     const int64_t size = hooke_system_group_size(part, "springs", g);
-    owned_options *options;
-    check_ok(hooke_options_create("springs", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", stiffness[g]));
-    check_ok(hooke_options_set_number(options, "damping", damping[g]));
+    owned_options *options =
+        options_with("springs", "stiffness=%.17g damping=%.17g", stiffness[g], damping[g]);
     check_ok(hooke_options_set_numbers(options, "rest_length", size, material + 2 * count + first));
     check_ok(hooke_system_add_springs(system, NULL, size, ends + 2 * first, options));
     first += size;
@@ -140,8 +130,7 @@ static hooke_system *one_by_one(const hooke_system *part) {
   return system;
 }
 
-static void a_part_runs_as_its_springs_do(void **unused) {
-  (void)unused;
+static void a_part_runs_as_its_springs_do(no_state) {
   enum { N = 6 * 5 * 7 };
   owned_system *part = full(6, 5, 7), *plain = one_by_one(part);
   double q[3 * N], v[3 * N], other_q[3 * N], other_v[3 * N];
@@ -171,8 +160,7 @@ static double pull(double count, double ks, double x, double y, double z, double
   return count * ks * (length / rest - 1.0) * along / length;
 }
 
-static void a_stretched_block_pulls_with_the_sum_of_its_springs(void **unused) {
-  (void)unused;
+static void a_stretched_block_pulls_with_the_sum_of_its_springs(no_state) {
   enum { NX = 5, NY = 4, NZ = 6, LAYER = NX * NY };
   owned_system *system = full(NX, NY, NZ);
   const int64_t n = hooke_system_particle_count(system);
@@ -199,8 +187,7 @@ static void a_stretched_block_pulls_with_the_sum_of_its_springs(void **unused) {
   free(force);
 }
 
-static void density_makes_the_mass_of_the_volume(void **unused) {
-  (void)unused;
+static void density_makes_the_mass_of_the_volume(no_state) {
   static const double skew[9] = {1, 0.2, 0, 0.3, 2, 0.1, 0.5, 0, 3};
   const double volume = fabs(1 * (2 * 3 - 0.1 * 0) - 0.2 * (0.3 * 3 - 0.1 * 0.5) + 0 * (0.3 * 0 - 2 * 0.5));
   for (int n = 2; n <= 4; n++) {
@@ -221,17 +208,15 @@ static void density_makes_the_mass_of_the_volume(void **unused) {
 
 static void check_size_refused(double nx, double ny, double nz, int32_t status, const char *message) {
   owned_options *options = lattice_options((double[]){nx, ny, nz}, EDGES);
-  owned_system *system;
   check_ok(hooke_options_set_number(options, "mass", 1));
   set_springs(options);
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_status(hooke_system_add_part(system, "lattice", NULL, options, NULL, NULL), status);
   check_message(message);
   assert_int_equal(hooke_system_particle_count(system), 0);
 }
 
-static void impossible_sizes_are_refused_before_anything_is_allocated(void **unused) {
-  (void)unused;
+static void impossible_sizes_are_refused_before_anything_is_allocated(no_state) {
   check_size_refused(2147483647, 2147483647, 2147483647, HOOKE_BAD_VALUE,
                      "2147483647 x 2147483647 x 2147483647 needs");
   /* 1e9 particles, but more springs than can be numbered */
@@ -243,26 +228,22 @@ static void impossible_sizes_are_refused_before_anything_is_allocated(void **unu
 
 static void check_held(const char *pinned, int64_t from, int64_t to) {
   hooke_options *options = lattice_options((double[]){3, 2, 4}, EDGES);
-  check_ok(hooke_options_set_number(options, "mass", 1));
-  check_ok(hooke_options_set_text(options, "pinned", pinned));
+  set_options(options, "mass=1 pinned=%s", pinned);
   owned_system *system = build(options);
   for (int64_t p = 0; p < 24; p++)
     assert_int_equal(hooke_system_inverse_mass(system)[p] == 0.0, p >= from && p < to);
 }
 
-static void pinned_layers_have_names(void **unused) {
-  (void)unused;
+static void pinned_layers_have_names(no_state) {
   check_held("bottom", 0, 6);
   check_held("top", 18, 24);
   check_held("7", 7, 8);
 }
 
 /* A driven layer moves the block. */
-static void a_layer_can_be_driven(void **unused) {
-  (void)unused;
+static void a_layer_can_be_driven(no_state) {
   enum { LAYER = 9, N = 27 };
   owned_options *options = lattice_options((double[]){3, 3, 3}, EDGES);
-  owned_system *system;
   int64_t layer[LAYER];
   double q[3 * N];
   for (int k = 0; k < LAYER; k++)
@@ -270,7 +251,7 @@ static void a_layer_can_be_driven(void **unused) {
   check_ok(hooke_options_set_number(options, "mass", 1));
   set_springs(options);
   check_ok(hooke_options_set_text(options, "pinned", "bottom"));
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_part(system, "lattice", NULL, options, NULL, NULL));
   check_ok(hooke_system_drive_harmonic(system, LAYER, layer, (double[]){0.1, 0, 0}, 0.5, 0.0));
   check_ok(hooke_system_commit(system));

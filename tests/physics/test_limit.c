@@ -13,9 +13,7 @@
 
 /* Limits of all methods at the initial state, without measuring. `accuracy` 0: the default. */
 static hooke_measurement *limit_of(const hooke_system *system, double accuracy) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  hooke_options *options = options_with("limit", "predict=1");
   if (accuracy > 0.0) check_ok(hooke_options_set_number(options, "accuracy", accuracy));
   return limit_at_start(system, NULL, options);
 }
@@ -44,16 +42,11 @@ static void check_digits(double value, double expected, double relative) {
 
 /* N x n particles of 0.01 kg, 0.1 m apart, springs of 50 N, hung by two corners. */
 static hooke_system *build_cloth(int n, double damping, double drag) {
-  hooke_system *system;
-  owned_options *options;
   const double side = 0.1 * (n - 1), edges[6] = {side, 0.0, 0.0, 0.0, 0.0, side}, size[2] = {n, n};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  hooke_system *system = new_system();
+  owned_options *options = options_with("cloth", "origin=0,0,0 mass=%.17g pinned=top-corners", 0.01 * n * n);
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 0.01 * n * n));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
   const char *family[3][2] = {{"structural.stiffness", "structural.damping"},
                               {"shear.stiffness", "shear.damping"},
                               {"bend.stiffness", "bend.damping"}};
@@ -71,9 +64,8 @@ static hooke_system *build_cloth(int n, double damping, double drag) {
 static hooke_system *build_nets(int64_t copies) {
   const struct reference *net = find_reference("six-particles");
   const int64_t n = net->particle_count;
-  hooke_system *system;
   owned_doubles *position = new_doubles(3 * n * copies), *mass = new_doubles(n * copies);
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   for (int64_t k = 0; k < n * copies; k++) {
     mass[k] = net->mass[net->mass_count > 1 ? k % n : 0];
     for (int a = 0; a < 3; a++)
@@ -84,7 +76,6 @@ static hooke_system *build_nets(int64_t copies) {
     const struct reference_group *group = &net->group[g];
     int64_t *ends = new_block(2 * group->count * copies, (int64_t)sizeof *ends);
     owned_doubles *rest = new_doubles(group->count * copies);
-    owned_options *options;
     for (int64_t k = 0; k < group->count * copies; k++) {
       double square = 0.0;
       for (int e = 0; e < 2; e++)
@@ -96,10 +87,9 @@ static hooke_system *build_nets(int64_t copies) {
       }
       rest[k] = group->rest_scale * (group->rest_length < 0.0 ? sqrt(square) : group->rest_length);
     }
-    check_ok(hooke_options_create("springs", &options));
+    owned_options *options = new_options("springs");
     if (group->law) check_ok(hooke_options_set_text(options, "law", group->law));
-    check_ok(hooke_options_set_number(options, "stiffness", group->stiffness));
-    check_ok(hooke_options_set_number(options, "damping", group->damping));
+    set_options(options, "stiffness=%.17g damping=%.17g", group->stiffness, group->damping);
     check_ok(hooke_options_set_numbers(options, "rest_length", group->count * copies, rest));
     check_ok(hooke_system_add_springs(system, group->name, group->count * copies, ends, options));
     free(ends);
@@ -124,8 +114,7 @@ static const struct {
   cloth10 = {582.2601378383093, 0.0034348908160279894, 0.003058102791710135, 0.005078523465343316,
              0.0003999999999994838};
 
-static void critical_steps_to_ten_digits(void **unused) {
-  (void)unused;
+static void critical_steps_to_ten_digits(no_state) {
   hooke_system *system = build_reference(find_reference("six-particles"));
   hooke_measurement *limit = limit_of(system, 0.0);
   check_digits(hooke_measurement_number(limit, "limit", 0, "frequency_max"), net6.frequency, 1e-12);
@@ -154,8 +143,7 @@ static void critical_steps_to_ten_digits(void **unused) {
 }
 
 /* x'' + 2 zeta omega x' + omega^2 x = 0: a mass on a spring at its rest length, which is free across. */
-static void one_mode_follows_the_table(void **unused) {
-  (void)unused;
+static void one_mode_follows_the_table(no_state) {
   const double omega = 7.0, mass = 2.0, position[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   static const struct {
@@ -182,8 +170,7 @@ static void one_mode_follows_the_table(void **unused) {
 }
 
 /* Copies of the same scene take another path: iterations for more unknowns, a partial spectrum beyond. */
-static void many_copies_have_the_limits_of_one(void **unused) {
-  (void)unused;
+static void many_copies_have_the_limits_of_one(no_state) {
   static const struct {
     int64_t copies; /* 15 unknowns each */
     int32_t exact;
@@ -213,8 +200,7 @@ static void many_copies_have_the_limits_of_one(void **unused) {
 }
 
 /* All eigenvalues by dense matrices, the largest by iterations: just below the maximum size of the former. */
-static void iterations_agree_with_dense_matrices(void **unused) {
-  (void)unused;
+static void iterations_agree_with_dense_matrices(no_state) {
   const int sizes[] = {11, 22}; /* 357 and 1446 unknowns */
   for (int k = 0; k < 2; k++) {
     owned_system *system = build_cloth(sizes[k], 0.0, 0.0);
@@ -230,8 +216,7 @@ static void iterations_agree_with_dense_matrices(void **unused) {
 }
 
 /* To the given accuracy, and not much better, with less work. */
-static void large_scenes_keep_the_accuracy(void **unused) {
-  (void)unused;
+static void large_scenes_keep_the_accuracy(no_state) {
   owned_system *system = build_cloth(70, 0.02, 0.0);
   owned_measurement *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "forward-euler"};
@@ -246,8 +231,7 @@ static void large_scenes_keep_the_accuracy(void **unused) {
 
 /* ---- bounds ---- */
 
-static void bounds_are_never_above_the_limit(void **unused) {
-  (void)unused;
+static void bounds_are_never_above_the_limit(no_state) {
   const int features[] = {SCENE_GRAVITY, SCENE_DRAG, SCENE_DAMPING, SCENE_PULL_ONLY, SCENE_PINNED};
   double lowest = INFINITY, highest = 0.0;
   enum { MOST_ROWS = 16 };
@@ -312,8 +296,7 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void the_smallest_limit_of_a_run(void **unused) {
-  (void)unused;
+static void the_smallest_limit_of_a_run(no_state) {
   owned_system *system = build_reference(find_reference("six-particles"));
   owned_options *run =
       run_options((struct run){.method = "rk4", .step = 0.01, .duration = 1.0, .every = 0.1});
@@ -328,10 +311,8 @@ static void the_smallest_limit_of_a_run(void **unused) {
   hooke_state_destroy(state);
 
   hooke_measurement *along = NULL;
-  owned_options *options = NULL;
   state = start_state(system);
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_number(options, "along", 1.0));
+  owned_options *options = options_with("limit", "along=1");
   check_ok(hooke_measurement_create("limit", system, run, options, &along));
   check_ok(hooke_measurement_run(along, state));
   check_digits(number_of(along, "symplectic-euler", "smallest"), s.limit_met, 1e-9);
@@ -352,8 +333,7 @@ static void the_smallest_limit_of_a_run(void **unused) {
 
 /* ---- edge cases ---- */
 
-static void nothing_limits(void **unused) {
-  (void)unused;
+static void nothing_limits(no_state) {
   const double position[] = {0, 0, 0, 1, 0, 0};
   const int64_t both[] = {0, 1};
   for (int scene = 0; scene < 3; scene++) {
@@ -374,8 +354,7 @@ static void nothing_limits(void **unused) {
   }
 }
 
-static void drag_alone(void **unused) {
-  (void)unused;
+static void drag_alone(no_state) {
   const double place[3] = {0.0, 0.0, 0.0};
   owned_system *falling = small_system(1, place, NULL, 1.0, 0);
   check_ok(hooke_system_set_drag(falling, 0.25));
@@ -389,14 +368,11 @@ static void drag_alone(void **unused) {
 }
 
 /* Of a cloth with so many particles that not all modes are computed: what drag limits, it is named for. */
-static void drag_is_named_whatever_its_amount(void **unused) {
-  (void)unused;
+static void drag_is_named_whatever_its_amount(no_state) {
   owned_options *run = run_options((struct run){.method = "heun"});
   for (double drag = 20.0; drag < 1e6; drag *= 100.0) {
     owned_system *cloth = build_cloth(14, 0.0, drag);
-    hooke_options *options;
-    check_ok(hooke_options_create("limit", &options));
-    check_ok(hooke_options_set_number(options, "predict", 1.0));
+    hooke_options *options = options_with("limit", "predict=1");
     owned_measurement *limit = limit_at_start(cloth, run, options);
     check_digits(predicted(limit, "heun"), 2.0 * 0.01 / drag, 1e-3);
     const char *force = hooke_measurement_text(limit, "blame", 0, "force");
@@ -407,8 +383,7 @@ static void drag_is_named_whatever_its_amount(void **unused) {
 }
 
 /* A compressed spring pushes its ends apart sideways: that is no limit of a step, and it is counted. */
-static void compression_is_left_out(void **unused) {
-  (void)unused;
+static void compression_is_left_out(no_state) {
   const double position[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   const double rest_lengths[] = {2.0, 0.5};
@@ -428,8 +403,7 @@ static void compression_is_left_out(void **unused) {
 }
 
 /* One spring of a rope is 50 times stiffer: it carries the mode, whose displacements have norm 1. */
-static void the_odd_spring_is_named(void **unused) {
-  (void)unused;
+static void the_odd_spring_is_named(no_state) {
   double position[36] = {0};
   int64_t ends[22];
   for (int k = 0; k < 12; k++)
@@ -453,8 +427,7 @@ static void the_odd_spring_is_named(void **unused) {
   check_between(hooke_measurement_number(limit, "changes", 0, "gain"), 2.0, 8.0);
 }
 
-static void the_same_every_time(void **unused) {
-  (void)unused;
+static void the_same_every_time(no_state) {
   owned_system *system = build_nets(30);
   owned_measurement *first = limit_of(system, 0.0), *second = limit_of(system, 0.0);
   for (int64_t row = 0; row < hooke_measurement_row_count(first, "rows"); row++) {
@@ -469,8 +442,7 @@ static int32_t stop(double done, const char *what, void *ctx) {
   return ++*(int *)ctx;
 }
 
-static void bad_input(void **unused) {
-  (void)unused;
+static void bad_input(no_state) {
   owned_system *system = small_oscillator(7.0), *other = build_nets(1), *open = NULL;
   hooke_measurement *limit = limit_of(system, 0.0);
   hooke_state *state = start_state(other);
@@ -497,8 +469,7 @@ static void bad_input(void **unused) {
   hooke_measurement_destroy(limit);
   hooke_measurement_destroy(NULL);
 
-  owned_options *options;
-  check_ok(hooke_options_create("limit", &options));
+  owned_options *options = new_options("limit");
   check_status(hooke_options_set_number(options, "accuracy", 0.5), HOOKE_BAD_VALUE);
   check_ok(hooke_options_set_text(options, "methods", "verlet,no-such-method"));
   check_status(hooke_measurement_create("limit", system, NULL, options, &limit), HOOKE_BAD_VALUE);

@@ -17,13 +17,9 @@ enum { MOST_PARTICLES = 32, MOST_SPRINGS = 256 };
  * them. */
 static hooke_measurement *find_limit(const hooke_system *system, const char *methods, double accuracy,
                                      int32_t predict, const hooke_options *run) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
+  hooke_options *options = new_options("limit");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
-  check_ok(hooke_options_set_number(options, "accuracy", accuracy));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "nonlinear", run != NULL));
-  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  set_options(options, "accuracy=%.17g predict=%d nonlinear=%d budget=200", accuracy, predict, run != NULL);
   return limit_at_start(system, run, options);
 }
 
@@ -53,19 +49,16 @@ static hooke_system *random_network(uint64_t seed, double damping) {
     stiffness[k] = random_between(&source, 5.0, 50.0);
     damp[k] = damping * random_between(&source, 0.0, 2.0);
   }
-  hooke_system *system;
-  owned_options *options;
   const int64_t pinned = 0, driven = 3;
   const double amplitude[3] = {0.1, 0.0, 0.0};
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, N, position, NULL, N, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   if (seed % 4 == 0) check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options =
+      options_with("springs", "law=length rest_scale=%.17g", random_between(&source, 0.8, 1.1));
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, damp));
-  check_ok(hooke_options_set_number(options, "rest_scale", random_between(&source, 0.8, 1.1)));
   if (seed % 3 == 0) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(system, "network", SPRINGS, ends, options));
   if (seed % 2 == 0) check_ok(hooke_system_set_drag(system, 0.2 * damping));
@@ -73,8 +66,7 @@ static hooke_system *random_network(uint64_t seed, double damping) {
   return system;
 }
 
-static void random_networks_run_up_to_the_prediction(void **unused) {
-  (void)unused;
+static void random_networks_run_up_to_the_prediction(no_state) {
   for (uint64_t seed = 1; seed <= 100; seed++) {
     if (left_out((int64_t)seed, 5)) continue;
     owned_system *system = random_network(seed, 1.0);
@@ -96,8 +88,7 @@ static void random_networks_run_up_to_the_prediction(void **unused) {
 }
 
 /* The same comparison with the prediction for another damping must fail. */
-static void another_damping_is_noticed(void **unused) {
-  (void)unused;
+static void another_damping_is_noticed(no_state) {
   int noticed = 0;
   for (uint64_t seed = 1; seed <= 5; seed++) {
     owned_system *system = random_network(seed, 1.0), *other = random_network(seed, 1.1);
@@ -162,13 +153,10 @@ static hooke_system *build_piece(const struct piece *piece, enum odd odd, double
     stiffness[k] = odd == STIFF_SPRING && k == piece->stiff ? 5000.0 : 100.0;
     damping[k] = beta * stiffness[k];
   }
-  hooke_system *system;
-  owned_options *options;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, n, position, NULL, n, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", count, damping));
   check_ok(hooke_system_add_springs(system, piece->name, count, ends, options));
@@ -253,26 +241,22 @@ static void check_pieces(const struct piece *piece) {
   }
 }
 
-static void ropes(void **unused) {
-  (void)unused;
+static void ropes(no_state) {
   check_pieces(&pieces[0]);
 }
 
-static void cloths(void **unused) {
-  (void)unused;
+static void cloths(no_state) {
   check_pieces(&pieces[1]);
 }
 
-static void lattices(void **unused) {
-  (void)unused;
+static void lattices(no_state) {
   check_pieces(&pieces[2]);
 }
 
 /* ---- the scene itself ---- */
 
 /* A spring of no length is linear at any stretch, so the whole run gives the same limit. */
-static void linear_scene_runs_up_to_the_prediction(void **unused) {
-  (void)unused;
+static void linear_scene_runs_up_to_the_prediction(no_state) {
   owned_system *system = small_oscillator(7.0);
   owned_options *run =
       run_options((struct run){.method = "symplectic-euler", .step = 0.01, .duration = 300.0});
@@ -285,8 +269,7 @@ static void linear_scene_runs_up_to_the_prediction(void **unused) {
 
 /* A spring that only pulls counts as taut in the linear twin; where it never becomes taut, the scene itself
  * is stable at any step. */
-static void slack_scene_takes_any_step(void **unused) {
-  (void)unused;
+static void slack_scene_takes_any_step(no_state) {
   const double position[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, down[3] = {0.0, -1.0, 0.0};
   const int64_t ends[2] = {0, 1};
   for (int slack = 0; slack <= 1; slack++) {
@@ -311,8 +294,7 @@ static int32_t stop_at_once(double done, const char *what, void *ctx) {
   return ++*(int *)ctx == 3;
 }
 
-static void progress_can_stop(void **unused) {
-  (void)unused;
+static void progress_can_stop(no_state) {
   owned_system *system = random_network(5, 1.0);
   hooke_measurement *limit = find_limit(system, "rk4", 1e-3, 1, NULL);
   hooke_measurement_destroy(limit);

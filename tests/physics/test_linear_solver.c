@@ -25,8 +25,7 @@ static int is_built(const char *solver) {
   return has_factor() || strcmp(solver, "direct") != 0;
 }
 
-static void references_are_met(void **unused) {
-  (void)unused;
+static void references_are_met(no_state) {
   needs_cvode();
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     const struct reference *reference = &references[k];
@@ -51,8 +50,7 @@ static void references_are_met(void **unused) {
 
 /* Every force, driven and pinned particles, springs that only pull, callbacks with and without their
  * derivative. */
-static void everything(void **unused) {
-  (void)unused;
+static void everything(no_state) {
   static const char *const methods[] = {"cvode-bdf", "arkode-esdirk"};
   needs_cvode();
   for (uint64_t seed = 1; seed <= 6; seed++) {
@@ -104,8 +102,7 @@ static hooke_system *rope(double lightest) {
     ends[2 * k + 1] = k + 1;
   }
   const int64_t pinned = 0;
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, PARTICLES, position, NULL, PARTICLES, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   small_springs(system, SEGMENTS, ends, (struct springs){NULL, 1e4, 10.0, -1.0, 0});
@@ -146,8 +143,7 @@ static struct counted run_alone(const hooke_system *system, const char *solver) 
 
 /* A factor needs few iterations, and the automatic choice selects it; also beside a particle of a millionth
  * of the mass. */
-static void factor_pays(void **unused) {
-  (void)unused;
+static void factor_pays(no_state) {
   needs_cvode();
   if (!has_factor()) skip();
   for (int k = 0; k < 2; k++) {
@@ -170,8 +166,7 @@ static void factor_pays(void **unused) {
 }
 
 /* A run keeps nothing of the previous one. */
-static void runs_repeat(void **unused) {
-  (void)unused;
+static void runs_repeat(no_state) {
   needs_cvode();
   owned_system *system = rope(0.25 / PARTICLES);
   for (int s = 0; s < SOLVERS - 1; s++) {
@@ -185,26 +180,19 @@ static void runs_repeat(void **unused) {
 }
 
 /* The message names the missing library. */
-static void not_built(void **unused) {
-  (void)unused;
+static void not_built(no_state) {
   needs_cvode();
   if (has_factor()) skip();
   owned_system *system = rope(0.25 / PARTICLES);
-  owned_options *options = NULL;
   hooke_integrator *integrator = NULL;
-  check_ok(hooke_options_create("run", &options));
-  check_ok(hooke_options_set_text(options, "method", "cvode-bdf"));
-  check_ok(hooke_options_set_number(options, "duration", 0.3));
-  check_ok(hooke_options_set_text(options, "linear_solver", "direct"));
+  owned_options *options = options_with("run", "method=cvode-bdf duration=0.3 linear_solver=direct");
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_NOT_BUILT);
   assert_non_null(strstr(hooke_last_error(), "CHOLMOD"));
   assert_null(integrator);
 }
 
-static void words(void **unused) {
-  (void)unused;
-  owned_options *options = NULL;
-  check_ok(hooke_options_create("run", &options));
+static void words(no_state) {
+  owned_options *options = new_options("run");
   assert_string_equal(hooke_options_text(options, "linear_solver"), "auto");
   check_status(hooke_options_set_text(options, "linear_solver", "cholmod"), HOOKE_BAD_VALUE);
 }

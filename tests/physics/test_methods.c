@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void test_table(void **unused) {
-  (void)unused;
+static void test_table(no_state) {
   const char *expected[] = {"forward-euler", "symplectic-euler", "verlet",  "shardlow",          "heun",
                             "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint", "cvode-bdf",
                             "cvode-adams"};
@@ -85,8 +84,7 @@ static void check_list(const char *method, const char *problem) {
 }
 
 /* Integrators are made of what a method says that it takes, and of nothing else. */
-static void test_methods_take_what_they_say(void **unused) {
-  (void)unused;
+static void test_methods_take_what_they_say(no_state) {
   static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order"};
   int32_t taken[4] = {0};
   for (int k = 0; k < 4; k++) {
@@ -131,8 +129,7 @@ static void refuse_absent(const hooke_system *system, const char *method) {
 
 /* Half the step gives at most 0.6 of the error (order 1 or better), a tighter tolerance a smaller error, and
  * an error-controlled method at rtol 1e-9 a smaller error than every fixed step of order 1 here. */
-static void test_every_method_on_every_scene(void **unused) {
-  (void)unused;
+static void test_every_method_on_every_scene(no_state) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     const struct reference *reference = &references[k];
     owned_system *system = build_reference(reference);
@@ -173,8 +170,7 @@ static void test_every_method_on_every_scene(void **unused) {
 /* A pendulum on a stiff, strongly damped rod. Newton with the right derivative takes long steps over the fast
  * mode once it has died out; the fixed-point iteration of cvode-adams cannot, nor could Newton with a wrong
  * derivative. */
-static void test_bdf_strides_over_damped_modes(void **unused) {
-  (void)unused;
+static void test_bdf_strides_over_damped_modes(no_state) {
   if (hooke_method_is_built("cvode-bdf") != 1) skip();
   const double position[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};

@@ -9,8 +9,7 @@
 
 /* ---- coincident ends, and springs without length ---- */
 
-static void test_coincident_ends(void **unused) {
-  (void)unused;
+static void test_coincident_ends(no_state) {
   const double q[] = {0, 0, 0, 1, 2, 3, 1, 2, 3, 4, 2, 3}, v[] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0};
   const int64_t ends[] = {1, 2, 2, 1, 2, 3};
   double a[12];
@@ -36,8 +35,7 @@ static void test_coincident_ends(void **unused) {
 }
 
 /* With rest length 0 the force is -k x everywhere: smooth at the origin, and not counted as coincident. */
-static void test_springs_without_length(void **unused) {
-  (void)unused;
+static void test_springs_without_length(no_state) {
   hooke_system *system = small_oscillator(3.0); /* mass 2: k = 18 */
   const double v[6] = {0}, zero[6] = {0};
   double q[6] = {0, 0, 0, 0.3, -0.4, 1.2}, force[6];
@@ -73,8 +71,7 @@ static void fall(double damping, double drag, double h, int64_t steps, double *v
   *velocity = 0.5 * (u[1] + u[4]);
 }
 
-static void test_drag_or_damping(void **unused) {
-  (void)unused;
+static void test_drag_or_damping(no_state) {
   const double h = 1e-3, n = 1000.0, factor = 1.0 - 1.5 * h / 0.5;
   double velocity, height;
   fall(0.0, 0.0, h, 1000, &velocity, &height);
@@ -104,8 +101,7 @@ static double hanging_length(const char *law, int64_t segments, double step) {
   for (int64_t k = 0; k < 2 * segments; k++)
     ends[k] = (k + 1) / 2;
   mass[segments] = 0.2 * piece + 0.2;
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, segments + 1, q, NULL, segments + 1, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &first));
   small_springs(system, segments, ends,
@@ -121,24 +117,21 @@ static double hanging_length(const char *law, int64_t segments, double step) {
   return length;
 }
 
-static void test_stretch_does_not_depend_on_resolution(void **unused) {
-  (void)unused;
+static void test_stretch_does_not_depend_on_resolution(no_state) {
   const int64_t segments[] = {1, 2, 8, 64};
   for (int k = 0; k < 4; k++)
     check_close(hanging_length("strain", segments[k], 2e-5), 1.0 + 4.0 / 16.0, 1e-6);
 }
 
 /* By the length law n springs in a row give n times the stretch. */
-static void test_stretch_by_the_length_law(void **unused) {
-  (void)unused;
+static void test_stretch_by_the_length_law(no_state) {
   check_close(hanging_length("length", 1, 5e-5), 1.0 + 4.0 / 16.0, 1e-6);
   check_close(hanging_length("length", 2, 5e-5), 1.0 + 2.0 * 4.0 / 16.0, 1e-6);
 }
 
 /* ---- pinned particles and cables ---- */
 
-static void test_pinned_never_move(void **unused) {
-  (void)unused;
+static void test_pinned_never_move(no_state) {
   const double q[] = {0.1, 0.2, 0.3, 1, 1, 1, -1, 0.5, 2}, gravity[] = {1, 2, 3}, zero[3] = {0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 0};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -159,8 +152,7 @@ static void test_pinned_never_move(void **unused) {
 }
 
 /* A slack cable lets its ends pass, with damping or without; a taut one is a spring. */
-static void test_cables(void **unused) {
-  (void)unused;
+static void test_cables(no_state) {
   const int64_t ends[] = {0, 1};
   const struct {
     double distance, velocity, pull; /* force on the first end, along the second */
@@ -188,8 +180,7 @@ static void test_cables(void **unused) {
 }
 
 /* A scene pays only for the forces that it names. */
-static void test_forces_that_are_there(void **unused) {
-  (void)unused;
+static void test_forces_that_are_there(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -1, 0};
   owned_system *empty = small_system(2, q, NULL, 1.0, 0), *full = small_system(2, q, NULL, 1.0, 0);
   const int64_t ends[] = {0, 1};
@@ -208,8 +199,7 @@ static void test_forces_that_are_there(void **unused) {
 }
 
 /* Without damping velocities are not read: not even a NaN there affects the forces. */
-static void test_velocities_are_not_read(void **unused) {
-  (void)unused;
+static void test_velocities_are_not_read(no_state) {
   const double q[] = {0, 0, 0, 1, 0.5, 0}, lost[] = {NAN, NAN, NAN, NAN, NAN, NAN};
   const int64_t ends[] = {0, 1};
   double force[6];

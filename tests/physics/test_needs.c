@@ -16,8 +16,7 @@ static hooke_measurement *make(const hooke_system *system, struct run run, doubl
                                int refine) {
   hooke_options *of_run = run_options(run), *options;
   hooke_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_number(options, "want", want));
+  options = options_with("needs", "want=%.17g", want);
   if (watch) check_ok(hooke_options_set_text(options, "watch", watch));
   check_ok(hooke_options_set_number(options, "refine", refine));
   check_ok(hooke_measurement_create("needs", system, of_run, options, &needs));
@@ -32,18 +31,13 @@ static hooke_measurement *start(const hooke_system *system, struct run run, doub
 
 /* A rope that hangs from its start, released unstretched; with weak springs two apart. */
 static hooke_system *hanging_rope(int segments, double bend) {
-  hooke_system *system;
-  owned_options *rope;
   const double from[3] = {0, 0, 0}, to[3] = {0, -1, 0}, gravity[3] = {0, -9.81, 0};
   const int64_t first = 0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &rope));
+  hooke_system *system = new_system();
+  owned_options *rope =
+      options_with("rope", "segments=%d density=0.1 stretch.stiffness=20 stretch.damping=0.05", segments);
   check_ok(hooke_options_set_numbers(rope, "from", 3, from));
   check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, "segments", segments));
-  check_ok(hooke_options_set_number(rope, "density", 0.1));
-  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 20));
-  check_ok(hooke_options_set_number(rope, "stretch.damping", 0.05));
   if (bend > 0.0) check_ok(hooke_options_set_number(rope, "bend.stiffness", bend));
   check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
   check_ok(hooke_system_pin(system, 1, &first));
@@ -117,8 +111,7 @@ static double distance(const struct frames *a, const struct frames *b) {
 
 static const struct run half_a_second = {.method = "rk4", .duration = 0.5, .every = 0.02};
 
-static void changes_are_those_of_runs_made_apart(void **state) {
-  (void)state;
+static void changes_are_those_of_runs_made_apart(no_state) {
   const double want = 1e-3;
   owned_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
   owned_measurement *needs = start(system, half_a_second, want, NULL);
@@ -185,8 +178,7 @@ static void check_said(const hooke_measurement *needs, const char *table, const 
   free(run);
 }
 
-static void errors_include_that_of_the_full_run(void **state) {
-  (void)state;
+static void errors_include_that_of_the_full_run(no_state) {
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
   owned_system *system = hanging_rope(12, 1e-3);
   struct frames *truth = run_fine(system, 1e-4, 1);
@@ -207,8 +199,7 @@ static void errors_include_that_of_the_full_run(void **state) {
 
 /* By a method of order 1, whose error alone limits the step: omitting weak springs saves no steps, though the
  * full system takes ten times as many for an error of a tenth of the want. */
-static void savings_are_those_at_equal_error(void **state) {
-  (void)state;
+static void savings_are_those_at_equal_error(no_state) {
   const double want = 4e-4;
   struct run run = half_a_second;
   run.method = "symplectic-euler";
@@ -258,8 +249,7 @@ static hooke_measurement *find_hung(const hooke_system *system) {
   return needs;
 }
 
-static void a_scene_that_rests_is_told_so(void **state) {
-  (void)state;
+static void a_scene_that_rests_is_told_so(no_state) {
   owned_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
                *moving = hung_mass(9.81, 0.1);
   hooke_measurement *needs = find_hung(rest);
@@ -297,8 +287,7 @@ static void a_scene_that_rests_is_told_so(void **state) {
 /* ---- resolutions ---- */
 
 /* The remaining error at 8 pieces, predicted from 8, 16 and 32, compared with 128. */
-static void refinement_predicts_a_much_finer_rope(void **state) {
-  (void)state;
+static void refinement_predicts_a_much_finer_rope(no_state) {
   owned_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
   owned_measurement *needs = make(coarse, half_a_second, 1e-4, NULL, 1);
   check_ok(hooke_measurement_run(needs, NULL));
@@ -338,8 +327,7 @@ static hooke_system *pushed_pair(double *strength) {
   return system;
 }
 
-static void a_callback_is_an_ingredient(void **state) {
-  (void)state;
+static void a_callback_is_an_ingredient(no_state) {
   double strengths[2] = {1e-6, 1.0};
   for (int k = 0; k < 2; k++) {
     owned_system *system = pushed_pair(&strengths[k]);
@@ -350,8 +338,7 @@ static void a_callback_is_an_ingredient(void **state) {
   }
 }
 
-static void every_method_finds_the_same(void **state) {
-  (void)state;
+static void every_method_finds_the_same(no_state) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (!hooke_method_is_built(method)) continue;
@@ -375,8 +362,7 @@ static void every_method_finds_the_same(void **state) {
 }
 
 /* Two masses on stiff rods, released from upright: a double pendulum. */
-static void chaos_is_judged_as_far_as_a_step_can_follow(void **state) {
-  (void)state;
+static void chaos_is_judged_as_far_as_a_step_can_follow(no_state) {
   const double position[9] = {0, 0, 0, 0.1, 1, 0, 0.25, 2, 0}, gravity[3] = {0, -9.81, 0};
   const int64_t ends[4] = {0, 1, 1, 2};
   owned_system *system = small_system(3, position, NULL, 1.0, 1);
@@ -406,8 +392,7 @@ static int32_t listen(double done, const char *what, void *ctx) {
   return ++listener->calls > listener->most;
 }
 
-static void whoever_stops_it_keeps_what_is_known(void **state) {
-  (void)state;
+static void whoever_stops_it_keeps_what_is_known(no_state) {
   owned_system *system = hanging_rope(12, 0.05);
   struct listener all = {.most = INT64_MAX};
   hooke_measurement *needs = start(system, half_a_second, 1e-3, NULL);
@@ -437,16 +422,14 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
 static void check_watch(const hooke_system *system, const char *watch, const char *message) {
   owned_options *run = run_options(half_a_second), *options;
   owned_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_number(options, "want", 1e-3));
+  options = options_with("needs", "want=1e-3");
   check_ok(hooke_options_set_text(options, "watch", watch));
   check_status(hooke_measurement_create("needs", system, run, options, &needs),
                message ? HOOKE_BAD_VALUE : HOOKE_OK);
   if (message) check_message(message);
 }
 
-static void what_cannot_be_is_refused(void **state) {
-  (void)state;
+static void what_cannot_be_is_refused(no_state) {
   owned_system *system = hanging_rope(12, 0.05);
   static const char *const good[] = {"rope", "rope.bend", "0", "12", "1-5", "0,3-4,12"};
   static const char *const bad[] = {"robe", "13", "5-1", "1,",   ",1",
@@ -457,14 +440,13 @@ static void what_cannot_be_is_refused(void **state) {
     check_watch(system, bad[k], "rope, rope.stretch, rope.bend, or particle numbers");
   owned_options *run = run_options((struct run){.method = "rk4"}), *options;
   hooke_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
+  options = new_options("needs");
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("want");
   check_ok(hooke_options_set_number(options, "want", 1e-3));
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("duration");
-  check_ok(hooke_options_set_number(run, "duration", 0.5));
-  check_ok(hooke_options_set_text(run, "method", "rk5"));
+  set_options(run, "duration=0.5 method=rk5");
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("\"rk5\" is not a method");
 
@@ -476,8 +458,7 @@ static void what_cannot_be_is_refused(void **state) {
 }
 
 /* Functions for needs refuse comparisons, and the reverse. */
-static void kinds_keep_to_what_is_theirs(void **state) {
-  (void)state;
+static void kinds_keep_to_what_is_theirs(no_state) {
   owned_system *system = hanging_rope(4, 0.0);
   owned_options *run = run_options(half_a_second);
   hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *comparison = NULL;
@@ -524,10 +505,7 @@ static hooke_system *body_and_line(int has) {
   }
   if (has & TRIPLES) check_ok(hooke_system_add_bending(system, NULL, 2, triples, 1, &coefficient));
   if (has & TETRAHEDRA) {
-    check_ok(hooke_options_create("altitude", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", 20.0));
-    check_ok(hooke_options_set_number(options, "damping", damping));
-    check_ok(hooke_options_set_number(options, "rest_scale", 1.3));
+    options = options_with("altitude", "stiffness=20 damping=%.17g rest_scale=1.3", damping);
     check_ok(hooke_system_add_altitude(system, "body", 1, corners, options));
     hooke_options_destroy(options);
   }
@@ -536,8 +514,7 @@ static hooke_system *body_and_line(int has) {
   return system;
 }
 
-static void groups_without_parts_are_ingredients(void **unused) {
-  (void)unused;
+static void groups_without_parts_are_ingredients(no_state) {
   static const struct {
     const char *without;
     int left;
@@ -568,8 +545,7 @@ static void groups_without_parts_are_ingredients(void **unused) {
 }
 
 /* Groups with the name of an ingredient, without a name, or without members. */
-static void every_ingredient_has_a_name_of_its_own(void **unused) {
-  (void)unused;
+static void every_ingredient_has_a_name_of_its_own(no_state) {
   const double place[] = {0, 0, 0, 0.3, 0, 0, 0.1, 0.28, 0, 0.12, 0.1, 0.26, 9, 9, 9}, none = 0.0,
                stiff = 2.0;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
@@ -586,14 +562,12 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
                                          "a particle that touches nothing"};
   owned_system *system = small_system(5, place, NULL, 0.1, 1);
   owned_options *springs, *altitude;
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
+  springs = options_with("springs", "stiffness=5");
   for (int k = 0; k < 5; k++)
     check_ok(hooke_system_add_springs(system, names[k], 3, ends, springs));
   check_ok(hooke_system_add_bending(system, "none", 1, triple, 1, &none));
   check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &stiff));
-  check_ok(hooke_options_create("altitude", &altitude));
-  check_ok(hooke_options_set_number(altitude, "stiffness", 0.0));
+  altitude = options_with("altitude", "stiffness=0");
   check_ok(hooke_system_add_altitude(system, "none", 1, corners, altitude));
   check_ok(hooke_options_set_number(altitude, "stiffness", 1.0));
   check_ok(hooke_system_add_altitude(system, NULL, 1, corners, altitude));
@@ -607,13 +581,10 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
 }
 
 /* Springs that only pull have no resistance to compression that could be left out. */
-static void what_is_not_there_is_no_ingredient(void **unused) {
-  (void)unused;
+static void what_is_not_there_is_no_ingredient(no_state) {
   const double place[] = {0, 0, 0, 0.3, 0, 0};
   const int64_t ends[] = {0, 1};
-  owned_options *springs;
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
+  owned_options *springs = options_with("springs", "stiffness=5");
   for (int32_t pushes = 0; pushes < 2; pushes++) {
     owned_system *system = small_system(2, place, NULL, 0.1, 1);
     check_ok(hooke_options_set_number(springs, "compression", (double)pushes));

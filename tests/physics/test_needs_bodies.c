@@ -3,6 +3,7 @@
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,11 +13,8 @@ enum { SIDE = 4, PLATE = 2 * SIDE * SIDE, ALL = PLATE + 4, MOST_FRAMES = 64 };
 static const double WANT = 2e-3, DURATION = 1.0, EVERY = 0.02;
 
 static hooke_options *plate_options(double stiffness) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("lattice", &options));
-  check_ok(hooke_options_set_numbers(options, "edges", 9, (double[]){0.4, 0, 0, 0, 0.04, 0, 0, 0, 0.4}));
-  check_ok(hooke_options_set_numbers(options, "size", 3, (double[]){SIDE, 2, SIDE}));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
+  hooke_options *options =
+      options_with("lattice", "edges=0.4,0,0,0,0.04,0,0,0,0.4 size=%d,2,%d mass=1", SIDE, SIDE);
   for (int k = 0; k < 2; k++) {
     const char *const stiff[] = {"structural.stiffness", "shear.stiffness"};
     const char *const damped[] = {"structural.damping", "shear.damping"};
@@ -30,9 +28,8 @@ static hooke_options *plate_options(double stiffness) {
 static hooke_system *hanging_plate(double stiffness) {
   const double corner[] = {0, 0.5, 0, 0.4, 0.5, 0, 0, 0.5, 0.4, 0.4, 0.5, 0.4}, mass = 1.0;
   owned_options *plate = plate_options(stiffness), *soft = NULL;
-  hooke_system *system = NULL;
   int64_t first, pinned[4], ends[8];
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_part(system, "lattice", "plate", plate, NULL, NULL));
   check_ok(hooke_system_add_particles(system, 4, corner, NULL, 1, &mass, &first));
@@ -41,9 +38,7 @@ static hooke_system *hanging_plate(double stiffness) {
     ends[2 * k + 1] = SIDE + (k % 2) * (SIDE - 1) + (k / 2) * (PLATE - 2 * SIDE); /* on top */
   }
   check_ok(hooke_system_pin(system, 4, pinned));
-  check_ok(hooke_options_create("springs", &soft));
-  check_ok(hooke_options_set_number(soft, "stiffness", 20.0));
-  check_ok(hooke_options_set_number(soft, "damping", 0.3));
+  soft = options_with("springs", "stiffness=20 damping=0.3");
   check_ok(hooke_system_add_springs(system, "hangers", 4, ends, soft));
   check_ok(hooke_system_commit(system));
   return system;
@@ -53,8 +48,7 @@ static hooke_measurement *needs_of(const hooke_system *system, const char *metho
   owned_options *options,
       *run = run_options((struct run){.method = method, .duration = DURATION, .every = EVERY});
   hooke_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_number(options, "want", WANT));
+  options = options_with("needs", "want=%.17g", WANT);
   check_ok(hooke_measurement_create("needs", system, run, options, &needs));
   check_ok(hooke_measurement_run(needs, NULL));
   return needs;
@@ -125,8 +119,7 @@ static double of_run(const hooke_measurement *needs, const char *table, const ch
   return hooke_measurement_number(needs, table, 0, column);
 }
 
-static void a_stiff_plate_is_offered_as_a_body(void **unused) {
-  (void)unused;
+static void a_stiff_plate_is_offered_as_a_body(no_state) {
   const char *const methods[] = {"verlet", "symplectic-euler"};
   for (int m = 0; m < 2; m++) {
     if (left_out(m, 2)) continue;
@@ -156,8 +149,7 @@ static void a_stiff_plate_is_offered_as_a_body(void **unused) {
   }
 }
 
-static void a_plate_that_bends_is_not(void **unused) {
-  (void)unused;
+static void a_plate_that_bends_is_not(no_state) {
   owned_system *system = hanging_plate(100.0);
   owned_measurement *needs = needs_of(system, "verlet");
   const int64_t row = body_row(needs);

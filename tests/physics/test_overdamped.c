@@ -2,6 +2,7 @@
 #include "check.h"
 #include "order.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,15 +14,11 @@ static const double GAMMA = 2.0, KAPPA = 30.0, LONG = 1.5, REST = 1.0;
 static hooke_system *open_pair(void) {
   const double q[6] = {0.0, 0.0, 0.0, 1.5, 0.0, 0.0};
   const int64_t ends[2] = {0, 1};
-  hooke_system *system = NULL;
-  owned_options *springs = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_add_particles(system, 2, q, NULL, 0, NULL, NULL));
   check_ok(hooke_system_set_drag(system, GAMMA));
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", KAPPA * REST));
-  check_ok(hooke_options_set_number(springs, "rest_length", REST));
+  owned_options *springs = options_with("springs", "stiffness=%.17g rest_length=%.17g", KAPPA * REST, REST);
   check_ok(hooke_system_add_springs(system, "pair", 1, ends, springs));
   return system;
 }
@@ -53,8 +50,7 @@ static int takes_pair(const hooke_system *system, const char *method) {
 }
 
 /* The closed form, at the order of the method from both sides. */
-static void test_orders(void **unused) {
-  (void)unused;
+static void test_orders(no_state) {
   owned_system *system = make_pair();
   int taken = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -72,8 +68,7 @@ static void test_orders(void **unused) {
   assert_int_equal(taken, 6); /* forward Euler, Heun, Runge-Kutta, three implicit ones */
 }
 
-static void test_adaptive(void **unused) {
-  (void)unused;
+static void test_adaptive(no_state) {
   owned_system *system = make_pair();
   const char *methods[] = {"cvode-bdf", "cvode-adams", "rk8pd", "arkode-esdirk"},
              *solvers[] = {"auto", "blocks", "direct", "gmres"};
@@ -91,8 +86,7 @@ static void test_adaptive(void **unused) {
 }
 
 /* Stable up to the end of the real axis, and beyond not. */
-static void test_limits(void **unused) {
-  (void)unused;
+static void test_limits(no_state) {
   owned_system *system = make_pair();
   const struct {
     const char *method;
@@ -115,8 +109,7 @@ static void test_limits(void **unused) {
   }
 }
 
-static void test_divergence(void **unused) {
-  (void)unused;
+static void test_divergence(no_state) {
   owned_system *system = make_pair();
   owned_integrator *it = start_run(
       system, (struct run){.method = "forward-euler", .step = 0.11, .duration = 11.0, .every = 0.11});
@@ -139,14 +132,12 @@ static int32_t push(int64_t n, double t, const double *q, const double *v, doubl
   return 0;
 }
 
-static void test_forces(void **unused) {
-  (void)unused;
+static void test_forces(no_state) {
   const double start[6] = {0}, mass[2] = {2.0, 0.5}, g[3] = {0.0, -9.81, 0.0};
   const char *methods[] = {"forward-euler",     "heun",     "rk4", "backward-euler", "tr-bdf2",
                            "implicit-midpoint", "cvode-bdf"};
   double largest_v = 0.0, q[6], v[6];
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_add_particles(system, 2, start, NULL, 2, mass, NULL));
   check_ok(hooke_system_set_drag(system, 4.0));
@@ -169,8 +160,7 @@ static void test_forces(void **unused) {
 }
 
 /* One end is moved as x = 0.1 sin(t): the other follows by exp(-kappa t/gamma), at the order of each method. */
-static void test_driven(void **unused) {
-  (void)unused;
+static void test_driven(no_state) {
   const double amplitude[3] = {0.1, 0.0, 0.0}, a = KAPPA / GAMMA, t = 0.2;
   const int64_t first = 0;
   const char *methods[] = {"forward-euler", "heun", "rk4", "backward-euler", "tr-bdf2", "implicit-midpoint"};
@@ -207,15 +197,13 @@ static void check_refused(hooke_system *system, const char *message) {
 static hooke_system *open_parts(double mass, double gravity, const char *option) {
   const char *const kinds[] = {"lattice", "rope"}, *const family[] = {"structural", "stretch"};
   const double edges[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, size[3] = {3, 2, 3}, end[3] = {6, 1, 0};
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, GAMMA));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, gravity, 0.0}));
   for (int k = 0; k < 2; k++) {
-    owned_options *part = NULL;
     char name[64];
-    check_ok(hooke_options_create(kinds[k], &part));
+    owned_options *part = new_options(kinds[k]);
     if (k == 0) check_ok(hooke_options_set_numbers(part, "edges", 9, edges));
     if (k == 0) check_ok(hooke_options_set_numbers(part, "size", 3, size));
     if (k == 1) check_ok(hooke_options_set_numbers(part, "from", 3, (double[]){4, 0, 0}));
@@ -233,8 +221,7 @@ static hooke_system *open_parts(double mass, double gravity, const char *option)
 }
 
 /* Masses do nothing without gravity, so parts need none. */
-static void test_parts_without_mass(void **unused) {
-  (void)unused;
+static void test_parts_without_mass(no_state) {
   enum { N = 18 + 6 };
   double q[2][3 * N];
   for (int k = 0; k < 2; k++) {
@@ -249,11 +236,9 @@ static void test_parts_without_mass(void **unused) {
   check_message("stretch.damping_ratio: is given to a part that has neither mass nor density");
 }
 
-static void test_refusals(void **unused) {
-  (void)unused;
+static void test_refusals(no_state) {
   const double g[3] = {0.0, 0.0, 1.0}, q[3] = {0.0, 0.0, 1.0}, v[3] = {0.0, 1.0, 0.0}, mass = 1.0;
   const int64_t ends[2] = {0, 1};
-  owned_options *springs = NULL;
   hooke_system *system = open_pair();
   check_status(hooke_system_set_dynamics(system, "fast"), HOOKE_BAD_VALUE);
   check_ok(hooke_system_set_drag(system, 0.0));
@@ -268,9 +253,7 @@ static void test_refusals(void **unused) {
   check_ok(hooke_system_add_particles(system, 1, q, v, 1, &mass, NULL));
   check_refused(system, "particles.velocity[2][1]: 1 is not allowed");
   system = open_pair();
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", 1.0));
-  check_ok(hooke_options_set_number(springs, "damping", 0.1));
+  owned_options *springs = options_with("springs", "stiffness=1 damping=0.1");
   check_ok(hooke_system_add_springs(system, "damped", 1, ends, springs));
   check_status(hooke_system_commit(system), HOOKE_BAD_VALUE);
   check_message("damping: the spring of particle 0 is damped");

@@ -115,8 +115,7 @@ static hooke_system *system_of(const struct scene *scene) {
   return system;
 }
 
-static void test_every_method(void **unused) {
-  (void)unused;
+static void test_every_method(no_state) {
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     owned_system *system = system_of(&scenes[k]);
     for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -162,8 +161,7 @@ static hooke_system *pairs(int32_t shuffled) {
   return system;
 }
 
-static void test_batches_and_threads(void **unused) {
-  (void)unused;
+static void test_batches_and_threads(no_state) {
   for (int shuffled = 0; shuffled < 2; shuffled++) {
     owned_system *system = pairs(shuffled);
     const struct run alone = {.method = "symplectic-euler", .step = 0.004, .duration = 0.08, .threads = 1},
@@ -175,15 +173,12 @@ static void test_batches_and_threads(void **unused) {
 
 /* ---- anchors, loops of the caller's own, and what is not known ---- */
 
-static void test_anchors(void **unused) {
-  (void)unused;
+static void test_anchors(no_state) {
   const double q[] = {2, 0, 0, 2, 1, 0}, points[] = {0.5, 0, 0, 0.5, 1, 0}, rest_length[] = {0.5, 0.0};
   const int64_t particles[] = {0, 1};
-  owned_options *options = NULL;
   owned_system *system = small_system(2, q, NULL, 1.0, 0);
-  check_ok(hooke_options_create("anchors", &options));
+  owned_options *options = options_with("anchors", "stiffness=10");
   check_ok(hooke_options_set_numbers(options, "points", 6, points));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
   check_ok(hooke_options_set_numbers(options, "rest_length", 2, rest_length));
   check_ok(hooke_system_add_anchors(system, NULL, 2, particles, options));
   check_ok(hooke_system_commit(system));
@@ -197,8 +192,7 @@ static void test_anchors(void **unused) {
   assert_null(hooke_integrator_text(integrator, "passages"));
 }
 
-static void test_own_loops(void **unused) {
-  (void)unused;
+static void test_own_loops(no_state) {
   owned_system *system = system_of(&scenes[1]);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const struct run run = {.method = hooke_method_name(m), .step = 0.01, .duration = 4.0, .rtol = 1e-6};
@@ -220,8 +214,7 @@ static void test_own_loops(void **unused) {
 }
 
 /* A particle that is put on the other side by hand has not passed. */
-static void test_putting(void **unused) {
-  (void)unused;
+static void test_putting(no_state) {
   const double there[] = {-0.2, 0, 0}, slow[] = {0, 0, 0};
   const int64_t particle = 1;
   owned_system *system = system_of(&scenes[0]);
@@ -235,8 +228,7 @@ static void test_putting(void **unused) {
   assert_int_equal(passages_of(integrator), 0);
 }
 
-static void test_checkpoint(void **unused) {
-  (void)unused;
+static void test_checkpoint(no_state) {
   const char *path = "passages-checkpoint";
   const struct run run = {.method = "rk4", .step = 0.01, .duration = 10.0};
   owned_system *system = system_of(&scenes[0]);
@@ -274,8 +266,7 @@ static double end_of(double wall, double rest_length, int64_t *passages) {
 }
 
 /* A far wall makes the spring a signed one: x = 0.5 + a damped oscillation. */
-static void test_far_wall(void **unused) {
-  (void)unused;
+static void test_far_wall(no_state) {
   const double w = sqrt(10.0 - 0.05 * 0.05), t = 10.0;
   const double x = 0.5 + exp(-0.05 * t) * (cos(w * t) + 0.05 / w * sin(w * t));
   int64_t passages;

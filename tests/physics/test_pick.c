@@ -10,10 +10,8 @@
 /* The options, with method and step; the caller destroys them. */
 static hooke_options *picked(const hooke_system *system, const char *method, double duration, double want) {
   hooke_options *options = run_options((struct run){.duration = duration, .every = duration / 5.0});
-  owned_options *wanted;
   hooke_measurement *estimate;
-  check_ok(hooke_options_create("estimate", &wanted));
-  check_ok(hooke_options_set_number(wanted, "want", want));
+  owned_options *wanted = options_with("estimate", "want=%.17g", want);
   check_ok(hooke_measurement_create("estimate", system, NULL, wanted, &estimate));
   const int32_t status = hooke_estimate_pick(estimate, method, options);
   hooke_measurement_destroy(estimate);
@@ -24,8 +22,7 @@ static hooke_options *picked(const hooke_system *system, const char *method, dou
 
 /* Explicit methods take some 1e4 to 1e6 steps, backward Euler 160, these 20. Which one of all is cheapest is
  * timed, so each is asked for. */
-static void implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths(void **unused) {
-  (void)unused;
+static void implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths(no_state) {
   static const char *const methods[] = {"tr-bdf2", "implicit-midpoint"};
   owned_system *system = small_cloth(12, 5e4, 20.0);
   for (int k = 0; k < 2; k++) {
@@ -40,8 +37,7 @@ static void implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths(v
 }
 
 /* At its largest step Verlet solves for the damping, in the time of several steps without. */
-static void verlet_is_picked_at_a_step_that_solves_nothing(void **unused) {
-  (void)unused;
+static void verlet_is_picked_at_a_step_that_solves_nothing(no_state) {
   owned_system *system = small_cloth(12, 50.0, 0.01);
   owned_options *options = picked(system, "verlet", 0.5, 1e-3);
   owned_integrator *integrator;

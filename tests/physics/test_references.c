@@ -25,8 +25,7 @@ static const struct checker *next_built(int64_t *k) {
 
 /* ---- found by name, not listed ---- */
 
-static void test_names(void **unused) {
-  (void)unused;
+static void test_names(no_state) {
   owned_system *system = small_oscillator(2.0);
   for (int c = 0; c < CHECKERS; c++) {
     const char *name = checkers[c].method;
@@ -94,8 +93,7 @@ static double largest_error(const struct reference *reference, const char *metho
   return fmax(visit.error, error / largest(size, last->position));
 }
 
-static void test_solutions(void **unused) {
-  (void)unused;
+static void test_solutions(no_state) {
   const double every[] = {0.05, 0.37, 1e3};
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
@@ -112,8 +110,7 @@ static void test_solutions(void **unused) {
 
 /* ---- every force, driven particles and springs that only pull: with Adams ---- */
 
-static void test_everything(void **unused) {
-  (void)unused;
+static void test_everything(no_state) {
   const struct checker *checker;
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   for (uint64_t seed = 1; seed <= 6; seed++) {
@@ -183,8 +180,7 @@ static double spiral_error(const char *method, double rtol) {
   return error;
 }
 
-static void test_first_order(void **unused) {
-  (void)unused;
+static void test_first_order(no_state) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     const double loose = spiral_error(checker->method, 1e-4), tight = spiral_error(checker->method, 1e-10);
@@ -196,8 +192,7 @@ static void test_first_order(void **unused) {
 
 /* ---- ends: stops, limits, non-finite numbers ---- */
 
-static void test_stop(void **unused) {
-  (void)unused;
+static void test_stop(no_state) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     struct spiral spiral = {.stop_after = 1.0};
@@ -222,8 +217,7 @@ static void test_stop(void **unused) {
   }
 }
 
-static void test_not_finite(void **unused) {
-  (void)unused;
+static void test_not_finite(no_state) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     struct spiral spiral = {.nan_after = 1.0};
@@ -251,8 +245,7 @@ static int32_t guarded_rate(int64_t n, double t, const double *x, double *rate, 
   return 0;
 }
 
-static void test_recovers(void **unused) {
-  (void)unused;
+static void test_recovers(no_state) {
   if (hooke_method_is_built("rk8pd") != 1) skip();
   int64_t refused = 0;
   owned_integrator *integrator = start_first_order(
@@ -266,8 +259,7 @@ static void test_recovers(void **unused) {
   check_between(hooke_state_position(state)[0], -0.5, 0.5);
 }
 
-static void test_step_limit(void **unused) {
-  (void)unused;
+static void test_step_limit(no_state) {
   const struct checker *checker;
   owned_system *system = small_oscillator(3.0);
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
@@ -283,8 +275,7 @@ static void test_step_limit(void **unused) {
   }
 }
 
-static void test_order_of_arkode(void **unused) {
-  (void)unused;
+static void test_order_of_arkode(no_state) {
   if (hooke_method_is_built("arkode-esdirk") != 1) skip();
   owned_system *system = small_oscillator(3.0);
   double steps[6];
@@ -312,8 +303,7 @@ static void test_order_of_arkode(void **unused) {
 
 /* ---- restarting, continuing, zero steps ---- */
 
-static void test_again(void **unused) {
-  (void)unused;
+static void test_again(no_state) {
   const char *counts[] = {"steps", "force_evaluations", "nonlinear_iterations", "linear_iterations",
                           "error_test_failures"};
   const struct checker *checker;
@@ -335,8 +325,7 @@ static void test_again(void **unused) {
   }
 }
 
-static void test_steps_by_hand(void **unused) {
-  (void)unused;
+static void test_steps_by_hand(no_state) {
   const struct checker *checker;
   owned_system *system = build_reference(find_reference("six-particles"));
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
@@ -356,8 +345,7 @@ static void test_steps_by_hand(void **unused) {
   }
 }
 
-static void test_nothing_free(void **unused) {
-  (void)unused;
+static void test_nothing_free(no_state) {
   const struct checker *checker;
   const double position[] = {1.0, 2.0, 3.0};
   owned_system *system = small_system(1, position, NULL, 1.0, 1);

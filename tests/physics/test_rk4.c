@@ -14,8 +14,7 @@ static int32_t multiply(int64_t n, double t, const double *x, double *rate, void
   return 0;
 }
 
-static void factor_of_a_step(void **unused) {
-  (void)unused;
+static void factor_of_a_step(no_state) {
   double a[] = {-0.8, 5.0};
   const double h = 0.1;
   const double complex z = h * (a[0] + I * a[1]);
@@ -41,8 +40,7 @@ static int32_t cubic(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void times_of_the_stages(void **unused) {
-  (void)unused;
+static void times_of_the_stages(no_state) {
   owned_integrator *integrator =
       start_first_order(1, cubic, NULL, (struct run){.method = "rk4", .step = 0.5});
   owned_state *state = NULL;

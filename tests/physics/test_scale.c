@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <stdlib.h>
 #ifdef __GLIBC__
@@ -34,18 +35,12 @@ static double bytes_of_run(const hooke_system *system, const char *method, doubl
 
 static hooke_system *build_cloth(void) {
   const double edges[] = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, sizes[] = {SIDE, SIDE}, origin[] = {0.0, 0.0, 0.0};
-  owned_options *options;
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
+  hooke_system *system = new_system();
+  owned_options *options = options_with(
+      "cloth", "mass=1 structural.stiffness=50 structural.damping=0.01 shear.stiffness=50 bend.stiffness=50");
   check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, sizes));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "structural.damping", 0.01));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 50.0));
   check_ok(hooke_system_add_part(system, "cloth", "cloth", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   return system;
@@ -80,14 +75,10 @@ static hooke_system *build_sheet(int kinds, int moving) {
     q[3 * number[p] + 2] = (double)(p / SIDE) + random_between(&source, 0.0, 0.1);
     v[3 * p] = moving ? random_between(&source, -1.0, 1.0) : 0.0;
   }
-  owned_options *options;
-  hooke_system *system;
   const double mass = 1.0;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, PARTICLES, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.01));
+  owned_options *options = options_with("springs", "stiffness=50 damping=0.01");
   check_ok(hooke_system_add_springs(system, "net", count, ends, options));
   check_ok(hooke_system_commit(system));
   free(number);
@@ -97,16 +88,14 @@ static hooke_system *build_sheet(int kinds, int moving) {
 }
 
 /* At least positions and velocities, twice. */
-static void test_memory_of_a_cloth(void **unused) {
-  (void)unused;
+static void test_memory_of_a_cloth(no_state) {
   const double before = bytes_in_use();
   owned_system *system = build_cloth();
   check_between(bytes_of_run(system, "symplectic-euler", before) / PARTICLES, 96.0, 150.0);
   check_between(bytes_of_run(system, "forward-euler", before) / PARTICLES, 96.0, 150.0);
 }
 
-static void test_memory_without_order(void **unused) {
-  (void)unused;
+static void test_memory_without_order(no_state) {
   const int kinds[] = {3, 6, 3, 6};
   for (int k = 0; k < 4; k++) {
     const double before = bytes_in_use();
@@ -145,13 +134,9 @@ static void build_rope(int driven, struct rope *rope) {
     ends[2 * p] = p;
     ends[2 * p + 1] = p + 1;
   }
-  owned_options *options;
   check_ok(hooke_system_create(&rope->system));
   check_ok(hooke_system_add_particles(rope->system, LONG_ROPE, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "stiffness", 100.0));
-  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+  owned_options *options = options_with("springs", "law=length stiffness=100 rest_length=1");
   check_ok(hooke_system_add_springs(rope->system, "rope", LONG_ROPE - 1, ends, options));
   const int64_t last = LONG_ROPE - 1;
   if (driven) check_ok(hooke_system_drive_callback(rope->system, 1, &last, drive, rope));
@@ -229,8 +214,7 @@ static void compare(struct rope *rope, double step, int32_t status) {
   release(&watched);
 }
 
-static void test_last_good_state(void **unused) {
-  (void)unused;
+static void test_last_good_state(no_state) {
   struct rope rope = {NULL, 0, 0};
   build_rope(0, &rope);
   compare(&rope, 0.01, HOOKE_OK);
@@ -238,8 +222,7 @@ static void test_last_good_state(void **unused) {
   hooke_system_destroy(rope.system);
 }
 
-static void test_stops(void **unused) {
-  (void)unused;
+static void test_stops(no_state) {
   struct rope rope = {NULL, 40, 0};
   build_rope(1, &rope);
   compare(&rope, 0.01, HOOKE_STOPPED);

@@ -14,8 +14,7 @@
 static double part_left(double z) {
   const double q[] = {0, 0, 0, 1, 0, 0}, v[] = {0, 0, 0, 1, 0, 0}, mass[] = {1.0, 3.0}, h = 0.5;
   const int64_t ends[] = {0, 1};
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 2, q, v, 2, mass, NULL));
   const double w = 1.0 / mass[0] + 1.0 / mass[1];
   small_springs(
@@ -32,8 +31,7 @@ static double part_left(double z) {
 
 /* From z = 1e-3 to 1e4 a half step: the relative velocity is what the formula says, falls as z rises, and
  * never grows nor changes its sign. */
-static void factor_is_the_formula(void **unused) {
-  (void)unused;
+static void factor_is_the_formula(no_state) {
   double before = 1.0;
   for (int k = 0; k <= 140; k++) {
     const double z = pow(10.0, -3.0 + k / 20.0), factor = 1.0 / (1.0 + z + z * z / 2.0);
@@ -52,8 +50,7 @@ static double total(const hooke_system *system, hooke_state *state) {
 }
 
 /* Momentum and moment of momentum stay to rounding, and the energy falls. */
-static void momentum_stays(void **unused) {
-  (void)unused;
+static void momentum_stays(no_state) {
   const double dampings[] = {1e-3, 1.0, 1e3, 1e6};
   for (int k = 0; k < 4; k++) {
     owned_system *system = small_net((uint64_t)(k + 1), dampings[k], 1e-6, 0);
@@ -77,17 +74,14 @@ static void momentum_stays(void **unused) {
 
 /* Stable up to 2/omega of the frozen springs, however strong the damping is; and not above, where it is weak.
  * */
-static void damping_leaves_the_limit(void **unused) {
-  (void)unused;
+static void damping_leaves_the_limit(no_state) {
   if (!hooke_build_fact("lapack")[0]) skip();
   const double dampings[] = {0.0, 1e-3, 0.1, 10.0, 1e4};
   for (int k = 0; k < 5; k++) {
     owned_system *system = small_net(7, dampings[k], 1e-6, 1);
     owned_options *run = run_options((struct run){.method = "shardlow", .step = 1e-3, .duration = 1.0});
     owned_measurement *limit = NULL;
-    owned_options *options = NULL;
-    check_ok(hooke_options_create("limit", &options));
-    check_ok(hooke_options_set_text(options, "methods", "shardlow,verlet"));
+    owned_options *options = options_with("limit", "methods=shardlow,verlet");
     check_ok(hooke_measurement_create("limit", system, run, options, &limit));
     check_ok(hooke_measurement_run(limit, NULL));
     const double predicted = hooke_measurement_number(limit, "rows", 0, "predicted"),
@@ -123,8 +117,7 @@ static int32_t brake(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* After the first sweep, and the predicted velocity; one that stops leaves the state as it was. */
-static void callback_sees_the_predicted_velocity(void **unused) {
-  (void)unused;
+static void callback_sees_the_predicted_velocity(no_state) {
   const double q[] = {0, 0, 0}, v[] = {1, 0, 0}, h = 0.25, drag = 0.8;
   struct witness witness = {0};
   owned_system *system = small_system(1, q, v, 1.0, 0);
@@ -146,8 +139,7 @@ static void callback_sees_the_predicted_velocity(void **unused) {
 }
 
 /* A cable that goes slack is not pushed: its damper takes no more than its tension. */
-static void cables_never_push(void **unused) {
-  (void)unused;
+static void cables_never_push(no_state) {
   const double q[] = {0, 0, 0, 1.1, 0, 0}, v[] = {0, 0, 0, -5, 0, 0}, h = 1e-3, kappa = 10.0;
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, v, 1.0, 1);

@@ -11,16 +11,11 @@
 
 /* 10 x 10 particles of 0.01 kg, 0.1 m apart, springs of 50 N and 0.02 N s, hung by two corners. */
 static hooke_system *build_cloth10(void) {
-  hooke_system *system;
-  owned_options *options;
   const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {0.9, 0.0, 0.0, 0.0, 0.0, 0.9}, size[2] = {10.0, 10.0};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  hooke_system *system = new_system();
+  owned_options *options = options_with("cloth", "origin=0,0,0 mass=1 pinned=top-corners");
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
   const char *family[3][2] = {{"structural.stiffness", "structural.damping"},
                               {"shear.stiffness", "shear.damping"},
                               {"bend.stiffness", "bend.damping"}};
@@ -35,8 +30,7 @@ static hooke_system *build_cloth10(void) {
 }
 
 /* A bound is never above the limit, and not far below it. */
-static void symplectic_euler_is_bounded_from_both_sides(void **unused) {
-  (void)unused;
+static void symplectic_euler_is_bounded_from_both_sides(no_state) {
   owned_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
   check_between(bound_at_start(net6, "symplectic-euler"), 0.5 * 0.13162450213044632, 0.13162450213044632);
   check_between(bound_at_start(cloth10, "symplectic-euler"), 0.8 * 0.003058102791710135,
@@ -46,8 +40,7 @@ static void symplectic_euler_is_bounded_from_both_sides(void **unused) {
 }
 
 /* From the largest frequencies, computed independently; those of net6 and cloth10 are far from overdamped. */
-static void verlet_and_rk4_are_bounded_from_both_sides(void **unused) {
-  (void)unused;
+static void verlet_and_rk4_are_bounded_from_both_sides(no_state) {
   owned_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
   check_between(bound_at_start(net6, "verlet"), 0.5 * 0.136435852341, 0.136435852341);
   check_between(bound_at_start(net6, "rk4"), 0.5 * 0.197249285762, 0.197249285762);
@@ -56,8 +49,7 @@ static void verlet_and_rk4_are_bounded_from_both_sides(void **unused) {
   assert_true(isinf(bound_at_start(net6, "backward-euler")));
 }
 
-static void forward_euler_needs_damping(void **unused) {
-  (void)unused;
+static void forward_euler_needs_damping(no_state) {
   owned_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
   /* springs of net6 are stretched, and nothing damps motion across a stretched spring */
   check_between(bound_at_start(net6, "forward-euler"), 0.0, 0.0);
@@ -66,8 +58,7 @@ static void forward_euler_needs_damping(void **unused) {
 }
 
 /* One mass on an undamped spring to a pinned end: the bound is the limit, 2/omega, exactly. */
-static void one_spring_is_sharp(void **unused) {
-  (void)unused;
+static void one_spring_is_sharp(no_state) {
   const double omega = 7.0;
   owned_system *system = small_oscillator(omega);
   check_close(bound_at_start(system, "symplectic-euler"), 2.0 / omega, 1e-11);
@@ -77,8 +68,7 @@ static void one_spring_is_sharp(void **unused) {
   assert_true(isinf(bound_at_start(system, "cvode-bdf")));
 }
 
-static void all_at_once_are_those_one_by_one(void **unused) {
-  (void)unused;
+static void all_at_once_are_those_one_by_one(no_state) {
   owned_system *cloth10 = build_cloth10();
   owned_state *state;
   double bounds[32];
@@ -91,8 +81,7 @@ static void all_at_once_are_those_one_by_one(void **unused) {
   }
 }
 
-static void nothing_to_bound(void **unused) {
-  (void)unused;
+static void nothing_to_bound(no_state) {
   const double place[3] = {0.0, 0.0, 0.0};
   owned_system *falling = small_system(1, place, NULL, 1.0, 0), *open = NULL;
   check_ok(hooke_system_set_drag(falling, 0.25));
@@ -106,7 +95,7 @@ static void nothing_to_bound(void **unused) {
   double bound;
   check_status(hooke_step_bound(falling, "no-such-method", place, &bound), HOOKE_BAD_VALUE);
   check_message("no-such-method");
-  check_ok(hooke_system_create(&open));
+  open = new_system();
   check_status(hooke_step_bound(open, "symplectic-euler", place, &bound), HOOKE_BAD_CALL);
 }
 

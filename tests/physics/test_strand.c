@@ -1,6 +1,7 @@
 /* Strands: their particles, what joins them, and that they are at rest. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,27 +9,19 @@
 
 static const double from[3] = {1.0, 2.0, -0.5}, to[3] = {2.0, 0.0, 1.5}; /* 3 m apart */
 
-static hooke_options *new_options(int64_t segments, double curl, double turns) {
-  static const char *const family[] = {"stretch.stiffness", "bend.stiffness", "twist.stiffness",
-                                       "altitude.stiffness"};
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("strand", &options));
+static hooke_options *strand_options(int64_t segments, double curl, double turns) {
+  hooke_options *options = options_with("strand",
+                                        "segments=%d density=0.5 stretch.stiffness=10 bend.stiffness=20 "
+                                        "twist.stiffness=30 altitude.stiffness=40",
+                                        (int)segments);
   check_ok(hooke_options_set_numbers(options, "from", 3, from));
   check_ok(hooke_options_set_numbers(options, "to", 3, to));
-  check_ok(hooke_options_set_number(options, "segments", (double)segments));
-  check_ok(hooke_options_set_number(options, "density", 0.5));
-  if (curl > 0.0) {
-    check_ok(hooke_options_set_number(options, "curl", curl));
-    check_ok(hooke_options_set_number(options, "turns", turns));
-  }
-  for (int k = 0; k < 4; k++)
-    check_ok(hooke_options_set_number(options, family[k], 10.0 * (k + 1)));
+  if (curl > 0.0) set_options(options, "curl=%.17g turns=%.17g", curl, turns);
   return options;
 }
 
 static hooke_system *new_strand(const hooke_options *options) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   return system;
@@ -69,10 +62,9 @@ static void check_counts(const hooke_system *system, int64_t n) {
   free(ends);
 }
 
-static void a_straight_strand_winds_about_its_axis(void **unused) {
-  (void)unused;
+static void a_straight_strand_winds_about_its_axis(no_state) {
   enum { SEGMENTS = 9, N = 2 * SEGMENTS + 1 };
-  owned_options *options = new_options(SEGMENTS, 0.0, 0.0);
+  owned_options *options = strand_options(SEGMENTS, 0.0, 0.0);
   owned_system *system = new_strand(options);
   owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), piece = 3.0 / SEGMENTS;
@@ -102,11 +94,10 @@ static void a_straight_strand_winds_about_its_axis(void **unused) {
   }
 }
 
-static void a_curl_is_a_helix(void **unused) {
-  (void)unused;
+static void a_curl_is_a_helix(no_state) {
   enum { SEGMENTS = 20, N = SEGMENTS + 1 };
   for (int left = 0; left <= 1; left++) {
-    owned_options *options = new_options(SEGMENTS, 0.2, left ? -2.5 : 2.5);
+    owned_options *options = strand_options(SEGMENTS, 0.2, left ? -2.5 : 2.5);
     owned_system *system = new_strand(options);
     owned_state *state = start_state(system);
     const double *q = hooke_state_position(state);
@@ -131,16 +122,15 @@ static void a_curl_is_a_helix(void **unused) {
 }
 
 /* The shortest strands: no springs that would need more particles. */
-static void short_strands(void **unused) {
-  (void)unused;
-  hooke_options *options = new_options(1, 0.0, 0.0);
+static void short_strands(no_state) {
+  hooke_options *options = strand_options(1, 0.0, 0.0);
   hooke_system *system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 3);
   assert_int_equal(hooke_system_count(system, "springs"), 3);
   assert_int_equal(hooke_system_count(system, "altitude"), 0);
   hooke_system_destroy(system);
   hooke_options_destroy(options);
-  options = new_options(1, 0.2, 0.3);
+  options = strand_options(1, 0.2, 0.3);
   system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 2);
   assert_int_equal(hooke_system_count(system, "springs"), 1);
@@ -148,9 +138,8 @@ static void short_strands(void **unused) {
   hooke_options_destroy(options);
 }
 
-static void ends_are_pinned_by_name(void **unused) {
-  (void)unused;
-  owned_options *options = new_options(4, 0.0, 0.0);
+static void ends_are_pinned_by_name(no_state) {
+  owned_options *options = strand_options(4, 0.0, 0.0);
   check_ok(hooke_options_set_text(options, "pinned", "end,start,1"));
   owned_system *system = new_strand(options);
   for (int k = 0; k < 9; k++)

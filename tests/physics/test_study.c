@@ -15,7 +15,7 @@ static hooke_measurement *start_study(const hooke_system *system, const char *me
                                       double every, double want) {
   hooke_measurement *study = NULL;
   hooke_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
-  check_ok(hooke_options_create("study", &options));
+  options = new_options("study");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   if (want > 0.0) check_ok(hooke_options_set_number(options, "want", want));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
@@ -72,8 +72,7 @@ static void check_rows(const struct reference *reference, const struct reference
   assert_true(judged >= 8);
 }
 
-static void errors_are_true(void **unused) {
-  (void)unused;
+static void errors_are_true(no_state) {
   for (int r = 0; r < REFERENCE_COUNT; r++) {
     for (int64_t s = 0; s < references[r].state_count; s++) {
       const struct reference_state *expected = &references[r].state[s];
@@ -88,8 +87,7 @@ static void errors_are_true(void **unused) {
 }
 
 /* The agreement is the error of the reference, within a factor. */
-static void agreement_is_honest(void **unused) {
-  (void)unused;
+static void agreement_is_honest(no_state) {
   for (int r = 0; r < REFERENCE_COUNT; r++) {
     owned_system *system = build_reference(&references[r]);
     owned_measurement *study = start_study(system, "cvode-adams", references[r].state[0].time, 0.0, 0.0);
@@ -106,8 +104,7 @@ static void agreement_is_honest(void **unused) {
 
 /* ---- orders ---- */
 
-static void orders_are_those_of_the_theory(void **unused) {
-  (void)unused;
+static void orders_are_those_of_the_theory(no_state) {
   const char *smooth[] = {"six-particles", "oscillator"};
   for (int r = 0; r < 2; r++) {
     owned_system *system = build_reference(find_reference(smooth[r]));
@@ -134,8 +131,7 @@ static void orders_are_those_of_the_theory(void **unused) {
 
 /* ---- ladders ---- */
 
-static void ladders_go_from_coarse_to_fine(void **unused) {
-  (void)unused;
+static void ladders_go_from_coarse_to_fine(no_state) {
   owned_system *system = build_reference(find_reference("oscillator"));
   owned_measurement *study = start_study(system, NULL, 1.0, 0.1, 0.0);
   check_ok(hooke_measurement_run(study, NULL));
@@ -160,12 +156,11 @@ static void ladders_go_from_coarse_to_fine(void **unused) {
   }
 }
 
-static void bad_requests(void **unused) {
-  (void)unused;
+static void bad_requests(no_state) {
   hooke_system *system = build_reference(find_reference("oscillator"));
   hooke_options *run = run_options((struct run){.step = 0.01}), *options;
   hooke_measurement *study = NULL;
-  check_ok(hooke_options_create("study", &options));
+  options = new_options("study");
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status == HOOKE_NOT_BUILT) {
     hooke_options_destroy(run);
@@ -191,8 +186,7 @@ static void bad_requests(void **unused) {
 
 /* ---- the recommendation ---- */
 
-static void recommendations_hold(void **unused) {
-  (void)unused;
+static void recommendations_hold(no_state) {
   const struct reference *reference = find_reference("six-particles");
   const struct reference_state *expected = NULL;
   for (int64_t s = 0; s < reference->state_count; s++) {
@@ -237,8 +231,7 @@ static void recommendations_hold(void **unused) {
 
 /* ---- chaos ---- */
 
-static void chaos_is_trusted_for_a_while(void **unused) {
-  (void)unused;
+static void chaos_is_trusted_for_a_while(no_state) {
   owned_system *system = small_crumpling_cloth(6);
   owned_measurement *study = start_study(system, "symplectic-euler", 4.0, 0.1, 0.0);
   check_ok(hooke_measurement_run(study, NULL));
@@ -276,8 +269,7 @@ static int32_t listen(double done, const char *what, void *ctx) {
 
 /* The reported fraction is that of the whole study: it never decreases, not where one run ends and the next
  * begins. */
-static void progress_is_of_the_whole_study(void **unused) {
-  (void)unused;
+static void progress_is_of_the_whole_study(no_state) {
   owned_system *system = build_reference(find_reference("rope-12"));
   owned_measurement *study = start_study(system, NULL, 1.0, 0.05, 1e-3);
   struct told told = {.last = 0.0};
@@ -292,16 +284,13 @@ static void progress_is_of_the_whole_study(void **unused) {
 
 /* Half a second is too short for the first frame of a very long run, and a minute is enough for all of a
  * short one. */
-static void a_budget_binds_the_reference(void **unused) {
-  (void)unused;
+static void a_budget_binds_the_reference(no_state) {
   const double every[] = {1e5, 0.05};
   for (int k = 0; k < 2; k++) {
     hooke_system *system = small_crumpling_cloth(6);
     owned_measurement *study = NULL;
     owned_options *run = run_options((struct run){.duration = every[k], .every = every[k]}), *options;
-    check_ok(hooke_options_create("study", &options));
-    check_ok(hooke_options_set_number(options, "budget", k == 0 ? 0.1 : 60.0));
-    check_ok(hooke_options_set_text(options, "methods", "symplectic-euler"));
+    options = options_with("study", "budget=%.17g methods=symplectic-euler", k == 0 ? 0.1 : 60.0);
     const int32_t status = hooke_measurement_create("study", system, run, options, &study);
     if (status == HOOKE_NOT_BUILT) {
       hooke_system_destroy(system);
@@ -332,8 +321,7 @@ static int32_t stop_after_some(double done, const char *what, void *ctx) {
                                                          : 0; /* one a frame, and now and then one between */
 }
 
-static void a_stopped_study_keeps_its_rows(void **unused) {
-  (void)unused;
+static void a_stopped_study_keeps_its_rows(no_state) {
   owned_system *system = build_reference(find_reference("oscillator"));
   owned_measurement *study = start_study(system, NULL, 5.0, 0.5, 1e-3);
   int64_t calls = 0;
@@ -350,8 +338,7 @@ static void a_stopped_study_keeps_its_rows(void **unused) {
 }
 
 /* Rows that run in parallel give the same numbers as one after the other, and stop when asked to. */
-static void rows_side_by_side_are_the_same(void **unused) {
-  (void)unused;
+static void rows_side_by_side_are_the_same(no_state) {
   hooke_system *system = build_reference(find_reference("oscillator"));
   hooke_measurement *study[3] = {NULL};
   for (int k = 0; k < 3; k++) {

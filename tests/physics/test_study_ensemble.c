@@ -37,8 +37,7 @@ static double statistic(const hooke_measurement *study, const char *method, cons
 static hooke_measurement *start(const hooke_system *system, struct study s) {
   hooke_measurement *study = NULL;
   owned_options *run = run_options((struct run){.duration = s.duration, .every = s.every}), *options;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", s.methods));
+  options = options_with("study", "methods=%s", s.methods);
   if (s.watch) check_ok(hooke_options_set_text(options, "watch", s.watch));
   if (s.step > 0.0) check_ok(hooke_options_set_number(options, "steps", s.step));
   if (s.rtol > 0.0) check_ok(hooke_options_set_number(options, "tolerances", s.rtol));
@@ -65,8 +64,7 @@ static double error_in(const hooke_measurement *study, const char *quantity) {
 
 /* For the oscillator x(t) = cos(w t), by the known error of verlet: its period has a relative error of (w
  * h)^2/24. */
-static void errors_of_what_is_watched_are_true(void **unused) {
-  (void)unused;
+static void errors_of_what_is_watched_are_true(no_state) {
   const double omega = 6.0, h = 0.01, period = 2.0 * 3.14159265358979323846 / omega;
   owned_system *system = small_oscillator(omega);
   owned_measurement *study = start(system, (struct study){.duration = 10.0,
@@ -186,8 +184,7 @@ static void test_ensembles(hooke_system *system, struct study s, const char *met
   hooke_system_destroy(system);
 }
 
-static void a_pendulum_has_statistics(void **unused) {
-  (void)unused;
+static void a_pendulum_has_statistics(no_state) {
   test_ensembles(double_pendulum(),
                  (struct study){.duration = 30.0,
                                 .every = 0.1,
@@ -199,8 +196,7 @@ static void a_pendulum_has_statistics(void **unused) {
                  "cvode-adams", "backward-euler");
 }
 
-static void a_crumpling_cloth_has_statistics(void **unused) {
-  (void)unused;
+static void a_crumpling_cloth_has_statistics(no_state) {
   test_ensembles(small_crumpling_cloth(4),
                  (struct study){.duration = 5.0,
                                 .every = 0.1,
@@ -212,8 +208,7 @@ static void a_crumpling_cloth_has_statistics(void **unused) {
                  "cvode-adams", "backward-euler");
 }
 
-static void the_seed_decides(void **unused) {
-  (void)unused;
+static void the_seed_decides(no_state) {
   owned_system *system = double_pendulum();
   double mean[3];
   for (int k = 0; k < 3; k++) {
@@ -296,8 +291,7 @@ static void check_noise(const struct starts *starts, double noise) {
   check_between(torn, 0.0, 1e-3 * noise);
 }
 
-static void the_noise_is_what_it_is_said_to_be(void **unused) {
-  (void)unused;
+static void the_noise_is_what_it_is_said_to_be(no_state) {
   struct starts starts = {.last = 0.0};
   owned_system *system = chain_and_plate(&starts);
   owned_measurement *study = start(
@@ -309,19 +303,16 @@ static void the_noise_is_what_it_is_said_to_be(void **unused) {
   check_noise(&starts, hooke_measurement_number(study, "ensemble", 0, "noise"));
 }
 
-static void one_start_is_refused(void **unused) {
-  (void)unused;
+static void one_start_is_refused(no_state) {
   owned_system *system = double_pendulum();
   owned_options *run = run_options((struct run){.duration = 1.0}), *options;
   hooke_measurement *study = NULL;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_number(options, "ensemble", 1.0));
+  options = options_with("study", "ensemble=1");
   int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status != HOOKE_NOT_BUILT) {
     check_status(status, HOOKE_BAD_VALUE);
     check_message("at least 2");
-    check_ok(hooke_options_set_number(options, "ensemble", 2.0));
-    check_ok(hooke_options_set_text(options, "watch", "3.y"));
+    set_options(options, "ensemble=2 watch=3.y");
     check_status(hooke_measurement_create("study", system, run, options, &study), HOOKE_BAD_VALUE);
     check_message("particles 0 to 2");
   }

@@ -64,8 +64,7 @@ static hooke_measurement *made_study(const hooke_system *system, const char *met
                                      double every, double want) {
   hooke_measurement *study = NULL;
   hooke_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", methods));
+  options = options_with("study", "methods=%s", methods);
   if (want > 0.0) check_ok(hooke_options_set_number(options, "want", want));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   hooke_options_destroy(run);
@@ -126,8 +125,7 @@ static double true_error(const hooke_system *system, const hooke_measurement *st
 
 /* A study for the tightest of these wants: looser ones are then met as well, and each recommendation holds.
  */
-static void every_want_is_met(void **unused) {
-  (void)unused;
+static void every_want_is_met(no_state) {
   const double wants[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
   for (int s = 0; s < SCENES; s++) {
     owned_system *system = scenes[s].make();
@@ -152,8 +150,7 @@ static void every_want_is_met(void **unused) {
 
 /* A long rope with one free end, which errs about twice as much as the whole in the mean: the want is met by the
  * end, too, and the mean is so far below it that it cannot have been what was judged. */
-static void a_want_is_met_by_every_particle(void **unused) {
-  (void)unused;
+static void a_want_is_met_by_every_particle(no_state) {
   const double wants[] = {1e-4, 1e-3};
   const double until = 0.5;
   owned_system *system =
@@ -173,8 +170,7 @@ static void a_want_is_met_by_every_particle(void **unused) {
 }
 
 /* So far from the origin that positions cannot hold the motion, no error is known, and none is said to be 0. */
-static void no_error_is_known_far_away(void **unused) {
-  (void)unused;
+static void no_error_is_known_far_away(no_state) {
   static const char *const errors[] = {"error", "error_max", "error_final", "energy_drift"};
   const struct {
     double away, want, least; /* every error that is told is at least that */
@@ -205,16 +201,12 @@ static void no_error_is_known_far_away(void **unused) {
 }
 
 /* Steps that are all too coarse, and tolerances: the search continues to values as fine as the reference. */
-static void none_is_not_said_before_the_finest(void **unused) {
-  (void)unused;
+static void none_is_not_said_before_the_finest(no_state) {
   owned_system *system = pendulum_of_three();
   owned_options *run = run_options((struct run){.duration = 4.0, .every = 0.5}), *options;
   hooke_measurement *study = NULL;
   check_ok(hooke_system_commit(system));
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", "cvode-adams"));
-  check_ok(hooke_options_set_text(options, "tolerances", "0.1,0.01"));
-  check_ok(hooke_options_set_number(options, "want", 1e-6));
+  options = options_with("study", "methods=cvode-adams tolerances=0.1,0.01 want=1e-6");
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status == HOOKE_OK) {
     check_ok(hooke_measurement_run(study, NULL));
@@ -233,8 +225,7 @@ static void none_is_not_said_before_the_finest(void **unused) {
 
 /* An oscillator of 1 rad/s by verlet: the limit is 2 s; the error scales with the third power of the
  * frequency, so that 10 % more stiffness makes it 15 % larger, and with the amplitude. */
-static void margins_are_those_of_an_oscillator(void **unused) {
-  (void)unused;
+static void margins_are_those_of_an_oscillator(no_state) {
   owned_system *system = small_oscillator(1.0);
   owned_measurement *study = made_study(system, "verlet", 4.0, 0.5, 0.0);
   const int64_t row = hooke_measurement_row_count(study, "rows") - 2;
@@ -305,8 +296,7 @@ static double norm_of(int rows, const double *column[BASIS]) {
 }
 
 /* A pendulum of two springs: no more than the bound, which random displacements stay below. */
-static void growth_is_bounded(void **unused) {
-  (void)unused;
+static void growth_is_bounded(no_state) {
   enum { FRAMES = 21 };
   const double length = 1e-6;
   const struct run run = {
@@ -337,8 +327,7 @@ static void growth_is_bounded(void **unused) {
 
 /* ---- reasons for not judging the whole run ---- */
 
-static void the_reason_is_the_true_one(void **unused) {
-  (void)unused;
+static void the_reason_is_the_true_one(no_state) {
   owned_system *system = pendulum_of_three();
   check_ok(hooke_system_commit(system));
   /* 6 s are known to a millimetre, and 10 s not to 10 nm: rounding grows beyond that */

@@ -27,8 +27,7 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 }
 
 /* The force at the end of a step is that of the next one's start, unless velocities are in it. */
-static void force_evaluations(void **unused) {
-  (void)unused;
+static void force_evaluations(no_state) {
   const struct expense expenses[] = {{"plain", 0, 0, 0, "auto", 1, 1},
                                      {"plain", 0, 0, 0, "explicit", 1, 1},
                                      {"drag", 0, 0.5, 0, "implicit", 1, 1},
@@ -86,8 +85,7 @@ static int32_t brake(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* It sees the predicted velocity at the second kick. All numbers are binary fractions. */
-static void callback_sees_the_predicted_velocity(void **unused) {
-  (void)unused;
+static void callback_sees_the_predicted_velocity(no_state) {
   const double q[] = {0, 0, 0}, v[] = {1, 0, 0};
   struct witness witness = {0};
   owned_system *system = small_system(1, q, v, 1.0, 0);
@@ -123,8 +121,7 @@ static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) 
 }
 
 /* Steps of the scalar formula: in the spring explicit and solved for, in the ether a division. */
-static void one_step_is_the_formula(void **unused) {
-  (void)unused;
+static void one_step_is_the_formula(no_state) {
   const double omega = 3.0, zeta = 0.4, h = 0.3, c = 2.0 * zeta * omega;
   for (int how = 0; how < 3; how++) {
     owned_system *system = damped_oscillator(omega, zeta, how == 2);
@@ -145,8 +142,7 @@ static void one_step_is_the_formula(void **unused) {
 }
 
 /* A scene that has come to rest: velocities whose squares underflow are damped like any other. */
-static void hardly_any_velocity(void **unused) {
-  (void)unused;
+static void hardly_any_velocity(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, h = 0.1, gamma = 2.0;
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
@@ -181,8 +177,7 @@ static double largest_explicit(const hooke_system *system) {
 }
 
 /* At its largest step nothing grows, however strong the damping is, and the choice is made by the step. */
-static void explicit_damping_is_stable(void **unused) {
-  (void)unused;
+static void explicit_damping_is_stable(no_state) {
   const double dampings[] = {1e-3, 0.1, 1.0, 10.0, 1e3};
   for (int k = 0; k < 10; k++) {
     owned_system *system = small_net((uint64_t)(k + 1), dampings[k % 5], 0.0, 1);
@@ -211,8 +206,7 @@ static void explicit_damping_is_stable(void **unused) {
 }
 
 /* Where a damper depends on more than a direction no step is known to be stable. */
-static void damped_cables_are_solved_for(void **unused) {
-  (void)unused;
+static void damped_cables_are_solved_for(no_state) {
   const double q[] = {0, 0, 0, 1.5, 0, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
@@ -250,8 +244,7 @@ static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
 
 /* A stiff elastic pendulum, nonlinear and without damping: energy oscillates without drift over 100 000
  * steps. */
-static void energy_stays_bounded(void **unused) {
-  (void)unused;
+static void energy_stays_bounded(no_state) {
   owned_system *system = build_reference(find_reference("elastic-pendulum"));
   struct energies e = {.system = system, .steps = 100000};
   owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 4e-3});

@@ -41,8 +41,7 @@ static int32_t watch_run(const char *method, double step, struct warned *warned,
   return status;
 }
 
-static void test_warnings(void **unused) {
-  (void)unused;
+static void test_warnings(no_state) {
   const struct {
     const char *method;
     double step;
@@ -77,15 +76,13 @@ static void test_warnings(void **unused) {
   }
 }
 
-static void test_a_warning_may_stop_the_run(void **unused) {
-  (void)unused;
+static void test_a_warning_may_stop_the_run(no_state) {
   struct warned warned = {.answer = 7};
   check_status(watch_run("verlet", 0.192, &warned, NULL), HOOKE_STOPPED);
   check_message("warning callback returned 7");
 }
 
-static void test_a_watch_changes_no_bits(void **unused) {
-  (void)unused;
+static void test_a_watch_changes_no_bits(no_state) {
   double watched[6], alone[6];
   struct warned warned = {.count = 0};
   check_ok(watch_run("symplectic-euler", 0.192, &warned, watched));
@@ -95,8 +92,7 @@ static void test_a_watch_changes_no_bits(void **unused) {
 }
 
 /* Each kind once a run, and again in the next run. */
-static void test_once_a_run(void **unused) {
-  (void)unused;
+static void test_once_a_run(no_state) {
   struct warned warned = {.count = 0};
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(

@@ -62,8 +62,7 @@ static hooke_measurement *explain(hooke_integrator *integrator) {
  * unless it is HOOKE_OK. */
 static int32_t explain_within(const hooke_integrator *integrator, double budget, hooke_progress *progress,
                               void *ctx, hooke_measurement **why) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("why", &options));
+  hooke_options *options = new_options("why");
   if (budget > 0.0) check_ok(hooke_options_set_number(options, "budget", budget));
   check_ok(hooke_why_create(integrator, options, why));
   hooke_options_destroy(options);
@@ -126,8 +125,7 @@ static void check_callback(hooke_system *system, struct run run, const char *wor
 
 /* NaN from a time on; infinite beyond a position; from fixed steps, from stages within steps, from a solver.
  */
-static void test_force_callbacks(void **unused) {
-  (void)unused;
+static void test_force_callbacks(no_state) {
   needs_lapack();
   const struct run runs[] = {
       {.method = "symplectic-euler", .step = 0.01, .duration = 3.0, .every = 0.5},
@@ -154,8 +152,7 @@ static void test_force_callbacks(void **unused) {
   check_callback(system, runs[0], "force callback", 0.6, 0.3, 1);
 }
 
-static void test_drive_callback(void **unused) {
-  (void)unused;
+static void test_drive_callback(no_state) {
   needs_lapack();
   struct fault fault = {.from = 0.995, .value = NAN};
   const int64_t first = 0;
@@ -174,8 +171,7 @@ static int32_t cubic_force(int64_t n, double t, const double *q, const double *v
   return 0;
 }
 
-static void test_innocent_callback(void **unused) {
-  (void)unused;
+static void test_innocent_callback(no_state) {
   needs_lapack();
   owned_system *system = row(1);
   check_ok(hooke_system_set_force(system, cubic_force, NULL, NULL));
@@ -194,8 +190,7 @@ static void test_innocent_callback(void **unused) {
 
 /* sqrt(k/m) = 10: the limit is 0.2; the growth of symplectic Euler is known, and so is the step that
  * overflows. */
-static void test_numbers_of_an_oscillator(void **unused) {
-  (void)unused;
+static void test_numbers_of_an_oscillator(no_state) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
   owned_integrator *every_step = start_run(
@@ -245,8 +240,7 @@ static void test_numbers_of_an_oscillator(void **unused) {
 }
 
 /* Repeating the steps and trying advice leaves the integrator unchanged. */
-static void test_asking_changes_nothing(void **unused) {
-  (void)unused;
+static void test_asking_changes_nothing(no_state) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
   const struct run run = {.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21};
@@ -264,8 +258,7 @@ static void test_asking_changes_nothing(void **unused) {
 
 /* Error-controlled methods with tolerances a thousand times the motion: energy creeps up until it is too
  * much. */
-static void test_tolerances_that_are_too_loose(void **unused) {
-  (void)unused;
+static void test_tolerances_that_are_too_loose(no_state) {
   needs_lapack();
   const char *const methods[] = {"cvode-adams", "rk8pd"};
   for (int k = 0; k < 2; k++) {
@@ -295,8 +288,7 @@ static int32_t escaping_force(int64_t n, double t, const double *q, const double
   return 0;
 }
 
-static void test_solvers_that_give_up(void **unused) {
-  (void)unused;
+static void test_solvers_that_give_up(no_state) {
   needs_lapack();
   const struct run runs[] = {
       {.method = "cvode-adams", .duration = 100.0},
@@ -328,8 +320,7 @@ static void test_solvers_that_give_up(void **unused) {
 
 /* A step above the limit of 0.2 s, and the same force, which no step gets past: the step that the limit gives comes
  * last, and its words own up to that. */
-static void test_a_step_that_is_not_enough(void **unused) {
-  (void)unused;
+static void test_a_step_that_is_not_enough(no_state) {
   needs_lapack();
   const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 60, 0};
   const int64_t ends[] = {0, 1};
@@ -355,8 +346,7 @@ static void test_a_step_that_is_not_enough(void **unused) {
       "a step of 0.01 s, below the limit, which is not enough (tried: the run ends early with it, too)");
 }
 
-static void test_kept_state_that_is_not_finite(void **unused) {
-  (void)unused;
+static void test_kept_state_that_is_not_finite(no_state) {
   owned_system *system = small_oscillator(10.0);
   owned_options *options = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 1.0});
   owned_state *first = start_state(system), *last = start_state(system);
@@ -372,8 +362,7 @@ static void test_kept_state_that_is_not_finite(void **unused) {
 }
 
 /* A loop of the caller's own has no duration. */
-static void test_own_loop(void **unused) {
-  (void)unused;
+static void test_own_loop(no_state) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3});
@@ -389,8 +378,7 @@ static void test_own_loop(void **unused) {
 
 /* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are also
  * stiff across. Advice is then tried from a state shortly before the failure. */
-static void test_trouble_that_comes_late(void **unused) {
-  (void)unused;
+static void test_trouble_that_comes_late(no_state) {
   if (left_out(1, 2)) skip(); /* the code is that of the others, after far fewer steps */
   needs_lapack();
   const double position[] = {-1, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0};
@@ -437,8 +425,7 @@ static int32_t count_down(double done, const char *what, void *ctx) {
 
 /* Stopping at any call, within replays, searches and trials, gives no results; otherwise the callback changes
  * nothing. */
-static void test_progress_ends_it(void **unused) {
-  (void)unused;
+static void test_progress_ends_it(no_state) {
   needs_lapack();
   owned_system *system = row(1);
   check_ok(hooke_system_commit(system));
@@ -474,8 +461,7 @@ static void test_progress_ends_it(void **unused) {
 
 /* A call of a callback counts as 50 us, as a script may take: 85 % of 2 s are 34,000 of them, in which the trial of a
  * smaller step does not come to its end. */
-static void test_callbacks_are_not_called_for_ever(void **unused) {
-  (void)unused;
+static void test_callbacks_are_not_called_for_ever(no_state) {
   needs_lapack();
   struct fault none = {.particle = 2, .from = INFINITY};
   owned_system *system = row(1);
@@ -496,8 +482,7 @@ static void test_callbacks_are_not_called_for_ever(void **unused) {
 }
 
 /* Without time nothing is claimed but certain facts. */
-static void test_no_time(void **unused) {
-  (void)unused;
+static void test_no_time(no_state) {
   needs_lapack();
   owned_system *system = row(1);
   check_ok(hooke_system_commit(system));
@@ -513,8 +498,7 @@ static void test_no_time(void **unused) {
   assert_true(isnan(hooke_measurement_number(why, "why", 0, "limit")));
 }
 
-static void test_nothing_to_explain(void **unused) {
-  (void)unused;
+static void test_nothing_to_explain(no_state) {
   hooke_measurement *why = NULL;
   owned_system *system = small_oscillator(10.0);
   hooke_integrator *integrator =
@@ -546,8 +530,7 @@ static int32_t record(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void test_recent_states(void **unused) {
-  (void)unused;
+static void test_recent_states(no_state) {
   enum { STEPS = 20 };
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(
@@ -570,8 +553,7 @@ static void test_recent_states(void **unused) {
 }
 
 /* As many as 16 MB hold, and always the last one: a state of n particles has 48 n bytes. */
-static void test_recent_states_are_few_at_scale(void **unused) {
-  (void)unused;
+static void test_recent_states_are_few_at_scale(no_state) {
   const struct { int64_t n, count; } sizes[] = {{1000, 8}, {60000, 4}, {400000, 1}};
   for (int s = 0; s < 3; s++) {
     const int64_t n = sizes[s].n;
@@ -588,8 +570,7 @@ static void test_recent_states_are_few_at_scale(void **unused) {
   }
 }
 
-static void test_without_lapack(void **unused) {
-  (void)unused;
+static void test_without_lapack(no_state) {
   if (has_lapack()) skip();
   hooke_measurement *why = NULL;
   owned_system *system = small_oscillator(10.0);
@@ -618,8 +599,7 @@ static void check_overflow(hooke_system *system, int64_t particle, const char *w
 }
 
 /* Bending and altitude springs of 1e300: the first step overflows, and no spring is blamed. */
-static void test_overflow_without_springs(void **unused) {
-  (void)unused;
+static void test_overflow_without_springs(no_state) {
   needs_lapack();
   const double line[] = {0, 0, 0, 1, 0.5, 0, 2, 0, 0}, coefficient = 1e300;
   const int64_t triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
@@ -628,11 +608,8 @@ static void test_overflow_without_springs(void **unused) {
   check_overflow(bent, 1, "on 1 kg, with a step of 0.1 s");
 
   const double body[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  owned_options *options = NULL;
   hooke_system *stiff = small_system(4, body, NULL, 1.0, 1);
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1e300));
-  check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
+  owned_options *options = options_with("altitude", "stiffness=1e300 rest_scale=1.5");
   check_ok(hooke_system_add_altitude(stiff, "stiff", 1, corners, options));
   check_overflow(stiff, 1, "on 1 kg, with a step of 0.1 s");
 }

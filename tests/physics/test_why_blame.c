@@ -6,8 +6,7 @@
 #include <string.h>
 
 /* Of a cloth of 16 x 16 no spring has 5 % of what grows, so the group is named; of one of 4 x 4 some has. */
-static void test_a_small_share_names_the_group(void **unused) {
-  (void)unused;
+static void test_a_small_share_names_the_group(no_state) {
   if (!HOOKE_HAVE_LAPACK) skip();
   for (int64_t side = 4; side <= 16; side *= 4) {
     owned_system *system = small_cloth(side, 50.0, 0.0);

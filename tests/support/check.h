@@ -12,6 +12,9 @@
 #include "hooke.h"
 #include "owned.h"
 
+/* The parameter of a test that is set up by itself. */
+#define no_state __attribute__((unused)) void **unused
+
 /* The call returned exactly this status; prints the library's message otherwise. */
 #define check_status(call, status) check_status_at((call), (status), #call, __FILE__, __LINE__)
 #define check_ok(call)             check_status((call), HOOKE_OK)

@@ -2,7 +2,16 @@
 #ifndef TESTS_SUPPORT_SMALL_H
 #define TESTS_SUPPORT_SMALL_H
 
-#include "hooke/system.h"
+#include "hooke.h"
+
+hooke_options *new_options(const char *table);
+/* Options of a table, set by "name=value name=value", in which printf() puts the rest: numbers by %.17g, which
+ * keeps every bit. */
+__attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *table, const char *words, ...);
+__attribute__((format(printf, 2, 3))) void set_options(hooke_options *options, const char *words, ...);
+
+/* An open system without particles. */
+hooke_system *new_system(void);
 
 /* One group of springs that share a material. */
 struct springs {

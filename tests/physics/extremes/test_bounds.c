@@ -17,8 +17,7 @@ static hooke_system *damped(double mass) {
   return system;
 }
 
-static void bounds_have_no_scale_of_mass(void **unused) {
-  (void)unused;
+static void bounds_have_no_scale_of_mass(no_state) {
   static const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet", "heun", "rk4"};
   const double mass[] = {ldexp(1.0, -600), ldexp(1.0, 600)};
   owned_system *one = damped(1.0);
@@ -33,21 +32,14 @@ static void bounds_have_no_scale_of_mass(void **unused) {
 }
 
 /* Half of critical damping: gamma is the root of kappa m/2, which is below the smallest number squared. */
-static void damping_ratios_have_no_scale_of_mass(void **unused) {
-  (void)unused;
+static void damping_ratios_have_no_scale_of_mass(no_state) {
   const double mass[] = {1.0, 1e-158, 1e-200};
   double gamma[3];
   for (int k = 0; k < 3; k++) {
-    owned_system *system = NULL;
-    owned_options *options = NULL;
-    check_ok(hooke_system_create(&system));
-    check_ok(hooke_options_create("rope", &options));
-    check_ok(hooke_options_set_text(options, "from", "0,0,0"));
-    check_ok(hooke_options_set_text(options, "to", "1,0,0"));
-    check_ok(hooke_options_set_number(options, "segments", 1.0));
-    check_ok(hooke_options_set_number(options, "mass", mass[k]));
-    check_ok(hooke_options_set_number(options, "stretch.stiffness", mass[k]));
-    check_ok(hooke_options_set_number(options, "stretch.damping_ratio", 0.5));
+    owned_system *system = new_system();
+    owned_options *options = options_with(
+        "rope", "from=0,0,0 to=1,0,0 segments=1 mass=%.17g stretch.stiffness=%.17g stretch.damping_ratio=0.5",
+        mass[k], mass[k]);
     check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_members(system, "springs", NULL, NULL, gamma + k, NULL));
@@ -60,8 +52,7 @@ static void damping_ratios_have_no_scale_of_mass(void **unused) {
 #if HOOKE_HAVE_LAPACK
 /* Where a distance has no square, no bound is known; a limit is refused, and the message says where and up to
  * what. */
-static void distances_without_a_square(void **unused) {
-  (void)unused;
+static void distances_without_a_square(no_state) {
   const double places[2][6] = {{0, 0, 0, 1e152, 0, 0}, {0, 0, 0, 1e160, 0, 0}};
   const int64_t ends[] = {0, 1};
   for (int far = 0; far < 2; far++) {

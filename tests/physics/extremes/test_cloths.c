@@ -4,6 +4,7 @@
 #include "check.h"
 #include "extreme.h"
 #include "random.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,17 +20,13 @@ static const int64_t STEPS = 250;
 static hooke_system *cloth(double damping, void (*place)(double *q), double rest_scale) {
   const double origin[] = {0, 0, 0}, edges[] = {0.7, 0, 0, 0, 0, 0.7}, sides[] = {SIDE, SIDE};
   const double mass = 0.01;
-  owned_options *part = NULL;
   hooke_system *plan = NULL, *system = NULL;
-  check_ok(hooke_options_create("cloth", &part));
+  owned_options *part =
+      options_with("cloth", "mass=1 structural.stiffness=5 shear.stiffness=5 bend.stiffness=1");
   check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(part, "size", 2, sides));
-  check_ok(hooke_options_set_number(part, "mass", 1.0));
-  check_ok(hooke_options_set_number(part, "structural.stiffness", 5.0));
-  check_ok(hooke_options_set_number(part, "shear.stiffness", 5.0));
-  check_ok(hooke_options_set_number(part, "bend.stiffness", 1.0));
-  check_ok(hooke_system_create(&plan));
+  plan = new_system();
   check_ok(hooke_system_add_part(plan, "cloth", NULL, part, NULL, NULL));
   check_ok(hooke_system_commit(plan));
   /* the same springs between displaced particles */
@@ -47,14 +44,11 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
     q[k] += random_between(&source, -1e-3, 1e-3);
   for (int64_t k = 0; k < springs; k++)
     brake[k] = damping * kappa[k];
-  owned_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length rest_scale=%.17g", rest_scale);
   check_ok(hooke_options_set_numbers(options, "stiffness", springs, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", springs, brake));
   check_ok(hooke_options_set_numbers(options, "rest_length", springs, rest));
-  check_ok(hooke_options_set_number(options, "rest_scale", rest_scale));
-  check_ok(hooke_system_create(&system));
+  system = new_system();
   check_ok(hooke_system_add_particles(system, COUNT, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 2, corners));
   check_ok(hooke_system_add_springs(system, NULL, springs, ends, options));
@@ -109,14 +103,12 @@ static void check_cloth(const char *name, double damping, void (*place)(double *
   extreme_release(&reference);
 }
 
-static void test_compressed(void **unused) {
-  (void)unused;
+static void test_compressed(no_state) {
   check_cloth("compressed to half", 0.0, leave, 2.0);
   check_cloth("compressed to half, damped", 1e-3, leave, 2.0);
 }
 
-static void test_inverted(void **unused) {
-  (void)unused;
+static void test_inverted(no_state) {
   check_cloth("half of it inverted", 0.0, fold, 1.0);
   check_cloth("half of it inverted, damped", 1e-3, fold, 1.0);
   check_cloth("one particle pulled through", 0.0, pull_through, 1.0);

@@ -3,6 +3,7 @@
  * split off make another w of it: v' = B (B v + h g) with A = B^2. */
 #include "check.h"
 #include "extreme.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,14 +63,12 @@ static void check_method(const hooke_system *system, const char *name, const cha
   extreme_release(&outcome);
 }
 
-static void test_fall(void **unused) {
-  (void)unused;
+static void test_fall(no_state) {
   const double resolved[] = {0.0, 1e-6, 0.1, 1.0, 10.0, 1e6};
   const double gravity[] = {0, -FALL, 0}, q[] = {0, 0, 0}, h = 0.25, mass = 2.0;
   for (int k = 0; k < 6; k++) {
     const double drag = resolved[k] * mass / h;
-    owned_system *system = NULL;
-    check_ok(hooke_system_create(&system));
+    owned_system *system = new_system();
     check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_set_drag(system, drag));

@@ -24,8 +24,7 @@ static void bad_run(struct extreme_outcome *outcome) {
   assert_null(extreme_not_ended(outcome, HOOKE_DIVERGED, "diverged"));
 }
 
-static void test_numbers(void **unused) {
-  (void)unused;
+static void test_numbers(no_state) {
   const double wrong[] = {NAN, INFINITY, -INFINITY};
   for (int k = 0; k < 3; k++) {
     struct extreme_outcome outcome;
@@ -61,8 +60,7 @@ static int32_t poison(int64_t n, double t, const double *q, const double *v, dou
   return 0;
 }
 
-static void test_watch(void **unused) {
-  (void)unused;
+static void test_watch(no_state) {
   const double q[] = {0, 0, 0};
   struct extreme_outcome outcome;
   owned_system *system = small_system(1, q, NULL, 1.0, 0);
@@ -74,8 +72,7 @@ static void test_watch(void **unused) {
   extreme_release(&outcome);
 }
 
-static void test_answers(void **unused) {
-  (void)unused;
+static void test_answers(no_state) {
   struct extreme_outcome outcome;
   good_run(&outcome);
   assert_non_null(extreme_not_right(&outcome, 1.0, 0.0, 0.5));
@@ -89,8 +86,7 @@ static void test_answers(void **unused) {
 }
 
 /* Silent use of another value than the given one: the state kept within bounds, or the run cut short. */
-static void test_clamps(void **unused) {
-  (void)unused;
+static void test_clamps(no_state) {
   struct extreme_outcome outcome;
   bad_run(&outcome);
   outcome.status = HOOKE_OK;
@@ -106,8 +102,7 @@ static void test_clamps(void **unused) {
   extreme_release(&outcome);
 }
 
-static void test_messages(void **unused) {
-  (void)unused;
+static void test_messages(no_state) {
   struct extreme_outcome outcome;
   bad_run(&outcome);
   assert_non_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, "overslept"));
@@ -129,8 +124,7 @@ static void test_messages(void **unused) {
 
 /* Checks of the oscillator references: the matrices have the determinants and traces of their methods, the
  * solution satisfies its equation, and a matrix with an error of 1e-6 is noticed. */
-static void test_oscillator(void **unused) {
-  (void)unused;
+static void test_oscillator(no_state) {
   const long double start[] = {1.0L, 0.5L}, zetas[] = {0.0L, 0.3L, 1.0L, 4.0L};
   for (int k = 0; k < 4; k++) {
     const long double zeta = zetas[k], e = 1e-4L;

@@ -9,8 +9,7 @@
 
 /* ---- rest lengths ---- */
 
-static void test_rest_length(void **unused) {
-  (void)unused;
+static void test_rest_length(no_state) {
   const double rest[] = {0.0, 1e-300, 1e-12};
   for (int k = 0; k < 3; k++) {
     char name[64];
@@ -30,18 +29,14 @@ static void test_rest_length(void **unused) {
 static int32_t add_spring(const char *law, double stiffness, double rest_length) {
   const double q[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
-  owned_options *options = NULL;
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", law));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", rest_length));
+  owned_options *options =
+      options_with("springs", "law=%s stiffness=%.17g rest_length=%.17g", law, stiffness, rest_length);
   const int32_t status = hooke_system_add_springs(system, NULL, 1, ends, options);
   return status;
 }
 
-static void test_refused(void **unused) {
-  (void)unused;
+static void test_refused(no_state) {
   const struct {
     const char *name, *law;
     double stiffness, rest_length;
@@ -99,8 +94,7 @@ static void check_pair(const struct pair *pair) {
   }
 }
 
-static void test_coincident(void **unused) {
-  (void)unused;
+static void test_coincident(no_state) {
   const struct pair pairs[] = {
       {"ends 0 m apart", 0.0, 1, 0.0, 0},          {"ends 1e-300 m apart", 1e-300, 1, 0.0, 0},
       {"ends 1e-162 m apart", 1e-162, 1, 0.0, 0},  {"ends 2e-162 m apart", 2e-162, 0, 0.2, 1},
@@ -113,8 +107,7 @@ static void test_coincident(void **unused) {
 
 /* The length of the force, kappa l0, shows the accuracy of the direction: below 1.5e-154 m the square of a
  * distance is subnormal and loses digits, below 1.6e-162 m it is 0. */
-static void test_direction(void **unused) {
-  (void)unused;
+static void test_direction(no_state) {
   const struct {
     double distance, low, high; /* bounds of |force - 1| */
   } at[] = {{1e-12, 0.0, 1e-11}, {1e-100, 0.0, 4e-16}, {1.6e-154, 0.0, 4e-16}, {1e-158, 1e-12, 1e-6},

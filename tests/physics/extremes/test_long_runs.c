@@ -5,6 +5,7 @@
 #include "extreme.h"
 #include "oscillator.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,15 +34,12 @@ static struct ensemble ensemble(const char *law, double stiffness, double mass, 
     v[3 * (PHASES + k)] = -amplitude * omega * sin(phase);
   }
   struct ensemble e = {.rest = rest, .amplitude = amplitude};
-  hooke_options *options = NULL;
   double kappa[PHASES];
   check_ok(hooke_system_create(&e.system));
   check_ok(hooke_system_add_particles(e.system, 2 * PHASES, q, v, 1, &mass, NULL));
   check_ok(hooke_system_pin(e.system, PHASES, pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", law));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", rest));
+  hooke_options *options =
+      options_with("springs", "law=%s stiffness=%.17g rest_length=%.17g", law, stiffness, rest);
   check_ok(hooke_system_add_springs(e.system, NULL, PHASES, ends, options));
   check_ok(hooke_system_commit(e.system));
   hooke_options_destroy(options);
@@ -134,15 +132,13 @@ static void check_walk(const char *name, struct ensemble e) {
   hooke_system_destroy(e.system);
 }
 
-static void test_walk(void **unused) {
-  (void)unused;
+static void test_walk(no_state) {
   check_walk("rounding of what is kept, about 0 m", ensemble("length", 1.0, 1.0, 0.0, 1.0));
   check_walk("rounding of what is kept, about 1 m", ensemble("strain", 7.3, 0.37, 1.0, 0.3));
 }
 
 /* Every method over a thousand radians. */
-static void test_every_method(void **unused) {
-  (void)unused;
+static void test_every_method(no_state) {
   const char *name = "1000 radians, 64 phases";
   struct ensemble e = ensemble("length", 7.3, 0.37, 0.0, 0.3);
   const double h = (double)(0.05L / e.omega), tolerance = 1e-9;
@@ -189,12 +185,10 @@ static void test_every_method(void **unused) {
 }
 
 /* Time is k times the step, to the bit, where a running sum would be far off. */
-static void test_time(void **unused) {
-  (void)unused;
+static void test_time(no_state) {
   const double q[] = {0, 0, 0}, mass = 1.0, h = 0.1;
   const int64_t steps = 3000000;
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_commit(system));
   owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "extreme.h"
 #include "random.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,8 +11,7 @@
 #include <stdlib.h>
 
 /* A stretch of 0.1 m on a spring of 1 m: its remaining digits are those of 0.1 m over the spacing. */
-static void test_oscillator(void **unused) {
-  (void)unused;
+static void test_oscillator(no_state) {
   const double distance[] = {0.0, 1e3, 1e6, 1e9};
   for (int k = 0; k < 4; k++) {
     char name[64];
@@ -39,14 +39,10 @@ static double lost_at(double distance, const char *method, double h) {
   for (int far = 0; far < 2; far++) {
     const double x = far ? distance : 0.0, q[] = {x, 0, 0, x + 1.1, 0, 0}, mass = 1.0;
     const int64_t first = 0, ends[] = {0, 1};
-    owned_system *system = NULL;
-    owned_options *options = NULL;
-    check_ok(hooke_system_create(&system));
+    owned_system *system = new_system();
     check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
     check_ok(hooke_system_pin(system, 1, &first));
-    check_ok(hooke_options_create("springs", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-    check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+    owned_options *options = options_with("springs", "stiffness=1 rest_length=1");
     check_ok(hooke_system_add_springs(system, NULL, 1, ends, options));
     check_ok(hooke_system_commit(system));
     struct extreme_outcome outcome;
@@ -74,25 +70,20 @@ static void check_digits(double distance, const char *name) {
   }
 }
 
-static void test_digits(void **unused) {
-  (void)unused;
+static void test_digits(no_state) {
   check_digits(1e6, "1e+06 m away: lost in 1000 steps");
   check_digits(1e9, "1e+09 m away: lost in 1000 steps");
   check_digits(1e12, "1e+12 m away: lost in 1000 steps");
 }
 
 /* Where shifted positions are exact, forces are those at the origin, to the bit. */
-static void test_same_forces(void **unused) {
-  (void)unused;
+static void test_same_forces(no_state) {
   enum { SIDE = 9, COUNT = SIDE * SIDE, SIZE = 3 * COUNT };
   const double origin[] = {0, 0, 0}, edges[] = {1, 0, 0, 0, 0, 1}, sides[] = {SIDE, SIDE};
-  owned_options *part = NULL;
-  owned_system *system = NULL;
-  check_ok(hooke_options_create("cloth", &part));
+  owned_options *part = options_with("cloth", "mass=1");
   check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(part, "size", 2, sides));
-  check_ok(hooke_options_set_number(part, "mass", 1.0));
   const char *families[] = {"structural", "shear", "bend"};
   for (int k = 0; k < 3; k++) {
     char name[64];
@@ -101,7 +92,7 @@ static void test_same_forces(void **unused) {
     snprintf(name, sizeof name, "%s.damping", families[k]);
     check_ok(hooke_options_set_number(part, name, 0.1));
   }
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_part(system, "cloth", NULL, part, NULL, NULL));
   check_ok(hooke_system_commit(system));
   struct random_source source = {7};

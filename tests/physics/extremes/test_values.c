@@ -19,15 +19,13 @@ static void note_all(const char *name, const char *words) {
 
 static int32_t add_mass(double mass) {
   const double q[] = {0, 0, 0};
-  owned_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   const int32_t status = hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL);
   assert_int_equal(hooke_system_particle_count(system), status == HOOKE_OK ? 1 : 0);
   return status;
 }
 
-static void test_masses(void **unused) {
-  (void)unused;
+static void test_masses(no_state) {
   const double refused[] = {0.0, -1.0, NAN, INFINITY, -INFINITY, 5e-324, 5e-309};
   for (int k = 0; k < 7; k++) {
     check_status(add_mass(refused[k]), HOOKE_BAD_VALUE);
@@ -39,12 +37,10 @@ static void test_masses(void **unused) {
   note_all("mass 0, negative, not finite, 5e-309 kg", "bad value");
 }
 
-static void test_materials(void **unused) {
-  (void)unused;
+static void test_materials(no_state) {
   const char *names[] = {"stiffness", "damping", "rest_length", "rest_scale"};
   const double refused[] = {-1.0, NAN, INFINITY, 1e301};
-  owned_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
+  owned_options *options = new_options("springs");
   for (int n = 0; n < 4; n++) {
     for (int k = 0; k < 4; k++) {
       check_status(hooke_options_set_number(options, names[n], refused[k]), HOOKE_BAD_VALUE);
@@ -65,13 +61,9 @@ static void check_state(double wrong, int place, const char *named) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    owned_options *options = NULL;
     owned_integrator *integrator = NULL;
     owned_state *state = NULL;
-    check_ok(hooke_options_create("run", &options));
-    check_ok(hooke_options_set_text(options, "method", method));
-    check_ok(hooke_options_set_number(options, "step", 0.1));
-    check_ok(hooke_options_set_number(options, "duration", 1.0));
+    owned_options *options = options_with("run", "method=%s step=0.1 duration=1", method);
     check_ok(hooke_integrator_create(system, options, &integrator));
     check_ok(hooke_state_create(system, &state));
     if (place < 0)
@@ -85,8 +77,7 @@ static void check_state(double wrong, int place, const char *named) {
   }
 }
 
-static void test_states(void **unused) {
-  (void)unused;
+static void test_states(no_state) {
   check_state(NAN, 4, "position[1][1]");
   check_state(INFINITY, 11, "velocity[1][2]");
   check_state(NAN, -1, "time");
@@ -117,15 +108,13 @@ static void check_flight(const char *name, double speed, double energy) {
   }
 }
 
-static void test_flights(void **unused) {
-  (void)unused;
+static void test_flights(no_state) {
   check_flight("speed 1e200 m/s", 1e200, INFINITY);
   check_flight("speed 1e-200 m/s", 1e-200, 0.0);
 }
 
 /* An oscillator whose energy is 0 at first and the smallest number there is later. */
-static void test_oscillators(void **unused) {
-  (void)unused;
+static void test_oscillators(no_state) {
   const double amplitude[] = {1e-160, 1e-161, 1e150};
   for (int k = 0; k < 3; k++) {
     char name[64];
@@ -153,8 +142,7 @@ static void test_oscillators(void **unused) {
 }
 
 /* The square of a length of 1e160 m overflows. */
-static void test_too_long(void **unused) {
-  (void)unused;
+static void test_too_long(no_state) {
   const char *name = "oscillator of 1e+160 m";
   const double q[] = {0, 0, 0, 1e160, 0, 0};
   const int64_t ends[] = {0, 1};
@@ -174,8 +162,7 @@ static void test_too_long(void **unused) {
 }
 
 /* A million equal energies add up to a million times one, to the last digits. */
-static void test_long_sums(void **unused) {
-  (void)unused;
+static void test_long_sums(no_state) {
   enum { COUNT = 1000000 };
   double *q = new_doubles(3 * (int64_t)COUNT), *v = new_doubles(3 * (int64_t)COUNT), momentum[3];
   const double mass = 0.2, gravity[] = {0, 0, -0.5};
