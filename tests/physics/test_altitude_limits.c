@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void add_altitude(hooke_system *system, int64_t count, const int64_t *tetrahedra, double stiffness,

@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A chain of three along x on weak springs; the last one is tied to a point two above it. */

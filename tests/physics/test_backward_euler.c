@@ -7,7 +7,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const forms[] = {"converged", "one-iteration"};

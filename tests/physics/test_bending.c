@@ -5,7 +5,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { N = 30, TRIPLES = N - 2 };

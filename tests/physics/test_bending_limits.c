@@ -5,7 +5,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A rope of `segments` pieces of 0.1 m and 0.01 kg a particle, whose springs are soft (or are not there). */

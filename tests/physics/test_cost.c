@@ -4,8 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static int32_t pull(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t, (void)v, (void)ctx;

@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Two periods: at their end a phase that is off shows a twelfth of what it does between, so that who judges the
  * end alone claims too much. */

@@ -7,9 +7,8 @@
 #include "run.h"
 #include "small.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
+#include <math.h>
 
 static struct extrapolation problem_of(struct long_force *force, long double tolerance) {
   return (struct extrapolation){.size = 6 * force->canonical->particle_count,

@@ -5,8 +5,6 @@
 #include "sanitized.h"
 #include "small.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MARKS = 700 }; /* more than two tiles, before the cloth and after it */

@@ -6,8 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const methods[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};

@@ -5,7 +5,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <string.h>
 
 static double of(const char *method, double frequency, double decay) {
   return hooke_limit_of_mode(method, frequency, decay);

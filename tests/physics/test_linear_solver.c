@@ -5,8 +5,6 @@
 #include "run.h"
 #include "small.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const solvers[] = {"auto", "direct", "blocks", "gmres"};

@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static hooke_options *new_rope(double length, double segments, const char *of_mass, double mass) {

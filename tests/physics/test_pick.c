@@ -5,8 +5,6 @@
 #include "sanitized.h"
 #include "small.h"
 
-#include <string.h>
-
 /* The options, with method and step; the caller destroys them. */
 static hooke_options *picked(const hooke_system *system, const char *method, double duration, double want) {
   hooke_options *options = run_options((struct run){.duration = duration, .every = duration / 5.0});

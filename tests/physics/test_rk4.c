@@ -3,8 +3,6 @@
 #include "run.h"
 
 #include <complex.h>
-#include <math.h>
-#include <string.h>
 
 static int32_t multiply(int64_t n, double t, const double *x, double *rate, void *ctx) {
   const double *a = ctx;

@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <string.h>
 
 /* ---- one pair ---- */
 

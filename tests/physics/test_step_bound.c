@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* 10 x 10 particles of 0.01 kg, 0.1 m apart, springs of 50 N and 0.02 N s, hung by two corners. */

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #define owned_system      __attribute__((cleanup(release_system))) hooke_system
+#define owned_scene       __attribute__((cleanup(release_scene))) hooke_scene
 #define owned_options     __attribute__((cleanup(release_options))) hooke_options
 #define owned_state       __attribute__((cleanup(release_state))) hooke_state
 #define owned_integrator  __attribute__((cleanup(release_integrator))) hooke_integrator
@@ -16,6 +17,10 @@
 
 static inline void release_system(hooke_system **system) {
   hooke_system_destroy(*system);
+}
+
+static inline void release_scene(hooke_scene **scene) {
+  hooke_scene_destroy(*scene);
 }
 
 static inline void release_options(hooke_options **options) {

@@ -6,9 +6,6 @@
 
 #include <fenv.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* 0 if subnormal operands or results are flushed to zero. */
 static double denormals_left(void) {

@@ -5,7 +5,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static void good_run(struct extreme_outcome *outcome) {

@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const FAMILY = "scenes";

@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdio.h>
 
 /* ---- refused when set ---- */
 
