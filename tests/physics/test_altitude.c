@@ -13,17 +13,6 @@ static double dot(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static double volume_of(const double *q, const int64_t *p) {
-  double e[3][3];
-  for (int k = 0; k < 3; k++) {
-    for (int a = 0; a < 3; a++)
-      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
-
 /* Particles of unequal masses, to be committed; with altitude springs on all `tetrahedra` whose rest lengths
  * are scaled by `scale`. */
 static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const int64_t *tetrahedra,

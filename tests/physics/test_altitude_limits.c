@@ -16,12 +16,6 @@ static void add_altitude(hooke_system *system, int64_t count, const int64_t *tet
   hooke_options_destroy(options);
 }
 
-static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
-  hooke_options *options =
-      options_with("limit", "methods=%s accuracy=1e-3 predict=%d budget=200", methods, predict);
-  return limit_at_start(system, NULL, options);
-}
-
 /* A particle over a fixed face: one spring of ks/h, whose whole weight is on it. */
 static void a_top_over_a_held_face(no_state) {
   const double q[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3}, mass = 0.2;
@@ -35,39 +29,11 @@ static void a_top_over_a_held_face(no_state) {
   check_close(bound_at_start(system, "verlet"), 2.0 / omega, 1e-12);
   check_close(bound_at_start(system, "symplectic-euler"), 2.0 * (sqrt(1.0 + z * z) - z) / omega, 1e-9);
   check_close(bound_at_start(system, "forward-euler"), 0.01 / 6.0, 1e-12);
-  owned_measurement *limit = find_limit(system, "forward-euler,symplectic-euler,verlet", 1);
+  owned_measurement *limit = limits_of(system, "forward-euler,symplectic-euler,verlet", 1);
   check_close(hooke_measurement_number(limit, "rows", 0, "predicted"), 0.01 / 6.0, 1e-9);
   check_close(hooke_measurement_number(limit, "rows", 1, "predicted"), 2.0 * (sqrt(1.0 + z * z) - z) / omega,
               1e-9);
   check_close(hooke_measurement_number(limit, "rows", 2, "predicted"), 2.0 / omega, 1e-9);
-}
-
-/* Bound <= limit, and the scene runs up to the limit. */
-static void compare(hooke_system *system, const char *methods) {
-  owned_measurement *limit = find_limit(system, methods, 0);
-  for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
-    const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
-    const double measured = hooke_measurement_number(limit, "rows", row, "measured");
-    if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
-      check_failed("%s: measured %.8g, predicted %.8g (%s)",
-                   hooke_measurement_text(limit, "rows", row, "method"), measured, predicted,
-                   hooke_measurement_text(limit, "rows", row, "note"));
-    }
-    check_between(hooke_measurement_number(limit, "rows", row, "bound"), 0.3 * measured,
-                  measured * (1.0 + 1e-3));
-  }
-  hooke_system_destroy(system);
-}
-
-static double volume_of(const double *q, const int64_t *p) {
-  double e[3][3];
-  for (int k = 0; k < 3; k++) {
-    for (int a = 0; a < 3; a++)
-      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
 /* Random tetrahedra, some with tension, with springs, drag, and particles of all masses, some of them
@@ -98,7 +64,7 @@ static void random_tetrahedra_run_up_to_the_prediction(no_state) {
     if (seed % 4 == 0) check_ok(hooke_system_pin(system, 1, &pinned));
     if (seed % 3 == 1) check_ok(hooke_system_set_drag(system, 0.3));
     check_ok(hooke_system_commit(system));
-    compare(system, "symplectic-euler,verlet,rk4");
+    check_limits_met(system, "symplectic-euler,verlet,rk4");
   }
 }
 
@@ -118,7 +84,7 @@ static hooke_system *new_strand(double altitude) {
 
 static void a_limit_by_altitude_names_it(no_state) {
   owned_system *system = new_strand(40.0);
-  owned_measurement *limit = find_limit(system, "verlet", 1);
+  owned_measurement *limit = limits_of(system, "verlet", 1);
   const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
   if (sentence == NULL || strstr(sentence, "group `hair.altitude` has ") == NULL)
     check_failed("%s", sentence);
@@ -131,7 +97,7 @@ static void a_limit_by_altitude_names_it(no_state) {
 
 static void a_run_above_the_limit_is_explained(no_state) {
   owned_system *system = new_strand(40.0);
-  hooke_measurement *limit = find_limit(system, "verlet", 1);
+  hooke_measurement *limit = limits_of(system, "verlet", 1);
   const double step = 1.05 * hooke_measurement_number(limit, "rows", 0, "predicted");
   hooke_measurement_destroy(limit);
   owned_integrator *integrator = start_run(

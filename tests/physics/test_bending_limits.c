@@ -45,36 +45,13 @@ static void forward_euler_needs_drag(no_state) {
 
 /* ---- predicted and measured ---- */
 
-static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
-  hooke_options *options =
-      options_with("limit", "methods=%s accuracy=1e-3 predict=%d budget=200", methods, predict);
-  return limit_at_start(system, NULL, options);
-}
-
-/* Bound <= limit, and the scene runs up to the limit. */
-static void compare(hooke_system *system, const char *methods) {
-  owned_measurement *limit = find_limit(system, methods, 0);
-  for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
-    const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
-    const double measured = hooke_measurement_number(limit, "rows", row, "measured");
-    if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
-      check_failed("%s: measured %.8g, predicted %.8g (%s)",
-                   hooke_measurement_text(limit, "rows", row, "method"), measured, predicted,
-                   hooke_measurement_text(limit, "rows", row, "note"));
-    }
-    check_between(hooke_measurement_number(limit, "rows", row, "bound"), 0.3 * measured,
-                  measured * (1.0 + 1e-3));
-  }
-  hooke_system_destroy(system);
-}
-
 static void limits_are_met(no_state) {
-  compare(new_rope(3, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
-  compare(new_rope(25, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
-  compare(new_rope(25, 0.5, 40.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
-  compare(new_rope(25, 0.5, 40.0, 0.02, 0.1), "symplectic-euler,verlet,rk4");
-  compare(new_rope(25, 0.01, 100.0, 0.2, 0.0), "symplectic-euler,verlet,rk4");
-  compare(new_rope(300, 0.5, 10.0, 0.0, 0.0), "symplectic-euler,verlet");
+  check_limits_met(new_rope(3, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
+  check_limits_met(new_rope(25, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
+  check_limits_met(new_rope(25, 0.5, 40.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
+  check_limits_met(new_rope(25, 0.5, 40.0, 0.02, 0.1), "symplectic-euler,verlet,rk4");
+  check_limits_met(new_rope(25, 0.01, 100.0, 0.2, 0.0), "symplectic-euler,verlet,rk4");
+  check_limits_met(new_rope(300, 0.5, 10.0, 0.0, 0.0), "symplectic-euler,verlet");
 }
 
 /* Random triples, with springs and particles of all masses, some of them constrained. */
@@ -104,7 +81,7 @@ static void random_triples_run_up_to_the_prediction(no_state) {
     if (seed % 4 == 0) check_ok(hooke_system_pin(system, 1, &pinned));
     if (seed % 2) check_ok(hooke_system_set_drag(system, 0.3));
     check_ok(hooke_system_commit(system));
-    compare(system, "symplectic-euler,verlet,rk4");
+    check_limits_met(system, "symplectic-euler,verlet,rk4");
   }
 }
 
@@ -112,7 +89,7 @@ static void random_triples_run_up_to_the_prediction(no_state) {
 
 static void a_limit_by_bending_names_it(no_state) {
   owned_system *system = new_rope(40, 0.5, 1.0, 0.0, 0.0);
-  owned_measurement *limit = find_limit(system, "verlet", 1);
+  owned_measurement *limit = limits_of(system, "verlet", 1);
   const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
   assert_null(hooke_measurement_text(limit, "changes", 0, "kind"));
   if (sentence == NULL || strstr(sentence, "group `beam.bending` has ") == NULL) check_failed("%s", sentence);
@@ -135,7 +112,7 @@ static int32_t hear(const char *kind, const char *sentence, double t, double lim
 
 static void a_run_above_the_limit_is_explained(no_state) {
   owned_system *system = new_rope(25, 0.5, 1.0, 0.0, 0.0);
-  hooke_measurement *limit = find_limit(system, "verlet", 1);
+  hooke_measurement *limit = limits_of(system, "verlet", 1);
   const double most = hooke_measurement_number(limit, "rows", 0, "predicted");
   hooke_measurement_destroy(limit);
   for (int above = 0; above <= 1; above++) {

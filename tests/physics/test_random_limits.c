@@ -340,7 +340,7 @@ static int grows(const struct scene *s, const char *method, double h, int square
 
 /* ---- limits ---- */
 
-static hooke_measurement *limits_of(const struct scene *s, const char *methods, int predict) {
+static hooke_measurement *scene_limits(const struct scene *s, const char *methods, int predict) {
   hooke_options *options = new_options("limit");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   set_options(options, "predict=%d budget=200", predict);
@@ -385,7 +385,7 @@ static void check_scene(uint64_t seed) {
       "forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4"};
   struct scene s;
   draw(seed, &s);
-  hooke_measurement *predicted = limits_of(&s, NULL, 1);
+  hooke_measurement *predicted = scene_limits(&s, NULL, 1);
   for (int m = 0; m < 6; m++) {
     const int64_t row = hooke_measurement_find(predicted, "rows", "method", methods[m]);
     if (row < 0) continue;
@@ -397,7 +397,7 @@ static void check_scene(uint64_t seed) {
       check_failed("scene %d, %s: grows below the bound %.8g s", (int)seed, methods[m], bound);
     /* what grows at every step is slow to measure */
     if (!(limit > 0.0) || (needs_damping(methods[m]) && !getenv("HOOKE_LONG"))) continue;
-    owned_measurement *measured = limits_of(&s, methods[m], 0);
+    owned_measurement *measured = scene_limits(&s, methods[m], 0);
     const double found = hooke_measurement_number(measured, "rows", 0, "measured");
     /* or growth is too slow to be seen, which a note says */
     if (!isnan(found) || !needs_damping(methods[m]) || !hooke_measurement_text(measured, "rows", 0, "note"))
