@@ -421,7 +421,7 @@ def interrupted(process, after):
 def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
     """The first of the two steps is quick, the second takes hours."""
     words = ["--methods", "symplectic-euler", "--steps", "10ms,1ns", "--duration", "10s", "--json", "-o", "rows.csv"]
-    value = interrupted(start("study", write(SIX_PARTICLES), *words), 2)
+    value = interrupted(start("study", write(SIX_PARTICLES), *words), 0.6)
     assert [row["status"] for row in value["rows"]] == ["finished", "stopped"]
     assert value["rows"][0]["error"] > 0 and value["rows"][1]["error"] is None
     assert value["recommendation"] is None
@@ -431,7 +431,7 @@ def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
 @everything
 def test_ctrl_c_before_the_first_row(start, write, tmp_path):
     (tmp_path / "rows.csv").write_text("of old")
-    value = interrupted(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 1)
+    value = interrupted(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 0.3)
     assert value["rows"] == [] and value["reference"]["agreement"] is None
     assert (tmp_path / "rows.csv").read_text() == "of old"
 
@@ -542,7 +542,7 @@ def test_what_cannot_be_watched(hooke, write, watch, message):
 @everything
 def test_statistics_of_which_no_run_came_to_its_end(hooke, write):
     """A run takes longer than the budget."""
-    words = ["--duration", 20000, "--every", 5, "--methods", "rk4", "--steps", "1ms", "--ensemble", 4, "--budget", "0.5s"]
+    words = ["--duration", 20000, "--every", 5, "--methods", "rk4", "--steps", "1ms", "--ensemble", 4, "--budget", "0.2s"]
     found = hooke("study", write(DOUBLE), *words, "--json").json["statistics"]
     assert found["from"] is None and found["until"] is None
     assert found["quantities"][0]["reference"]["mean"] is None
