@@ -197,8 +197,7 @@ static void the_energy_jumps_where_another_altitude_acts(no_state) {
 /* Far from rest the jumps are a source of energy at any step; a run that they end reports it. */
 static void a_run_that_jumps_drive_is_explained(no_state) {
   const double v[12] = {0.1, -0.1, 0.3, 0.1, -0.3, 0.2, 0.7, 0.5, -0.4, -0.6, -0.3, 0.0}, mass = 0.5;
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 4, pyramid, v, 1, &mass, NULL));
+  owned_system *system = small_system(4, pyramid, v, mass, 0);
   owned_options *options = options_with("altitude", "stiffness=40");
   check_ok(hooke_system_add_altitude(system, "a", 1, corners, options));
   add_springs(system, 6, edges, 1.0);

@@ -20,8 +20,7 @@ static void add_altitude(hooke_system *system, int64_t count, const int64_t *tet
 static void a_top_over_a_held_face(no_state) {
   const double q[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3}, mass = 0.2;
   const int64_t corners[4] = {0, 1, 2, 3}, held[3] = {0, 1, 2};
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 4, q, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(4, q, NULL, mass, 0);
   add_altitude(system, 1, corners, 6.0, 0.01, 1.0);
   check_ok(hooke_system_pin(system, 3, held));
   check_ok(hooke_system_commit(system));

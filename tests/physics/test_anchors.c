@@ -10,8 +10,7 @@
 static hooke_system *chain(double stiffness, double damping, double rest_length) {
   const double place[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 0.5, point[3] = {2, 2, 0};
   const int64_t ends[4] = {0, 1, 1, 2}, pinned = 0, tied = 2;
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 3, place, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(3, place, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
   hooke_options *options = options_with("springs", "stiffness=2");
   check_ok(hooke_system_add_springs(system, "line", 2, ends, options));
@@ -48,8 +47,7 @@ static void the_force_is_that_of_a_spring_to_the_point(no_state) {
 static hooke_system *oscillator(double stiffness) {
   const double place[6] = {1, 2, 3, 4, 5, 6}, mass = 0.25;
   const int64_t both[2] = {0, 1};
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(2, place, NULL, mass, 0);
   owned_options *options = new_options("anchors");
   const double stiffnesses[2] = {stiffness, 1.0};
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffnesses));
@@ -100,8 +98,7 @@ static void limits_are_those_of_the_oscillator(no_state) {
 static hooke_system *damped_at_its_place(double damping) {
   const double place[3] = {1, 2, 3}, velocity[3] = {0, 1, 0}, mass = 1.0;
   const int64_t tied = 0;
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 1, place, velocity, 1, &mass, NULL));
+  hooke_system *system = small_system(1, place, velocity, mass, 0);
   owned_options *options = options_with("anchors", "stiffness=1 damping=%.17g", damping);
   check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
   check_ok(hooke_system_commit(system));
@@ -176,8 +173,7 @@ static void what_is_wrong_is_said(no_state) {
   const double place[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0, three[3] = {1, 2, 3};
   const int64_t particles[2] = {0, 2}, twice[2] = {1, 1};
   owned_options *options, *spring;
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(2, place, NULL, mass, 0);
   options = new_options("anchors");
   spring = new_options("springs");
   check_status(hooke_system_add_anchors(system, NULL, 1, particles, options), HOOKE_BAD_VALUE);

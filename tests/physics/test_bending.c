@@ -171,8 +171,7 @@ static void methods_agree(no_state) {
 static void explicit_triples_come_first(no_state) {
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 1.0, c[4] = {2.0, 0.0, 3.0, 0.0};
   const int64_t triples[12] = {2, 0, 1, 0, 1, 2, 1, 2, 0, 0, 1, 2};
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(3, q, NULL, mass, 0);
   owned_options *rope = options_with("rope", "from=0,0,0 to=4,0,0 segments=4 mass=1 bending=5");
   check_ok(hooke_system_add_part(system, "rope", "r", rope, NULL, NULL));
   check_ok(hooke_system_add_bending(system, "mine", 4, triples, 4, c));

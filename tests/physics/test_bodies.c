@@ -41,8 +41,7 @@ static hooke_system *free_body(const double centre[3], const double velocity[3],
       v[3 * p + a] = velocity[a] + swing[a];
     }
   }
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, SIX, q, v, 1, &mass, NULL));
+  hooke_system *system = small_system(SIX, q, v, mass, 0);
   check_ok(hooke_system_add_body(system, "top", SIX, all, 0));
   check_ok(hooke_system_commit(system));
   return system;
@@ -266,8 +265,7 @@ static hooke_system *bar(int count, int pins, double angle, double *length) {
     second += mass * arm * arm;
   }
   *length = second / first; /* of the simple pendulum of the same period */
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, count, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(count, q, NULL, mass, 0);
   check_ok(hooke_system_pin(system, pins, all));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_body(system, "bar", count, all, 0));
@@ -312,8 +310,7 @@ static void pendulum_has_its_period(no_state) {
 static void three_pins_hold(no_state) {
   const double place[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 1}, mass = 1.0;
   double q[12];
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(4, place, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 3, (int64_t[]){0, 1, 2}));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_body(system, NULL, 4, (int64_t[]){0, 1, 2, 3}, 0));
@@ -342,8 +339,7 @@ static void top_precesses_steadily(no_state) {
     memcpy(q + 3 * p, arm, sizeof arm);
     memcpy(v + 3 * p, swing, sizeof swing);
   }
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, ALL, q, v, 1, &mass, NULL));
+  owned_system *system = small_system(ALL, q, v, mass, 0);
   check_ok(hooke_system_pin(system, 1, all + RIM));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -g}));
   check_ok(hooke_system_add_body(system, "top", ALL, all, 0));

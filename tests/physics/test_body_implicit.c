@@ -42,8 +42,7 @@ static hooke_system *plate(double stiffness, double stretch) {
                       0},
                mass = 0.25;
   const int64_t body[] = {0, 1, 2, 3, 4}, post = 5, ends[] = {4, 5};
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 6, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(6, q, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &post));
   owned_options *options = options_with("springs", "stiffness=%.17g rest_length=1", stiffness);
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
@@ -236,8 +235,7 @@ static void momentum_is_kept(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0.2, 0, 2.5, 1, 0.5, 2, 0.5, 1},
                v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 0, 0.2, 0, -0.5, 1, 0, -1, 0.5}, mass = 0.4;
   const int64_t one[] = {0, 1, 2}, other[] = {3, 4, 5, 6}, ends[] = {1, 3, 2, 6};
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 7, q, v, 1, &mass, NULL));
+  owned_system *system = small_system(7, q, v, mass, 0);
   add_springs(system, 2, ends, 50.0, 0.2);
   check_ok(hooke_system_add_body(system, NULL, 3, one, 0));
   check_ok(hooke_system_add_body(system, NULL, 4, other, 0));

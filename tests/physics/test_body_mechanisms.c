@@ -30,8 +30,7 @@ static hooke_system *spinning_top(void) {
       v[3 * p + a] = SPIN * (c * across[a] - s * f[a]);
     }
   }
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, TOP, q, v, 1, &mass, NULL));
+  hooke_system *system = small_system(TOP, q, v, mass, 0);
   check_ok(hooke_system_pin(system, 1, all + RIM));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -G}));
   check_ok(hooke_system_add_body(system, "top", TOP, all, 0));

@@ -145,8 +145,7 @@ static void test_callbacks_are_not_called_again_unless_asked(no_state) {
             run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = 0.5, .every = EVERY});
     owned_measurement *estimate;
     const double mass = 1.0;
-    owned_system *system = new_system();
-    check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){1, 0, 0}, 1, &mass, NULL));
+    owned_system *system = small_system(1, (double[]){0, 0, 0}, (double[]){1, 0, 0}, mass, 0);
     check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
     own = options_with("estimate", "callbacks=%d", asked);
@@ -188,8 +187,7 @@ static void test_energy_that_grows_by_itself_is_seen(no_state) {
 /* One particle slowed by drag alone, by h lambda a step. */
 static hooke_system *slowed_particle(double rate) {
   const double mass = 2.0;
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){0, 3, 0}, 1, &mass, NULL));
+  hooke_system *system = small_system(1, (double[]){0, 0, 0}, (double[]){0, 3, 0}, mass, 0);
   check_ok(hooke_system_set_drag(system, rate * mass));
   check_ok(hooke_system_commit(system));
   return system;
@@ -238,8 +236,7 @@ static hooke_system *damped_chain(double gamma, int driven) {
   }
   for (int k = 0; k < 2 * (COUNT - 1); k++)
     ends[k] = (k + 1) / 2;
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, COUNT, place, velocity, 1, &mass, NULL));
+  hooke_system *system = small_system(COUNT, place, velocity, mass, 0);
   owned_options *options = options_with("springs", "stiffness=1 damping=%.17g", gamma);
   check_ok(hooke_system_add_springs(system, "", COUNT - 1, ends, options));
   if (driven)

@@ -171,8 +171,7 @@ static void test_overdamped(no_state) {
 static void compare_motion(const struct long_drive *drive, double t) {
   const double origin[3] = {0.3, -0.2, 0.1}, mass = 1.0;
   const int64_t one = 0;
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(1, origin, NULL, mass, 0);
   if (drive->samples > 0)
     check_ok(hooke_system_drive_table(system, 1, &one, drive->samples, drive->time, drive->displacement));
   else

@@ -45,8 +45,7 @@ static void test_what_has_none(no_state) {
 static hooke_system *build_one(double damping, int as_body) {
   const double q[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, mass = 0.5;
   const int64_t ends[2] = {0, 1}, pinned = 0;
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(2, q, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
   owned_options *options = options_with("springs", "stiffness=20 damping=%.17g rest_length=1", damping);
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));

@@ -76,8 +76,7 @@ static hooke_system *build_sheet(int kinds, int moving) {
     v[3 * p] = moving ? random_between(&source, -1.0, 1.0) : 0.0;
   }
   const double mass = 1.0;
-  hooke_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, PARTICLES, q, v, 1, &mass, NULL));
+  hooke_system *system = small_system(PARTICLES, q, v, mass, 0);
   owned_options *options = options_with("springs", "stiffness=50 damping=0.01");
   check_ok(hooke_system_add_springs(system, "net", count, ends, options));
   check_ok(hooke_system_commit(system));

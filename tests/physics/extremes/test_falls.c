@@ -68,8 +68,7 @@ static void test_fall(no_state) {
   const double gravity[] = {0, -FALL, 0}, q[] = {0, 0, 0}, h = 0.25, mass = 2.0;
   for (int k = 0; k < 6; k++) {
     const double drag = resolved[k] * mass / h;
-    owned_system *system = new_system();
-    check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
+    owned_system *system = small_system(1, q, NULL, mass, 0);
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_set_drag(system, drag));
     check_ok(hooke_system_commit(system));

@@ -188,8 +188,7 @@ static void test_every_method(no_state) {
 static void test_time(no_state) {
   const double q[] = {0, 0, 0}, mass = 1.0, h = 0.1;
   const int64_t steps = 3000000;
-  owned_system *system = new_system();
-  check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(1, q, NULL, mass, 0);
   check_ok(hooke_system_commit(system));
   owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
   owned_state *state = start_state(system);

@@ -38,8 +38,7 @@ static double lost_at(double distance, const char *method, double h) {
   for (int far = 0; far < 2; far++) {
     const double x = far ? distance : 0.0, q[] = {x, 0, 0, x + 1.1, 0, 0}, mass = 1.0;
     const int64_t first = 0, ends[] = {0, 1};
-    owned_system *system = new_system();
-    check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
+    owned_system *system = small_system(2, q, NULL, mass, 0);
     check_ok(hooke_system_pin(system, 1, &first));
     owned_options *options = options_with("springs", "stiffness=1 rest_length=1");
     check_ok(hooke_system_add_springs(system, NULL, 1, ends, options));
