@@ -72,12 +72,11 @@ static void run_method(const struct scene *scene, const hooke_system *system, co
                                                                 .rtol = fixed ? 0.0 : tolerance,
                                                                 .atol = fixed ? 0.0 : tolerance,
                                                                 .threads = threads});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   uint64_t hash = hash_doubles(size, hooke_state_position(state), HASH_START);
   hash = hash_doubles(size, hooke_state_velocity(state), hash);
   tell(scene, method, threads, fixed ? "fixed" : "library", hash);
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
 }
 

@@ -17,16 +17,14 @@ static double dot(const double *a, const double *b) {
  * are scaled by `scale`. */
 static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const int64_t *tetrahedra,
                                double stiffness, double damping, double scale) {
-  double *mass = new_doubles(n);
+  owned_doubles *mass = new_doubles(n);
   for (int64_t p = 0; p < n; p++)
     mass[p] = 0.5 + 0.1 * (double)(p % 4);
   hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, n, q, NULL, n, mass, NULL));
-  hooke_options *options =
+  owned_options *options =
       options_with("altitude", "stiffness=%.17g damping=%.17g rest_scale=%.17g", stiffness, damping, scale);
   check_ok(hooke_system_add_altitude(system, "altitude", count, tetrahedra, options));
-  hooke_options_destroy(options);
-  free(mass);
   return system;
 }
 
@@ -226,7 +224,7 @@ static hooke_system *new_curl(double turns, double twist, double altitude, doubl
   const char *const family[] = {"stretch", "bend", "twist", "altitude"};
   const double stiffness[] = {40.0, 4.0, twist, altitude};
   hooke_system *system = new_system();
-  hooke_options *options = options_with(
+  owned_options *options = options_with(
       "strand", "from=0,0,0 to=0,-0.08,0 segments=%d curl=0.01 turns=%.17g mass=1e-3", SEGMENTS, turns);
   if (pinned) check_ok(hooke_options_set_text(options, "pinned", pinned));
   for (int k = 0; k < 4; k++) {
@@ -238,7 +236,6 @@ static hooke_system *new_curl(double turns, double twist, double altitude, doubl
     check_ok(hooke_options_set_number(options, name, damping * stiffness[k]));
   }
   check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
-  hooke_options_destroy(options);
   return system;
 }
 

@@ -10,10 +10,9 @@
 
 static void add_altitude(hooke_system *system, int64_t count, const int64_t *tetrahedra, double stiffness,
                          double damping, double scale) {
-  hooke_options *options =
+  owned_options *options =
       options_with("altitude", "stiffness=%.17g damping=%.17g rest_scale=%.17g", stiffness, damping, scale);
   check_ok(hooke_system_add_altitude(system, "heights", count, tetrahedra, options));
-  hooke_options_destroy(options);
 }
 
 /* A particle over a fixed face: one spring of ks/h, whose whole weight is on it. */

@@ -13,9 +13,8 @@ static const char *const NAMES[METHODS] = {"backward-euler", "tr-bdf2", "implici
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness,
                         double damping) {
-  hooke_options *options = options_with("springs", "stiffness=%.17g damping=%.17g", stiffness, damping);
+  owned_options *options = options_with("springs", "stiffness=%.17g damping=%.17g", stiffness, damping);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
-  hooke_options_destroy(options);
 }
 
 /* ---- a stiff spring that no step resolves ---- */

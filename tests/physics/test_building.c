@@ -41,7 +41,7 @@ static hooke_options *spring_options(const char *name, double value) {
 
 static void refuse_springs(int64_t count, const int64_t *ends, const hooke_options *options,
                            const char *culprit, const char *value) {
-  hooke_system *system = three();
+  owned_system *system = three();
   check_status(hooke_system_add_springs(system, "edges", count, ends, options), HOOKE_BAD_VALUE);
   check_message(culprit);
   check_message(value);
@@ -51,7 +51,6 @@ static void refuse_springs(int64_t count, const int64_t *ends, const hooke_optio
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_count(system, "springs"), 1);
   assert_int_equal(hooke_system_group_count(system, "springs"), 1);
-  hooke_system_destroy(system);
 }
 
 static void test_springs(no_state) {

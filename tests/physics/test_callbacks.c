@@ -348,7 +348,7 @@ static hooke_system *pulled_system(const char *problem, struct stopper *stopper)
 static void start_pulled(const char *problem, const char *method, hooke_system **system,
                          hooke_integrator **it, hooke_state **state, struct stopper *stopper) {
   const struct run run = {.method = method, .step = 0.0625, .duration = 20.0};
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   const double one = 1.0, weight = 0.5;
   *system = NULL;
   stopper->calls = -1000; /* beginning calls, too */
@@ -366,7 +366,6 @@ static void start_pulled(const char *problem, const char *method, hooke_system *
   }
   if (*system == NULL) hooke_state_position(*state)[0] = one;
   if (is_fixed_step(method)) check_ok(hooke_integrator_step(*it, *state, 0));
-  hooke_options_destroy(options);
   stopper->calls = stopper->steps = 0;
 }
 

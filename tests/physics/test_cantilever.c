@@ -68,7 +68,7 @@ static void fill_band(const hooke_system *system, const double *q, const double 
   const int64_t n = hooke_system_particle_count(system), count = hooke_system_count(system, "blocks");
   int64_t *row_start = new_block(n + 1, (int64_t)sizeof(int64_t)),
           *column = new_block(count, (int64_t)sizeof(int64_t));
-  double *blocks = new_doubles(9 * count);
+  owned_doubles *blocks = new_doubles(9 * count);
   check_ok(hooke_system_derivative_pattern(system, row_start, column));
   check_ok(hooke_system_derivative_blocks(system, q, v, blocks, NULL));
   memset(band, 0, (size_t)(3 * (n - held) * width) * sizeof *band);
@@ -84,7 +84,6 @@ static void fill_band(const hooke_system *system, const double *q, const double 
   }
   free(row_start);
   free(column);
-  free(blocks);
 }
 
 /* x = A^-1 x by Cholesky, in place of the band. */

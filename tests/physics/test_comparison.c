@@ -10,12 +10,10 @@
 
 static int32_t create(const hooke_system *system, struct run run, const char *methods,
                       hooke_measurement **comparison) {
-  hooke_options *of_run = run_options(run), *options = NULL;
+  owned_options *of_run = run_options(run), *options = NULL;
   options = new_options("comparison");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   const int32_t status = hooke_measurement_create("comparison", system, of_run, options, comparison);
-  hooke_options_destroy(options);
-  hooke_options_destroy(of_run);
   return status;
 }
 

@@ -12,9 +12,8 @@ static const char *const METHODS[] = {"backward-euler", "tr-bdf2", "implicit-mid
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness,
                         double rest) {
-  hooke_options *springs = options_with("springs", "stiffness=%.17g rest_length=%.17g", stiffness, rest);
+  owned_options *springs = options_with("springs", "stiffness=%.17g rest_length=%.17g", stiffness, rest);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, springs));
-  hooke_options_destroy(springs);
 }
 
 /* An open system of particles of this mass, with drag 1. */

@@ -20,7 +20,7 @@ static struct verdict predict(const hooke_system *system, const double *gravity,
                               int64_t steps, int64_t stride) {
   struct canonical canonical;
   struct verdict verdict = {0, 0};
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   canonical_create(system, &canonical);
   canonical.gravity = gravity;
@@ -47,7 +47,6 @@ static struct verdict predict(const hooke_system *system, const double *gravity,
       verdict.good = k;
   }
   canonical_destroy(&canonical);
-  hooke_state_destroy(state);
   return verdict;
 }
 
@@ -55,10 +54,10 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
                               int64_t steps, int64_t stride) {
   const struct verdict expected = predict(system, gravity, method, h, steps, stride);
   const int64_t size = 3 * hooke_system_particle_count(system);
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system,
       (struct run){.method = method, .step = h, .duration = (double)steps * h, .every = (double)stride * h});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   const int32_t status = hooke_integrator_run(integrator, state);
   if (expected.step == 0) {
     assert_int_equal(status, HOOKE_OK);
@@ -72,15 +71,12 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
     for (int64_t k = 0; k < size; k++)
       assert_true(isfinite(q[k]) && isfinite(v[k]));
     if (expected.good > 0) { /* the kept state is the one of that time, to the bit */
-      double *same = new_doubles(size);
+      owned_doubles *same = new_doubles(size);
       run_to_end(system, (struct run){.method = method, .step = h, .duration = (double)expected.good * h},
                  same, NULL);
       check_same_bits(size, q, same);
-      free(same);
     }
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 static void test_step_above_the_limit(no_state) {

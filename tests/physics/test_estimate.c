@@ -42,15 +42,13 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
 static double estimated_run(const hooke_system *system, const hooke_options *options,
                             hooke_measurement *estimate) {
   struct watcher watcher = {estimate, 0.0};
-  hooke_integrator *integrator;
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator;
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, see, &watcher));
   check_ok(hooke_estimate_begin(estimate, integrator, state));
   check_ok(hooke_integrator_run(integrator, state));
   check_ok(hooke_measurement_run(estimate, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   return watcher.worst;
 }
 
@@ -91,7 +89,7 @@ static hooke_measurement *estimated_later(const hooke_system *system, const hook
                                           double time) {
   hooke_integrator *integrator;
   hooke_measurement *estimate;
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(estimate_of(system, NAN, &estimate));
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
@@ -100,7 +98,6 @@ static hooke_measurement *estimated_later(const hooke_system *system, const hook
   hooke_integrator_destroy(integrator);
   hooke_state_set_time(state, time);
   check_ok(hooke_measurement_run(estimate, state));
-  hooke_state_destroy(state);
   return estimate;
 }
 

@@ -13,14 +13,12 @@
 
 static hooke_measurement *make(const hooke_system *system, struct run run, double want, const char *watch,
                                int refine) {
-  hooke_options *of_run = run_options(run), *options;
+  owned_options *of_run = run_options(run), *options;
   hooke_measurement *needs = NULL;
   options = options_with("needs", "want=%.17g", want);
   if (watch) check_ok(hooke_options_set_text(options, "watch", watch));
   check_ok(hooke_options_set_number(options, "refine", refine));
   check_ok(hooke_measurement_create("needs", system, of_run, options, &needs));
-  hooke_options_destroy(options);
-  hooke_options_destroy(of_run);
   return needs;
 }
 
@@ -152,7 +150,7 @@ static void changes_are_those_of_runs_made_apart(no_state) {
 /* The run of a system with the step or tolerances found for it. */
 static struct frames *run_found(const hooke_measurement *needs, const hooke_system *system,
                                 const char *table) {
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_options_copy(hooke_needs_lean_run(needs), &options));
   static const char *const names[] = {"step", "rtol", "atol"};
   for (int k = 0; k < 3; k++) {
@@ -160,7 +158,6 @@ static struct frames *run_found(const hooke_measurement *needs, const hooke_syst
     if (!isnan(value)) check_ok(hooke_options_set_number(options, names[k], value));
   }
   struct frames *frames = run_frames(system, options, 1);
-  hooke_options_destroy(options);
   return frames;
 }
 

@@ -87,14 +87,12 @@ static int32_t keep_frame(int64_t step, const hooke_state *state, void *ctx) {
 static struct path *path_of(const hooke_system *system, const hooke_options *options,
                             const hooke_measurement *needs) {
   struct path *path = new_block(1, sizeof *path);
-  hooke_integrator *integrator;
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator;
+  owned_state *state = start_state(system);
   path->needs = needs;
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, keep_frame, path));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   return path;
 }
 

@@ -13,13 +13,11 @@
 static hooke_measurement *start_study(const hooke_system *system, const char *methods, double duration,
                                       double every, double want) {
   hooke_measurement *study = NULL;
-  hooke_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
+  owned_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
   options = new_options("study");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   if (want > 0.0) check_ok(hooke_options_set_number(options, "want", want));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
     skip();

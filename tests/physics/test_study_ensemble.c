@@ -155,9 +155,8 @@ static void check_rate(const hooke_system *system, struct study s, const hooke_m
   s.methods = method;
   for (int k = 0; k < others; k++) {
     s.seed = 3.0 + k;
-    hooke_measurement *other = start(system, s);
+    owned_measurement *other = start(system, s);
     count_agreement(other, large, method, &means, &agreeing);
-    hooke_measurement_destroy(other);
   }
   print_message("%d of %d means agree\n", (int)agreeing, (int)means);
   assert_true((double)agreeing >= 0.95 * (double)means - 1e-9);

@@ -14,7 +14,7 @@ static const double gravity[3] = {0.0, -9.81, 0.0};
 /* A chain along x from the origin, released from horizontal. */
 static hooke_system *chain(int64_t springs, double spacing, double mass, struct springs material,
                            int32_t pin_first) {
-  double *q = new_doubles(3 * (springs + 1));
+  owned_doubles *q = new_doubles(3 * (springs + 1));
   int64_t *ends = new_block(2 * springs, sizeof *ends);
   for (int64_t k = 0; k <= springs; k++)
     q[3 * k] = spacing * (double)k;
@@ -23,7 +23,6 @@ static hooke_system *chain(int64_t springs, double spacing, double mass, struct 
   hooke_system *system = small_system(springs + 1, q, NULL, mass, pin_first);
   small_springs(system, springs, ends, material);
   check_ok(hooke_system_set_gravity(system, gravity));
-  free(q);
   free(ends);
   return system;
 }
@@ -63,12 +62,10 @@ static const char METHODS[] = "verlet,rk4,cvode-adams";
 static hooke_measurement *made_study(const hooke_system *system, const char *methods, double duration,
                                      double every, double want) {
   hooke_measurement *study = NULL;
-  hooke_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
+  owned_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
   options = options_with("study", "methods=%s", methods);
   if (want > 0.0) check_ok(hooke_options_set_number(options, "want", want));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
   check_ok(hooke_measurement_run(study, NULL));
@@ -116,10 +113,9 @@ static double true_error(const hooke_system *system, const hooke_measurement *st
   } else {
     run.step = step;
   }
-  double *found = new_doubles(3 * hooke_system_particle_count(system));
+  owned_doubles *found = new_doubles(3 * hooke_system_particle_count(system));
   run_to_end(system, run, found, NULL);
   const double error = apart(system, found, exact, rms);
-  free(found);
   return error;
 }
 
@@ -262,15 +258,13 @@ static int32_t keep_positions(int64_t step, const hooke_state *state, void *ctx)
  * velocities. */
 static void displaced_frames(const hooke_system *system, struct run run, int k, double length,
                              double *frames) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   double *next = frames;
   if (k >= 0 && k < BASIS / 2) hooke_state_position(state)[3 + k] += length;
   if (k >= BASIS / 2) hooke_state_velocity(state)[3 + k - BASIS / 2] += length / run.duration;
   hooke_integrator_on_frame(integrator, keep_positions, &next);
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* The largest singular value of a matrix of `rows` x BASIS, by iteration. */

@@ -62,10 +62,9 @@ static hooke_measurement *explain(hooke_integrator *integrator) {
  * unless it is HOOKE_OK. */
 static int32_t explain_within(const hooke_integrator *integrator, double budget, hooke_progress *progress,
                               void *ctx, hooke_measurement **why) {
-  hooke_options *options = new_options("why");
+  owned_options *options = new_options("why");
   if (budget > 0.0) check_ok(hooke_options_set_number(options, "budget", budget));
   check_ok(hooke_why_create(integrator, options, why));
-  hooke_options_destroy(options);
   hooke_measurement_on_progress(*why, progress, ctx);
   const int32_t status = hooke_measurement_run(*why, NULL);
   if (status == HOOKE_OK) return status;
@@ -85,26 +84,23 @@ static void check_text(const char *found, const char *expected) {
 /* The run with advice `place` finishes. */
 static void check_advice(const hooke_system *system, const hooke_integrator *integrator,
                          const hooke_measurement *why, int64_t place) {
-  hooke_options *options = NULL;
-  hooke_integrator *again = NULL;
-  hooke_state *state = start_state(system);
+  owned_options *options = NULL;
+  owned_integrator *again = NULL;
+  owned_state *state = start_state(system);
   check_ok(hooke_options_copy(hooke_integrator_options(integrator), &options));
   check_ok(hooke_why_advice_apply(why, place, options));
   check_ok(hooke_integrator_create(system, options, &again));
   check_ok(hooke_integrator_run(again, state));
   check_close(hooke_state_time(state), hooke_options_number(options, "duration"), 1e-12);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(again);
-  hooke_options_destroy(options);
 }
 
 static void check_callback(hooke_system *system, struct run run, const char *word, double time, double slack,
                            int64_t particle) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   const int32_t outcome = hooke_integrator_run(integrator, state);
   if (outcome != HOOKE_DIVERGED && outcome != HOOKE_SOLVER_FAILED) check_failed("outcome %d", (int)outcome);
-  hooke_measurement *why = explain(integrator);
+  owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "force-not-finite");
   check_text(hooke_measurement_text(why, "why", 0, "method"), run.method);
   check_close(hooke_measurement_number(why, "why", 0, "particle"), (double)particle, 0.0);
@@ -117,9 +113,6 @@ static void check_callback(hooke_system *system, struct run run, const char *wor
   check_text(hooke_measurement_text(why, "advice", 1, "option"), "");
   if (strstr(hooke_measurement_text(why, "advice", 1, "change"), word) == NULL)
     check_failed("%s", hooke_measurement_text(why, "advice", 1, "change"));
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);
 }
 

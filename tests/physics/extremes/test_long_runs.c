@@ -38,11 +38,10 @@ static struct ensemble ensemble(const char *law, double stiffness, double mass, 
   check_ok(hooke_system_create(&e.system));
   check_ok(hooke_system_add_particles(e.system, 2 * PHASES, q, v, 1, &mass, NULL));
   check_ok(hooke_system_pin(e.system, PHASES, pinned));
-  hooke_options *options =
+  owned_options *options =
       options_with("springs", "law=%s stiffness=%.17g rest_length=%.17g", law, stiffness, rest);
   check_ok(hooke_system_add_springs(e.system, NULL, PHASES, ends, options));
   check_ok(hooke_system_commit(e.system));
-  hooke_options_destroy(options);
   check_ok(hooke_system_members(e.system, "springs", NULL, kappa, NULL, NULL));
   e.omega = sqrtl((long double)kappa[0] * hooke_system_inverse_mass(e.system)[PHASES]);
   return e;
