@@ -45,7 +45,7 @@ static void test_products(no_state) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     for (uint64_t seed = 1; seed <= 4; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       struct random_source source = {seed + 100};
       double dq[LAW_SIZE], dv[LAW_SIZE];
       law_scene_create(&laws[k], seed, &scene);
@@ -54,7 +54,6 @@ static void test_products(no_state) {
       compare_product(&scene, dq, zero, 0.1);
       compare_product(&scene, zero, dv, laws[k].damped ? 0.1 : 0.0);
       compare_product(&scene, dq, dv, 0.1);
-      law_scene_destroy(&scene);
     }
   }
 }
@@ -98,7 +97,7 @@ static void dense(const struct blocks *blocks, const double *values, double *mat
 }
 
 static void test_pattern(no_state) {
-  struct law_scene scene;
+  owned_law_scene scene;
   struct blocks blocks;
   law_scene_create(&laws[0], 9, &scene);
   take_blocks(&scene, &blocks);
@@ -114,7 +113,6 @@ static void test_pattern(no_state) {
     assert_int_equal(diagonal, 1);
   }
   release_blocks(&blocks);
-  law_scene_destroy(&scene);
 }
 
 /* Blocks times unit vectors are the products with unit vectors; contributions of a callback are in the
@@ -123,7 +121,7 @@ static void test_blocks_are_products(no_state) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue;
-    struct law_scene scene;
+    owned_law_scene scene;
     struct blocks blocks;
     double unit[LAW_SIZE], product[LAW_SIZE], *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
     law_scene_create(&laws[k], 21, &scene);
@@ -153,7 +151,6 @@ static void test_blocks_are_products(no_state) {
     check_same_bits(9 * blocks.count, again, blocks.dfdv);
     free(matrix);
     release_blocks(&blocks);
-    law_scene_destroy(&scene);
   }
 }
 
@@ -190,7 +187,7 @@ static double asymmetry(const double *matrix) {
 /* D is symmetric always, K unless a damped spring rotates. */
 static void test_symmetry(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
-    struct law_scene scene;
+    owned_law_scene scene;
     struct blocks blocks;
     owned_doubles *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
     law_scene_create(&laws[k], 31, &scene);
@@ -204,7 +201,6 @@ static void test_symmetry(no_state) {
     else
       check_between(asymmetry(matrix), 0.0, 1e-14 * size);
     release_blocks(&blocks);
-    law_scene_destroy(&scene);
   }
 }
 

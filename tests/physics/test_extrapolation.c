@@ -56,7 +56,7 @@ static void test_solutions(no_state) {
 /* ---- forces ---- */
 
 static void compare_forces(uint64_t seed, int32_t features) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = seed,
                                                     .particles = 40,
                                                     .springs = 90,
@@ -84,7 +84,6 @@ static void compare_forces(uint64_t seed, int32_t features) {
   }
   free(y);
   free(f);
-  random_scene_destroy(&scene);
 }
 
 static void test_forces(no_state) {

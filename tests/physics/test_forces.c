@@ -35,7 +35,7 @@ static void test_force_is_gradient(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* has no energy */
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       double force[LAW_SIZE], slope;
       law_scene_create(&laws[k], seed, &scene);
       check_ok(hooke_system_force(scene.system, 0.0, scene.q, rest, force));
@@ -46,7 +46,6 @@ static void test_force_is_gradient(no_state) {
         differentiate(1, energy_along, 0.01, &curve, &slope);
         check_close(force[c], -slope, 1e-8 * size);
       }
-      law_scene_destroy(&scene);
     }
   }
 }
@@ -58,12 +57,11 @@ static void test_pull_only_scenes_have_both_sides(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (!laws[k].pull_only) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       law_scene_create(&laws[k], seed, &scene);
       slack += scene.slack;
       unloaded += scene.unloaded;
       taut += scene.taut;
-      law_scene_destroy(&scene);
     }
   }
   assert_true(slack >= 10);
@@ -74,7 +72,7 @@ static void test_pull_only_scenes_have_both_sides(no_state) {
 /* M g and m a: the force is the mass times the acceleration, on free particles. */
 static void test_force_is_mass_times_acceleration(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
-    struct law_scene scene;
+    owned_law_scene scene;
     double force[LAW_SIZE], acceleration[LAW_SIZE];
     law_scene_create(&laws[k], 77, &scene);
     check_ok(hooke_system_force(scene.system, 0.7, scene.q, scene.v, force));
@@ -84,7 +82,6 @@ static void test_force_is_mass_times_acceleration(no_state) {
       check_close(force[c], mass[c / 3] * acceleration[c], 1e-14 * size);
     for (int c = LAW_SIZE - 3; c < LAW_SIZE; c++)
       check_close(acceleration[c], 0.0, 0.0);
-    law_scene_destroy(&scene);
   }
 }
 
@@ -110,7 +107,7 @@ static void test_dissipated_power(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* does work of its own */
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       struct motion_curve curve;
       double rate;
       law_scene_create(&laws[k], seed, &scene);
@@ -126,7 +123,6 @@ static void test_dissipated_power(no_state) {
         check_between(power, 1e-3 * size, size * 10.0);
       else
         check_between(power, 0.0, 0.0);
-      law_scene_destroy(&scene);
     }
   }
 }
@@ -137,7 +133,7 @@ static void test_third_law(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].gravity || laws[k].drag || laws[k].callback || laws[k].anchors) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       double force[LAW_SIZE], sum[3] = {0}, torque[3] = {0}, size = 0.0;
       law_scene_create(&laws[k], seed, &scene);
       check_ok(hooke_system_force(scene.system, 0.0, scene.q, scene.v, force));
@@ -155,7 +151,6 @@ static void test_third_law(no_state) {
         check_close(sum[a], 0.0, 1e-14 * size);
         check_close(torque[a], 0.0, 1e-14 * size);
       }
-      law_scene_destroy(&scene);
     }
   }
 }
@@ -164,7 +159,7 @@ static void test_third_law(no_state) {
  * is q += h v(new), conserves angular momentum; forward Euler changes it by h^2 v x a. */
 static void drift(const char *method, double *momentum, double *angular) {
   double q[LAW_SIZE], v[LAW_SIZE], before[6], after[6], mass[LAW_PARTICLES], size = 0.0;
-  struct law_scene scene;
+  owned_law_scene scene;
   law_scene_create(&laws[1], 5, &scene);
   memcpy(q, scene.q, sizeof q);
   memcpy(v, scene.v, sizeof v);
@@ -187,7 +182,6 @@ static void drift(const char *method, double *momentum, double *angular) {
   *momentum = largest_difference(3, before, after) / size;
   *angular = largest_difference(3, before + 3, after + 3) / size;
   assert_true(largest_difference(LAW_SIZE, q, scene.q) > 0.1); /* it did move */
-  law_scene_destroy(&scene);
 }
 
 static void test_momentum(no_state) {

@@ -239,7 +239,7 @@ static void bounds_are_never_above_the_limit(no_state) {
   for (uint64_t seed = 1; seed <= 10000; seed++) {
     if (left_out((int64_t)seed, 11)) continue;
     tried++;
-    struct random_scene scene;
+    owned_random_scene scene;
     struct random_scene_request request = {.seed = seed, .particles = 4 + (int64_t)(seed % 5)};
     request.springs = request.particles + (int64_t)(seed % 7);
     request.features = SCENE_DAMPING;
@@ -266,7 +266,6 @@ static void bounds_are_never_above_the_limit(no_state) {
       }
     }
     hooke_measurement_destroy(limit);
-    random_scene_destroy(&scene);
   }
   /* a bound is useful, and not sharp */
   check_between(lowest, 0.4, 0.9);

@@ -52,7 +52,7 @@ static void everything(no_state) {
   static const char *const methods[] = {"cvode-bdf", "arkode-esdirk"};
   needs_cvode();
   for (uint64_t seed = 1; seed <= 6; seed++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 30,
                                                       .springs = 70,
@@ -79,7 +79,6 @@ static void everything(no_state) {
           check_failed("seed %d, %s by %s: errors %.3g, %.3g", (int)seed, methods[m], solvers[s], q, v);
       }
     }
-    random_scene_destroy(&scene);
   }
 }
 

@@ -113,7 +113,7 @@ static void test_everything(no_state) {
   const struct checker *checker;
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   for (uint64_t seed = 1; seed <= 6; seed++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 30,
                                                       .springs = 70,
@@ -133,7 +133,6 @@ static void test_everything(no_state) {
       check_between(largest_difference(size, found + size, expected + size) / largest(size, expected + size),
                     0.0, 1e-6);
     }
-    random_scene_destroy(&scene);
   }
 }
 

@@ -75,7 +75,7 @@ static void pull_through(double *q) {
 
 static void check_cloth(const char *name, double damping, void (*place)(double *q), double rest_scale) {
   owned_system *system = cloth(damping, place, rest_scale);
-  struct extreme_outcome reference;
+  owned_outcome reference;
   extreme_run(system, (struct extreme_run){"rk4", STEP / 16.0, 16 * STEPS, 16 * STEPS, 0, 0, 0, 0, 0},
               &reference);
   extreme_demand("cloths", name, "reference", extreme_not_right(&reference, 0.0, 0.0, 0.0), &reference);
@@ -84,7 +84,7 @@ static void check_cloth(const char *name, double damping, void (*place)(double *
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(
         system,
         (struct extreme_run){.method = method, .step = STEP, .steps = STEPS, .rtol = 1e-9, .atol = 1e-12},
@@ -97,9 +97,7 @@ static void check_cloth(const char *name, double damping, void (*place)(double *
         HOOKE_OK) /* no method but forward Euler gains energy, and that little: a quarter here */
       check_between(outcome.energy, 0.0, 1.5 * outcome.energy0);
     extreme_record("cloths", name, method, &outcome, error);
-    extreme_release(&outcome);
   }
-  extreme_release(&reference);
 }
 
 static void test_compressed(no_state) {

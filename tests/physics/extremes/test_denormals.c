@@ -33,13 +33,12 @@ static void test_never_flushed(no_state) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = 0.01, .steps = 20}, &outcome);
     extreme_demand("denormals", "flush-to-zero", method, extreme_not_right(&outcome, 0.0, 0.0, 0.0),
                    &outcome);
     extreme_note("denormals", "flush-to-zero", method, left == 1.0 ? "never set" : "set");
     assert_true(left == 1.0 && denormals_left() == 1.0 && fegetround() == FE_TONEAREST);
-    extreme_release(&outcome);
   }
 }
 
@@ -60,7 +59,7 @@ static void check_bits(const char *name, double amplitude, double rest_length, d
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = h, .steps = steps, .atol = 1e-300},
                 &outcome);
     extreme_demand("denormals", name, method, extreme_not_right(&outcome, 0.0, 0.0, 0.0), &outcome);
@@ -77,7 +76,6 @@ static void check_bits(const char *name, double amplitude, double rest_length, d
       check_between(fabs(outcome.v[3]), 0.0, 10.0 * amplitude + 1e-298);
       extreme_record("denormals", name, method, &outcome, NAN);
     }
-    extreme_release(&outcome);
   }
   canonical_destroy(&canonical);
 }

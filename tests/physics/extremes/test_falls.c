@@ -36,7 +36,7 @@ static void check_method(const hooke_system *system, const char *name, const cha
   int known;
   const long double a = factor(method, (long double)z, &known), end = expl(-(long double)z * steps);
   const long double terminal = drag > 0.0 ? -FALL * mass / (long double)drag : 0.0L;
-  struct extreme_outcome outcome;
+  owned_outcome outcome;
   extreme_run(system,
               (struct extreme_run){.method = method, .step = h, .steps = steps, .rtol = 1e-9, .atol = 1e-12},
               &outcome);
@@ -60,7 +60,6 @@ static void check_method(const hooke_system *system, const char *name, const cha
   }
   extreme_demand("falls", name, method, complaint, &outcome);
   extreme_record("falls", name, method, &outcome, error);
-  extreme_release(&outcome);
 }
 
 static void test_fall(no_state) {

@@ -42,14 +42,13 @@ static void test_numbers(no_state) {
     assert_non_null(extreme_not_refused(&outcome));
     extreme_release(&outcome);
   }
-  struct extreme_outcome outcome;
+  owned_outcome outcome;
   good_run(&outcome);
   outcome.energy = NAN;
   assert_non_null(extreme_unsound(&outcome));
   outcome.energy = 1.0;
   outcome.wrong_frames = 1;
   assert_non_null(extreme_unsound(&outcome));
-  extreme_release(&outcome);
 }
 
 /* A frame with a NaN is detected during the run. */
@@ -61,18 +60,17 @@ static int32_t poison(int64_t n, double t, const double *q, const double *v, dou
 
 static void test_watch(no_state) {
   const double q[] = {0, 0, 0};
-  struct extreme_outcome outcome;
+  owned_outcome outcome;
   owned_system *system = small_system(1, q, NULL, 1.0, 0);
   check_ok(hooke_system_set_force(system, poison, NULL, NULL));
   check_ok(hooke_system_commit(system));
   extreme_run(system, (struct extreme_run){.method = "symplectic-euler", .step = 0.1, .steps = 10}, &outcome);
   assert_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, "not finite"));
   assert_int_equal(outcome.frames, 7); /* 0 to 0.6 s, the last before the NaN */
-  extreme_release(&outcome);
 }
 
 static void test_answers(no_state) {
-  struct extreme_outcome outcome;
+  owned_outcome outcome;
   good_run(&outcome);
   assert_non_null(extreme_not_right(&outcome, 1.0, 0.0, 0.5));
   assert_non_null(extreme_not_right(&outcome, 1e-9, 1e-4, 1e-2)); /* too good to be true */
@@ -81,7 +79,6 @@ static void test_answers(no_state) {
   assert_non_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, ""));
   outcome.status = HOOKE_STOPPED;
   assert_non_null(extreme_unsound(&outcome));
-  extreme_release(&outcome);
 }
 
 /* Silent use of another value than the given one: the state kept within bounds, or the run cut short. */

@@ -80,7 +80,7 @@ static void check_pair(const struct pair *pair) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = h, .steps = (int64_t)steps}, &outcome);
     const double error = extreme_error(&outcome, expected, 1.0);
     /* a method of order 1 has an error of about h/2 of the way */
@@ -90,7 +90,6 @@ static void check_pair(const struct pair *pair) {
     extreme_demand("lengths", pair->name, method, complaint, &outcome);
     assert_int_equal(outcome.coincident, pair->coincident);
     extreme_record("lengths", pair->name, method, &outcome, error);
-    extreme_release(&outcome);
   }
 }
 

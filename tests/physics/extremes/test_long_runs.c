@@ -146,7 +146,7 @@ static void test_every_method(no_state) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(e.system,
                 (struct extreme_run){.method = method,
                                      .step = h,
@@ -178,7 +178,6 @@ static void test_every_method(no_state) {
       complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
     extreme_demand(FAMILY, name, method, complaint, &outcome);
     extreme_record(FAMILY, name, method, &outcome, error);
-    extreme_release(&outcome);
   }
   hooke_system_destroy(e.system);
 }

@@ -43,12 +43,11 @@ static double lost_at(double distance, const char *method, double h) {
     owned_options *options = options_with("springs", "stiffness=1 rest_length=1");
     check_ok(hooke_system_add_springs(system, NULL, 1, ends, options));
     check_ok(hooke_system_commit(system));
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = h, .steps = 1000, .frame_steps = 100},
                 &outcome);
     extreme_demand("origin", "digits", method, extreme_not_right(&outcome, 0.0, 0.0, 0.0), &outcome);
     end[far] = outcome.q[3] - outcome.q[0];
-    extreme_release(&outcome);
   }
   return fabs(end[1] - end[0]) / amplitude;
 }

@@ -19,13 +19,12 @@ static void check_scene(const hooke_system *system, const char *name, const doub
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, usual(method), &outcome);
     const double error = extreme_error(&outcome, expected ? expected : outcome.q0, 1.0);
     extreme_demand(FAMILY, name, method, extreme_not_right(&outcome, error, 0.0, order1), &outcome);
     assert_int_equal(outcome.frames, 201);
     extreme_record(FAMILY, name, method, &outcome, error);
-    extreme_release(&outcome);
   }
 }
 
@@ -59,12 +58,11 @@ static void test_free_floating(no_state) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, usual(method), &outcome);
     hooke_system_momentum(system, outcome.v, after);
     for (int a = 0; a < 3; a++)
       check_close(after[a], before[a], 1e-12);
-    extreme_release(&outcome);
   }
 }
 
@@ -116,19 +114,18 @@ static void test_disconnected(no_state) {
     if (hooke_method_is_built(method) != 1) continue;
     struct extreme_run run = usual(method);
     run.step = 1e-3;
-    struct extreme_outcome together;
+    owned_outcome together;
     double apart[15];
     int64_t at = 0;
     int32_t worst = HOOKE_OK;
     for (int k = 0; k < 3; k++) {
-      struct extreme_outcome outcome;
+      owned_outcome outcome;
       extreme_run(alone[k], run, &outcome);
       const char *complaint = extreme_unsound(&outcome);
       extreme_demand(FAMILY, "disconnected, alone", method, complaint, &outcome);
       if (outcome.status != HOOKE_OK) worst = outcome.status;
       memcpy(apart + at, outcome.q, (size_t)outcome.size * sizeof(double));
       at += outcome.size;
-      extreme_release(&outcome);
     }
     extreme_run(all, run, &together);
     if (worst != HOOKE_OK) { /* each piece alone moves as in the scene */
@@ -141,7 +138,6 @@ static void test_disconnected(no_state) {
                      extreme_not_right(&together, error, 0.0, solved ? 1e-6 : 0.0), &together);
       extreme_record(FAMILY, "disconnected, against alone", method, &together, error);
     }
-    extreme_release(&together);
   }
   hooke_system_destroy(all);
   for (int k = 0; k < 3; k++)
@@ -197,7 +193,7 @@ static void test_at_rest(no_state) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
     const struct extreme_run run = {.method = method, .step = 1e-3, .steps = 2000, .frame_steps = 20};
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, run, &outcome);
     const double error = extreme_error(&outcome, outcome.q0, 1.0);
     /* in Heun's method, of 2000 steps with omega h = 0.45, rounding grows by the factor exp(10) */
@@ -207,7 +203,6 @@ static void test_at_rest(no_state) {
       complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
     extreme_demand(FAMILY, "at rest but for rounding", method, complaint, &outcome);
     extreme_record(FAMILY, "at rest but for rounding", method, &outcome, error);
-    extreme_release(&outcome);
   }
 }
 

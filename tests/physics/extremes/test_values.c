@@ -96,7 +96,7 @@ static void check_flight(const char *name, double speed, double energy) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(
         system,
         (struct extreme_run){.method = method, .step = h, .steps = 40, .atol = 1e-12 * fmin(1.0, speed)},
@@ -104,7 +104,6 @@ static void check_flight(const char *name, double speed, double energy) {
     const double error = extreme_error(&outcome, expected, expected[0]);
     extreme_demand(FAMILY, name, method, extreme_not_right(&outcome, error, 0.0, 1e-5), &outcome);
     extreme_record(FAMILY, name, method, &outcome, error);
-    extreme_release(&outcome);
   }
 }
 
@@ -128,7 +127,7 @@ static void test_oscillators(no_state) {
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
       if (hooke_method_is_built(method) != 1) continue;
-      struct extreme_outcome outcome;
+      owned_outcome outcome;
       extreme_run(
           system,
           (struct extreme_run){.method = method, .step = h, .steps = steps, .atol = 1e-9 * amplitude[k]},
@@ -136,7 +135,6 @@ static void test_oscillators(no_state) {
       const double error = extreme_error(&outcome, expected, amplitude[k]);
       extreme_demand(FAMILY, name, method, extreme_not_right(&outcome, error, 0.0, 0.5), &outcome);
       extreme_record(FAMILY, name, method, &outcome, error);
-      extreme_release(&outcome);
     }
   }
 }
@@ -152,12 +150,11 @@ static void test_too_long(no_state) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = 0.05, .steps = 200}, &outcome);
     extreme_demand(FAMILY, name, method, extreme_not_refused(&outcome), &outcome);
     assert_true(outcome.energy == INFINITY);
     extreme_record(FAMILY, name, method, &outcome, NAN);
-    extreme_release(&outcome);
   }
 }
 
