@@ -9,15 +9,13 @@
 
 /* A rope of `segments` pieces of 0.1 m and 0.01 kg a particle, whose springs are soft (or are not there). */
 static hooke_system *new_rope(int segments, double bending, double stiffness, double damping, double drag) {
-  const double to[3] = {0.1 * segments, 0.0, 0.0};
   hooke_system *system = new_system();
-  owned_options *rope = options_with("rope", "from=0,0,0 segments=%d mass=%.17g bending=%.17g", segments,
-                                     0.01 * (segments + 1), bending);
-  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
+  owned_options *rope =
+      options_with("rope", "from=0,0,0 to=%.17g,0,0 segments=%d mass=%.17g bending=%.17g pinned=0,1",
+                   0.1 * segments, segments, 0.01 * (segments + 1), bending);
   if (stiffness > 0.0)
     set_options(rope, "stretch.stiffness=%.17g stretch.damping=%.17g stretch.rest_scale=0.9", stiffness,
                 damping);
-  check_ok(hooke_options_set_text(rope, "pinned", "0,1"));
   check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));

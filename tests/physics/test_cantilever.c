@@ -32,14 +32,10 @@ static hooke_system *commit(hooke_system *system) {
 }
 
 static hooke_system *new_rope(int segments, const char *of_mass, double mass, double piece) {
-  const double from[3] = {-0.5 * piece, 0.0, 0.0}, to[3] = {(segments - 0.5) * piece, 0.0, 0.0};
   hooke_system *system = new_system();
-  owned_options *rope = options_with("rope", "segments=%d", segments);
-  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
-  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, of_mass, mass));
-  set_options(rope, "bending=%.17g stretch.stiffness=1e5", stiffness());
-  check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
+  small_part(system, "rope", "beam",
+             "from=%.17g,0,0 to=%.17g,0,0 segments=%d %s=%.17g bending=%.17g stretch.stiffness=1e5",
+             -0.5 * piece, (segments - 0.5) * piece, segments, of_mass, mass, stiffness());
   pin_first(system, 2);
   return commit(system);
 }
@@ -47,15 +43,11 @@ static hooke_system *new_rope(int segments, const char *of_mass, double mass, do
 /* `along` pieces from the wall, `across` particles over 0.5 m. */
 static hooke_system *new_sheet(int along, int across) {
   const double piece = LENGTH / (along - 0.5);
-  const double edges[6] = {0.0, 0.5, 0.0, along * piece, 0.0, 0.0}, size[2] = {across, along + 1};
-  const double origin[3] = {-0.5 * piece, 0.0, 0.0};
   hooke_system *system = new_system();
-  owned_options *cloth =
-      options_with("cloth", "density=%.17g bending=%.17g structural.stiffness=1e5", DENSITY, stiffness());
-  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_system_add_part(system, "cloth", "sheet", cloth, NULL, NULL));
+  small_part(system, "cloth", "sheet",
+             "origin=%.17g,0,0 edges=0,0.5,0,%.17g,0,0 size=%d,%d density=%.17g bending=%.17g "
+             "structural.stiffness=1e5",
+             -0.5 * piece, along * piece, across, along + 1, DENSITY, stiffness());
   pin_first(system, 2 * across);
   return commit(system);
 }

@@ -21,18 +21,13 @@ static void add_marks(hooke_system *system, int64_t count) {
 
 /* A cloth that hangs from its upper corners, with `before` and `after` idle particles. */
 static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
-  const double origin[3] = {0, 0, 0}, edges[6] = {1, 0, 0, 0, 0, 1}, size[2] = {12, 11};
   const double gravity[3] = {0, -9.81, 0};
   hooke_system *system = new_system();
   add_marks(system, before);
-  owned_options *cloth = options_with(
-      "cloth",
-      "mass=1 pinned=top-corners structural.stiffness=50 structural.damping=%.17g shear.stiffness=20",
-      damping);
-  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
+  small_part(system, "cloth", "cloth",
+             "edges=1,0,0,0,0,1 size=12,11 mass=1 pinned=top-corners "
+             "structural.stiffness=50 structural.damping=%.17g shear.stiffness=20",
+             damping);
   add_marks(system, after);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.01));

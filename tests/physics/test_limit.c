@@ -42,19 +42,13 @@ static void check_digits(double value, double expected, double relative) {
 
 /* N x n particles of 0.01 kg, 0.1 m apart, springs of 50 N, hung by two corners. */
 static hooke_system *build_cloth(int n, double damping, double drag) {
-  const double side = 0.1 * (n - 1), edges[6] = {side, 0.0, 0.0, 0.0, 0.0, side}, size[2] = {n, n};
+  const double side = 0.1 * (n - 1);
   hooke_system *system = new_system();
-  owned_options *options = options_with("cloth", "origin=0,0,0 mass=%.17g pinned=top-corners", 0.01 * n * n);
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  const char *family[3][2] = {{"structural.stiffness", "structural.damping"},
-                              {"shear.stiffness", "shear.damping"},
-                              {"bend.stiffness", "bend.damping"}};
-  for (int k = 0; k < 3; k++) {
-    check_ok(hooke_options_set_number(options, family[k][0], 50.0));
-    check_ok(hooke_options_set_number(options, family[k][1], damping));
-  }
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  small_part(system, "cloth", NULL,
+             "edges=%.17g,0,0,0,0,%.17g size=%d,%d mass=%.17g pinned=top-corners "
+             "structural.stiffness=50 structural.damping=%.17g shear.stiffness=50 shear.damping=%.17g "
+             "bend.stiffness=50 bend.damping=%.17g",
+             side, side, n, n, 0.01 * n * n, damping, damping, damping);
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
   return system;

@@ -28,13 +28,13 @@ static hooke_measurement *start(const hooke_system *system, struct run run, doub
 
 /* A rope that hangs from its start, released unstretched; with weak springs two apart. */
 static hooke_system *hanging_rope(int segments, double bend) {
-  const double from[3] = {0, 0, 0}, to[3] = {0, -1, 0}, gravity[3] = {0, -9.81, 0};
+  const double gravity[3] = {0, -9.81, 0};
   const int64_t first = 0;
   hooke_system *system = new_system();
-  owned_options *rope =
-      options_with("rope", "segments=%d density=0.1 stretch.stiffness=20 stretch.damping=0.05", segments);
-  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
-  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
+  owned_options *rope = options_with("rope",
+                                     "from=0,0,0 to=0,-1,0 segments=%d density=0.1 "
+                                     "stretch.stiffness=20 stretch.damping=0.05",
+                                     segments);
   if (bend > 0.0) check_ok(hooke_options_set_number(rope, "bend.stiffness", bend));
   check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
   check_ok(hooke_system_pin(system, 1, &first));

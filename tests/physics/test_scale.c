@@ -34,14 +34,11 @@ static double bytes_of_run(const hooke_system *system, const char *method, doubl
 }
 
 static hooke_system *build_cloth(void) {
-  const double edges[] = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, sizes[] = {SIDE, SIDE}, origin[] = {0.0, 0.0, 0.0};
   hooke_system *system = new_system();
-  owned_options *options = options_with(
-      "cloth", "mass=1 structural.stiffness=50 structural.damping=0.01 shear.stiffness=50 bend.stiffness=50");
-  check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, sizes));
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", options, NULL, NULL));
+  small_part(system, "cloth", "cloth",
+             "edges=1,0,0,0,0,1 size=%d,%d mass=1 structural.stiffness=50 "
+             "structural.damping=0.01 shear.stiffness=50 bend.stiffness=50",
+             (int)SIDE, (int)SIDE);
   check_ok(hooke_system_commit(system));
   return system;
 }

@@ -10,20 +10,13 @@
 
 /* 10 x 10 particles of 0.01 kg, 0.1 m apart, springs of 50 N and 0.02 N s, hung by two corners. */
 static hooke_system *build_cloth10(void) {
-  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {0.9, 0.0, 0.0, 0.0, 0.0, 0.9}, size[2] = {10.0, 10.0};
+  const double down[3] = {0.0, -9.81, 0.0};
   hooke_system *system = new_system();
-  owned_options *options = options_with("cloth", "origin=0,0,0 mass=1 pinned=top-corners");
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  const char *family[3][2] = {{"structural.stiffness", "structural.damping"},
-                              {"shear.stiffness", "shear.damping"},
-                              {"bend.stiffness", "bend.damping"}};
-  for (int k = 0; k < 3; k++) {
-    check_ok(hooke_options_set_number(options, family[k][0], 50.0));
-    check_ok(hooke_options_set_number(options, family[k][1], 0.02));
-  }
   check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  small_part(system, "cloth", NULL,
+             "edges=0.9,0,0,0,0,0.9 size=10,10 mass=1 pinned=top-corners "
+             "structural.stiffness=50 structural.damping=0.02 shear.stiffness=50 shear.damping=0.02 "
+             "bend.stiffness=50 bend.damping=0.02");
   check_ok(hooke_system_commit(system));
   return system;
 }

@@ -43,6 +43,15 @@ void set_options(hooke_options *options, const char *words, ...) {
   va_end(arguments);
 }
 
+void small_part(hooke_system *system, const char *kind, const char *name, const char *words, ...) {
+  owned_options *options = new_options(kind);
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
+  check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
+}
+
 hooke_system *new_system(void) {
   hooke_system *system = NULL;
   check_ok(hooke_system_create(&system));

@@ -10,6 +10,10 @@ hooke_options *new_options(const char *table);
 __attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *table, const char *words, ...);
 __attribute__((format(printf, 2, 3))) void set_options(hooke_options *options, const char *words, ...);
 
+/* Adds a part, with its options likewise. */
+__attribute__((format(printf, 4, 5))) void small_part(hooke_system *system, const char *kind,
+                                                      const char *name, const char *words, ...);
+
 /* An open system without particles. */
 hooke_system *new_system(void);
 

@@ -17,16 +17,12 @@ static const int64_t STEPS = 250;
 
 /* A committed cloth of 0.7 m, its rows shaken by 1 mm, in the shape given by `place`. */
 static hooke_system *cloth(double damping, void (*place)(double *q), double rest_scale) {
-  const double origin[] = {0, 0, 0}, edges[] = {0.7, 0, 0, 0, 0, 0.7}, sides[] = {SIDE, SIDE};
   const double mass = 0.01;
-  hooke_system *plan = NULL, *system = NULL;
-  owned_options *part =
-      options_with("cloth", "mass=1 structural.stiffness=5 shear.stiffness=5 bend.stiffness=1");
-  check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(part, "size", 2, sides));
-  plan = new_system();
-  check_ok(hooke_system_add_part(plan, "cloth", NULL, part, NULL, NULL));
+  hooke_system *plan = new_system(), *system = NULL;
+  small_part(plan, "cloth", NULL,
+             "edges=0.7,0,0,0,0,0.7 size=%d,%d mass=1 structural.stiffness=5 shear.stiffness=5 "
+             "bend.stiffness=1",
+             (int)SIDE, (int)SIDE);
   check_ok(hooke_system_commit(plan));
   /* the same springs between displaced particles */
   const int64_t springs = hooke_system_count(plan, "springs"), corners[] = {0, SIDE - 1};

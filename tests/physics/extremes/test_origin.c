@@ -76,21 +76,11 @@ static void test_digits(no_state) {
 /* Where shifted positions are exact, forces are those at the origin, to the bit. */
 static void test_same_forces(no_state) {
   enum { SIDE = 9, COUNT = SIDE * SIDE, SIZE = 3 * COUNT };
-  const double origin[] = {0, 0, 0}, edges[] = {1, 0, 0, 0, 0, 1}, sides[] = {SIDE, SIDE};
-  owned_options *part = options_with("cloth", "mass=1");
-  check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(part, "size", 2, sides));
-  const char *families[] = {"structural", "shear", "bend"};
-  for (int k = 0; k < 3; k++) {
-    char name[64];
-    snprintf(name, sizeof name, "%s.stiffness", families[k]);
-    check_ok(hooke_options_set_number(part, name, 50.0));
-    snprintf(name, sizeof name, "%s.damping", families[k]);
-    check_ok(hooke_options_set_number(part, name, 0.1));
-  }
   owned_system *system = new_system();
-  check_ok(hooke_system_add_part(system, "cloth", NULL, part, NULL, NULL));
+  small_part(system, "cloth", NULL,
+             "edges=1,0,0,0,0,1 size=%d,%d mass=1 structural.stiffness=50 structural.damping=0.1 "
+             "shear.stiffness=50 shear.damping=0.1 bend.stiffness=50 bend.damping=0.1",
+             (int)SIDE, (int)SIDE);
   check_ok(hooke_system_commit(system));
   struct random_source source = {7};
   double near[SIZE], far[SIZE], v[SIZE], at_origin[SIZE], away[SIZE];
