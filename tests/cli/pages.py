@@ -128,17 +128,3 @@ def check_planted_faults(folder, page):
     seen = browse(folder, page, "throw new Error('planted');", '<img src="http://127.0.0.1:9/planted.png">')
     assert any("planted" in line and "Error" in line for line in seen.console)
     assert any("Content Security Policy" in line for line in seen.console)
-
-
-def check_places(hooke, scene, *command):
-    """Paths at which a page cannot be written, or must not be."""
-    assert hooke(*command, scene, "--report", "nowhere/page.html").code == 5
-    assert hooke(*command, scene, "--report", "/dev/null").code == 5
-    answer = hooke(*command, scene, "--report", scene)
-    assert answer.code == 2 and "the scene itself" in answer.err
-
-
-def check_not_built(hooke, scene, *command):
-    answer = hooke(*command, scene, "--report", "page.html")
-    assert answer.code == 6
-    assert "libjs-chart.js" in answer.err

@@ -7,15 +7,12 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import CLI, MINIMAL, SIX_PARTICLES
+from conftest import CLI, SIX_PARTICLES
 from pages import (
     ABOUT,
-    DRAWS,
     TITLE,
     VERSION,
     browse,
-    check_not_built,
-    check_places,
     check_planted_faults,
     check_same,
     count_pixels,
@@ -233,13 +230,3 @@ def test_along_and_nothing_that_limits(tmp_path):
 def test_sealed(chain, tmp_path):
     assert fetches(chain[0]) == []
     check_planted_faults(tmp_path, chain[0])
-
-
-@needs_page
-def test_places_that_cannot_be_written(hooke, write):
-    check_places(hooke, write(SIX_PARTICLES), "limit", "--predict")
-
-
-@pytest.mark.skipif(DRAWS or MINIMAL, reason="this build writes reports, or finds no limits")
-def test_not_in_this_build(hooke, write):
-    check_not_built(hooke, write(SIX_PARTICLES), "limit", "--predict")

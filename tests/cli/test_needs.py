@@ -13,8 +13,6 @@ from pages import (
     TITLE,
     VERSION,
     browse,
-    check_not_built,
-    check_places,
     check_same,
     data_of,
     fetches,
@@ -273,16 +271,6 @@ def test_a_stopped_page(start, write, tmp_path):
     assert process.wait(timeout=60) == 130
     seen = browse(tmp_path, (tmp_path / "out.html").read_text(encoding="utf-8"))
     assert seen.console == [] and "Not known yet" in seen.text["verdict"] and "gravity" in seen.text["verdict"]
-
-
-@needs_page
-def test_places_that_cannot_be_written(hooke, write):
-    check_places(hooke, write(SIX_PARTICLES), "needs", "--want", "0.5", "--duration", "0.1")
-
-
-@pytest.mark.skipif(DRAWS, reason="this build writes reports")
-def test_not_in_this_build(hooke, write):
-    check_not_built(hooke, write(SIX_PARTICLES), "needs", "--want", "0.5", "--duration", "0.1")
 
 
 def test_the_method_is_named_with_who_chose_it(hooke, write):

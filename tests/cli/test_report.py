@@ -8,12 +8,9 @@ import pytest
 from conftest import CLI, STIFF_PAIR
 from pages import (
     ABOUT,
-    DRAWS,
     TITLE,
     VERSION,
     browse,
-    check_not_built,
-    check_places,
     check_planted_faults,
     check_same,
     count_pixels,
@@ -141,13 +138,3 @@ def test_words(study, tmp_path):
 def test_sealed(study, tmp_path):
     assert fetches(study[0]) == []
     check_planted_faults(tmp_path, study[0])
-
-
-@needs_page
-def test_places_that_cannot_be_written(hooke, write):
-    check_places(hooke, write(STIFF_PAIR), "study")
-
-
-@pytest.mark.skipif(DRAWS, reason="this build writes reports")
-def test_not_in_this_build(hooke, write):
-    check_not_built(hooke, write(STIFF_PAIR), "study")

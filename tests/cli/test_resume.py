@@ -120,7 +120,7 @@ def interrupted(start, write, tmp_path, **run):
     while not (tmp_path / "out.h5").exists():
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
-    interrupt(process, 0.3)
+    interrupt(process, 0.1)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 130
     return err.decode()
@@ -149,7 +149,7 @@ def test_a_damaged_checkpoint_gives_way_to_the_last_frame(hooke, start, write, t
     whole = (tmp_path / "out.h5.checkpoint").read_bytes()
     (tmp_path / "out.h5.checkpoint").write_bytes(whole[:1000] + bytes([whole[1000] ^ 0xFF]) + whole[1001:])
     process = start("run", "--resume", "out.h5")
-    interrupt(process, 0.3)
+    interrupt(process, 0.1)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert b"goes on from the last whole frame, at t = " in err and b"is damaged" in err
@@ -164,7 +164,7 @@ def test_one_of_another_run_is_not_taken(hooke, start, write, tmp_path):
     interrupted(start, write, tmp_path, checkpoint=1.5)
     (tmp_path / "out.h5.checkpoint").write_bytes(old)
     process = start("run", "--resume", "out.h5")
-    interrupt(process, 0.3)
+    interrupt(process, 0.1)
     _, err = process.communicate(timeout=60)
     assert b"goes on from the last whole frame, at t = " in err and b"is of another run" in err
 

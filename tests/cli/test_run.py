@@ -390,6 +390,7 @@ def test_ctrl_c_is_130_and_keeps_what_was_computed(start, write, tmp_path, numbe
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.h5", "out.h5.checkpoint", "out.xdmf", "scene.json"]
 
 
+@pytest.mark.check
 def test_progress_is_silent_in_a_pipe(start, write):
     process = start("run", write(ENDLESS))
     time.sleep(2.5)

@@ -10,10 +10,9 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import ENDLESS, MINIMAL, SIX_PARTICLES, STIFF_PAIR, interrupt
-from references import Reference
+from conftest import ENDLESS, SIX_PARTICLES, STIFF_PAIR, interrupt
 
-everything = pytest.mark.everything
+pytestmark = pytest.mark.everything
 
 TOP = ["scene", "duration", "frames", "budget_spent", "reference", "rows", "orders", "recommendation", "statistics"]
 ROW = ["method", "step", "rtol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
@@ -30,7 +29,6 @@ def begins_with(value, keys):
     return list(value)[: len(keys)] == keys
 
 
-@everything
 def test_json_has_the_keys(hooke, write):
     scene = write(SIX_PARTICLES)
     answer = hooke("study", scene, "--duration", 1, "--json", "--want", "1mm")
@@ -74,36 +72,6 @@ def test_json_has_the_keys(hooke, write):
         assert order["theory"] - 0.15 < order["order"] < order["theory"] + 0.25, method
 
 
-SCENES = [("six_particles", 1), ("oscillator", 1), ("elastic_pendulum", 1), ("rope_12", 0.25), ("chain_16", 1)]
-
-
-@pytest.mark.check
-@everything
-@pytest.mark.parametrize("name, duration", SCENES)
-def test_errors_are_those_against_the_solution(hooke, write, tmp_path, name, duration):
-    """The error at the end of every row, where it is clear of the agreement, is that of the same run against the
-    solution to 15 digits: so the reference is as good as it claims."""
-    known = Reference(name)
-    scene = write(known.scene, duration=duration, every=duration / 20)
-    value = hooke("study", scene, "--json", "-o", "rows.csv").json
-    floor = value["reference"]["agreement"]
-    assert floor < 1e-8 and value["reference"]["trusted_until"] == duration
-    with open(tmp_path / "rows.csv") as file:
-        table = list(csv.DictReader(file))
-    checked = 0
-    for row in table:
-        if row["status"] != "finished":
-            continue
-        setting = ["--step", row["step"]] if row["step"] else ["--rtol", row["rtol"], "--atol", row["atol"]]
-        run = hooke("run", scene, "--method", row["method"], *setting, "--json", "--final").json
-        true = known.distance(duration, run["final"]["position"])
-        if true > 10 * floor:
-            assert float(row["error_final"]) == pytest.approx(true, rel=0.05), row
-            checked += 1
-    assert checked > 0.7 * len(table)
-
-
-@everything
 def test_csv_reads_back_to_the_same_bits(hooke, write, tmp_path):
     (tmp_path / "rows.csv").write_text("of old")
     answer = hooke("study", write(SIX_PARTICLES), "--json", "-o", "rows.csv", *FEW)
@@ -128,7 +96,6 @@ def test_csv_reads_back_to_the_same_bits(hooke, write, tmp_path):
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith("rows")] == ["rows.csv"]
 
 
-@everything
 def test_hdf5_holds_the_rows_and_the_recommendation(hooke, write, tmp_path):
     (tmp_path / "study.h5").write_text("of old")
     scene = write(SIX_PARTICLES)
@@ -151,10 +118,10 @@ def test_hdf5_holds_the_rows_and_the_recommendation(hooke, write, tmp_path):
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith("study")] == ["study.h5"]
 
 
-@everything
 def test_recommended_command_gives_the_error_that_was_promised(hooke, write, tmp_path):
-    known = Reference("six_particles")
-    scene = write(known.scene, name="a scene.json", duration=2, every=0.05, atol_velocity=1e-5)
+    scene = write(SIX_PARTICLES, name="a scene.json", duration=2, every=0.05, atol_velocity=1e-5)
+    tight = ["--method", "cvode-adams", "--rtol", "1e-11", "--atol", "1e-13", "--duration", "1s", "--final", "--json"]
+    right = hooke("run", scene, *tight).json["final"]["position"]
     for methods in ["verlet", "cvode-adams"]:
         value = hooke("study", scene, "--json", "--duration", "1000ms", "--want", "0.2 mm", "--methods", methods).json
         found = value["recommendation"]
@@ -166,7 +133,8 @@ def test_recommended_command_gives_the_error_that_was_promised(hooke, write, tmp
         run = hooke(*words[1:], "--json", "--final").json
         assert run["time"] == 1 and run["method"] == methods
         assert run.get("step") == found["step"] and run.get("rtol") == found["rtol"]
-        assert 0.01 * found["error"] < known.distance(1, run["final"]["position"]) < 1.05 * found["error"]
+        squares = [math.dist(*pair) ** 2 for pair in zip(run["final"]["position"][:5], right)]  # the last is pinned
+        assert 0.01 * found["error"] < math.sqrt(sum(squares) / 5) < 1.05 * found["error"]
         assert run["force_evaluations"] == found["force_evaluations"]
 
 
@@ -174,12 +142,11 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples/scenes"
 PAIRS = [
     ("six-particles", 1, "symplectic-euler", 1e-2),
     ("six-particles", 1, "rk4", 1e-6),
-    ("rope", 1, "symplectic-euler,rk4", 1e-2),
+    pytest.param("rope", 1, "symplectic-euler,rk4", 1e-2, marks=pytest.mark.check),
     ("oscillator", 5, "cvode-adams", 2e-2),
 ]
 
 
-@everything
 @pytest.mark.parametrize("name, duration, methods, want", PAIRS)
 def test_a_ladder_four_times_as_fine_has_nothing_much_cheaper(hooke, name, duration, methods, want):
     """As in tests/long/recommendation.py, for a few quick scenes."""
@@ -199,10 +166,9 @@ def test_a_ladder_four_times_as_fine_has_nothing_much_cheaper(hooke, name, durat
     assert 0.5 * min(fits) <= found["force_evaluations"] <= 1.3 * min(fits)
 
 
-@everything
 def test_numbers_of_no_run_are_null(hooke, write):
     """Forward Euler diverges at every step on an undamped spring: nothing comes close, and nothing is claimed to."""
-    words = ["study", write(STIFF_PAIR, duration=20, every=0.25), "--methods", "forward-euler", "--steps", "250ms"]
+    words = ["study", write(STIFF_PAIR, duration=5, every=0.25), "--methods", "forward-euler", "--steps", "250ms"]
     value = hooke(*words, "--want", "1mm", "--json").json
     assert [row["status"] for row in value["rows"]] == ["diverged"]
     found = value["recommendation"]
@@ -215,7 +181,6 @@ def test_numbers_of_no_run_are_null(hooke, write):
     assert "nan" not in answer.out
 
 
-@everything
 def test_a_recommendation_looks_beyond_the_ladder(hooke, write):
     """Coarser than its first row, and finer than one that diverges."""
     scene = write(STIFF_PAIR, duration=10, every=0.25)
@@ -226,7 +191,6 @@ def test_a_recommendation_looks_beyond_the_ladder(hooke, write):
     assert found["met"] is True and 1.5e-3 < found["step"] <= 0.0625 and 0.005 < found["error"] <= 0.05
 
 
-@everything
 def test_what_cannot_be_had_is_said(hooke, write):
     scene = write(SIX_PARTICLES)
     words = ["study", scene, "--methods", "forward-euler", "--want", "1um"]
@@ -239,7 +203,6 @@ def test_what_cannot_be_had_is_said(hooke, write):
     assert hooke("study", scene, *FEW, "--json").json["recommendation"] is None
 
 
-@everything
 def test_ladders_of_ones_own(hooke, write):
     scene = write(SIX_PARTICLES)
     value = hooke("study", scene, *FEW, "--steps", "5ms, 1ms,0.5 ms", "--tolerances", "1e-4,1e-7", "--json").json
@@ -249,9 +212,8 @@ def test_ladders_of_ones_own(hooke, write):
     assert len(rows_of(value, "cvode-adams")) == 8
 
 
-@everything
 def test_table_marks_what_cannot_be_told_apart_and_what_diverged(hooke, write):
-    scene = write(STIFF_PAIR, duration=10, every=0.25)
+    scene = write(STIFF_PAIR, duration=4, every=0.25)
     words = ["study", scene, "--methods", "rk4", "--steps", "250ms,10ms,0.05ms"]
     answer, value = hooke(*words), hooke(*words, "--json").json
     assert (answer.code, answer.err) == (0, "")
@@ -281,7 +243,6 @@ CHAIN = {
 
 
 @pytest.mark.check
-@everything
 def test_chaos_is_called_so_and_what_is_known_for_a_part_of_the_run_is_not_met(hooke, write):
     words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-6,1e-8", "--want", "1mm"]
     answer = hooke(*words, "--json")
@@ -302,7 +263,6 @@ def test_chaos_is_called_so_and_what_is_known_for_a_part_of_the_run_is_not_met(h
     assert "chaotic" not in calm and "WARNING" not in calm
 
 
-@everything
 def test_budget_that_is_spent_is_said(hooke, write):
     scene = write(SIX_PARTICLES)
     words = ["study", scene, "--steps", "1ms,1ns", "--methods", "verlet", "--duration", "1s", "--budget", "2s"]
@@ -334,7 +294,6 @@ DAMPED_CLOTH = {
 
 
 @pytest.mark.check
-@everything
 def test_reference_keeps_to_its_share_of_the_budget(hooke, write):
     """Its result is used, and reported as a part."""
     scene = write(DAMPED_CLOTH, duration=10)
@@ -352,7 +311,6 @@ def test_reference_keeps_to_its_share_of_the_budget(hooke, write):
     assert "chaotic" not in out and "the whole run" not in out
 
 
-@everything
 def test_a_budget_too_small_for_any_reference(hooke, write):
     words = ["study", write(DAMPED_CLOTH, duration=100, every=100), "--budget", "1us"]
     answer = hooke(*words, "--json")
@@ -363,7 +321,6 @@ def test_a_budget_too_small_for_any_reference(hooke, write):
 
 
 @pytest.mark.check
-@everything
 def test_ctrl_c_while_the_reference_is_checked(start, write):
     """The first integrator takes a second or two, the second many times as long."""
     process = start("study", write(DAMPED_CLOTH, duration=4), "--json")
@@ -374,7 +331,6 @@ def test_ctrl_c_while_the_reference_is_checked(start, write):
     assert value["rows"] == [] and value["reference"]["agreement"] is None
 
 
-@everything
 @pytest.mark.parametrize(
     "words, code, wanted",
     [
@@ -403,7 +359,6 @@ def test_wrong_usage(hooke, write, words, code, wanted):
     assert wanted in answer.err and answer.out == ""
 
 
-@everything
 def test_a_scene_needs_a_duration_but_no_step(hooke, write):
     answer = hooke("study", write(SIX_PARTICLES, duration=None))
     assert answer.code == 2 and "no duration" in answer.err
@@ -417,49 +372,26 @@ def interrupted(process, after):
     return json.loads(out)
 
 
-@everything
 def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
     """The first of the two steps is quick, the second takes hours."""
     words = ["--methods", "symplectic-euler", "--steps", "10ms,1ns", "--duration", "10s", "--json", "-o", "rows.csv"]
-    value = interrupted(start("study", write(SIX_PARTICLES), *words), 2)
+    value = interrupted(start("study", write(SIX_PARTICLES), *words), 0.3)
     assert [row["status"] for row in value["rows"]] == ["finished", "stopped"]
     assert value["rows"][0]["error"] > 0 and value["rows"][1]["error"] is None
     assert value["recommendation"] is None
     assert len((tmp_path / "rows.csv").read_text().splitlines()) == 3
 
 
-@everything
 def test_ctrl_c_before_the_first_row(start, write, tmp_path):
     (tmp_path / "rows.csv").write_text("of old")
-    value = interrupted(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 1)
+    value = interrupted(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 0.3)
     assert value["rows"] == [] and value["reference"]["agreement"] is None
     assert (tmp_path / "rows.csv").read_text() == "of old"
-
-
-def test_help_has_both_tables_and_the_units(hooke):
-    answer = hooke("study", "--help", "all")
-    assert (answer.code, answer.err) == (0, "")
-    for flag in ["methods", "points", "steps", "tolerances", "want", "budget", "duration", "every", "output"]:
-        assert f" --{flag} " in answer.out, flag
-    for flag in ["step", "rtol", "atol", "method"]:
-        assert f" --{flag} " not in answer.out, flag
-    for units in ["s, ms, us, ns, min, h", "m, km, cm, mm, um, nm"]:
-        assert answer.out.count(f"\n  {units}\n") == 1
-    assert max(map(len, answer.out.splitlines())) <= 110
-
-
-@pytest.mark.skipif(not MINIMAL, reason="this build has the libraries")
-def test_a_minimal_build_says_so(hooke, write):
-    answer = hooke("study", write(SIX_PARTICLES))
-    assert answer.code == 6 and answer.out == ""
-    assert hooke("study", write(SIX_PARTICLES), "--json").json["error"]["exit"] == 6
-    assert hooke("study", "--help").code == 0
 
 
 # ---- units, which every verb takes ----
 
 
-@everything
 @pytest.mark.parametrize(
     "text, value",
     [
@@ -481,14 +413,12 @@ def test_times_are_read_to_the_bit(hooke, write, text, value):
     assert answer.code == 0 and answer.json["time"] == value
 
 
-@everything
 @pytest.mark.parametrize("text", ["3 m s", "3ms2", "3m", "1 2ms", "ms", "3msms", "3,4ms", "1e400ms", "1e-400ms", "-3ms"])
 def test_what_is_no_time_is_refused(hooke, write, text):
     answer = hooke("run", write(SIX_PARTICLES), f"--duration={text}")
     assert answer.code == 2 and "--duration" in answer.err, answer.err
 
 
-@everything
 def test_every_length_has_its_unit(hooke, write):
     for text, value in [("2um", 2e-6), ("3nm", 3e-9), ("0.5 cm", 0.5e-2), ("1e-7km", 1e-4), ("7e-3", 7e-3)]:
         answer = hooke("run", write(SIX_PARTICLES), "--method", "cvode-bdf", "--atol", text, "--json")
@@ -507,7 +437,6 @@ DOUBLE = {
 WATCH = ["2.y", "rods:1.tension", "energy", "period:1.x"]
 
 
-@everything
 def test_errors_of_watched_quantities(hooke, write, tmp_path):
     words = ["--duration", 8, "--every", 0.05, "--methods", "verlet,cvode-adams", "--watch", ",".join(WATCH)]
     scene = write(DOUBLE)
@@ -531,7 +460,6 @@ def test_errors_of_watched_quantities(hooke, write, tmp_path):
     assert "rods:1.tension [N]" in out and "errors are known over the whole run" in out
 
 
-@everything
 @pytest.mark.parametrize("watch, message", [("9.y", "particles 0 to 2"), ("rods:2.length", "springs 0 to 1"),
                                             ("poles:0.length", "allowed: rods"), ("speed", "nothing to watch")])  # fmt: skip
 def test_what_cannot_be_watched(hooke, write, watch, message):
@@ -539,10 +467,9 @@ def test_what_cannot_be_watched(hooke, write, watch, message):
     assert answer.code == 3 and message in answer.err
 
 
-@everything
 def test_statistics_of_which_no_run_came_to_its_end(hooke, write):
     """A run takes longer than the budget."""
-    words = ["--duration", 20000, "--every", 5, "--methods", "rk4", "--steps", "1ms", "--ensemble", 4, "--budget", "0.5s"]
+    words = ["--duration", 20000, "--every", 5, "--methods", "rk4", "--steps", "1ms", "--ensemble", 4, "--budget", "0.2s"]
     found = hooke("study", write(DOUBLE), *words, "--json").json["statistics"]
     assert found["from"] is None and found["until"] is None
     assert found["quantities"][0]["reference"]["mean"] is None
@@ -551,7 +478,6 @@ def test_statistics_of_which_no_run_came_to_its_end(hooke, write):
 
 
 @pytest.mark.check
-@everything
 def test_statistics_of_chaos(hooke, write, tmp_path):
     words = ["--duration", 40, "--every", 0.1, "--methods", "rk4,backward-euler", "--steps", "2ms", "--watch", "2.y"]
     scene = write(DOUBLE)

@@ -59,6 +59,18 @@ def test_help_of_a_verb_has_units_and_defaults(hooke, verb):
     assert max(map(len, answer.out.splitlines())) <= 110
 
 
+def test_help_of_study_has_both_tables_and_the_units(hooke):
+    answer = hooke("study", "--help", "all")
+    assert (answer.code, answer.err) == (0, "")
+    for flag in ["methods", "points", "steps", "tolerances", "want", "budget", "duration", "every", "output"]:
+        assert f" --{flag} " in answer.out, flag
+    for flag in ["step", "rtol", "atol", "method"]:
+        assert f" --{flag} " not in answer.out, flag
+    for units in ["s, ms, us, ns, min, h", "m, km, cm, mm, um, nm"]:
+        assert answer.out.count(f"\n  {units}\n") == 1
+    assert max(map(len, answer.out.splitlines())) <= 110
+
+
 def test_version_says_what_it_was_built_with(hooke):
     answer = hooke("--version")
     assert (answer.code, answer.err) == (0, "")
@@ -142,6 +154,7 @@ def test_output_that_cannot_be_written_is_5():
         (["run", "-o", "out.h5"], "HDF5"),
         (["compare", "-o", "out.h5"], "HDF5"),
         (["compare", "--methods", "cvode-bdf"], "cvode-bdf"),
+        (["study"], "study"),
     ],
 )
 def test_what_is_not_in_a_minimal_build_is_6(hooke, write, tmp_path, words, wanted):

@@ -11,11 +11,8 @@ import pytest
 from conftest import CLI, SIX_PARTICLES
 from pages import (
     ABOUT,
-    DRAWS,
     TITLE,
     browse,
-    check_not_built,
-    check_places,
     check_planted_faults,
     check_same,
     data_of,
@@ -223,13 +220,3 @@ def test_no_page_where_nothing_blew_up(hooke, write, tmp_path):
     answer = hooke("why", write(SIX_PARTICLES), "--report", "page.html")
     assert answer.code == 0 and "did not blow up" in answer.err
     assert not (tmp_path / "page.html").exists()
-
-
-@needs_page
-def test_places(hooke, write):
-    check_places(hooke, write({**SCENE, "run": {**SCENE["run"], "step": 2.5e-3}}), "why")
-
-
-@pytest.mark.skipif(DRAWS, reason="this build has Chart.js")
-def test_not_built(hooke, write):
-    check_not_built(hooke, write(SIX_PARTICLES), "why")

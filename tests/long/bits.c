@@ -9,7 +9,6 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { STEPS = 50, BIG_STEPS = 4, THREADS = 3 };
 
@@ -73,18 +72,17 @@ static void run_method(const struct scene *scene, const hooke_system *system, co
                                                                 .rtol = fixed ? 0.0 : tolerance,
                                                                 .atol = fixed ? 0.0 : tolerance,
                                                                 .threads = threads});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   uint64_t hash = hash_doubles(size, hooke_state_position(state), HASH_START);
   hash = hash_doubles(size, hooke_state_velocity(state), hash);
   tell(scene, method, threads, fixed ? "fixed" : "library", hash);
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
 }
 
 static void tell_forces(const struct scene *scene, const struct random_scene *made) {
   const int64_t size = 3 * hooke_system_particle_count(made->system);
-  double *q = new_doubles(size), *v = new_doubles(size), *force = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size), *force = new_doubles(size);
   random_scene_shake(made, 99, q, v);
   check_ok(hooke_system_force(made->system, 0.003, q, v, force));
   tell(scene, "force", 1, "fixed", hash_doubles(size, force, HASH_START));
@@ -94,9 +92,6 @@ static void tell_forces(const struct scene *scene, const struct random_scene *ma
   tell(scene, "energy", 1, "fixed", hash_doubles(3, energy, HASH_START));
   check_ok(hooke_system_derivative_product(made->system, 0.003, q, v, v, q, force));
   tell(scene, "derivative-product", 1, "fixed", hash_doubles(size, force, HASH_START));
-  free(q);
-  free(v);
-  free(force);
 }
 
 static void test_print(void **unused) {

@@ -192,8 +192,8 @@ static int32_t follow(struct long_force *force, const hooke_state *state, char *
 
 int main(int argc, char **argv) {
   need(argc > 4, "needs a scene, a tolerance, the evaluations it may take and a time");
-  hooke_scene *scene = NULL;
-  hooke_state *state = NULL;
+  owned_scene *scene = NULL;
+  owned_state *state = NULL;
   need(hooke_scene_load(argv[1], NULL, &scene) == HOOKE_OK && hooke_scene_commit(scene) == HOOKE_OK,
        hooke_last_error());
   const hooke_system *system = hooke_scene_system(scene);
@@ -204,7 +204,7 @@ int main(int argc, char **argv) {
   memset(canonical.pull_only, 0, (size_t)canonical.spring_count);
   memset(canonical.altitude_pull_only, 0, (size_t)canonical.tetrahedron_count);
   read_facts(system, &canonical, &facts);
-  double *q = origin(&facts, state, 3 * canonical.particle_count);
+  owned_doubles *q = origin(&facts, state, 3 * canonical.particle_count);
   struct long_force force = {.canonical = &canonical,
                              .drive_count = facts.drive_count,
                              .drive = facts.drive,
@@ -219,9 +219,6 @@ int main(int argc, char **argv) {
   }
   free(facts.drive);
   free_bodies(bodies, force.body_count);
-  free(q);
   canonical_destroy(&canonical);
-  hooke_state_destroy(state);
-  hooke_scene_destroy(scene);
   return result == 0 ? 0 : 1;
 }

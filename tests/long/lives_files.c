@@ -5,8 +5,6 @@
 #include "run.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* ---- written ---- */
@@ -61,8 +59,8 @@ static void write_all(double stop, int32_t segments, int32_t checkpoint) {
 
 /* Every frame, the texts of the file, and an array of it. */
 static uint64_t read_all(int32_t segments) {
-  hooke_scene *scene = life_scene(segments);
-  hooke_state *state = start_state(hooke_scene_system(scene));
+  owned_scene *scene = life_scene(segments);
+  owned_state *state = start_state(hooke_scene_system(scene));
   hooke_record *record = NULL;
   int64_t rows = 0, columns = 0;
   check_ok(hooke_record_open(life_files.trajectory, &record));
@@ -76,14 +74,11 @@ static uint64_t read_all(int32_t segments) {
   }
   check_status(hooke_record_read(record, hooke_record_count(record, "frames"), state), HOOKE_BAD_VALUE);
   check_ok(hooke_record_size(record, "total_energy", &rows, &columns));
-  double *numbers = new_doubles(rows * columns);
+  owned_doubles *numbers = new_doubles(rows * columns);
   check_ok(hooke_record_numbers(record, "total_energy", numbers));
   hash = hash_doubles(rows * columns, numbers, hash);
-  free(numbers);
   check_ok(hooke_record_write_xdmf(record, life_files.page));
   hooke_record_close(record);
-  hooke_state_destroy(state);
-  hooke_scene_destroy(scene);
   return hash;
 }
 
@@ -141,7 +136,7 @@ static uint64_t live_verify(const char *detail) {
     write_once();
     if (detail != NULL) damage();
   }
-  hooke_measurement *verify = NULL;
+  owned_measurement *verify = NULL;
   check_ok(hooke_verify_create(life_files.trajectory, NULL, NULL, &verify));
   check_status(hooke_measurement_run(verify, NULL), detail == NULL ? HOOKE_OK : HOOKE_BAD_VALUE);
   assert_string_equal(hooke_measurement_text(verify, "verify", 0, "verdict"),
@@ -149,7 +144,6 @@ static uint64_t live_verify(const char *detail) {
   const double found[] = {hooke_measurement_number(verify, "verify", 0, "frames_checked"),
                           hooke_measurement_number(verify, "verify", 0, "check_last"),
                           hooke_measurement_number(verify, "verify", 0, "residual")};
-  hooke_measurement_destroy(verify);
   return hash_doubles(3, found, HASH_START);
 }
 

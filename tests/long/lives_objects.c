@@ -43,18 +43,16 @@ uint64_t life_hash(hooke_state *state, uint64_t hash) {
 
 static uint64_t live_system(const char *detail) {
   (void)detail;
-  hooke_system *system = small_oscillator(2.0);
-  hooke_state *state = start_state(system);
+  owned_system *system = small_oscillator(2.0);
+  owned_state *state = start_state(system);
   const double energy =
       hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state));
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
   return hash_doubles(1, &energy, HASH_START);
 }
 
 static uint64_t live_scene(const char *detail) {
   (void)detail;
-  hooke_scene *scene = life_scene(SEGMENTS), *again = NULL, *loaded = NULL;
+  owned_scene *scene = life_scene(SEGMENTS), *again = NULL, *loaded = NULL;
   check_ok(hooke_scene_of_system(hooke_scene_system(scene), "again", hooke_scene_run_options(scene), "again",
                                  NULL, &again));
   check_ok(hooke_scene_write(life_files.scene, hooke_scene_system(scene), "again",
@@ -62,12 +60,8 @@ static uint64_t live_scene(const char *detail) {
   check_ok(hooke_scene_load(life_files.scene, NULL, &loaded));
   check_ok(hooke_scene_commit(loaded));
   assert_string_equal(hooke_scene_text(again, "text"), hooke_scene_text(loaded, "text"));
-  hooke_state *state = start_state(hooke_scene_system(loaded));
+  owned_state *state = start_state(hooke_scene_system(loaded));
   const uint64_t hash = life_hash(state, HASH_START);
-  hooke_state_destroy(state);
-  hooke_scene_destroy(again);
-  hooke_scene_destroy(loaded);
-  hooke_scene_destroy(scene);
   return hash;
 }
 
@@ -86,14 +80,11 @@ static uint64_t live_refused(const char *detail) {
 }
 
 static uint64_t run_life(int32_t segments, struct run run) {
-  hooke_scene *scene = life_scene(segments);
-  hooke_integrator *integrator = start_run(hooke_scene_system(scene), run);
-  hooke_state *state = start_state(hooke_scene_system(scene));
+  owned_scene *scene = life_scene(segments);
+  owned_integrator *integrator = start_run(hooke_scene_system(scene), run);
+  owned_state *state = start_state(hooke_scene_system(scene));
   check_ok(hooke_integrator_run(integrator, state));
   const uint64_t hash = life_hash(state, HASH_START);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_scene_destroy(scene);
   return hash;
 }
 
@@ -131,7 +122,7 @@ static hooke_integrator *checkpointed(hooke_scene *scene, const char *method) {
 /* Stopped, saved as a checkpoint, and continued by other objects from the file; from the previous one if it
  * is damaged. */
 static uint64_t live_checkpoint(const char *method) {
-  hooke_scene *scene = life_scene(SEGMENTS);
+  owned_scene *scene = life_scene(SEGMENTS);
   hooke_integrator *stopped = checkpointed(scene, method);
   hooke_state *state = start_state(hooke_scene_system(scene));
   check_ok(hooke_integrator_on_step(stopped, 1, stop_halfway, NULL));
@@ -143,16 +134,14 @@ static uint64_t live_checkpoint(const char *method) {
   uint64_t hash = HASH_START;
   for (int damaged = 0; damaged < 2; damaged++) {
     if (damaged) assert_int_equal(truncate(life_files.checkpoint, 100), 0);
-    hooke_integrator *integrator = checkpointed(scene, method);
+    owned_integrator *integrator = checkpointed(scene, method);
     state = start_state(hooke_scene_system(scene));
     check_status(hooke_checkpoint_read(life_files.checkpoint, "another", integrator, state), HOOKE_BAD_VALUE);
     check_ok(hooke_checkpoint_read(life_files.checkpoint, "life", integrator, state));
     check_ok(hooke_integrator_resume(integrator, state));
     hash = life_hash(state, hash);
     hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
-  hooke_scene_destroy(scene);
   return hash;
 }
 

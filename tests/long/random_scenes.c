@@ -32,12 +32,11 @@ int main(int argc, char **argv) {
     struct random_scene scene;
     char path[4096];
     random_scene_create(request(seed), &scene);
-    hooke_options *options =
+    owned_options *options =
         run_options((struct run){.method = "rk4", .step = 1e-3, .duration = 1.0, .every = 0.1});
     snprintf(path, sizeof path, "%s/random-%llu.json", argv[1], (unsigned long long)seed);
     check_ok(hooke_scene_write(path, scene.system, "", options));
     printf("%s\n", path);
-    hooke_options_destroy(options);
     random_scene_destroy(&scene);
   }
   return 0;

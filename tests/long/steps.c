@@ -6,6 +6,7 @@
 #include "check.h"
 #include "hash.h"
 #include "run.h"
+#include "small.h"
 
 #include <inttypes.h>
 #include <malloc.h>
@@ -39,7 +40,6 @@ static hooke_system *chain(void) {
   double q[SIZE], v[SIZE];
   const double mass = 0.01;
   int64_t ends[2 * (COUNT - 1)];
-  hooke_options *options = NULL;
   hooke_system *system = NULL;
   for (int p = 0; p < COUNT / 2; p++) {
     const double along = p - 0.5 * (COUNT - 1);
@@ -54,12 +54,9 @@ static hooke_system *chain(void) {
     ends[2 * k] = k, ends[2 * k + 1] = k + 1;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, COUNT, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.1));
+  owned_options *options = options_with("springs", "stiffness=1 rest_length=0.1");
   check_ok(hooke_system_add_springs(system, NULL, COUNT - 1, ends, options));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 

@@ -3,40 +3,23 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void add_altitude(hooke_system *system, int64_t count, const int64_t *tetrahedra, double stiffness,
                          double damping, double scale) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
-  check_ok(hooke_options_set_number(options, "rest_scale", scale));
+  owned_options *options =
+      options_with("altitude", "stiffness=%.17g damping=%.17g rest_scale=%.17g", stiffness, damping, scale);
   check_ok(hooke_system_add_altitude(system, "heights", count, tetrahedra, options));
-  hooke_options_destroy(options);
-}
-
-static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_text(options, "methods", methods));
-  check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", 200.0));
-  return limit_at_start(system, NULL, options);
 }
 
 /* A particle over a fixed face: one spring of ks/h, whose whole weight is on it. */
-static void a_top_over_a_held_face(void **unused) {
-  (void)unused;
+static void a_top_over_a_held_face(no_state) {
   const double q[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3}, mass = 0.2;
   const int64_t corners[4] = {0, 1, 2, 3}, held[3] = {0, 1, 2};
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 4, q, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(4, q, NULL, mass, 0);
   add_altitude(system, 1, corners, 6.0, 0.01, 1.0);
   check_ok(hooke_system_pin(system, 3, held));
   check_ok(hooke_system_commit(system));
@@ -44,48 +27,16 @@ static void a_top_over_a_held_face(void **unused) {
   check_close(bound_at_start(system, "verlet"), 2.0 / omega, 1e-12);
   check_close(bound_at_start(system, "symplectic-euler"), 2.0 * (sqrt(1.0 + z * z) - z) / omega, 1e-9);
   check_close(bound_at_start(system, "forward-euler"), 0.01 / 6.0, 1e-12);
-  hooke_measurement *limit = find_limit(system, "forward-euler,symplectic-euler,verlet", 1);
+  owned_measurement *limit = limits_of(system, "forward-euler,symplectic-euler,verlet", 1);
   check_close(hooke_measurement_number(limit, "rows", 0, "predicted"), 0.01 / 6.0, 1e-9);
   check_close(hooke_measurement_number(limit, "rows", 1, "predicted"), 2.0 * (sqrt(1.0 + z * z) - z) / omega,
               1e-9);
   check_close(hooke_measurement_number(limit, "rows", 2, "predicted"), 2.0 / omega, 1e-9);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
-}
-
-/* Bound <= limit, and the scene runs up to the limit. */
-static void compare(hooke_system *system, const char *methods) {
-  hooke_measurement *limit = find_limit(system, methods, 0);
-  for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
-    const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
-    const double measured = hooke_measurement_number(limit, "rows", row, "measured");
-    if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
-      check_failed("%s: measured %.8g, predicted %.8g (%s)",
-                   hooke_measurement_text(limit, "rows", row, "method"), measured, predicted,
-                   hooke_measurement_text(limit, "rows", row, "note"));
-    }
-    check_between(hooke_measurement_number(limit, "rows", row, "bound"), 0.3 * measured,
-                  measured * (1.0 + 1e-3));
-  }
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
-}
-
-static double volume_of(const double *q, const int64_t *p) {
-  double e[3][3];
-  for (int k = 0; k < 3; k++) {
-    for (int a = 0; a < 3; a++)
-      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
 /* Random tetrahedra, some with tension, with springs, drag, and particles of all masses, some of them
  * constrained. */
-static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
-  (void)unused;
+static void random_tetrahedra_run_up_to_the_prediction(no_state) {
   for (uint64_t seed = 1; seed <= 12; seed++) {
     enum { N = 9, TETRAHEDRA = 6, SPRINGS = 8 };
     struct random_source source = {seed};
@@ -103,19 +54,15 @@ static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
     }
     for (int k = 0; k < SPRINGS; k++)
       ends[2 * k] = k, ends[2 * k + 1] = k + 1;
-    hooke_system *system = NULL;
-    hooke_options *springs = NULL;
-    check_ok(hooke_system_create(&system));
+    hooke_system *system = new_system();
     check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
-    check_ok(hooke_options_create("springs", &springs));
-    check_ok(hooke_options_set_number(springs, "stiffness", 10.0));
+    owned_options *springs = options_with("springs", "stiffness=10");
     check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));
     add_altitude(system, TETRAHEDRA, tetrahedra, 20.0, seed % 2 ? 0.3 : 0.0, seed % 3 ? 1.0 : 0.8);
     if (seed % 4 == 0) check_ok(hooke_system_pin(system, 1, &pinned));
     if (seed % 3 == 1) check_ok(hooke_system_set_drag(system, 0.3));
     check_ok(hooke_system_commit(system));
-    hooke_options_destroy(springs);
-    compare(system, "symplectic-euler,verlet,rk4");
+    check_limits_met(system, "symplectic-euler,verlet,rk4");
   }
 }
 
@@ -123,27 +70,19 @@ static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
 
 /* A straight strand whose altitude springs are its stiffest. */
 static hooke_system *new_strand(double altitude) {
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("strand", &options));
-  check_ok(hooke_options_set_text(options, "from", "0,0,0"));
-  check_ok(hooke_options_set_text(options, "to", "1,0,0"));
-  check_ok(hooke_options_set_number(options, "segments", 12));
-  check_ok(hooke_options_set_number(options, "mass", 0.1));
-  check_ok(hooke_options_set_text(options, "pinned", "0,1,2"));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 1.0));
-  check_ok(hooke_options_set_number(options, "altitude.stiffness", altitude));
+  hooke_system *system = new_system();
+  owned_options *options = options_with(
+      "strand",
+      "from=0,0,0 to=1,0,0 segments=12 mass=0.1 pinned=0,1,2 stretch.stiffness=1 altitude.stiffness=%.17g",
+      altitude);
   check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
-static void a_limit_by_altitude_names_it(void **unused) {
-  (void)unused;
-  hooke_system *system = new_strand(40.0);
-  hooke_measurement *limit = find_limit(system, "verlet", 1);
+static void a_limit_by_altitude_names_it(no_state) {
+  owned_system *system = new_strand(40.0);
+  owned_measurement *limit = limits_of(system, "verlet", 1);
   const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
   if (sentence == NULL || strstr(sentence, "group `hair.altitude` has ") == NULL)
     check_failed("%s", sentence);
@@ -152,49 +91,38 @@ static void a_limit_by_altitude_names_it(void **unused) {
   assert_true(isnan(hooke_measurement_number(limit, "blame", 0, "number")));
   for (int64_t k = 1; k < hooke_measurement_row_count(limit, "blame"); k++)
     check_between(hooke_measurement_number(limit, "blame", k, "share"), 0.0, 0.02);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
-static void a_run_above_the_limit_is_explained(void **unused) {
-  (void)unused;
-  hooke_system *system = new_strand(40.0);
-  hooke_measurement *limit = find_limit(system, "verlet", 1);
+static void a_run_above_the_limit_is_explained(no_state) {
+  owned_system *system = new_strand(40.0);
+  hooke_measurement *limit = limits_of(system, "verlet", 1);
   const double step = 1.05 * hooke_measurement_number(limit, "rows", 0, "predicted");
   hooke_measurement_destroy(limit);
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "verlet", .step = step, .duration = 5000 * step, .every = 100 * step});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   hooke_state_position(state)[3 * 13 + 1] += 1e-5;
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_measurement *why = NULL;
+  owned_measurement *why = NULL;
   check_ok(explain_run(integrator, &why));
   assert_string_equal(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
   const char *sentence = hooke_measurement_text(why, "why", 0, "sentence");
   if (strstr(sentence, "most of all in the altitude springs of particles ") == NULL ||
       strstr(sentence, "(group hair.altitude)") == NULL)
     check_failed("%s", sentence);
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* ---- their cost, and variants without them ---- */
 
-static void they_are_an_ingredient(void **unused) {
-  (void)unused;
-  hooke_system *system = new_strand(0.5);
-  hooke_options *options = NULL, *run = NULL;
-  hooke_measurement *cost = NULL;
-  check_ok(hooke_options_create("cost", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1.0));
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_number(run, "step", 1e-4));
+static void they_are_an_ingredient(no_state) {
+  owned_system *system = new_strand(0.5);
+  owned_options *options = NULL, *run = NULL;
+  owned_measurement *cost = NULL;
+  options = options_with("cost", "predict=1");
+  run = options_with("run", "step=1e-4");
   check_ok(hooke_measurement_create("cost", system, run, options, &cost));
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_measurement_run(cost, state));
-  hooke_state_destroy(state);
   int found = 0;
   for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++) {
     if (strcmp(hooke_measurement_text(cost, "rows", row, "kind"), "altitude") != 0) continue;
@@ -204,10 +132,6 @@ static void they_are_an_ingredient(void **unused) {
     assert_true(isnan(hooke_measurement_number(cost, "rows", row, "springs")));
   }
   assert_int_equal(found, 1);
-  hooke_measurement_destroy(cost);
-  hooke_options_destroy(options);
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -1,38 +1,31 @@
 /* Anchors: the force law, limits by formula, and every query on a scene that has anchors only. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A chain of three along x on weak springs; the last one is tied to a point two above it. */
 static hooke_system *chain(double stiffness, double damping, double rest_length) {
   const double place[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 0.5, point[3] = {2, 2, 0};
   const int64_t ends[4] = {0, 1, 1, 2}, pinned = 0, tied = 2;
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 3, place, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(3, place, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 2.0));
+  hooke_options *options = options_with("springs", "stiffness=2");
   check_ok(hooke_system_add_springs(system, "line", 2, ends, options));
   hooke_options_destroy(options);
-  check_ok(hooke_options_create("anchors", &options));
+  options = options_with("anchors", "stiffness=%.17g damping=%.17g rest_length=%.17g", stiffness, damping,
+                         rest_length);
   check_ok(hooke_options_set_numbers(options, "points", 3, point));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
-  check_ok(hooke_options_set_number(options, "rest_length", rest_length));
   check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
-  (void)unused;
-  hooke_system *system = chain(30.0, 0.7, 0.5);
+static void the_force_is_that_of_a_spring_to_the_point(no_state) {
+  owned_system *system = chain(30.0, 0.7, 0.5);
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, v[9] = {0, 0, 0, 0, 0, 0, 3, -1, 2};
   double force[9];
   check_ok(hooke_system_force(system, 0.0, q, v, force));
@@ -48,30 +41,24 @@ static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
   check_ok(hooke_system_members(system, "anchors", &particle, &stiffness, &damping, &rest_length));
   check_ok(hooke_system_anchor_points(system, point));
   assert_true(particle == 2 && point[1] == 2.0 && stiffness == 30.0 && damping == 0.7 && rest_length == 0.5);
-  hooke_system_destroy(system);
 }
 
 /* A single particle at its point is an oscillator of frequency sqrt(k/m) in all directions. */
 static hooke_system *oscillator(double stiffness) {
   const double place[6] = {1, 2, 3, 4, 5, 6}, mass = 0.25;
   const int64_t both[2] = {0, 1};
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("anchors", &options));
+  hooke_system *system = small_system(2, place, NULL, mass, 0);
+  owned_options *options = new_options("anchors");
   const double stiffnesses[2] = {stiffness, 1.0};
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffnesses));
   check_ok(hooke_system_add_anchors(system, NULL, 2, both, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void without_points_they_hold_particles_where_they_are(void **unused) {
-  (void)unused;
-  hooke_system *system = oscillator(100.0);
-  hooke_state *state = start_state(system);
+static void without_points_they_hold_particles_where_they_are(no_state) {
+  owned_system *system = oscillator(100.0);
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), force[6];
   check_ok(hooke_system_force(system, 0.0, q, hooke_state_velocity(state), force));
   for (int k = 0; k < 6; k++)
@@ -79,25 +66,21 @@ static void without_points_they_hold_particles_where_they_are(void **unused) {
   /* a quarter of a period later it is at its point: omega = 20/s */
   q[1] += 0.1;
   const double quarter = acos(-1.0) / 40.0;
-  hooke_integrator *run = start_run(system, (struct run){.method = "rk4", .step = quarter / 1000.0});
+  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = quarter / 1000.0});
   check_ok(hooke_integrator_step(run, state, 1000));
   check_close(q[1], 2.0, 1e-9);
   check_close(hooke_state_velocity(state)[1], -0.1 * 20.0, 1e-9);
-  hooke_integrator_destroy(run);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 #if HOOKE_HAVE_LAPACK
-static void limits_are_those_of_the_oscillator(void **unused) {
-  (void)unused;
+static void limits_are_those_of_the_oscillator(no_state) {
   const struct {
     const char *method;
     double limit;
   } rows[] = {{"symplectic-euler", 2.0 / 20.0}, {"verlet", 2.0 / 20.0}, {"rk4", 2.0 * sqrt(2.0) / 20.0}};
-  hooke_system *system = oscillator(100.0);
-  hooke_state *state = start_state(system);
-  hooke_measurement *limit;
+  owned_system *system = oscillator(100.0);
+  owned_state *state = start_state(system);
+  owned_measurement *limit;
   check_ok(hooke_measurement_create("limit", system, NULL, NULL, &limit));
   check_ok(hooke_measurement_run(limit, state));
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
@@ -109,30 +92,20 @@ static void limits_are_those_of_the_oscillator(void **unused) {
     check_close(hooke_measurement_number(limit, "rows", row, "measured"), rows[k].limit,
                 2e-3 * rows[k].limit);
   }
-  hooke_measurement_destroy(limit);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* A particle at the place of its anchor, which has no direction there: it is damped in all. */
 static hooke_system *damped_at_its_place(double damping) {
   const double place[3] = {1, 2, 3}, velocity[3] = {0, 1, 0}, mass = 1.0;
   const int64_t tied = 0;
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, place, velocity, 1, &mass, NULL));
-  check_ok(hooke_options_create("anchors", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  hooke_system *system = small_system(1, place, velocity, mass, 0);
+  owned_options *options = options_with("anchors", "stiffness=1 damping=%.17g", damping);
   check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void damping_at_its_place_limits_the_step(void **unused) {
-  (void)unused;
+static void damping_at_its_place_limits_the_step(no_state) {
   const double c = 1000.0, euler = 4.0 / (c + sqrt(c * c + 4.0)),
                fast = 2.0 / (c / 2.0 + sqrt(c * c / 4.0 - 1.0));
   const struct {
@@ -143,9 +116,9 @@ static void damping_at_its_place_limits_the_step(void **unused) {
               {"heun", fast},
               {"verlet", 2.0},
               {"shardlow", 2.0}};
-  hooke_system *system = damped_at_its_place(c);
-  hooke_state *state = start_state(system);
-  hooke_measurement *limit;
+  owned_system *system = damped_at_its_place(c);
+  owned_state *state = start_state(system);
+  owned_measurement *limit;
   check_ok(hooke_measurement_create("limit", system, NULL, NULL, &limit));
   check_ok(hooke_measurement_run(limit, state));
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
@@ -158,67 +131,51 @@ static void damping_at_its_place_limits_the_step(void **unused) {
     check_close(hooke_measurement_number(limit, "rows", row, "measured"), right, 1e-3 * right);
   }
   assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "damping");
-  hooke_measurement_destroy(limit);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* A run just below that limit ends, and one above it diverges and is blamed on the anchor. */
-static void damping_at_its_place_is_blamed_on_the_anchor(void **unused) {
-  (void)unused;
-  hooke_system *system = damped_at_its_place(1000.0);
+static void damping_at_its_place_is_blamed_on_the_anchor(no_state) {
+  owned_system *system = damped_at_its_place(1000.0);
   const double limit = 4.0 / (1000.0 + sqrt(1e6 + 4.0));
   for (int above = 0; above <= 1; above++) {
     const double step = (above ? 1.01 : 0.99) * limit;
-    hooke_integrator *run = start_run(
+    owned_integrator *run = start_run(
         system, (struct run){
                     .method = "symplectic-euler", .step = step, .duration = 2000 * step, .every = 20 * step});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_status(hooke_integrator_run(run, state), above ? HOOKE_DIVERGED : HOOKE_OK);
-    hooke_measurement *why = NULL;
+    owned_measurement *why = NULL;
     if (above) {
       check_ok(explain_run(run, &why));
       const char *sentence = hooke_measurement_text(why, "why", 0, "sentence");
       if (!strstr(sentence, "most of all in the damping of the anchor of particle 0 (group wall)"))
         check_failed("it says: %s", sentence);
     }
-    hooke_measurement_destroy(why);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(run);
   }
-  hooke_system_destroy(system);
 }
 
 /* The stiffest element of the scene is named, whatever its force. */
-static void a_run_that_diverges_by_one_blames_it(void **unused) {
-  (void)unused;
-  hooke_system *system = chain(5e5, 0.0, 0.0);
-  hooke_state *state = start_state(system);
-  hooke_integrator *run = start_run(
+static void a_run_that_diverges_by_one_blames_it(no_state) {
+  owned_system *system = chain(5e5, 0.0, 0.0);
+  owned_state *state = start_state(system);
+  owned_integrator *run = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.0021, .duration = 2.1, .every = 0.021});
   check_status(hooke_integrator_run(run, state), HOOKE_DIVERGED);
-  hooke_measurement *why;
+  owned_measurement *why;
   check_ok(hooke_why_create(run, NULL, &why));
   check_ok(hooke_measurement_run(why, NULL));
   const char *sentence = hooke_measurement_text(why, "why", 0, "sentence");
   if (!strstr(sentence, "the anchor of particle 2 (group wall)")) check_failed("it says: %s", sentence);
-  hooke_measurement_destroy(why);
-  hooke_integrator_destroy(run);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 #endif
 
-static void what_is_wrong_is_said(void **unused) {
-  (void)unused;
+static void what_is_wrong_is_said(no_state) {
   const double place[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0, three[3] = {1, 2, 3};
   const int64_t particles[2] = {0, 2}, twice[2] = {1, 1};
-  hooke_system *system;
-  hooke_options *options, *spring;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("anchors", &options));
-  check_ok(hooke_options_create("springs", &spring));
+  owned_options *options, *spring;
+  owned_system *system = small_system(2, place, NULL, mass, 0);
+  options = new_options("anchors");
+  spring = new_options("springs");
   check_status(hooke_system_add_anchors(system, NULL, 1, particles, options), HOOKE_BAD_VALUE);
   check_message("stiffness");
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
@@ -240,9 +197,6 @@ static void what_is_wrong_is_said(void **unused) {
   check_ok(hooke_system_add_anchors(system, NULL, 2, twice, options)); /* commit drops them */
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_count(system, "anchors"), 2);
-  hooke_options_destroy(options);
-  hooke_options_destroy(spring);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -7,30 +7,28 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const forms[] = {"converged", "one-iteration"};
 
 /* ---- linear scenes: both forms equal the formula ---- */
 
-static void one_step_is_the_formula(void **unused) {
-  (void)unused;
+static void one_step_is_the_formula(no_state) {
   const double omega = 3.0, zeta = 0.4, mass = 0.5, q[] = {0, 0, 0, 1, 0, 0}, down[] = {2.5, 0, 0};
   const int64_t ends[] = {0, 1};
   const double steps[] = {0.01, 0.3, 1e3 / 3.0};
   for (int k = 0; k < 6; k++) {
     const double h = steps[k % 3];
-    hooke_system *system = small_system(2, q, NULL, mass, 1);
+    owned_system *system = small_system(2, q, NULL, mass, 1);
     small_springs(system, 1, ends,
                   (struct springs){.law = "length",
                                    .stiffness = mass * omega * omega,
                                    .damping = 2.0 * zeta * omega * mass});
     check_ok(hooke_system_set_gravity(system, down));
     check_ok(hooke_system_commit(system));
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_run(system, (struct run){.method = "backward-euler", .newton = forms[k / 3], .step = h});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     double x = 1.0, v = 0.0;
     for (int n = 0; n < 20; n++) {
       v = (v + h * (down[0] - omega * omega * x)) / (1.0 + 2.0 * zeta * omega * h + omega * omega * h * h);
@@ -39,9 +37,6 @@ static void one_step_is_the_formula(void **unused) {
       check_close(hooke_state_position(state)[3], x, 1e-12);
       check_close(hooke_state_velocity(state)[3], v, 1e-12 / h);
     }
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
@@ -74,10 +69,9 @@ static hooke_system *pulled(int with_product) {
 }
 
 /* Along one line springs of no length are linear, so one iteration solves the equations. */
-static void forms_agree_where_all_is_linear(void **unused) {
-  (void)unused;
+static void forms_agree_where_all_is_linear(no_state) {
   for (int with_product = 0; with_product < 2; with_product++) {
-    hooke_system *system = pulled(with_product);
+    owned_system *system = pulled(with_product);
     double q[2][9], v[2][9];
     for (int form = 0; form < 2; form++) {
       run_to_end(
@@ -89,13 +83,11 @@ static void forms_agree_where_all_is_linear(void **unused) {
     check_between(largest_difference(9, q[0], q[1]), 0.0, with_product ? 1e-12 : 1e-9);
     check_between(largest_difference(9, v[0], v[1]), 0.0, with_product ? 1e-11 : 1e-8);
     assert_true(largest(9, q[0]) > 1e-2);
-    hooke_system_destroy(system);
   }
 }
 
-static void order_with_a_drive(void **unused) {
-  (void)unused;
-  hooke_system *system = pulled(1);
+static void order_with_a_drive(no_state) {
+  owned_system *system = pulled(1);
   double fine[9], error[4];
   run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 1.0}, fine, NULL);
   for (int form = 0; form < 2; form++) {
@@ -110,23 +102,21 @@ static void order_with_a_drive(void **unused) {
     }
     check_order(forms[form], 4, error, 0.85, 1.25);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- nonlinear scenes ---- */
 
 /* A pendulum on a stiff rod, in steps of a fifth of its swing and of h omega = 2000 along the rod: energy
  * never rises. */
-static void strides_over_a_stiff_rod(void **unused) {
-  (void)unused;
+static void strides_over_a_stiff_rod(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, down[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.stiffness = 1e8, .rest_length = 1});
   check_ok(hooke_system_set_gravity(system, down));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.2});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.2});
+  owned_state *state = start_state(system);
   const double *at = hooke_state_position(state), *v = hooke_state_velocity(state);
   double energy = hooke_system_energy(system, "total", at, v);
   for (int k = 0; k < 200; k++) {
@@ -140,56 +130,37 @@ static void strides_over_a_stiff_rod(void **unused) {
   check_close(at[4], -1.0 - 1e-7, 1e-9);
   check_between(largest(6, v), 0.0, 1e-6);
   assert_int_equal(hooke_integrator_count(integrator, "nonlinear_failures"), 0);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* A hanging cloth that crumples, in steps at which Newton's matrix is no longer positive. */
-static void gets_through_compression(void **unused) {
-  (void)unused;
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {16, 16};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 50.0));
+static void gets_through_compression(no_state) {
+  const double down[] = {0, -9.81, 0};
+  owned_system *system = new_system();
+  small_part(system, "cloth", NULL,
+             "edges=1,0,0,0,0,1 size=16,16 mass=1 pinned=top-corners "
+             "structural.stiffness=50 shear.stiffness=50");
   check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.02});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.02});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 50));
   const double energy =
       hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state));
   check_between(energy, -9.81, -0.1); /* it has fallen, and gained nothing */
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
-static void work_is_counted(void **unused) {
-  (void)unused;
-  hooke_system *system = build_reference(find_reference("six-particles"));
+static void work_is_counted(no_state) {
+  owned_system *system = build_reference(find_reference("six-particles"));
   int64_t force[2], newton[2], linear[2], products[2];
   for (int form = 0; form < 2; form++) {
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_run(system, (struct run){.method = "backward-euler", .newton = forms[form], .step = 0.01});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_step(integrator, state, 100));
     force[form] = hooke_integrator_count(integrator, "force_evaluations");
     newton[form] = hooke_integrator_count(integrator, "nonlinear_iterations");
     linear[form] = hooke_integrator_count(integrator, "linear_iterations");
     products[form] = hooke_integrator_count(integrator, "derivative_products");
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
   assert_int_equal(force[1], 200); /* one for the equations, one for the residual that they leave */
   assert_int_equal(newton[1], 100);
@@ -199,7 +170,6 @@ static void work_is_counted(void **unused) {
     assert_in_range(linear[form], newton[form], 20 * newton[form]);
     assert_in_range(products[form], linear[form], 4 * linear[form]);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- no solution ---- */
@@ -217,32 +187,27 @@ static hooke_system *cable(double damping) {
 }
 
 /* The step has no solution, and parts of it have. */
-static void a_step_is_split(void **unused) {
-  (void)unused;
+static void a_step_is_split(no_state) {
   for (int form = 0; form < 2; form++) {
-    hooke_system *system = cable(1000);
-    hooke_integrator *integrator = start_run(
+    owned_system *system = cable(1000);
+    owned_integrator *integrator = start_run(
         system,
         (struct run){.method = "backward-euler", .newton = forms[form], .step = 0.1, .duration = 1.0});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_run(integrator, state));
     assert_in_range(hooke_integrator_count(integrator, "nonlinear_failures"), 1, 1000);
     assert_int_equal(hooke_integrator_count(integrator, "steps"), 10);
     const double *v = hooke_state_velocity(state);
     check_between(hypot(v[3], v[4]), 0.0, 1.0); /* its damping has caught it */
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
-static void a_step_without_solution(void **unused) {
-  (void)unused;
+static void a_step_without_solution(no_state) {
   const double q[] = {0, 0, 0, 0.9, 0, 0}, v[] = {0, 0, 0, 10, 0.5, 0};
-  hooke_system *system = cable(1e12);
-  hooke_integrator *integrator =
+  owned_system *system = cable(1e12);
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "backward-euler", .step = 0.1, .duration = 1.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
   check_message("no solution");
   check_message("t = 0 s");
@@ -250,9 +215,6 @@ static void a_step_without_solution(void **unused) {
   check_same_bits(6, hooke_state_position(state), q);
   check_same_bits(6, hooke_state_velocity(state), v);
   assert_int_equal(hooke_integrator_count(integrator, "nonlinear_failures"), 11);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* ---- refused problems ---- */
@@ -263,17 +225,15 @@ static int32_t decay(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void refusals(void **unused) {
-  (void)unused;
+static void refusals(no_state) {
   hooke_integrator *integrator = NULL;
-  hooke_options *options = run_options((struct run){.method = "backward-euler", .step = 0.1});
+  owned_options *options = run_options((struct run){.method = "backward-euler", .step = 0.1});
   check_status(hooke_integrator_create_first_order(1, decay, NULL, options, &integrator), HOOKE_UNSUITED);
   check_message("derivative");
   assert_null(integrator);
   assert_string_equal(hooke_options_text(options, "newton"), "converged");
   check_status(hooke_options_set_text(options, "newton", "thrice"), HOOKE_BAD_VALUE);
   check_message("one-iteration");
-  hooke_options_destroy(options);
 }
 
 int main(void) {

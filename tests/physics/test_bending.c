@@ -2,16 +2,15 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { N = 30, TRIPLES = N - 2 };
 
 /* A line of particles 0.1 m apart with bending alone, or with springs as well; of unequal masses. */
 static hooke_system *new_line(double coefficient, double stiffness, double damping, int64_t pinned) {
-  hooke_system *system = NULL;
   double q[3 * N] = {0}, mass[N];
   int64_t triples[3 * TRIPLES], ends[2 * (N - 1)], still[] = {0, 1};
   for (int p = 0; p < N; p++) {
@@ -24,17 +23,13 @@ static hooke_system *new_line(double coefficient, double stiffness, double dampi
   }
   for (int64_t k = 0; k < N - 1; k++)
     ends[2 * k] = k, ends[2 * k + 1] = k + 1;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
   if (coefficient > 0.0)
     check_ok(hooke_system_add_bending(system, "line", TRIPLES, triples, 1, &coefficient));
   if (stiffness > 0.0) {
-    hooke_options *options = NULL;
-    check_ok(hooke_options_create("springs", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-    check_ok(hooke_options_set_number(options, "damping", damping));
+    owned_options *options = options_with("springs", "stiffness=%.17g damping=%.17g", stiffness, damping);
     check_ok(hooke_system_add_springs(system, "springs", N - 1, ends, options));
-    hooke_options_destroy(options);
   }
   check_ok(hooke_system_pin(system, pinned, still));
   return system;
@@ -46,11 +41,10 @@ static hooke_system *commit(hooke_system *system) {
 }
 
 /* A straight line with equal distances has no bending force under any affine map; a bend has. */
-static void straight_lines_have_no_force(void **unused) {
-  (void)unused;
+static void straight_lines_have_no_force(no_state) {
   struct random_source source = {5};
   const double still[3 * N] = {0};
-  hooke_system *system = commit(new_line(3.0, 0.0, 0.0, 0));
+  owned_system *system = commit(new_line(3.0, 0.0, 0.0, 0));
   for (int trial = 0; trial < 50; trial++) {
     double from[3], along[3], q[3 * N], force[3 * N];
     for (int a = 0; a < 3; a++) {
@@ -67,14 +61,12 @@ static void straight_lines_have_no_force(void **unused) {
     check_close(force[31], -6.0 * 3.0 * 0.01, 1e-12);
     check_close(hooke_system_energy(system, "bending", q, NULL), 0.5 * 3.0 * 6.0 * 1e-4, 1e-13);
   }
-  hooke_system_destroy(system);
 }
 
 /* Energies add up, and each counts its own force only. */
-static void energies_are_apart(void **unused) {
-  (void)unused;
+static void energies_are_apart(no_state) {
   double q[3 * N];
-  hooke_system *both = commit(new_line(3.0, 20.0, 0.0, 0)), *bends = commit(new_line(3.0, 0.0, 0.0, 0)),
+  owned_system *both = commit(new_line(3.0, 20.0, 0.0, 0)), *bends = commit(new_line(3.0, 0.0, 0.0, 0)),
                *springs = commit(new_line(0.0, 20.0, 0.0, 0));
   for (int k = 0; k < 3 * N; k++)
     q[k] = 0.1 * sin(0.7 * k) + (k % 3 == 0 ? 0.1 * (k / 3) : 0.0);
@@ -89,9 +81,6 @@ static void energies_are_apart(void **unused) {
   assert_int_equal(hooke_system_count(both, "forces"), 2);
   assert_string_equal(hooke_system_force_name(both, 0), "springs");
   assert_string_equal(hooke_system_force_name(both, 1), "bending");
-  hooke_system_destroy(both);
-  hooke_system_destroy(bends);
-  hooke_system_destroy(springs);
 }
 
 /* ---- motion ---- */
@@ -105,15 +94,13 @@ static void kick(double *q, double *v) {
 }
 
 static void run_from(const hooke_system *system, struct run run, double *q, double *v) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   memcpy(hooke_state_position(state), q, 3 * N * sizeof(double));
   memcpy(hooke_state_velocity(state), v, 3 * N * sizeof(double));
   check_ok(hooke_integrator_run(integrator, state));
   memcpy(q, hooke_state_position(state), 3 * N * sizeof(double));
   memcpy(v, hooke_state_velocity(state), 3 * N * sizeof(double));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* Relative error of the energy after a second. */
@@ -125,19 +112,16 @@ static double energy_error(const hooke_system *system, double step) {
   return fabs(hooke_system_energy(system, "total", q, v) - before) / before;
 }
 
-static void verlet_keeps_the_energy(void **unused) {
-  (void)unused;
-  hooke_system *system = commit(new_line(3.0, 20.0, 0.0, 0));
+static void verlet_keeps_the_energy(no_state) {
+  owned_system *system = commit(new_line(3.0, 20.0, 0.0, 0));
   const double coarse = energy_error(system, 1e-3), fine = energy_error(system, 1e-4);
   check_between(coarse, 1e-6, 1e-2);
   check_between(fine / coarse, 0.001, 0.05);
-  hooke_system_destroy(system);
 }
 
-static void momenta_stay(void **unused) {
-  (void)unused;
+static void momenta_stay(no_state) {
   double q[3 * N], v[3 * N], before[6], after[6];
-  hooke_system *system = commit(new_line(3.0, 20.0, 0.05, 0));
+  owned_system *system = commit(new_line(3.0, 20.0, 0.05, 0));
   kick(q, v);
   hooke_system_momentum(system, v, before);
   hooke_system_angular_momentum(system, q, v, before + 3);
@@ -147,13 +131,11 @@ static void momenta_stay(void **unused) {
   hooke_system_angular_momentum(system, q, v, after + 3);
   assert_true(largest(6, before) > 1e-3);
   check_between(largest_difference(6, before, after), 0.0, 1e-14);
-  hooke_system_destroy(system);
 }
 
 /* Every method agrees with Runge-Kutta with a fine step. */
-static void methods_agree(void **unused) {
-  (void)unused;
-  hooke_system *system = commit(new_line(3.0, 20.0, 0.02, 2));
+static void methods_agree(no_state) {
+  owned_system *system = commit(new_line(3.0, 20.0, 0.02, 2));
   double expected[3 * N], expected_v[3 * N];
   kick(expected, expected_v);
   for (int k = 0; k < 6; k++) {
@@ -182,25 +164,15 @@ static void methods_agree(void **unused) {
     const double error = largest_difference(3 * N, q, expected);
     if (error > (first_order ? 2e-4 : 1e-6)) check_failed("%s is off by %g", method, error);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- numbers ---- */
 
-static void explicit_triples_come_first(void **unused) {
-  (void)unused;
-  hooke_system *system = NULL;
-  hooke_options *rope = NULL;
+static void explicit_triples_come_first(no_state) {
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 1.0, c[4] = {2.0, 0.0, 3.0, 0.0};
   const int64_t triples[12] = {2, 0, 1, 0, 1, 2, 1, 2, 0, 0, 1, 2};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_text(rope, "from", "0,0,0"));
-  check_ok(hooke_options_set_text(rope, "to", "4,0,0"));
-  check_ok(hooke_options_set_number(rope, "segments", 4));
-  check_ok(hooke_options_set_number(rope, "mass", 1));
-  check_ok(hooke_options_set_number(rope, "bending", 5));
+  owned_system *system = small_system(3, q, NULL, mass, 0);
+  owned_options *rope = options_with("rope", "from=0,0,0 to=4,0,0 segments=4 mass=1 bending=5");
   check_ok(hooke_system_add_part(system, "rope", "r", rope, NULL, NULL));
   check_ok(hooke_system_add_bending(system, "mine", 4, triples, 4, c));
   check_ok(hooke_system_add_bending(system, NULL, 1, triples, 1, c + 1));
@@ -227,18 +199,15 @@ static void explicit_triples_come_first(void **unused) {
   assert_memory_equal(found, expected, sizeof expected);
   const double kept[5] = {2.0, 3.0, 5.0, 5.0, 5.0};
   check_same_bits(5, coefficient, kept);
-  hooke_options_destroy(rope);
-  hooke_system_destroy(system);
 }
 
 /* Bending without stiffness adds no force and no memory, and changes no bit. */
-static void no_stiffness_is_no_bending(void **unused) {
-  (void)unused;
+static void no_stiffness_is_no_bending(no_state) {
   const double zero = 0.0;
   int64_t triples[3 * TRIPLES];
   for (int64_t k = 0; k < 3 * TRIPLES; k++)
     triples[k] = k / 3 + k % 3;
-  hooke_system *with = new_line(0.0, 20.0, 0.1, 0), *without = commit(new_line(0.0, 20.0, 0.1, 0));
+  owned_system *with = new_line(0.0, 20.0, 0.1, 0), *without = commit(new_line(0.0, 20.0, 0.1, 0));
   check_ok(hooke_system_add_bending(with, "none", TRIPLES, triples, 1, &zero));
   commit(with);
   assert_int_equal(hooke_system_count(with, "forces"), 1);
@@ -253,16 +222,12 @@ static void no_stiffness_is_no_bending(void **unused) {
   run_from(with, run, q, v);
   run_from(without, run, other_q, other_v);
   check_same_bits(3 * N, q, other_q);
-  hooke_system *bending = commit(new_line(1.0, 20.0, 0.1, 0));
+  owned_system *bending = commit(new_line(1.0, 20.0, 0.1, 0));
   assert_true(hooke_system_count(bending, "memory") > hooke_system_count(with, "memory"));
-  hooke_system_destroy(with);
-  hooke_system_destroy(without);
-  hooke_system_destroy(bending);
 }
 
-static void bad_triples_are_refused(void **unused) {
-  (void)unused;
-  hooke_system *system = new_line(1.0, 0.0, 0.0, 0);
+static void bad_triples_are_refused(no_state) {
+  owned_system *system = new_line(1.0, 0.0, 0.0, 0);
   const double one = 1.0, two[2] = {1.0, -2.0};
   const int64_t fine[6] = {0, 1, 2, 1, 2, 3}, far[3] = {0, 30, 1}, twice[6] = {0, 1, 2, 3, 4, 3};
   check_status(hooke_system_add_bending(system, "b", 1, far, 1, &one), HOOKE_BAD_VALUE);
@@ -278,7 +243,6 @@ static void bad_triples_are_refused(void **unused) {
   assert_int_equal(hooke_system_group_count(system, "bending"), 1);
   commit(system);
   check_status(hooke_system_add_bending(system, "b", 2, fine, 1, &one), HOOKE_BAD_CALL);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -5,6 +5,7 @@
 #include "order.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,9 +41,7 @@ static hooke_system *free_body(const double centre[3], const double velocity[3],
       v[3 * p + a] = velocity[a] + swing[a];
     }
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, SIX, q, v, 1, &mass, NULL));
+  hooke_system *system = small_system(SIX, q, v, mass, 0);
   check_ok(hooke_system_add_body(system, "top", SIX, all, 0));
   check_ok(hooke_system_commit(system));
   return system;
@@ -92,11 +91,10 @@ static const double START[3] = {0.9, 0.0, 0.8}, AT[3] = {0.3, -0.2, 0.1}, GOING[
 /* Largest error of the angular velocities about the body's axes at `time`. */
 static double error_of(struct run run) {
   double q[3 * SIX], v[3 * SIX], found[3], expected[3];
-  hooke_system *system = free_body(AT, GOING, START);
+  owned_system *system = free_body(AT, GOING, START);
   run_to_end(system, run, q, v);
   own_rotation(q, v, found);
   euler(START, run.duration, expected);
-  hooke_system_destroy(system);
   return largest_difference(3, found, expected);
 }
 
@@ -121,17 +119,14 @@ static const struct order *order_of(const char *method) {
 }
 
 static void check_refuses_a_body(const char *method) {
-  hooke_system *system = free_body(AT, GOING, START);
-  hooke_options *options = run_options((struct run){.method = method, .step = 0.01, .duration = 1.0});
+  owned_system *system = free_body(AT, GOING, START);
+  owned_options *options = run_options((struct run){.method = method, .step = 0.01, .duration = 1.0});
   hooke_integrator *integrator = NULL;
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* Every method refuses a body, or has its order with one. */
-static void free_body_has_the_order_of_its_method(void **unused) {
-  (void)unused;
+static void free_body_has_the_order_of_its_method(no_state) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *name = hooke_method_name(m);
     if (!hooke_method_is_built(name)) continue;
@@ -153,8 +148,7 @@ static void free_body_has_the_order_of_its_method(void **unused) {
 }
 
 /* 100 turns about the axis of largest moment. */
-static void reference_follows_jacobi(void **unused) {
-  (void)unused;
+static void reference_follows_jacobi(no_state) {
   const char *const names[] = {"rk8pd", "cvode-adams", "cvode-bdf", "arkode-esdirk"};
   const double bound[] = {1e-8, 1e-6, 1e-6, 1e-5};
   for (int k = 0; k < 4; k++) {
@@ -174,18 +168,15 @@ static void reference_follows_jacobi(void **unused) {
 /* Time at which the rotation about the middle axis, at first `start`, changes sign, between two steps. */
 static double turning_time(const char *method, double step) {
   const double rotation[3] = {0.0, 1.0, 1e-3}, still[3] = {0.0, 0.0, 0.0};
-  hooke_system *system = free_body(AT, still, rotation);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  hooke_state *state = start_state(system);
+  owned_system *system = free_body(AT, still, rotation);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
+  owned_state *state = start_state(system);
   double now[3], before = 1.0, t = 0.0;
   for (now[1] = 1.0; now[1] > 0.0; t = hooke_state_time(state)) {
     before = now[1];
     check_ok(hooke_integrator_step(integrator, state, 1));
     own_rotation(hooke_state_position(state), hooke_state_velocity(state), now);
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return t - step * now[1] / (now[1] - before);
 }
 
@@ -199,8 +190,7 @@ static double turning_time_of_euler(void) {
   return euler(start, 0.0, rotation);
 }
 
-static void middle_axis_turns_in_time(void **unused) {
-  (void)unused;
+static void middle_axis_turns_in_time(no_state) {
   const double exact = turning_time_of_euler();
   double error[4];
   for (int k = 0; k < 4; k++)
@@ -217,9 +207,9 @@ struct drift {
 
 static struct drift drift_of(const char *method, double step, int64_t blocks) {
   const double still[3] = {0.0, 0.0, 0.0}, rotation[3] = {0.9123, 0.0777, 0.7654};
-  hooke_system *system = free_body(still, still, rotation);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  hooke_state *state = start_state(system);
+  owned_system *system = free_body(still, still, rotation);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state), first[3], now[3];
   const double energy = hooke_system_energy(system, "total", q, v);
   struct drift drift = {0.0, {0.0, 0.0}};
@@ -231,15 +221,11 @@ static struct drift drift_of(const char *method, double step, int64_t blocks) {
     drift.momentum[1] = fmax(drift.momentum[1], largest_difference(3, first, now));
     if (10 * k < blocks) drift.momentum[0] = drift.momentum[1];
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return drift;
 }
 
 /* 1e6 steps: the error of energy is bounded and of order 2, that of angular momentum is rounding. */
-static void verlet_conserves(void **unused) {
-  (void)unused;
+static void verlet_conserves(no_state) {
   if (left_out(1, 2)) skip(); /* the code is that of the next one */
   const struct drift coarse = drift_of("verlet", 0.2, 5000), fine = drift_of("verlet", 0.1, 10000),
                      euler_drift = drift_of("symplectic-euler", 0.1, 10000);
@@ -252,8 +238,7 @@ static void verlet_conserves(void **unused) {
 
 /* Implicit methods keep the angular momentum of a free body to rounding at any tolerance. That of its energy is of
  * the order of the method: implicit midpoint does not lose or gain it steadily, the others lose it. */
-static void implicit_methods_conserve(void **unused) {
-  (void)unused;
+static void implicit_methods_conserve(no_state) {
   const char *const names[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
   for (int m = 0; m < 3; m++) {
     const struct drift coarse = drift_of(names[m], 0.2, 25), fine = drift_of(names[m], 0.1, 50);
@@ -280,9 +265,7 @@ static hooke_system *bar(int count, int pins, double angle, double *length) {
     second += mass * arm * arm;
   }
   *length = second / first; /* of the simple pendulum of the same period */
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, count, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(count, q, NULL, mass, 0);
   check_ok(hooke_system_pin(system, pins, all));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_body(system, "bar", count, all, 0));
@@ -294,7 +277,7 @@ static hooke_system *bar(int count, int pins, double angle, double *length) {
 static double angle_at_the_bottom(int count, int pins, const char *method, double parts) {
   const double angle = 2.0;
   double length, q[3 * 16];
-  hooke_system *system = bar(count, pins, angle, &length);
+  owned_system *system = bar(count, pins, angle, &length);
   const double quarter = elliptic_k(sin(0.5 * angle)) * sqrt(length / 9.81);
   run_to_end(system,
              (struct run){.method = method,
@@ -304,12 +287,10 @@ static double angle_at_the_bottom(int count, int pins, const char *method, doubl
                           .rtol = 1e-13,
                           .atol = 1e-13},
              q, NULL);
-  hooke_system_destroy(system);
   return atan2(q[3 * (count - 1)], -q[3 * (count - 1) + 1]);
 }
 
-static void pendulum_has_its_period(void **unused) {
-  (void)unused;
+static void pendulum_has_its_period(no_state) {
   for (int pins = 1; pins <= 2; pins++) {
     double error[4];
     for (int k = 0; k < 4; k++)
@@ -326,28 +307,23 @@ static void pendulum_has_its_period(void **unused) {
 }
 
 /* A body held at three points is still, and its free particle weighs on nothing. */
-static void three_pins_hold(void **unused) {
-  (void)unused;
+static void three_pins_hold(no_state) {
   const double place[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 1}, mass = 1.0;
   double q[12];
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(4, place, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 3, (int64_t[]){0, 1, 2}));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_body(system, NULL, 4, (int64_t[]){0, 1, 2, 3}, 0));
   check_ok(hooke_system_commit(system));
   run_to_end(system, (struct run){.method = "backward-euler", .step = 0.1, .duration = 1.0}, q, NULL);
   check_same_bits(12, q, place);
-  hooke_system_destroy(system);
 }
 
 /* ---- the heavy symmetric top ---- */
 
 /* Steady precession: a wheel on an axle pinned at its end, horizontal, turns about the vertical at W with
  * m g d = W (I3 s) for a spin s, and the inclination stays. */
-static void top_precesses_steadily(void **unused) {
-  (void)unused;
+static void top_precesses_steadily(no_state) {
   enum { RIM = 8, ALL = RIM + 1 };
   const double d = 0.5, r = 0.3, g = 9.81, spin = 60.0, i3 = r * r, mass = 1.0 / RIM;
   const double w = g * d / (i3 * spin); /* of a horizontal axle: exact */
@@ -363,9 +339,7 @@ static void top_precesses_steadily(void **unused) {
     memcpy(q + 3 * p, arm, sizeof arm);
     memcpy(v + 3 * p, swing, sizeof swing);
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, ALL, q, v, 1, &mass, NULL));
+  owned_system *system = small_system(ALL, q, v, mass, 0);
   check_ok(hooke_system_pin(system, 1, all + RIM));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -g}));
   check_ok(hooke_system_add_body(system, "top", ALL, all, 0));
@@ -384,7 +358,6 @@ static void top_precesses_steadily(void **unused) {
   }
   check_order("verlet", 4, error, 1.8, 2.2);
   check_between(error[3], 0.0, 1e-3);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

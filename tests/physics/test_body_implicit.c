@@ -2,6 +2,7 @@
  * between bodies, and what is conserved. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <complex.h>
 #include <math.h>
@@ -12,12 +13,8 @@ static const char *const NAMES[METHODS] = {"backward-euler", "tr-bdf2", "implici
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness,
                         double damping) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  owned_options *options = options_with("springs", "stiffness=%.17g damping=%.17g", stiffness, damping);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
-  hooke_options_destroy(options);
 }
 
 /* ---- a stiff spring that no step resolves ---- */
@@ -44,35 +41,26 @@ static hooke_system *plate(double stiffness, double stretch) {
                       0},
                mass = 0.25;
   const int64_t body[] = {0, 1, 2, 3, 4}, post = 5, ends[] = {4, 5};
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 6, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(6, q, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &post));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+  owned_options *options = options_with("springs", "stiffness=%.17g rest_length=1", stiffness);
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
   check_ok(hooke_system_add_body(system, "plate", 5, body, 0));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
 /* Energy after `steps` over that at first, with h omega as given. */
 static double energy_left(const char *method, double h_omega, int64_t steps) {
   const double stiffness = 1e6, step = h_omega / sqrt(stiffness / 1.25);
-  hooke_system *system = plate(stiffness, 1e-3);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  hooke_state *state = start_state(system);
+  owned_system *system = plate(stiffness, 1e-3);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double before = hooke_system_energy(system, "total", q, v);
   check_ok(hooke_integrator_step(integrator, state, steps));
   assert_int_equal(hooke_integrator_count(integrator, "nonlinear_failures"), 0);
   const double left = hooke_system_energy(system, "total", q, v) / before;
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return left;
 }
 
@@ -87,8 +75,7 @@ static double amplification(int method, double z) {
 }
 
 /* However stiff the spring: backward Euler and tr-bdf2 let the motion die, and midpoint keeps its energy. */
-static void unresolved_motion_dies_out(void **unused) {
-  (void)unused;
+static void unresolved_motion_dies_out(no_state) {
   for (double z = 0.1; z < 2e4; z *= 10.0) {
     for (int m = 0; m < METHODS; m++) {
       const double expected = amplification(m, z);
@@ -118,8 +105,7 @@ static hooke_system *chain(double stiffness, double damping, int pinned) {
     v[3 * p + 1] = -0.7 * q[3 * p + 2];
     v[3 * p + 2] = 0.7 * q[3 * p + 1];
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, MASS, NULL));
   check_ok(hooke_system_pin(system, 1, &post));
   if (pinned) check_ok(hooke_system_pin(system, 1, &corner));
@@ -160,8 +146,8 @@ static void add_up(const double *q, const double *u, int first, int count, int p
  * which there is not. */
 static void check_step(const hooke_system *system, double step, int pinned) {
   static const int first[] = {1, 2, 5, 6, 10}, count[] = {1, 3, 1, 4, 1};
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = step});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = step});
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double start[2][3 * CHAIN], change[3 * CHAIN], before[6], after[6], pushed[6];
   memcpy(start[0], q, sizeof start[0]);
@@ -184,15 +170,13 @@ static void check_step(const hooke_system *system, double step, int pinned) {
       check_close(left[a] - along / 0.36 * axis, 0.0, 1e-8);
     }
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* Twenty steps are taken, and backward Euler adds no energy. */
 static void check_run(const hooke_system *system, const char *method, double step, const char *newton) {
   const struct run run = {.method = method, .step = step, .newton = newton, .newton_tolerance = BY_DEFAULT};
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double before = hooke_system_energy(system, "total", q, v);
   check_ok(hooke_integrator_step(integrator, state, 20));
@@ -200,15 +184,12 @@ static void check_run(const hooke_system *system, const char *method, double ste
     assert_true(isfinite(q[k]) && isfinite(v[k]));
   if (strcmp(method, "backward-euler") == 0)
     check_between(hooke_system_energy(system, "total", q, v), -1e3, before + 1e-6 * fabs(before));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
-static void stiff_chains_are_solved(void **unused) {
-  (void)unused;
+static void stiff_chains_are_solved(no_state) {
   for (int how = 0; how < 4; how++) {
     for (double stiffness = 1e2; stiffness < 2e6; stiffness *= 100.0) {
-      hooke_system *system = chain(stiffness, how & 1 ? 10.0 : 0.0, how & 2);
+      owned_system *system = chain(stiffness, how & 1 ? 10.0 : 0.0, how & 2);
       for (double step = 1e-5; step < 0.02; step *= 10.0) {
         check_step(system, step, how & 2);
         for (int m = 0; m < METHODS; m++) {
@@ -218,7 +199,6 @@ static void stiff_chains_are_solved(void **unused) {
       }
       check_run(system, "backward-euler", 0.1, "converged");
       check_run(system, "tr-bdf2", 0.1, "converged");
-      hooke_system_destroy(system);
     }
   }
 }
@@ -226,8 +206,7 @@ static void stiff_chains_are_solved(void **unused) {
 /* ---- one iteration ---- */
 
 /* It has the order of its method, for it solves the linearised equations. */
-static void one_iteration_has_the_order(void **unused) {
-  (void)unused;
+static void one_iteration_has_the_order(no_state) {
   hooke_system *system = chain(200.0, 0.1, 0);
   double exact[3 * CHAIN], q[3 * CHAIN], error[2];
   run_to_end(system, (struct run){.method = "rk4", .step = 1.0 / 65536, .duration = 0.125, .every = 0.125},
@@ -251,22 +230,19 @@ static void one_iteration_has_the_order(void **unused) {
 
 /* Two turning bodies that two springs join, with nothing else: both momenta stay, by implicit midpoint the
  * angular one too. */
-static void momentum_is_kept(void **unused) {
-  (void)unused;
+static void momentum_is_kept(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0.2, 0, 2.5, 1, 0.5, 2, 0.5, 1},
                v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 0, 0.2, 0, -0.5, 1, 0, -1, 0.5}, mass = 0.4;
   const int64_t one[] = {0, 1, 2}, other[] = {3, 4, 5, 6}, ends[] = {1, 3, 2, 6};
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 7, q, v, 1, &mass, NULL));
+  owned_system *system = small_system(7, q, v, mass, 0);
   add_springs(system, 2, ends, 50.0, 0.2);
   check_ok(hooke_system_add_body(system, NULL, 3, one, 0));
   check_ok(hooke_system_add_body(system, NULL, 4, other, 0));
   check_ok(hooke_system_commit(system));
   for (int m = 0; m < METHODS; m++) {
     double before[6], after[6];
-    hooke_integrator *integrator = start_run(system, (struct run){.method = NAMES[m], .step = 0.02});
-    hooke_state *state = start_state(system);
+    owned_integrator *integrator = start_run(system, (struct run){.method = NAMES[m], .step = 0.02});
+    owned_state *state = start_state(system);
     const double *x = hooke_state_position(state), *u = hooke_state_velocity(state);
     hooke_system_momentum(system, u, before);
     hooke_system_angular_momentum(system, x, u, before + 3);
@@ -275,10 +251,7 @@ static void momentum_is_kept(void **unused) {
     hooke_system_angular_momentum(system, x, u, after + 3);
     check_close(largest_difference(3, before, after), 0.0, 1e-11);
     check_between(largest_difference(3, before + 3, after + 3), m == 2 ? 0.0 : 1e-8, m == 2 ? 1e-10 : 1.0);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -12,8 +12,7 @@ static const double G = 9.81;
 /* With the run's velocities, `methods` (NULL: all), measured or predicted alone. A build without LAPACK
  * skips. */
 static hooke_measurement *limit_of(hooke_system *system, const char *methods, int measured) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
+  hooke_options *options = new_options("limit");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "predict", measured ? 0.0 : 1.0));
   return limit_at_start(system, NULL, options);
@@ -32,13 +31,12 @@ static int64_t frequencies_of(const hooke_measurement *limit, double frequency[8
 }
 
 static void check_frequencies(hooke_system *system, int64_t count, const double *expected) {
-  hooke_measurement *limit = limit_of(system, "verlet", 0);
+  owned_measurement *limit = limit_of(system, "verlet", 0);
   double found[8];
   assert_int_equal(frequencies_of(limit, found), count);
   for (int64_t k = 0; k < count; k++)
     check_close(found[k] / expected[k], 1.0, 1e-9);
   check_close(of_row(limit, 0, "predicted") * expected[count - 1], 2.0, 1e-9);
-  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
@@ -53,8 +51,6 @@ static const double PLACE[BAR] = {-1.0, -0.4, 0.1, 0.5, 1.2}, BAR_MASS[BAR] = {1
 static hooke_system *bar_on_springs(double beta, double uneven) {
   double q[3 * BAR_ALL], mass[BAR_ALL], stiffness[BAR - 1], damping[BAR - 1];
   int64_t ends[2 * BAR - 2], body[BAR], posts[BAR - 1], count = 0;
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
   memset(q, 0, sizeof q);
   for (int p = 0; p < BAR; p++) {
     q[3 * p] = PLACE[p];
@@ -71,15 +67,13 @@ static hooke_system *bar_on_springs(double beta, double uneven) {
     damping[count] = beta * BAR_K[p] * (count == 0 ? 1.0 + uneven : 1.0);
     count++;
   }
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, BAR_ALL, q, NULL, BAR_ALL, mass, NULL));
   check_ok(hooke_system_pin(system, count, posts));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", count, damping));
   check_ok(hooke_system_add_springs(system, "feet", count, ends, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_add_body(system, "bar", BAR, body, 0));
   check_ok(hooke_system_commit(system));
   return system;
@@ -105,8 +99,7 @@ static void find_bar_frequencies(double frequency[2]) {
   frequency[1] = sqrt(half + root);
 }
 
-static void a_bar_has_its_two_modes(void **unused) {
-  (void)unused;
+static void a_bar_has_its_two_modes(no_state) {
   double expected[2];
   find_bar_frequencies(expected);
   check_frequencies(bar_on_springs(0.0, 0.0), 2, expected);
@@ -121,16 +114,15 @@ static double exact_limit(const char *method, double w, double beta) {
   return hooke_limit_of_mode(method, w, 0.5 * c);
 }
 
-static void bar_runs_up_to_its_limits(void **unused) {
-  (void)unused;
+static void bar_runs_up_to_its_limits(no_state) {
   const char *const methods[2] = {"symplectic-euler,verlet,rk4",
                                   "symplectic-euler,verlet,forward-euler,heun,rk4"};
   double frequency[2];
   find_bar_frequencies(frequency);
   for (int damped = 0; damped < 2; damped++) {
     const double beta = damped ? 0.02 : 0.0;
-    hooke_system *system = bar_on_springs(beta, 0.0);
-    hooke_measurement *limit = limit_of(system, methods[damped], 1);
+    owned_system *system = bar_on_springs(beta, 0.0);
+    owned_measurement *limit = limit_of(system, methods[damped], 1);
     for (int64_t k = 0; k < hooke_measurement_row_count(limit, "rows"); k++) {
       const char *method = hooke_measurement_text(limit, "rows", k, "method");
       const double slow = exact_limit(method, frequency[0], beta),
@@ -140,20 +132,15 @@ static void bar_runs_up_to_its_limits(void **unused) {
       check_close(of_row(limit, k, "exact"), 1.0, 0.0);
       assert_true(isnan(of_row(limit, k, "bound")));
     }
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
 /* Damping out of proportion. */
-static void bar_runs_up_to_its_limits_where_one_spring_is_damped_more(void **unused) {
-  (void)unused;
-  hooke_system *system = bar_on_springs(0.01, 8.0);
-  hooke_measurement *limit = limit_of(system, "symplectic-euler,verlet,forward-euler,rk4", 1);
+static void bar_runs_up_to_its_limits_where_one_spring_is_damped_more(no_state) {
+  owned_system *system = bar_on_springs(0.01, 8.0);
+  owned_measurement *limit = limit_of(system, "symplectic-euler,verlet,forward-euler,rk4", 1);
   for (int64_t k = 0; k < 4; k++)
     check_close(of_row(limit, k, "ratio"), 1.0, 1e-3);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
 /* ---- gravity and tensions are the stiffness of what turns ---- */
@@ -170,8 +157,7 @@ static hooke_system *pendulum(int pins, double angle) {
   return system;
 }
 
-static void a_pendulum_swings_by_gravity(void **unused) {
-  (void)unused;
+static void a_pendulum_swings_by_gravity(no_state) {
   const double w = sqrt(G), both[2] = {w, w}, tilted[2] = {sqrt(G * cos(0.4)), sqrt(G * cos(0.4))};
   for (int pins = 1; pins <= 2; pins++) {
     hooke_system *system = pendulum(pins, 0.0);
@@ -181,34 +167,28 @@ static void a_pendulum_swings_by_gravity(void **unused) {
     check_ok(hooke_system_commit(system));
     check_frequencies(system, 3 - pins, tilted);
   }
-  hooke_system *system = pendulum(1, 0.0);
+  owned_system *system = pendulum(1, 0.0);
   check_ok(hooke_system_commit(system));
-  hooke_measurement *limit = limit_of(system, "symplectic-euler,verlet,rk4", 1);
+  owned_measurement *limit = limit_of(system, "symplectic-euler,verlet,rk4", 1);
   for (int64_t k = 0; k < 3; k++)
     check_close(of_row(limit, k, "ratio"), 1.0, 1e-3);
   assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "geometric");
   check_close(hooke_measurement_number(limit, "blame", 0, "share"), 1.0, 1e-12);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
 /* It falls by itself, at any step, and that is not a limit of the step. */
-static void a_pendulum_upside_down_is_said_to_tip(void **unused) {
-  (void)unused;
-  hooke_system *system = pendulum(1, 3.14159265358979323846);
+static void a_pendulum_upside_down_is_said_to_tip(no_state) {
+  owned_system *system = pendulum(1, 3.14159265358979323846);
   check_ok(hooke_system_commit(system));
-  hooke_measurement *limit = limit_of(system, "verlet", 1);
+  owned_measurement *limit = limit_of(system, "verlet", 1);
   assert_int_equal(hooke_measurement_row_count(limit, "modes"), 0);
   check_close(hooke_measurement_number(limit, "limit", 0, "tipping"), 1.0, 0.0);
   assert_true(isinf(of_row(limit, 0, "predicted")) && isinf(of_row(limit, 0, "measured")));
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
 /* A bar of length 2a between two springs of length l and tension t, in a line: it moves along by 2 kappa/m,
  * across by 2t/(l m), and turns by 2 t a (1 + a/l) over its inertia m a^2; the second and the third twice. */
-static void tension_holds_a_bar(void **unused) {
-  (void)unused;
+static void tension_holds_a_bar(no_state) {
   const double a = 0.3, l = 0.5, kappa = 40.0, t = kappa * (l - 0.35), m = 2.0;
   const double q[12] = {-a, 0, 0, a, 0, 0, -a - l, 0, 0, a + l, 0, 0};
   const double across = sqrt(2.0 * t / (l * m)), turn = sqrt(2.0 * t * a * (1.0 + a / l) / (m * a * a));
@@ -229,29 +209,24 @@ static void tension_holds_a_bar(void **unused) {
 
 /* The bar on its springs, which turns about the vertical. */
 static hooke_measurement *limit_at_spin(const hooke_system *system, double spin) {
-  hooke_options *options;
   hooke_measurement *limit = NULL;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_text(options, "methods", "symplectic-euler,verlet,rk4"));
+  owned_options *options = options_with("limit", "methods=symplectic-euler,verlet,rk4");
   check_ok(hooke_measurement_create("limit", system, NULL, options, &limit));
-  hooke_options_destroy(options);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   for (int p = 0; p < BAR; p++)
     hooke_state_velocity(state)[3 * p + 2] = -spin * PLACE[p];
   check_ok(hooke_measurement_run(limit, state));
-  hooke_state_destroy(state);
   return limit;
 }
 
 /* Known up to 1e-3 rad in the time in which the limiting mode swings by 1 rad; else not measured either. */
-static void spin_makes_a_limit_unknown(void **unused) {
-  (void)unused;
-  hooke_system *system = bar_on_springs(0.0, 0.0);
+static void spin_makes_a_limit_unknown(no_state) {
+  owned_system *system = bar_on_springs(0.0, 0.0);
   hooke_measurement_destroy(limit_of(system, "verlet", 0)); /* skips without LAPACK */
   double frequency[2];
   find_bar_frequencies(frequency);
   for (int fast = 0; fast < 2; fast++) {
-    hooke_measurement *limit = limit_at_spin(system, (fast ? 1.01e-3 : 0.99e-3) * frequency[1]);
+    owned_measurement *limit = limit_at_spin(system, (fast ? 1.01e-3 : 0.99e-3) * frequency[1]);
     for (int64_t k = 0; k < 3; k++) {
       const double predicted = of_row(limit, k, "predicted");
       const int said = strstr(hooke_measurement_text(limit, "rows", k, "note"), "spins so fast") != NULL;
@@ -260,9 +235,7 @@ static void spin_makes_a_limit_unknown(void **unused) {
       assert_int_equal(isnan(of_row(limit, k, "measured")), fast);
       if (!fast) check_close(predicted * frequency[1], k == 2 ? sqrt(8.0) : 2.0, 1e-6);
     }
-    hooke_measurement_destroy(limit);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- a body is what a stiff lattice becomes ---- */
@@ -271,7 +244,7 @@ static void spin_makes_a_limit_unknown(void **unused) {
  * spring. */
 static double tetrahedron_limit(double stiffness) {
   const double q[15] = {0, 0, 0, 1, 0, 0, 0.5, 0.8, 0, 0.5, 0.3, 0.8, 0, -1.5, 0};
-  hooke_system *system = small_system(5, q, NULL, 1.0, 0);
+  owned_system *system = small_system(5, q, NULL, 1.0, 0);
   check_ok(hooke_system_pin(system, 1, (int64_t[]){4}));
   small_springs(system, 1, (int64_t[]){0, 4},
                 (struct springs){.law = "length", .stiffness = 10.0, .rest_length = 1.5});
@@ -281,15 +254,12 @@ static double tetrahedron_limit(double stiffness) {
   else
     check_ok(hooke_system_add_body(system, "body", 4, (int64_t[]){0, 1, 2, 3}, 0));
   check_ok(hooke_system_commit(system));
-  hooke_measurement *limit = limit_of(system, "verlet", 0);
+  owned_measurement *limit = limit_of(system, "verlet", 0);
   const double found = of_row(limit, 0, "predicted");
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
   return found;
 }
 
-static void limit_of_a_lattice_falls_and_that_of_its_body_stays(void **unused) {
-  (void)unused;
+static void limit_of_a_lattice_falls_and_that_of_its_body_stays(no_state) {
   const double body = tetrahedron_limit(0.0);
   double before = tetrahedron_limit(1e4);
   check_between(body, 10.0 * before, 100.0 * before);
@@ -302,29 +272,24 @@ static void limit_of_a_lattice_falls_and_that_of_its_body_stays(void **unused) {
 
 /* ---- why ---- */
 
-static void why_names_the_spring_at_a_body(void **unused) {
-  (void)unused;
+static void why_names_the_spring_at_a_body(no_state) {
   double frequency[2];
-  hooke_system *system = bar_on_springs(0.0, 0.0);
+  owned_system *system = bar_on_springs(0.0, 0.0);
   find_bar_frequencies(frequency);
   hooke_measurement_destroy(limit_of(system, "verlet", 0)); /* skips without LAPACK */
   const double step = 2.4 / frequency[1];
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = step, .duration = 1000.0 * step});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   for (int p = 0; p < BAR; p++)
     hooke_state_velocity(state)[3 * p + 1] = 1e-3;
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_measurement *why = NULL;
+  owned_measurement *why = NULL;
   check_ok(explain_run(integrator, &why));
   assert_string_equal(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
   check_close(hooke_measurement_number(why, "why", 0, "limit") * frequency[1], 2.0, 1e-3);
   assert_string_equal(hooke_measurement_text(why, "blame", 0, "group"), "feet");
   assert_true(hooke_measurement_row_count(why, "advice") > 0);
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -4,9 +4,9 @@
 #include "elliptic.h"
 #include "order.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846, G = 9.81;
@@ -30,9 +30,7 @@ static hooke_system *spinning_top(void) {
       v[3 * p + a] = SPIN * (c * across[a] - s * f[a]);
     }
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, TOP, q, v, 1, &mass, NULL));
+  hooke_system *system = small_system(TOP, q, v, mass, 0);
   check_ok(hooke_system_pin(system, 1, all + RIM));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -G}));
   check_ok(hooke_system_add_body(system, "top", TOP, all, 0));
@@ -63,9 +61,8 @@ static double error_of_height(const hooke_system *system, struct run run) {
   return fabs(height - expected);
 }
 
-static void top_nutates(void **unused) {
-  (void)unused;
-  hooke_system *system = spinning_top();
+static void top_nutates(no_state) {
+  owned_system *system = spinning_top();
   double unused_height;
   const double period = nutation(0.0, &unused_height), time = 3.3 * period;
   check_between(period, 0.1, 2.0);
@@ -87,7 +84,6 @@ static void top_nutates(void **unused) {
                                                        .rtol = 1e-13,
                                                        .atol = 1e-13}),
                   0.0, 1e-10);
-  hooke_system_destroy(system);
 }
 
 /* ---- motions in a few angles, for comparison ---- */
@@ -159,14 +155,9 @@ static hooke_system *governor(double stiffness) {
   }
   memcpy(q + 6 * ROD, below, sizeof below);
   mass[2 * ROD] = SLIDER;
-  hooke_system *system = NULL;
-  hooke_options *link = NULL;
-  check_ok(hooke_options_create("springs", &link));
-  check_ok(hooke_options_set_text(link, "law", "length"));
-  check_ok(hooke_options_set_number(link, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(link, "damping", 0.05 * stiffness));
-  check_ok(hooke_options_set_number(link, "rest_length", LINK));
-  check_ok(hooke_system_create(&system));
+  owned_options *link = options_with("springs", "law=length stiffness=%.17g damping=%.17g rest_length=%.17g",
+                                     stiffness, 0.05 * stiffness, LINK);
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, GOVERNOR, q, v, GOVERNOR, mass, NULL));
   check_ok(hooke_system_pin(system, 2, (int64_t[]){0, ROD}));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -G}));
@@ -174,7 +165,6 @@ static hooke_system *governor(double stiffness) {
   check_ok(hooke_system_add_body(system, "right", ROD, (int64_t[]){3, 4, 5}, 0));
   check_ok(hooke_system_add_springs(system, "links", 2, (int64_t[]){1, 2 * ROD, ROD + 1, 2 * ROD}, link));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(link);
   return system;
 }
 
@@ -215,12 +205,10 @@ static int32_t follow_frame(int64_t step, const hooke_state *state, void *ctx) {
 /* Consumes the system. */
 static double follow(hooke_system *system, struct run run, struct followed followed) {
   run.every = FRAME;
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, follow_frame, &followed));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   hooke_system_destroy(system);
   return followed.off;
 }
@@ -235,8 +223,7 @@ static double slider_risen(const double *q, const double *angle) {
 }
 
 /* The links give by force over stiffness. */
-static void governor_follows_its_angle(void **unused) {
-  (void)unused;
+static void governor_follows_its_angle(no_state) {
   const struct run rk4 = {.method = "rk4", .step = 1e-4, .duration = 2.0};
   struct followed governed = {1, accelerate_governor, slider_off, {PI / 3}, {0.0}, 0, 0.0};
   double off[3];
@@ -264,13 +251,8 @@ static hooke_system *linkage(double stiffness) {
     fill_rod(start, along, BAR[k], q + 9 * k, mass + ROD * k);
     memcpy(start, along, sizeof along); /* the end of the first */
   }
-  hooke_system *system = NULL;
-  hooke_options *joint = NULL;
-  check_ok(hooke_options_create("springs", &joint));
-  check_ok(hooke_options_set_text(joint, "law", "length"));
-  check_ok(hooke_options_set_number(joint, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(joint, "rest_length", 0.0));
-  check_ok(hooke_system_create(&system));
+  owned_options *joint = options_with("springs", "law=length stiffness=%.17g rest_length=0", stiffness);
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, LINKAGE, q, NULL, LINKAGE, mass, NULL));
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -G, 0.0}));
@@ -278,7 +260,6 @@ static hooke_system *linkage(double stiffness) {
   check_ok(hooke_system_add_body(system, "lower", ROD, (int64_t[]){3, 4, 5}, 0));
   check_ok(hooke_system_add_springs(system, "joint", 1, (int64_t[]){2, 3}, joint));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(joint);
   return system;
 }
 
@@ -299,8 +280,7 @@ static double end_off(const double *q, const double *angle) {
   return hypot(end[0] - sin(angle[0]) - sin(angle[1]), end[1] + cos(angle[0]) + cos(angle[1]));
 }
 
-static void linkage_follows_its_angles(void **unused) {
-  (void)unused;
+static void linkage_follows_its_angles(no_state) {
   const struct followed swinging = {2, accelerate_linkage, end_off, {START[0], START[1]}, {0.0, 0.0}, 0, 0.0};
   double off[4];
   for (int k = 0; k < 4; k++)
@@ -325,24 +305,18 @@ static void list_frame(int64_t particle[FRAME_COUNT]) {
 }
 
 static hooke_system *framed_cloth(double drag) {
-  hooke_options *cloth = NULL;
-  hooke_system *system = NULL;
   int64_t frame[FRAME_COUNT];
   list_frame(frame);
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, (double[]){CLOTH, CLOTH}));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0.3, 1}));
-  check_ok(hooke_options_set_number(cloth, "mass", 0.5));
-  check_ok(hooke_options_set_text(cloth, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 20.0));
-  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 5.0));
-  check_ok(hooke_system_create(&system));
+  owned_options *cloth = options_with("cloth",
+                                      "size=%d,%d edges=1,0,0,0,0.3,1 mass=0.5 pinned=top-corners "
+                                      "structural.stiffness=20 shear.stiffness=5",
+                                      CLOTH, CLOTH);
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
   check_ok(hooke_system_add_body(system, "frame", FRAME_COUNT, frame, 0));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -G, 0.0}));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(cloth);
   return system;
 }
 
@@ -364,11 +338,10 @@ static double bent(const double *from, const double *to) {
   return most;
 }
 
-static void framed_cloth_keeps_its_energy(void **unused) {
-  (void)unused;
+static void framed_cloth_keeps_its_energy(no_state) {
   enum { N = CLOTH * CLOTH };
-  hooke_system *system = framed_cloth(0.0);
-  hooke_state *start = start_state(system);
+  owned_system *system = framed_cloth(0.0);
+  owned_state *start = start_state(system);
   const double *q0 = hooke_state_position(start);
   const double before = hooke_system_energy(system, "total", q0, hooke_state_velocity(start));
   double error[4], q[3 * N], v[3 * N];
@@ -379,16 +352,13 @@ static void framed_cloth_keeps_its_energy(void **unused) {
   }
   check_order("verlet", 4, error, 1.8, 2.2);
   check_between(hooke_system_energy(system, "kinetic", q, v), 0.05, 5.0);
-  hooke_state_destroy(start);
-  hooke_system_destroy(system);
 }
 
 /* Once it has come to rest, what acts on the frame adds up to no force and no torque; on its particles it
  * does not. */
-static void frame_hangs_in_balance(void **unused) {
-  (void)unused;
+static void frame_hangs_in_balance(no_state) {
   enum { N = CLOTH * CLOTH };
-  hooke_system *system = framed_cloth(0.03);
+  owned_system *system = framed_cloth(0.03);
   double q[3 * N], v[3 * N], f[3 * N], force[3] = {0.0}, torque[3] = {0.0}, most = 0.0;
   int64_t frame[FRAME_COUNT];
   list_frame(frame);
@@ -407,7 +377,6 @@ static void frame_hangs_in_balance(void **unused) {
   check_between(most, 0.05, 10.0);
   check_between(largest(3, force), 0.0, 1e-8);
   check_between(largest(3, torque), 0.0, 1e-8);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

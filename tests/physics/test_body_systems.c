@@ -3,6 +3,7 @@
 #include "check.h"
 #include "order.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,10 +28,7 @@ static void place_corner(int p, double q[3]) {
 }
 
 static hooke_options *material(const char *kind, double stiffness, double damping) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create(kind, &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  hooke_options *options = options_with(kind, "stiffness=%.17g damping=%.17g", stiffness, damping);
   return options;
 }
 
@@ -42,10 +40,9 @@ static void join(hooke_system *system, double stiffness) {
       ends[2 * count++ + 1] = j;
     }
   }
-  hooke_options *options = material("springs", stiffness, 0.0);
+  owned_options *options = material("springs", stiffness, 0.0);
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_system_add_springs(system, "inside", count, ends, options));
-  hooke_options_destroy(options);
 }
 
 static hooke_system *cube(struct cube how) {
@@ -58,19 +55,17 @@ static hooke_system *cube(struct cube how) {
     v[3 * p + 1] = 0.8 * q[3 * p] - 0.5 * q[3 * p + 2];
     v[3 * p + 2] = 0.5 * q[3 * p + 1];
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, CUBE, q, v, CUBE, mass, NULL));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 1.0}));
   check_ok(hooke_system_set_drag(system, how.drag));
   if (how.stiffness > 0.0) join(system, how.stiffness);
   if (how.anchored) {
     const double points[9] = {0.1, 1.0, 0.3, -0.6, 1.2, 0.2, 0.5, 0.9, -0.5};
-    hooke_options *options = material("anchors", 20.0, how.damping);
+    owned_options *options = material("anchors", 20.0, how.damping);
     check_ok(hooke_options_set_numbers(options, "points", 9,
                                        points)); /* at its point an anchor has no direction */
     check_ok(hooke_system_add_anchors(system, "hung", 3, ALL + 1, options));
-    hooke_options_destroy(options);
   }
   if (how.rigid) check_ok(hooke_system_add_body(system, "cube", CUBE, ALL, how.project));
   return system;
@@ -88,8 +83,7 @@ static void end_of(const hooke_system *system, const char *method, double step, 
   run_to_end(system, (struct run){.method = method, .step = step, .duration = 1.0, .every = 1.0}, q, NULL);
 }
 
-static void hung_cube_has_the_order_of_its_method(void **unused) {
-  (void)unused;
+static void hung_cube_has_the_order_of_its_method(no_state) {
   const struct {
     const char *name;
     double step, low, high;
@@ -102,7 +96,7 @@ static void hung_cube_has_the_order_of_its_method(void **unused) {
                  {"tr-bdf2", 1.0 / 64, 1.85, 2.15},
                  {"implicit-midpoint", 1.0 / 64, 1.85, 2.15}};
   for (int damped = 0; damped < 2; damped++) {
-    hooke_system *system = committed((struct cube){
+    owned_system *system = committed((struct cube){
         .rigid = 1, .anchored = 1, .turning = 1, .drag = damped ? 0.1 : 0.0, .damping = damped ? 0.5 : 0.0});
     double exact[3 * CUBE], q[3 * CUBE], error[4];
     end_of(system, "rk4", 1.0 / 2048, exact);
@@ -113,16 +107,14 @@ static void hung_cube_has_the_order_of_its_method(void **unused) {
       }
       check_order(methods[m].name, 4, error, methods[m].low, methods[m].high);
     }
-    hooke_system_destroy(system);
   }
 }
 
 /* The acceleration of the particles is the second derivative of their motion. */
-static void acceleration_is_that_of_the_motion(void **unused) {
-  (void)unused;
+static void acceleration_is_that_of_the_motion(no_state) {
   const double h = 2e-5;
-  hooke_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
-  hooke_state *state = start_state(system);
+  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
+  owned_state *state = start_state(system);
   double a[3 * CUBE], v[2][3 * CUBE];
   check_ok(
       hooke_system_acceleration(system, 0.0, hooke_state_position(state), hooke_state_velocity(state), a));
@@ -136,8 +128,6 @@ static void acceleration_is_that_of_the_motion(void **unused) {
     const double slope = (4.0 * v[0][i] - v[1][i] - 3.0 * hooke_state_velocity(state)[i]) / (2.0 * h);
     check_close(slope, a[i], 1e-5);
   }
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- the largest stable step ---- */
@@ -145,8 +135,7 @@ static void acceleration_is_that_of_the_motion(void **unused) {
 /* A bar with a heavy middle on four anchors at the corners: it rises and sways at sqrt(4 k/M), and turns about its
  * axes at sqrt(k (the sum of squared distances)/I) = sqrt(k/m), m the mass of a corner, which is faster. verlet is
  * stable up to 2 over that. */
-static void bar_on_springs_has_its_limit(void **unused) {
-  (void)unused;
+static void bar_on_springs_has_its_limit(no_state) {
   const double k = 500.0, m = 0.2, mass[5] = {0.2, 0.2, 0.2, 0.2, 3.0};
   const double q[15] = {1, 0, 0.1, 1, 0, -0.1, -1, 0, 0.1, -1, 0, -0.1, 0, 0, 0};
   for (int above = 0; above < 2; above++) {
@@ -157,21 +146,16 @@ static void bar_on_springs_has_its_limit(void **unused) {
       v[3 * p + 1] = w[2] * x[0] - w[0] * x[2] + 1e-5;
       v[3 * p + 2] = w[0] * x[1] - w[1] * x[0];
     }
-    hooke_system *system = NULL;
-    hooke_options *options = material("anchors", k, 0.0);
-    check_ok(hooke_system_create(&system));
+    owned_options *options = material("anchors", k, 0.0);
+    owned_system *system = new_system();
     check_ok(hooke_system_add_particles(system, 5, q, v, 5, mass, NULL));
     check_ok(hooke_system_add_anchors(system, "feet", 4, ALL, options));
     check_ok(hooke_system_add_body(system, "bar", 5, ALL, 0));
     check_ok(hooke_system_commit(system));
-    hooke_options_destroy(options);
     const double step = (above ? 1.01 : 0.99) * 2.0 * sqrt(m / k);
-    hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
-    hooke_state *state = start_state(system);
+    owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
+    owned_state *state = start_state(system);
     check_status(hooke_integrator_step(integrator, state, 1000), above ? HOOKE_DIVERGED : HOOKE_OK);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
@@ -192,21 +176,17 @@ static int32_t keep(int64_t step, const hooke_state *state, void *ctx) {
 
 static struct path path_of(struct cube how, double step) {
   struct path path = {.frames = 0};
-  hooke_system *system = committed(how);
-  hooke_integrator *integrator = start_run(
+  owned_system *system = committed(how);
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "verlet", .step = step, .duration = 1.0, .every = 1.0 / FRAMES});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, keep, &path));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return path;
 }
 
 /* Its distance from the body falls as 1/stiffness over three decades. */
-static void stiff_lattice_tends_to_the_body(void **unused) {
-  (void)unused;
+static void stiff_lattice_tends_to_the_body(no_state) {
   struct cube how = {.rigid = 1, .anchored = 1, .turning = 1};
   const struct path body = path_of(how, 1.0 / 4000);
   double apart[4];
@@ -224,53 +204,42 @@ static void stiff_lattice_tends_to_the_body(void **unused) {
 /* ---- bits ---- */
 
 /* Steps by other integrators, each from the state that the last one left, are those of one run. */
-static void a_step_is_a_map_of_the_state(void **unused) {
-  (void)unused;
+static void a_step_is_a_map_of_the_state(no_state) {
   const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet",  "heun",
                                  "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint"};
   for (int damped = 0; damped < 2; damped++) {
-    hooke_system *system = committed((struct cube){
+    owned_system *system = committed((struct cube){
         .rigid = 1, .anchored = 1, .turning = 1, .damping = damped ? 0.3 : 0.0, .stiffness = 10.0});
     for (int m = 0; m < 8; m++) {
       const struct run run = {.method = methods[m], .step = 1.0 / 128, .duration = 0.25, .every = 0.25};
       double q[3 * CUBE], v[3 * CUBE];
       run_to_end(system, run, q, v);
-      hooke_state *state = start_state(system);
+      owned_state *state = start_state(system);
       for (int k = 0; k < 32; k++) {
-        hooke_integrator *integrator = start_run(system, run);
+        owned_integrator *integrator = start_run(system, run);
         check_ok(hooke_integrator_step(integrator, state, 1));
-        hooke_integrator_destroy(integrator);
       }
       check_same_bits(3 * CUBE, hooke_state_position(state), q);
       check_same_bits(3 * CUBE, hooke_state_velocity(state), v);
-      hooke_state_destroy(state);
     }
-    hooke_system_destroy(system);
   }
 }
 
 /* A cloth with a rigid corner, large enough for two threads. */
-static void threads_do_not_change_bits(void **unused) {
-  (void)unused;
+static void threads_do_not_change_bits(no_state) {
   enum { SIDE = 100, N = SIDE * SIDE };
   const int64_t corner[] = {0, 1, 2, SIDE, SIDE + 1, SIDE + 2, 2 * SIDE, 2 * SIDE + 1};
-  hooke_options *options = NULL;
-  hooke_system *system = NULL;
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_numbers(options, "size", 2, (double[]){SIDE, SIDE}));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, (double[]){1, 0, 0, 0, 0.2, 1}));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
+  owned_options *options =
+      options_with("cloth", "size=%d,%d edges=1,0,0,0,0.2,1 mass=1 pinned=top-corners", SIDE, SIDE);
   for (int k = 0; k < 3; k++) {
     const char *const family[] = {"structural.stiffness", "shear.stiffness", "bend.stiffness"};
     check_ok(hooke_options_set_number(options, family[k], 100.0));
   }
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_add_body(system, "frame", 8, corner, 0));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   double *q[2], *v[2];
   for (int k = 0; k < 2; k++) {
     q[k] = new_doubles(3 * N);
@@ -291,27 +260,23 @@ static void threads_do_not_change_bits(void **unused) {
     free(q[k]);
     free(v[k]);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- what is dropped, and sums over particles ---- */
 
-static void inner_springs_are_dropped(void **unused) {
-  (void)unused;
-  hooke_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
+static void inner_springs_are_dropped(no_state) {
+  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
   assert_int_equal(hooke_system_count(system, "springs"), 0);
   assert_int_equal(hooke_system_count(system, "inside_bodies"), PAIRS);
   assert_int_equal(hooke_system_count(system, "dropped_springs"), 0);
   assert_int_equal(hooke_system_count(system, "anchors"), 3);
   assert_int_equal(hooke_system_count(system, "bodies"), 1);
   assert_string_equal(hooke_system_body_name(system, 0), "cube");
-  hooke_system_destroy(system);
 }
 
-static void motion_adds_up_to_energy(void **unused) {
-  (void)unused;
-  hooke_system *system = committed((struct cube){.rigid = 1, .turning = 1});
-  hooke_state *state = start_state(system);
+static void motion_adds_up_to_energy(no_state) {
+  owned_system *system = committed((struct cube){.rigid = 1, .turning = 1});
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double inertia[4], motion[13], momentum[3], energy = 0.0;
   check_ok(hooke_system_body_inertia(system, 0, inertia));
@@ -330,8 +295,6 @@ static void motion_adds_up_to_energy(void **unused) {
     energy += 0.5 * inertia[0] * motion[7 + k] * motion[7 + k];
   }
   check_close(energy, hooke_system_energy(system, "kinetic", q, v), 1e-15);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- bad input ---- */
@@ -342,8 +305,7 @@ static void refuse(hooke_system *system, const char *words) {
   hooke_system_destroy(system);
 }
 
-static void bad_bodies_are_refused(void **unused) {
-  (void)unused;
+static void bad_bodies_are_refused(no_state) {
   const double mass = 1.0, same[] = {1, 2, 3, 1, 2, 3}, uneven[] = {0, 0, 1, 0, 0, 0, 0, 0, 0},
                row[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   hooke_system *system = cube((struct cube){.rigid = 1});
@@ -352,21 +314,21 @@ static void bad_bodies_are_refused(void **unused) {
   system = cube((struct cube){.rigid = 0});
   check_ok(hooke_system_add_body(system, "twice", 2, (int64_t[]){3, 3}, 0));
   refuse(system, "bodies[0]: particle 3 is named twice");
-  check_ok(hooke_system_create(&system));
+  system = new_system();
   check_ok(hooke_system_add_particles(system, 2, same, NULL, 1, &mass, NULL));
   check_ok(hooke_system_add_body(system, NULL, 2, ALL, 0));
   refuse(system, "all at one position");
   system = cube((struct cube){.rigid = 1});
   check_ok(hooke_system_drive_harmonic(system, 1, ALL + 2, (double[]){0, 1, 0}, 1.0, 0.0));
   refuse(system, "particle 2 is driven and others of the body are not");
-  check_ok(hooke_system_create(&system));
+  system = new_system();
   check_ok(hooke_system_add_particles(system, 3, row, uneven, 1, &mass, NULL));
   check_ok(hooke_system_add_body(system, NULL, 2, ALL, 0));
   check_ok(hooke_system_commit(system)); /* 2 points can turn so */
   hooke_system_destroy(system);
   const double apart[9] = {0, 0, 0, 0.5, 0, 0, 0, 0, 0};
   for (int project = 0; project < 2; project++) {
-    check_ok(hooke_system_create(&system));
+    system = new_system();
     check_ok(hooke_system_add_particles(system, 3, row, apart, 1, &mass, NULL));
     check_ok(hooke_system_add_body(system, NULL, 3, ALL, project));
     if (!project) {
@@ -374,27 +336,24 @@ static void bad_bodies_are_refused(void **unused) {
       continue;
     }
     check_ok(hooke_system_commit(system));
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     double momentum[3], spin[3];
     hooke_system_momentum(system, hooke_state_velocity(state), momentum);
     hooke_system_angular_momentum(system, row, hooke_state_velocity(state), spin);
     check_close(momentum[0], 0.5, 1e-15);
     check_close(largest(3, spin), 0.0, 1e-15);
-    hooke_state_destroy(state);
     hooke_system_destroy(system);
   }
 }
 
-static void unknown_is_said(void **unused) {
-  (void)unused;
-  hooke_system *system = committed((struct cube){.rigid = 1, .anchored = 1});
-  hooke_state *state = start_state(system);
-  hooke_options *options = run_options((struct run){.method = "shardlow", .step = 0.01, .duration = 1.0});
+static void unknown_is_said(no_state) {
+  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1});
+  owned_state *state = start_state(system);
+  owned_options *options = run_options((struct run){.method = "shardlow", .step = 0.01, .duration = 1.0});
   hooke_integrator *integrator = NULL;
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("shardlow does not know rigid bodies yet");
-  check_ok(hooke_options_set_text(options, "method", "tr-bdf2"));
-  check_ok(hooke_options_set_text(options, "linear_solver", "direct"));
+  set_options(options, "method=tr-bdf2 linear_solver=direct");
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("direct does not know rigid bodies yet; allowed with tr-bdf2: auto, blocks");
   double bound = 0.0;
@@ -408,15 +367,11 @@ static void unknown_is_said(void **unused) {
   check_ok(hooke_integrator_step(integrator, state, 1));
   check_status(hooke_integrator_put(integrator, 1, ALL, hooke_state_position(state), NULL), HOOKE_UNSUITED);
   hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* A driven body follows its drive. */
-static void driven_bodies_follow(void **unused) {
-  (void)unused;
-  hooke_system *system = cube((struct cube){.rigid = 1});
+static void driven_bodies_follow(no_state) {
+  owned_system *system = cube((struct cube){.rigid = 1});
   double q[3 * CUBE], corner[3];
   check_ok(hooke_system_drive_harmonic(system, CUBE, ALL, (double[]){0, 0.5, 0}, 1.0, 0.0));
   check_ok(hooke_system_commit(system));
@@ -427,7 +382,6 @@ static void driven_bodies_follow(void **unused) {
     corner[1] += 0.5;
     check_close(largest_difference(3, q + 3 * p, corner), 0.0, 1e-15);
   }
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -11,11 +11,10 @@ static hooke_system *three(void) {
   return small_system(3, place, NULL, 1.0, 0);
 }
 
-static void test_particles(void **unused) {
-  (void)unused;
+static void test_particles(no_state) {
   const double bad_place[] = {0, 0, 0, 1, NAN, 0}, bad_velocity[] = {0, 0, 0, 0, 0, INFINITY};
   const double mass = 1.0, none = 0.0, negative[] = {1.0, -2.5}, masses[] = {1, 2, 3};
-  hooke_system *system = three();
+  owned_system *system = three();
   check_status(hooke_system_add_particles(system, 2, bad_place, NULL, 1, &mass, NULL), HOOKE_BAD_VALUE);
   check_message("position[1][1]");
   check_message("nan");
@@ -32,20 +31,17 @@ static void test_particles(void **unused) {
   check_status(hooke_system_add_particles(system, -1, place, NULL, 1, &mass, NULL), HOOKE_BAD_VALUE);
   check_message("-1");
   assert_int_equal(hooke_system_particle_count(system), 3);
-  hooke_system_destroy(system);
 }
 
 static hooke_options *spring_options(const char *name, double value) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
+  hooke_options *options = options_with("springs", "stiffness=10");
   if (name != NULL) check_ok(hooke_options_set_number(options, name, value));
   return options;
 }
 
 static void refuse_springs(int64_t count, const int64_t *ends, const hooke_options *options,
                            const char *culprit, const char *value) {
-  hooke_system *system = three();
+  owned_system *system = three();
   check_status(hooke_system_add_springs(system, "edges", count, ends, options), HOOKE_BAD_VALUE);
   check_message(culprit);
   check_message(value);
@@ -55,11 +51,9 @@ static void refuse_springs(int64_t count, const int64_t *ends, const hooke_optio
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_count(system, "springs"), 1);
   assert_int_equal(hooke_system_group_count(system, "springs"), 1);
-  hooke_system_destroy(system);
 }
 
-static void test_springs(void **unused) {
-  (void)unused;
+static void test_springs(no_state) {
   const int64_t outside[] = {0, 1, 1, 7}, below[] = {-1, 2}, same[] = {0, 1, 2, 2}, good[] = {0, 1, 1, 2};
   const double three_values[] = {1, 2, 3}, with_zero[] = {1, 0};
   hooke_options *options = spring_options(NULL, 0.0);
@@ -82,24 +76,20 @@ static void test_springs(void **unused) {
 }
 
 /* Coincident ends have no initial length for the strain law. */
-static void test_initial_length_of_nothing(void **unused) {
-  (void)unused;
+static void test_initial_length_of_nothing(no_state) {
   const double q[] = {0, 0, 0, 1, 1, 1, 1, 1, 1};
   const int64_t ends[] = {0, 1, 1, 2};
-  hooke_system *system = small_system(3, q, NULL, 1.0, 0);
-  hooke_options *options = spring_options(NULL, 0.0);
+  owned_system *system = small_system(3, q, NULL, 1.0, 0);
+  owned_options *options = spring_options(NULL, 0.0);
   check_status(hooke_system_add_springs(system, "edges", 2, ends, options), HOOKE_BAD_VALUE);
   check_message("[1]");
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_system_add_springs(system, "edges", 2, ends, options));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void test_spring_options(void **unused) {
-  (void)unused;
-  hooke_options *options = spring_options(NULL, 0.0);
+static void test_spring_options(no_state) {
+  owned_options *options = spring_options(NULL, 0.0);
   const double bad[] = {1.0, -3.0};
   check_status(hooke_options_set_number(options, "stiffness", -5.0), HOOKE_BAD_VALUE);
   check_message("stiffness");
@@ -114,14 +104,12 @@ static void test_spring_options(void **unused) {
   check_status(hooke_options_set_number(options, "stifness", 1.0), HOOKE_BAD_VALUE);
   check_message("stifness");
   check_close(hooke_options_number(options, "stiffness"), 10.0, 0.0); /* kept */
-  hooke_options_destroy(options);
 }
 
-static void test_pins_and_drives(void **unused) {
-  (void)unused;
+static void test_pins_and_drives(no_state) {
   const int64_t outside[] = {0, 3}, one = 1, two = 2, twice[] = {0, 0};
   const double amplitude[] = {1, 0, 0}, lost[] = {1, NAN, 0}, time[] = {0, 1, 1}, moved[9] = {0};
-  hooke_system *system = three();
+  owned_system *system = three();
   check_status(hooke_system_pin(system, 2, outside), HOOKE_BAD_VALUE);
   check_message("pinned[1]");
   check_message("3");
@@ -148,13 +136,11 @@ static void test_pins_and_drives(void **unused) {
   assert_int_equal(hooke_system_count(system, "free"), 1);
   assert_true(hooke_system_inverse_mass(system)[0] == 1.0);
   assert_true(hooke_system_inverse_mass(system)[1] == 0.0 && hooke_system_inverse_mass(system)[2] == 0.0);
-  hooke_system_destroy(system);
 }
 
-static void test_gravity_and_drag(void **unused) {
-  (void)unused;
+static void test_gravity_and_drag(no_state) {
   const double gravity[] = {0, 0, -INFINITY};
-  hooke_system *system = three();
+  owned_system *system = three();
   check_status(hooke_system_set_gravity(system, gravity), HOOKE_BAD_VALUE);
   check_message("gravity[2]");
   check_status(hooke_system_set_drag(system, -0.5), HOOKE_BAD_VALUE);
@@ -162,35 +148,30 @@ static void test_gravity_and_drag(void **unused) {
   check_status(hooke_system_set_drag(system, NAN), HOOKE_BAD_VALUE);
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_count(system, "forces"), 0);
-  hooke_system_destroy(system);
 }
 
 /* A pinned particle with a velocity is refused at commit; the system stays open. */
-static void test_moving_pin(void **unused) {
-  (void)unused;
+static void test_moving_pin(no_state) {
   const double v[] = {0, 0, 0, 0, 0.25, 0, 0, 0, 0};
   const int64_t one = 1;
-  hooke_system *system = small_system(3, place, v, 1.0, 0);
+  owned_system *system = small_system(3, place, v, 1.0, 0);
   check_ok(hooke_system_pin(system, 1, &one));
   check_status(hooke_system_commit(system), HOOKE_BAD_VALUE);
   check_message("particle 1");
   check_message("0.25");
   assert_int_equal(hooke_system_is_committed(system), 0);
   check_ok(hooke_system_set_drag(system, 1.0)); /* still open */
-  hooke_system_destroy(system);
 }
 
-static void test_calls_out_of_order(void **unused) {
-  (void)unused;
+static void test_calls_out_of_order(no_state) {
   const double gravity[] = {0, 0, 1}, mass = 1.0;
   const int64_t ends[] = {0, 1}, one = 1;
   double out[9];
   hooke_state *state = NULL;
   hooke_integrator *integrator = NULL;
-  hooke_options *options = spring_options(NULL, 0.0), *run = NULL;
-  hooke_system *system = three();
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_number(run, "step", 0.1));
+  owned_options *options = spring_options(NULL, 0.0), *run = NULL;
+  owned_system *system = three();
+  run = options_with("run", "step=0.1");
   check_status(hooke_system_force(system, 0.0, place, place, out), HOOKE_BAD_CALL);
   check_status(hooke_system_acceleration(system, 0.0, place, place, out), HOOKE_BAD_CALL);
   check_status(hooke_state_create(system, &state), HOOKE_BAD_CALL);
@@ -205,19 +186,15 @@ static void test_calls_out_of_order(void **unused) {
   check_status(hooke_system_set_gravity(system, gravity), HOOKE_BAD_CALL);
   check_status(hooke_system_set_drag(system, 1.0), HOOKE_BAD_CALL);
   check_status(hooke_system_drive_harmonic(system, 1, &one, gravity, 1.0, 0.0), HOOKE_BAD_CALL);
-  hooke_options_destroy(options);
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
 }
 
 /* Groups keep their order, names and sizes; springs are numbered through them. */
-static void test_spring_numbers(void **unused) {
-  (void)unused;
+static void test_spring_numbers(no_state) {
   const int64_t first[] = {2, 0}, second[] = {0, 1, 1, 2}, expected[] = {2, 0, 0, 1, 1, 2};
   int64_t ends[6];
   double kappa[3], gamma[3], rest[3];
-  hooke_system *system = three();
-  hooke_options *options = spring_options("damping", 0.5);
+  owned_system *system = three();
+  owned_options *options = spring_options("damping", 0.5);
   check_ok(hooke_system_add_springs(system, "long", 1, first, options));
   check_ok(hooke_options_set_number(options, "rest_scale", 0.5));
   check_ok(hooke_system_add_springs(system, NULL, 2, second, options));
@@ -237,8 +214,6 @@ static void test_spring_numbers(void **unused) {
   assert_null(hooke_system_group_name(system, "springs", 2));
   assert_int_equal(hooke_system_group_size(system, "springs", 0), 1);
   assert_int_equal(hooke_system_group_size(system, "springs", 1), 2);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* ---- numbers one by one ---- */
@@ -274,9 +249,8 @@ static const struct kind {
 
 /* Every number that each member may have, of members `first` to `first` + `count`. */
 static hooke_options *numbers_of(const char *force, int64_t first, int64_t count) {
-  hooke_options *options;
   int64_t set = 0;
-  check_ok(hooke_options_create(force, &options));
+  hooke_options *options = new_options(force);
   for (int64_t row = 0; row < hooke_options_row_count(options); row++) {
     double value[MOST];
     const char *name = hooke_options_row(options, row, "name");
@@ -297,22 +271,19 @@ static hooke_options *numbers_of(const char *force, int64_t first, int64_t count
 static hooke_system *built_of(const struct kind *kind, int one_by_one, const double *q, const double *mass) {
   const int64_t size = hooke_member_particles(kind->force), count = one_by_one ? 1 : MEMBERS,
                 particles = one_by_one ? 1 : CORNERS;
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   for (int64_t p = 0; p < CORNERS; p += particles)
     check_ok(hooke_system_add_particles(system, particles, q + 3 * p, NULL, particles, mass + p, NULL));
   for (int64_t k = 0; k < MEMBERS; k += count) {
-    hooke_options *options = numbers_of(kind->force, k, count);
+    owned_options *options = numbers_of(kind->force, k, count);
     check_ok(kind->add(system, count, of_members + size * k, options));
-    hooke_options_destroy(options);
   }
   check_ok(hooke_system_commit(system));
   return system;
 }
 
 /* Unequal numbers in arrays act as when they are given one by one. */
-static void test_each_has_its_numbers(void **unused) {
-  (void)unused;
+static void test_each_has_its_numbers(no_state) {
   double q[3 * CORNERS], moved[3 * CORNERS], v[3 * CORNERS], mass[CORNERS], a[2][3 * CORNERS];
   for (int k = 0; k < 3 * CORNERS; k++) {
     q[k] = sin(1.0 + k * k);
@@ -323,11 +294,10 @@ static void test_each_has_its_numbers(void **unused) {
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
     double stiffness[2][MEMBERS], damping[2][MEMBERS], rest[2][7 * MEMBERS] = {{0}};
     for (int one_by_one = 0; one_by_one < 2; one_by_one++) {
-      hooke_system *system = built_of(&kinds[k], one_by_one, q, mass);
+      owned_system *system = built_of(&kinds[k], one_by_one, q, mass);
       check_ok(hooke_system_acceleration(system, 0.0, moved, v, a[one_by_one]));
       check_ok(hooke_system_members(system, kinds[k].force, NULL, stiffness[one_by_one], damping[one_by_one],
                                     rest[one_by_one]));
-      hooke_system_destroy(system);
     }
     assert_true(largest_difference(3 * CORNERS, a[0], q) > 0.0 && stiffness[0][0] != stiffness[0][1]);
     check_same_bits(3 * CORNERS, a[0], a[1]);

@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- a linear force, whose derivative is known: difference quotients must match it ---- */
@@ -33,14 +32,13 @@ static int32_t linear_product(int64_t n, double t, const double *q, const double
   return linear_force(n, t, dq, dv, out, ctx);
 }
 
-static void test_difference_quotients(void **unused) {
-  (void)unused;
+static void test_difference_quotients(no_state) {
   const double q[] = {1, -2, 3, 100, 0.5, -40}, v[] = {0, 1, 0, -3, 0, 5}, dq[] = {1, 2, -1, 0.5, 0, 3},
                dv[] = {0.25, 0, -4, 1, 1, 1};
   for (int with = 0; with < 2; with++) {
     struct linear linear = {0, 0, 0};
     double out[6], expected[6] = {0};
-    hooke_system *system = small_system(2, q, v, 1.0, 0);
+    owned_system *system = small_system(2, q, v, 1.0, 0);
     check_ok(hooke_system_set_force(system, linear_force, with ? linear_product : NULL, &linear));
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_derivative_product(system, 0.0, q, v, dq, dv, out));
@@ -48,7 +46,6 @@ static void test_difference_quotients(void **unused) {
     assert_true(linear.force_calls >= 1);
     linear_force(2, 0.0, dq, dv, expected, &linear);
     check_between(largest_difference(6, out, expected) / largest(6, expected), 0.0, with ? 1e-15 : 1e-7);
-    hooke_system_destroy(system);
   }
 }
 
@@ -60,8 +57,7 @@ static hooke_system *linear_system(const char *kind, hooke_force_product *produc
   const double q[3 * LINEAR] = {1, -2, 3, 1, 0.5, -4, 0, 0, 2, 1, 0, 0, 0, 1, 0, 0, 0, 1},
                      mass[] = {0.5, 2.0, 1.0, 0.7, 1.3, 0.4};
   const int64_t pinned = 0, body[] = {3, 4, 5};
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, LINEAR, q, NULL, LINEAR, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   if (strcmp(kind, "overdamped") == 0) check_ok(hooke_system_set_dynamics(system, kind));
@@ -77,10 +73,10 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
   const double place[] = {1, -2, 0.5, 3, 2, -1, 0}, weight[] = {0.3, 2.0, 0.7, 1.1, 0.2, 5.0, 1.0};
   struct linear linear = {.coordinates = strcmp(kind, "coordinates") == 0};
   hooke_force_product *product = with ? linear_product : NULL;
-  hooke_system *system = linear.coordinates ? NULL : linear_system(kind, product, &linear);
+  owned_system *system = linear.coordinates ? NULL : linear_system(kind, product, &linear);
   hooke_integrator *it;
   hooke_state *state;
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   if (system) {
     check_ok(hooke_integrator_create(system, options, &it));
     state = start_state(system);
@@ -95,17 +91,14 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
   memset(end, 0, STATE * sizeof *end);
   memcpy(end, hooke_state_position(state), size * sizeof *end);
   memcpy(end + size, hooke_state_velocity(state), size * sizeof *end);
-  hooke_options_destroy(options);
   hooke_integrator_destroy(it);
   hooke_state_destroy(state);
-  hooke_system_destroy(system);
   return linear.product_calls;
 }
 
 /* The force is linear, so but for turning bodies one iteration solves a step, with the derivative that is
  * given and with difference quotients. */
-static void test_derivative_in_steps(void **unused) {
-  (void)unused;
+static void test_derivative_in_steps(no_state) {
   static const char *const kinds[] = {"second-order", "bodies", "overdamped", "coordinates"};
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
     int64_t products = 0;
@@ -158,13 +151,12 @@ static int32_t look(int64_t n, double t, const double *q, const double *v, doubl
   return 0;
 }
 
-static void test_what_a_callback_sees(void **unused) {
-  (void)unused;
+static void test_what_a_callback_sees(no_state) {
   const double q[] = {0, 0, 0, 2, 0, 0}, v[] = {0, 1, 0, 0, 0, 3}, gravity[] = {0, 0, -10};
   const int64_t ends[] = {0, 1};
   struct shown shown = {0};
   double a[6];
-  hooke_system *system = small_system(2, q, v, 2.0, 0);
+  owned_system *system = small_system(2, q, v, 2.0, 0);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 4, .rest_length = 1});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.5));
@@ -179,7 +171,6 @@ static void test_what_a_callback_sees(void **unused) {
   const double before[] = {4, -0.5, 0, -4, 0, -1.5}, after[] = {2, -0.25, -10, -2, 0.5, -10.75};
   check_same_bits(6, shown.force, before);
   check_same_bits(6, a, after);
-  hooke_system_destroy(system);
 }
 
 /* ---- a force for some runs, and what it holds ---- */
@@ -225,18 +216,15 @@ static hooke_system *spring_and_pins(hooke_force *force, void *ctx) {
 
 /* Ends a run of some method, and gives its memory back. */
 static void go(const hooke_system *system, const char *method, double end[6]) {
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = method, .step = 0.01, .duration = 0.2});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   memcpy(end, hooke_state_position(state) + 3 * (FAR - 1), 3 * sizeof *end);
   memcpy(end + 3, hooke_state_velocity(state) + 3 * (FAR - 1), 3 * sizeof *end);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
-static void test_a_force_for_some_runs(void **unused) {
-  (void)unused;
+static void test_a_force_for_some_runs(no_state) {
   static const char *const methods[] = {"rk4", "verlet", "backward-euler", "cvode-adams"};
   static struct holder own, lent;
   hooke_system *plain = spring_and_pins(NULL, NULL), *forced = spring_and_pins(pull_and_hold, &own), *with;
@@ -262,28 +250,25 @@ static void test_a_force_for_some_runs(void **unused) {
   assert_int_equal(hooke_system_count(with, "idle"), hooke_system_count(plain, "idle"));
   hooke_system_destroy(with);
   hooke_system_destroy(plain);
-  check_ok(hooke_system_create(&plain));
+  plain = new_system();
   check_status(hooke_system_with_force(plain, NULL, NULL, NULL, &with), HOOKE_BAD_CALL);
   hooke_system_destroy(plain);
 }
 
 /* The arrays of a call outlast the run, with the numbers of the call; implicit methods take difference
  * quotients. */
-static void test_what_a_callback_holds(void **unused) {
-  (void)unused;
+static void test_what_a_callback_holds(no_state) {
   static const char *const methods[] = {"rk4", "backward-euler"};
   for (int k = 0; k < 2; k++) {
     static struct holder holder, other;
     double end[6], expected[6];
     holder.calls = 0;
     other.calls = HELD;
-    hooke_system *system = spring_and_pins(pull_and_hold, &holder),
+    owned_system *system = spring_and_pins(pull_and_hold, &holder),
                  *same = spring_and_pins(pull_and_hold, &other);
     go(system, methods[k], end);
     go(same, methods[k], expected);
     check_same_bits(6, end, expected);
-    hooke_system_destroy(system);
-    hooke_system_destroy(same);
     for (int c = 0; c < HELD; c++) {
       check_same_bits(9 * FAR, holder.q[c], holder.copy[c]);
       for (int other_call = 0; other_call < c; other_call++)
@@ -363,7 +348,7 @@ static hooke_system *pulled_system(const char *problem, struct stopper *stopper)
 static void start_pulled(const char *problem, const char *method, hooke_system **system,
                          hooke_integrator **it, hooke_state **state, struct stopper *stopper) {
   const struct run run = {.method = method, .step = 0.0625, .duration = 20.0};
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   const double one = 1.0, weight = 0.5;
   *system = NULL;
   stopper->calls = -1000; /* beginning calls, too */
@@ -381,7 +366,6 @@ static void start_pulled(const char *problem, const char *method, hooke_system *
   }
   if (*system == NULL) hooke_state_position(*state)[0] = one;
   if (is_fixed_step(method)) check_ok(hooke_integrator_step(*it, *state, 0));
-  hooke_options_destroy(options);
   stopper->calls = stopper->steps = 0;
 }
 
@@ -404,9 +388,9 @@ static int32_t note_state(int64_t step, const hooke_state *state, void *ctx) {
  * of those that go on from there. */
 static void check_stop(const char *problem, const char *method, struct stopper *stopper) {
   double found[MOST_NUMBERS];
-  hooke_system *system;
-  hooke_integrator *it;
-  hooke_state *state;
+  owned_system *system;
+  owned_integrator *it;
+  owned_state *state;
   start_pulled(problem, method, &system, &it, &state, stopper);
   check_ok(hooke_integrator_on_step(it, 1, note_state, stopper));
   check_status(hooke_integrator_step(it, state, WHOLE), stopper->stop < 0 ? HOOKE_OK : HOOKE_STOPPED);
@@ -420,38 +404,30 @@ static void check_stop(const char *problem, const char *method, struct stopper *
     state_numbers(state, found);
     check_same_bits(MOST_NUMBERS, found, stopper->whole[WHOLE]);
   }
-  hooke_integrator_destroy(it);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* The same of an error-controlled method: the driven particle is where it is at that time. */
 static void check_adaptive_stop(const char *problem, const char *method, struct stopper *stopper) {
   double q[3], v[3];
-  hooke_system *system;
-  hooke_integrator *it;
-  hooke_state *state;
+  owned_system *system;
+  owned_integrator *it;
+  owned_state *state;
   start_pulled(problem, method, &system, &it, &state, stopper);
   check_status(hooke_integrator_run(it, state), HOOKE_STOPPED);
   check_message("77");
   assert_int_equal(hooke_integrator_count(it, "stop_value"), 77);
   wander(1, hooke_state_time(state), q, v, stopper);
   if (system) check_same_bits(3, hooke_state_position(state), q);
-  hooke_integrator_destroy(it);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 static void check_stops(const char *problem, const char *method, hooke_force_product *product) {
   struct stopper stopper = {.stop = -1, .product = product};
-  hooke_system *system;
+  owned_system *system;
   hooke_integrator *it;
-  hooke_state *state;
+  owned_state *state;
   start_pulled(problem, method, &system, &it, &state, &stopper);
   state_numbers(state, stopper.whole[0]);
   hooke_integrator_destroy(it);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
   if (is_fixed_step(method)) check_stop(problem, method, &stopper);
   const int64_t calls = is_fixed_step(method) ? stopper.calls : 40;
   assert_true(calls >= WHOLE);
@@ -460,8 +436,7 @@ static void check_stops(const char *problem, const char *method, hooke_force_pro
 }
 
 /* In a step, a residual or a derivative, of every method and every kind of unknowns. */
-static void test_every_call_may_stop(void **unused) {
-  (void)unused;
+static void test_every_call_may_stop(no_state) {
   static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order",
                                          "coordinates"};
   for (size_t k = 0; k < sizeof problems / sizeof problems[0]; k++) {
@@ -475,17 +450,15 @@ static void test_every_call_may_stop(void **unused) {
   }
 }
 
-static void test_a_force_alone_stops(void **unused) {
-  (void)unused;
+static void test_a_force_alone_stops(no_state) {
   const double q[] = {0, 0, 0};
   struct stopper stopper = {.stop = 1};
   double force[3];
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  owned_system *system = small_system(1, q, NULL, 1.0, 0);
   check_ok(hooke_system_set_force(system, pull_back, NULL, &stopper));
   check_ok(hooke_system_commit(system));
   check_status(hooke_system_force(system, 0.0, q, q, force), HOOKE_STOPPED);
   check_message("77");
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -6,6 +6,7 @@
  * which converges to w L^4/(8 B), w = rho g, like 1/N^2. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,40 +32,22 @@ static hooke_system *commit(hooke_system *system) {
 }
 
 static hooke_system *new_rope(int segments, const char *of_mass, double mass, double piece) {
-  hooke_system *system = NULL;
-  hooke_options *rope = NULL;
-  const double from[3] = {-0.5 * piece, 0.0, 0.0}, to[3] = {(segments - 0.5) * piece, 0.0, 0.0};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
-  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, "segments", segments));
-  check_ok(hooke_options_set_number(rope, of_mass, mass));
-  check_ok(hooke_options_set_number(rope, "bending", stiffness()));
-  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 1e5));
-  check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
-  hooke_options_destroy(rope);
+  hooke_system *system = new_system();
+  small_part(system, "rope", "beam",
+             "from=%.17g,0,0 to=%.17g,0,0 segments=%d %s=%.17g bending=%.17g stretch.stiffness=1e5",
+             -0.5 * piece, (segments - 0.5) * piece, segments, of_mass, mass, stiffness());
   pin_first(system, 2);
   return commit(system);
 }
 
 /* `along` pieces from the wall, `across` particles over 0.5 m. */
 static hooke_system *new_sheet(int along, int across) {
-  hooke_system *system = NULL;
-  hooke_options *cloth = NULL;
   const double piece = LENGTH / (along - 0.5);
-  const double edges[6] = {0.0, 0.5, 0.0, along * piece, 0.0, 0.0}, size[2] = {across, along + 1};
-  const double origin[3] = {-0.5 * piece, 0.0, 0.0};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "density", DENSITY));
-  check_ok(hooke_options_set_number(cloth, "bending", stiffness()));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 1e5));
-  check_ok(hooke_system_add_part(system, "cloth", "sheet", cloth, NULL, NULL));
-  hooke_options_destroy(cloth);
+  hooke_system *system = new_system();
+  small_part(system, "cloth", "sheet",
+             "origin=%.17g,0,0 edges=0,0.5,0,%.17g,0,0 size=%d,%d density=%.17g bending=%.17g "
+             "structural.stiffness=1e5",
+             -0.5 * piece, along * piece, across, along + 1, DENSITY, stiffness());
   pin_first(system, 2 * across);
   return commit(system);
 }
@@ -77,7 +60,7 @@ static void fill_band(const hooke_system *system, const double *q, const double 
   const int64_t n = hooke_system_particle_count(system), count = hooke_system_count(system, "blocks");
   int64_t *row_start = new_block(n + 1, (int64_t)sizeof(int64_t)),
           *column = new_block(count, (int64_t)sizeof(int64_t));
-  double *blocks = new_doubles(9 * count);
+  owned_doubles *blocks = new_doubles(9 * count);
   check_ok(hooke_system_derivative_pattern(system, row_start, column));
   check_ok(hooke_system_derivative_blocks(system, q, v, blocks, NULL));
   memset(band, 0, (size_t)(3 * (n - held) * width) * sizeof *band);
@@ -93,7 +76,6 @@ static void fill_band(const hooke_system *system, const double *q, const double 
   }
   free(row_start);
   free(column);
-  free(blocks);
 }
 
 /* x = A^-1 x by Cholesky, in place of the band. */
@@ -127,7 +109,7 @@ static void solve(int64_t size, int64_t width, double *band, double *x) {
 static double sag_of(hooke_system *system, int64_t across) {
   const int64_t n = hooke_system_particle_count(system), held = 2 * across, width = 3 * (2 * across + 1);
   const int64_t size = 3 * (n - held);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double *band = new_doubles(size * width), *force = new_doubles(3 * n), moved = 1.0;
   for (int turn = 0; turn < 20 && moved > 1e-13; turn++) {
@@ -142,7 +124,6 @@ static double sag_of(hooke_system *system, int64_t across) {
   const double sag = -q[3 * n - 1];
   free(band);
   free(force);
-  hooke_state_destroy(state);
   hooke_system_destroy(system);
   return sag;
 }
@@ -153,8 +134,7 @@ static double tip_of(int segments) {
   return sag_of(new_rope(segments, "density", DENSITY, LENGTH / (segments - 0.5)), 1);
 }
 
-static void tips_sink_as_beams_do(void **unused) {
-  (void)unused;
+static void tips_sink_as_beams_do(no_state) {
   const int segments[4] = {16, 32, 64, 128};
   double tip[4];
   for (int k = 0; k < 4; k++) {
@@ -171,8 +151,7 @@ static void tips_sink_as_beams_do(void **unused) {
 
 /* Equal masses give the tip twice its proper mass; with a wall at the first particle the length is off by
  * half a piece. */
-static void other_masses_and_walls_are_noticed(void **unused) {
-  (void)unused;
+static void other_masses_and_walls_are_noticed(no_state) {
   const double piece = LENGTH / 15.5, other = LENGTH / 16.0, unit = SAG * LENGTH;
   const double shared = sag_of(new_rope(16, "mass", DENSITY * 16.0 * piece, piece), 1) / unit;
   const double wall = sag_of(new_rope(16, "density", DENSITY, other), 1) / unit;
@@ -185,21 +164,18 @@ static void other_masses_and_walls_are_noticed(void **unused) {
 }
 
 /* The library's own way to equilibrium: backward Euler, which damps modes that it does not resolve. */
-static void backward_euler_comes_to_rest_there(void **unused) {
-  (void)unused;
+static void backward_euler_comes_to_rest_there(no_state) {
   const double expected = tip_of(16);
-  hooke_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
+  owned_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
   double q[3 * 17];
   run_to_end(system, (struct run){.method = "backward-euler", .step = 0.5, .duration = 5.0, .every = 5.0}, q,
              NULL);
   check_close(-q[3 * 17 - 1], expected, 1e-6 * expected);
-  hooke_system_destroy(system);
 }
 
 /* ---- sheets ---- */
 
-static void sheets_sink_as_beams_do(void **unused) {
-  (void)unused;
+static void sheets_sink_as_beams_do(no_state) {
   const int along[3] = {16, 64, 128}, across[3] = {2, 5, 9};
   for (int k = 0; k < 3; k++) {
     double first = 0.0;

@@ -4,8 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static int32_t pull(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t, (void)v, (void)ctx;
@@ -20,18 +18,13 @@ static hooke_system *open_oscillators(double damping, double drag, int gravity, 
   static const double q[] = {0, 0, 0, 1, 0, 0, 0, 5, 0, 1, 5, 0}, down[] = {0, 0, -9.81};
   static const int64_t pinned[] = {0, 2}, stiff[] = {0, 1}, soft[] = {2, 3}, zero[] = {1, 3};
   hooke_system *system = small_system(4, q, NULL, 1.0, 0);
-  hooke_options *options;
   check_ok(hooke_system_pin(system, 2, pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 100.0));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  owned_options *options = options_with("springs", "stiffness=100 damping=%.17g", damping);
   check_ok(hooke_system_add_springs(system, "stiff", 1, stiff, options));
-  check_ok(hooke_options_set_number(options, "damping", 0.0));
-  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  set_options(options, "damping=0 stiffness=0");
   check_ok(hooke_system_add_springs(system, "zero", 1, zero, options));
   check_ok(hooke_options_set_number(options, "stiffness", 16.0));
   check_ok(hooke_system_add_springs(system, NULL, 1, soft, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_set_drag(system, drag));
   if (gravity) check_ok(hooke_system_set_gravity(system, down));
   if (callback) check_ok(hooke_system_set_force(system, pull, NULL, NULL));
@@ -48,9 +41,7 @@ static hooke_measurement *cost_within(double budget, const hooke_system *system,
                                       int predict) {
   hooke_options *given = run_options(run), *options;
   hooke_measurement *cost;
-  check_ok(hooke_options_create("cost", &options));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", budget));
+  options = options_with("cost", "predict=%d budget=%.17g", predict, budget);
   check_ok(hooke_measurement_create("cost", system, given, options, &cost));
   hooke_options_destroy(given);
   hooke_options_destroy(options);
@@ -74,8 +65,7 @@ static hooke_measurement *cost_of_all_rows(const hooke_system *system, struct ru
   }
 }
 
-static void rows_are_what_is_there(void **unused) {
-  (void)unused;
+static void rows_are_what_is_there(no_state) {
   static const char *const kinds[] = {"springs", "springs",  "bending", "damping",
                                       "drag",    "callback", "gravity"};
   static const char *const names[] = {"stiff", "", "curl", "damping", "drag", "callback", "gravity"};
@@ -121,8 +111,7 @@ static void rows_are_what_is_there(void **unused) {
 }
 
 /* One mode each: h omega = 2 (sqrt(1 + z^2) - z) for symplectic Euler, 2 without damping. */
-static void limits_are_those_without(void **unused) {
-  (void)unused;
+static void limits_are_those_without(no_state) {
   const double z = 0.25;
   hooke_system *system = two_oscillators(2.0 * z * 10.0, 0.0, 1, 0);
   hooke_measurement *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
@@ -156,24 +145,21 @@ static void limits_are_those_without(void **unused) {
 
 /* Groups of 1, 3 and 2 springs and of 2 triples: as many as requested, the largest first, of equal size the
  * first; and all ingredients without group. */
-static void the_largest_groups_are_looked_at(void **unused) {
-  (void)unused;
+static void the_largest_groups_are_looked_at(no_state) {
   enum { GROUPS = 4, MOST = GROUPS + 1 };
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, down[] = {0, 0, -9.81}, coefficient = 1.0;
   static const int64_t size[] = {1, 3, 2}, place[GROUPS] = {3, 0, 1, 2}; /* of each group among them */
   static const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triples[] = {0, 1, 2, 1, 2, 3};
-  hooke_system *system = small_system(4, q, NULL, 1.0, 1);
+  owned_system *system = small_system(4, q, NULL, 1.0, 1);
   for (int g = 0; g < 3; g++)
     small_springs(system, size[g], ends, (struct springs){.stiffness = 4.0, .rest_length = 1.0});
   check_ok(hooke_system_add_bending(system, "curl", 2, triples, 1, &coefficient));
   check_ok(hooke_system_set_gravity(system, down));
   check_ok(hooke_system_commit(system));
-  hooke_state *state = start_state(system);
-  hooke_options *options;
-  check_ok(hooke_options_create("cost", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1));
+  owned_state *state = start_state(system);
+  owned_options *options = options_with("cost", "predict=1");
   for (int64_t most = 0; most <= MOST; most++) {
-    hooke_measurement *cost;
+    owned_measurement *cost;
     check_ok(hooke_options_set_number(options, "groups", (double)most));
     check_ok(hooke_measurement_create("cost", system, NULL, options, &cost));
     check_ok(hooke_measurement_run(cost, state));
@@ -182,22 +168,17 @@ static void the_largest_groups_are_looked_at(void **unused) {
       assert_int_equal(isnan(hooke_measurement_number(cost, "rows", row, "memory_bytes")),
                        place[row] >= most);
     check_between(hooke_measurement_number(cost, "rows", GROUPS, "memory_bytes"), 0.0, 1e4);
-    hooke_measurement_destroy(cost);
   }
-  hooke_options_destroy(options);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* Every method can be timed, with steps that are far too large, or none given. */
-static void times_are_numbers(void **unused) {
-  (void)unused;
-  hooke_system *system = two_oscillators(1.0, 0.5, 1, 1);
+static void times_are_numbers(no_state) {
+  owned_system *system = two_oscillators(1.0, 0.5, 1, 1);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     for (int k = 0; k < 3; k++) {
       const double step[] = {1e-3, 1e3, 0.0};
-      hooke_measurement *cost = cost_of_all_rows(system, (struct run){.method = method, .step = step[k]});
+      owned_measurement *cost = cost_of_all_rows(system, (struct run){.method = method, .step = step[k]});
       assert_string_equal(hooke_measurement_text(cost, "cost", 0, "method"),
                           is_fixed_step(method) ? method : "symplectic-euler");
       check_between(hooke_measurement_number(cost, "cost", 0, "step"), 1e-12, 1e3);
@@ -207,10 +188,8 @@ static void times_are_numbers(void **unused) {
         check_between(hooke_measurement_number(cost, "rows", row, "nanoseconds"), 0.0, 1e9);
         check_between(hooke_measurement_number(cost, "rows", row, "resolution"), 0.0, 1e9);
       }
-      hooke_measurement_destroy(cost);
     }
   }
-  hooke_system_destroy(system);
 }
 
 struct watch {
@@ -226,39 +205,30 @@ static int32_t see(double done, const char *what, void *ctx) {
   return ++watch->calls == watch->stop_at;
 }
 
-static void can_be_stopped(void **unused) {
-  (void)unused;
-  hooke_system *system = two_oscillators(1.0, 0.5, 1, 0);
-  hooke_state *state = start_state(system);
+static void can_be_stopped(no_state) {
+  owned_system *system = two_oscillators(1.0, 0.5, 1, 0);
+  owned_state *state = start_state(system);
   struct watch watch = {.stop_at = 4};
-  hooke_measurement *cost;
+  owned_measurement *cost;
   check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
   hooke_measurement_on_progress(cost, see, &watch);
   check_status(hooke_measurement_run(cost, state), HOOKE_STOPPED);
   check_between(hooke_measurement_number(cost, "rows", 1, "nanoseconds"), 0.0, 1e9);
   assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "nanoseconds")));
   assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "memory_bytes")));
-  hooke_measurement_destroy(cost);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
-static void wrong_calls(void **unused) {
-  (void)unused;
-  hooke_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
-  hooke_state *state = start_state(other);
+static void wrong_calls(no_state) {
+  owned_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
+  owned_state *state = start_state(other);
   hooke_measurement *cost = NULL;
-  check_ok(hooke_system_create(&open));
+  open = new_system();
   check_status(hooke_measurement_create("cost", open, NULL, NULL, &cost), HOOKE_BAD_CALL);
   check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
   check_status(hooke_measurement_run(cost, state), HOOKE_BAD_VALUE);
   check_message("does not fit");
   assert_true(isnan(hooke_measurement_number(cost, "cost", 0, "step_limit")));
   hooke_measurement_destroy(cost);
-  hooke_state_destroy(state);
-  hooke_system_destroy(open);
-  hooke_system_destroy(other);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -45,12 +45,11 @@ struct ask {
 };
 
 static hooke_integrator *start(const hooke_system *system, struct ask ask) {
-  hooke_options *options = run_options((struct run){
+  owned_options *options = run_options((struct run){
       .method = ask.method, .rtol = ask.rtol, .atol = ask.atol, .duration = ask.duration, .every = 0.1});
   hooke_integrator *integrator = NULL;
   if (ask.max_order > 0) check_ok(hooke_options_set_number(options, "max_order", ask.max_order));
   check_ok(hooke_integrator_create(system, options, &integrator));
-  hooke_options_destroy(options);
   return integrator;
 }
 
@@ -58,20 +57,18 @@ static hooke_integrator *start(const hooke_system *system, struct ask ask) {
 static struct outcome run_on(hooke_integrator *integrator, const hooke_system *system) {
   const int64_t steps = hooke_integrator_count(integrator, "steps");
   const int64_t evaluations = hooke_integrator_count(integrator, "force_evaluations");
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   struct outcome outcome;
   check_ok(hooke_integrator_run(integrator, state));
   outcome.steps = hooke_integrator_count(integrator, "steps") - steps;
   outcome.force_evaluations = hooke_integrator_count(integrator, "force_evaluations") - evaluations;
   memcpy(outcome.q, hooke_state_position(state), sizeof outcome.q);
-  hooke_state_destroy(state);
   return outcome;
 }
 
 static struct outcome run_once(const hooke_system *system, struct ask ask) {
-  hooke_integrator *integrator = start(system, ask);
+  owned_integrator *integrator = start(system, ask);
   const struct outcome outcome = run_on(integrator, system);
-  hooke_integrator_destroy(integrator);
   return outcome;
 }
 
@@ -95,10 +92,9 @@ static const struct ask LOOSE = {"cvode-bdf", 1e-4, 1e-7, 0.3, 0};
 
 /* ---- lowered ---- */
 
-static void test_stiff_and_weakly_damped(void **unused) {
-  (void)unused;
+static void test_stiff_and_weakly_damped(no_state) {
   needs_cvode();
-  hooke_system *system = rope(STIFF, WEAK);
+  owned_system *system = rope(STIFF, WEAK);
   const struct outcome exact = run_once(system, (struct ask){"cvode-adams", 1e-8, 1e-11, 0.3, 0});
   struct ask ask = LOOSE;
   for (int k = 0; k < 2; k++, ask.rtol /= 10.0, ask.atol /= 10.0) {
@@ -112,13 +108,11 @@ static void test_stiff_and_weakly_damped(void **unused) {
     /* whose many steps, limited far below those of the tolerance, have a smaller error */
     check_between(error / largest_difference(SIZE, high.q, exact.q), 0.03, 300.0);
   }
-  hooke_system_destroy(system);
 }
 
-static void test_a_given_order_stays(void **unused) {
-  (void)unused;
+static void test_a_given_order_stays(no_state) {
   needs_cvode();
-  hooke_system *system = rope(STIFF, WEAK);
+  owned_system *system = rope(STIFF, WEAK);
   const struct outcome chosen = run_with(system, LOOSE, 0);
   for (int order = 3; order <= 5; order++) {
     const struct outcome given = run_with(system, LOOSE, order);
@@ -126,58 +120,49 @@ static void test_a_given_order_stays(void **unused) {
   }
   const struct outcome low = run_with(system, LOOSE, 2);
   assert_true(low.steps != chosen.steps); /* which begins with all orders */
-  hooke_system_destroy(system);
 }
 
 /* A run chooses anew, independently of the previous one. */
-static void test_again(void **unused) {
-  (void)unused;
+static void test_again(no_state) {
   needs_cvode();
-  hooke_system *system = rope(STIFF, WEAK);
-  hooke_integrator *integrator = start(system, LOOSE);
+  owned_system *system = rope(STIFF, WEAK);
+  owned_integrator *integrator = start(system, LOOSE);
   const struct outcome first = run_on(integrator, system), second = run_on(integrator, system);
   const struct outcome alone = run_once(system, LOOSE);
   check_same(&second, &first);
   check_same(&alone, &first);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* ---- unchanged ---- */
 
 /* The check is meaningful: order 2 gives another run. */
 static void check_left_alone(double stiffness, double damping, struct ask ask) {
-  hooke_system *system = rope(stiffness, damping);
+  owned_system *system = rope(stiffness, damping);
   const struct outcome chosen = run_with(system, ask, 0);
   const struct outcome low = run_with(system, ask, 2), high = run_with(system, ask, 5);
   check_same(&chosen, &high);
   assert_true(low.steps != high.steps);
-  hooke_system_destroy(system);
 }
 
-static void test_strongly_damped(void **unused) {
-  (void)unused;
+static void test_strongly_damped(no_state) {
   needs_cvode();
   check_left_alone(STIFF, STRONG, LOOSE);
 }
 
 /* With a wide absolute tolerance, steps are long for both of these; only the first drops the higher orders.
  */
-static void test_tight_tolerance(void **unused) {
-  (void)unused;
+static void test_tight_tolerance(no_state) {
   needs_cvode();
-  hooke_system *system = rope(STIFF, WEAK);
+  owned_system *system = rope(STIFF, WEAK);
   const struct ask last = {"cvode-bdf", 1e-6, 1e-5, 0.3, 0}, tight = {"cvode-bdf", 0.999e-6, 1e-5, 0.3, 0};
   const struct outcome chosen = run_with(system, last, 0), high = run_with(system, last, 5);
   assert_true(chosen.steps != high.steps);
-  hooke_system_destroy(system);
   check_left_alone(STIFF, WEAK, tight);
   check_left_alone(STIFF, WEAK, (struct ask){"cvode-bdf", 1e-8, 1e-5, 0.3, 0});
 }
 
 /* Steps that follow the fastest motion: accuracy limits them. */
-static void test_soft(void **unused) {
-  (void)unused;
+static void test_soft(no_state) {
   needs_cvode();
   check_left_alone(20.0, 0.0, (struct ask){"cvode-bdf", 1e-5, 1e-8, 0.3, 0});
 }

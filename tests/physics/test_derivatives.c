@@ -41,12 +41,11 @@ static void compare_product(const struct law_scene *scene, const double *dq, con
     check_close(product[k], expected[k], 1e-8 * size);
 }
 
-static void test_products(void **unused) {
-  (void)unused;
+static void test_products(no_state) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     for (uint64_t seed = 1; seed <= 4; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       struct random_source source = {seed + 100};
       double dq[LAW_SIZE], dv[LAW_SIZE];
       law_scene_create(&laws[k], seed, &scene);
@@ -55,7 +54,6 @@ static void test_products(void **unused) {
       compare_product(&scene, dq, zero, 0.1);
       compare_product(&scene, zero, dv, laws[k].damped ? 0.1 : 0.0);
       compare_product(&scene, dq, dv, 0.1);
-      law_scene_destroy(&scene);
     }
   }
 }
@@ -98,9 +96,8 @@ static void dense(const struct blocks *blocks, const double *values, double *mat
   }
 }
 
-static void test_pattern(void **unused) {
-  (void)unused;
-  struct law_scene scene;
+static void test_pattern(no_state) {
+  owned_law_scene scene;
   struct blocks blocks;
   law_scene_create(&laws[0], 9, &scene);
   take_blocks(&scene, &blocks);
@@ -116,17 +113,15 @@ static void test_pattern(void **unused) {
     assert_int_equal(diagonal, 1);
   }
   release_blocks(&blocks);
-  law_scene_destroy(&scene);
 }
 
 /* Blocks times unit vectors are the products with unit vectors; contributions of a callback are in the
  * products only. */
-static void test_blocks_are_products(void **unused) {
-  (void)unused;
+static void test_blocks_are_products(no_state) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue;
-    struct law_scene scene;
+    owned_law_scene scene;
     struct blocks blocks;
     double unit[LAW_SIZE], product[LAW_SIZE], *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
     law_scene_create(&laws[k], 21, &scene);
@@ -149,20 +144,17 @@ static void test_blocks_are_products(void **unused) {
       }
     }
     /* either array may be left out */
-    double *again = new_doubles(9 * blocks.count);
+    owned_doubles *again = new_doubles(9 * blocks.count);
     check_ok(hooke_system_derivative_blocks(scene.system, scene.q, scene.v, again, NULL));
     check_same_bits(9 * blocks.count, again, blocks.dfdq);
     check_ok(hooke_system_derivative_blocks(scene.system, scene.q, scene.v, NULL, again));
     check_same_bits(9 * blocks.count, again, blocks.dfdv);
-    free(again);
     free(matrix);
     release_blocks(&blocks);
-    law_scene_destroy(&scene);
   }
 }
 
-static void test_callback_is_not_in_blocks(void **unused) {
-  (void)unused;
+static void test_callback_is_not_in_blocks(no_state) {
   struct law with = laws[9], without = laws[9];
   without.callback = 0;
   assert_int_equal(with.callback, 1);
@@ -193,12 +185,11 @@ static double asymmetry(const double *matrix) {
 }
 
 /* D is symmetric always, K unless a damped spring rotates. */
-static void test_symmetry(void **unused) {
-  (void)unused;
+static void test_symmetry(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
-    struct law_scene scene;
+    owned_law_scene scene;
     struct blocks blocks;
-    double *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
+    owned_doubles *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
     law_scene_create(&laws[k], 31, &scene);
     take_blocks(&scene, &blocks);
     dense(&blocks, blocks.dfdv, matrix);
@@ -209,9 +200,7 @@ static void test_symmetry(void **unused) {
       check_between(asymmetry(matrix), 1e-3 * size, 10.0 * size);
     else
       check_between(asymmetry(matrix), 0.0, 1e-14 * size);
-    free(matrix);
     release_blocks(&blocks);
-    law_scene_destroy(&scene);
   }
 }
 

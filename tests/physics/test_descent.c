@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,18 +12,13 @@ static const char *const METHODS[] = {"backward-euler", "tr-bdf2", "implicit-mid
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness,
                         double rest) {
-  hooke_options *springs = NULL;
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(springs, "rest_length", rest));
+  owned_options *springs = options_with("springs", "stiffness=%.17g rest_length=%.17g", stiffness, rest);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, springs));
-  hooke_options_destroy(springs);
 }
 
 /* An open system of particles of this mass, with drag 1. */
 static hooke_system *open_scene(int64_t n, const double *q, double mass, double gravity) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_add_particles(system, n, q, NULL, 1, &mass, NULL));
@@ -91,7 +87,7 @@ static double energy_of(const hooke_system *system, const hooke_state *state) {
 
 /* The largest rise of energy in a step, over the largest energy; NAN where a step found no solution. */
 static double largest_rise(const hooke_system *system, struct run run, int steps, hooke_state *state) {
-  hooke_integrator *it = start_run(system, run);
+  owned_integrator *it = start_run(system, run);
   double energy = energy_of(system, state), scale = fabs(energy), rise = 0.0;
   for (int k = 0; k < steps && rise == rise; k++) {
     const int32_t status = hooke_integrator_step(it, state, 1);
@@ -101,23 +97,21 @@ static double largest_rise(const hooke_system *system, struct run run, int steps
     scale = fmax(scale, fabs(now));
     energy = now;
   }
-  hooke_integrator_destroy(it);
   return rise / scale;
 }
 
 /* Of the implicit midpoint rule, which swings on about where it would rest, large steps may have no solution
  * that does not raise the energy; it says so. */
-static void test_energy_falls(void **unused) {
-  (void)unused;
+static void test_energy_falls(no_state) {
   int midpoint = 0;
   for (uint64_t seed = 1; seed <= 8; seed++) {
-    hooke_system *system = random_sheet(seed);
+    owned_system *system = random_sheet(seed);
     const double bound = bound_at_start(system, "forward-euler");
     for (int m = 0; m < 3; m++) {
       for (int k = 0; k < 4; k++) {
         const struct run run = {
             .method = METHODS[m], .step = bound * pow(100.0, k), .newton_tolerance = BY_DEFAULT};
-        hooke_state *state = start_state(system);
+        owned_state *state = start_state(system);
         const double rise = largest_rise(system, run, 12, state);
         if (m == 2 && isnan(rise)) {
           assert_true(k > 0);
@@ -125,10 +119,8 @@ static void test_energy_falls(void **unused) {
           check_between(rise, 0.0, 1e-13);
           midpoint += m == 2;
         }
-        hooke_state_destroy(state);
       }
     }
-    hooke_system_destroy(system);
   }
   assert_true(midpoint >= 12);
 }
@@ -136,20 +128,17 @@ static void test_energy_falls(void **unused) {
 /* ---- rest ---- */
 
 /* No force is left that a step of 1e6 times the explicit bound would not have used up. */
-static void test_rest(void **unused) {
-  (void)unused;
+static void test_rest(no_state) {
   for (uint64_t seed = 1; seed <= 4; seed++) {
-    hooke_system *system = random_sheet(seed);
+    owned_system *system = random_sheet(seed);
     const double bound = bound_at_start(system, "forward-euler");
     for (int m = 0; m < 2; m++) {
-      hooke_state *state = start_state(system);
+      owned_state *state = start_state(system);
       const double begun = energy_of(system, state);
       largest_rise(system, (struct run){.method = METHODS[m], .step = 1e6 * bound}, 60, state);
       check_between(largest(3 * CELLS, hooke_state_velocity(state)) * bound, 0.0, 1e-9);
       assert_true(energy_of(system, state) < begun);
-      hooke_state_destroy(state);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -172,17 +161,15 @@ static double exact_sag(void) {
 }
 
 static double sag_after(const hooke_system *system, struct run run, int steps) {
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_between(largest_rise(system, run, steps, state), 0.0, 1e-9);
   const double sag = -hooke_state_position(state)[3 * (ROPE / 2) + 1];
-  hooke_state_destroy(state);
   return sag;
 }
 
 /* Nothing resists its fall at first, and soon the springs do by the third power of it. */
-static void test_sagging_rope(void **unused) {
-  (void)unused;
-  hooke_system *system = sagging_rope();
+static void test_sagging_rope(no_state) {
+  owned_system *system = sagging_rope();
   const double sag = exact_sag();
   for (int m = 0; m < 2; m++) {
     for (double step = 1e-2; step < 1e5; step *= 10.0) {
@@ -192,27 +179,24 @@ static void test_sagging_rope(void **unused) {
   }
   /* what is stiff swings on for long, so that the largest steps have no solution */
   check_close(sag_after(system, (struct run){.method = METHODS[2], .step = 1e-3}, 1500), sag, 1e-4 * sag);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   assert_true(isnan(largest_rise(system, (struct run){.method = METHODS[2], .step = 10.0}, 1, state)));
   assert_true(*hooke_state_position(state) == 0.0 && hooke_state_time(state) == 0.0);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- drives, parts, threads ---- */
 
 /* Where an end moves, the functional of a step falls from the old places of free particles and the new one of
  * the end: here the rope is pushed together by a tenth of its length. */
-static void test_driven(void **unused) {
-  (void)unused;
-  hooke_system *system = open_rope(1.0);
+static void test_driven(no_state) {
+  owned_system *system = open_rope(1.0);
   const int64_t end = ROPE - 1;
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
   check_ok(hooke_system_drive_harmonic(system, 1, &end, (double[]){-0.1, 0.0, 0.0}, 0.25, 0.0));
   check_ok(hooke_system_commit(system));
   for (double step = 1e-3; step < 2.0; step *= 4.0) {
-    hooke_integrator *it = start_run(system, (struct run){.method = METHODS[0], .step = step});
-    hooke_state *state = start_state(system);
+    owned_integrator *it = start_run(system, (struct run){.method = METHODS[0], .step = step});
+    owned_state *state = start_state(system);
     double *q = hooke_state_position(state), old[3 * ROPE];
     for (int k = 0; k < 8; k++) {
       double moved = 0.0;
@@ -224,19 +208,15 @@ static void test_driven(void **unused) {
       const double from = hooke_system_energy(system, "potential", old, NULL);
       check_between(energy_of(system, state) + moved, -1.0, from + 1e-12 * fabs(from));
     }
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(it);
   }
-  hooke_system_destroy(system);
 }
 
 /* A step in parts is the same where another integrator goes on from the state before. */
-static void test_parts_repeat(void **unused) {
-  (void)unused;
-  hooke_system *system = sagging_rope();
+static void test_parts_repeat(no_state) {
+  owned_system *system = sagging_rope();
   const struct run run = {
       .method = METHODS[2], .step = 1e-2, .duration = 0.08, .newton_tolerance = BY_DEFAULT};
-  hooke_state *whole = start_state(system), *part = start_state(system);
+  owned_state *whole = start_state(system), *part = start_state(system);
   hooke_integrator *it = start_run(system, run);
   check_ok(hooke_integrator_step(it, whole, 6));
   assert_true(hooke_integrator_count(it, "nonlinear_failures") > 0);
@@ -247,52 +227,37 @@ static void test_parts_repeat(void **unused) {
     hooke_integrator_destroy(it);
   }
   check_same_bits(3 * ROPE, hooke_state_position(part), hooke_state_position(whole));
-  hooke_state_destroy(part);
-  hooke_state_destroy(whole);
-  hooke_system_destroy(system);
 }
 
 /* A cloth that is pressed together: with 98 x 98 particles it would be too small for two threads. */
 static hooke_system *pressed_cloth(void) {
-  hooke_options *part = NULL;
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -9.81}));
-  check_ok(hooke_options_create("cloth", &part));
-  check_ok(hooke_options_set_numbers(part, "size", 2, (double[]){104, 104}));
-  check_ok(hooke_options_set_numbers(part, "edges", 6, (double[]){1, 0, 0, 0, 1, 0}));
-  check_ok(hooke_options_set_number(part, "mass", 1.0));
-  check_ok(hooke_options_set_text(part, "pinned", "corners"));
-  check_ok(hooke_options_set_number(part, "structural.stiffness", 1e3));
-  check_ok(hooke_options_set_number(part, "structural.rest_scale", 1.02));
+  owned_options *part = options_with("cloth", "size=104,104 edges=1,0,0,0,1,0 mass=1 pinned=corners "
+                                              "structural.stiffness=1e3 structural.rest_scale=1.02");
   check_ok(hooke_system_add_part(system, "cloth", NULL, part, NULL, NULL));
-  hooke_options_destroy(part);
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void test_threads(void **unused) {
-  (void)unused;
-  hooke_system *system = pressed_cloth();
+static void test_threads(no_state) {
+  owned_system *system = pressed_cloth();
   const int64_t numbers = 3 * hooke_system_particle_count(system);
   double *q[2];
   for (int k = 0; k < 2; k++) {
-    hooke_state *state = start_state(system);
-    hooke_integrator *it = start_run(
+    owned_state *state = start_state(system);
+    owned_integrator *it = start_run(
         system,
         (struct run){.method = METHODS[1], .step = 1e-3, .threads = 1 + k, .newton_tolerance = BY_DEFAULT});
     check_ok(hooke_integrator_step(it, state, 1));
     q[k] = new_doubles(numbers);
     memcpy(q[k], hooke_state_position(state), (size_t)numbers * sizeof(double));
-    hooke_integrator_destroy(it);
-    hooke_state_destroy(state);
   }
   check_same_bits(numbers, q[1], q[0]);
   free(q[0]);
   free(q[1]);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

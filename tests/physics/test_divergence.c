@@ -20,7 +20,7 @@ static struct verdict predict(const hooke_system *system, const double *gravity,
                               int64_t steps, int64_t stride) {
   struct canonical canonical;
   struct verdict verdict = {0, 0};
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   canonical_create(system, &canonical);
   canonical.gravity = gravity;
@@ -47,7 +47,6 @@ static struct verdict predict(const hooke_system *system, const double *gravity,
       verdict.good = k;
   }
   canonical_destroy(&canonical);
-  hooke_state_destroy(state);
   return verdict;
 }
 
@@ -55,10 +54,10 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
                               int64_t steps, int64_t stride) {
   const struct verdict expected = predict(system, gravity, method, h, steps, stride);
   const int64_t size = 3 * hooke_system_particle_count(system);
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system,
       (struct run){.method = method, .step = h, .duration = (double)steps * h, .every = (double)stride * h});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   const int32_t status = hooke_integrator_run(integrator, state);
   if (expected.step == 0) {
     assert_int_equal(status, HOOKE_OK);
@@ -72,20 +71,16 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
     for (int64_t k = 0; k < size; k++)
       assert_true(isfinite(q[k]) && isfinite(v[k]));
     if (expected.good > 0) { /* the kept state is the one of that time, to the bit */
-      double *same = new_doubles(size);
+      owned_doubles *same = new_doubles(size);
       run_to_end(system, (struct run){.method = method, .step = h, .duration = (double)expected.good * h},
                  same, NULL);
       check_same_bits(size, q, same);
-      free(same);
     }
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
-static void test_step_above_the_limit(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(10.0);
+static void test_step_above_the_limit(no_state) {
+  owned_system *system = small_oscillator(10.0);
   const struct verdict at_limit = predict(system, NULL, "symplectic-euler", 0.21, 2000, 1);
   check_between((double)at_limit.step, 3.0, 30.0);
   const int64_t strides[] = {1, 3, 7, 2000};
@@ -97,31 +92,25 @@ static void test_step_above_the_limit(void **unused) {
     compare_with_rule(system, NULL, "forward-euler", 0.02, 2000, strides[k]);
   }
   assert_int_equal(predict(system, NULL, "symplectic-euler", 0.19, 2000, 1).step, 0);
-  hooke_system_destroy(system);
 }
 
 /* Between frames the check comes every 1000 steps. */
-static void test_check_every_thousand(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator = start_run(
+static void test_check_every_thousand(no_state) {
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "forward-euler", .step = 0.01, .duration = 30.0, .every = 30.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   check_close(hooke_integrator_number(integrator, "diverged_at"), 10.0, 0.0);
   check_close(hooke_state_time(state), 0.0, 0.0);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* A long fall gains more than 100 times the initial energy of springs and motion: the term for gravity allows
  * for it. */
-static void test_falling_is_not_diverging(void **unused) {
-  (void)unused;
+static void test_falling_is_not_diverging(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+  owned_system *system = small_system(2, q, NULL, 1.0, 0);
   small_springs(system, 1, ends, (struct springs){.stiffness = 100, .rest_length = 0.999});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
@@ -129,23 +118,20 @@ static void test_falling_is_not_diverging(void **unused) {
   compare_with_rule(system, gravity, "forward-euler", 1e-3, 3000, 10);
   compare_with_rule(system, gravity, "symplectic-euler", 1e-3, 3000, 10);
   compare_with_rule(system, gravity, "symplectic-euler", 0.2, 3000, 10); /* 2/omega is 0.141 */
-  hooke_system_destroy(system);
 }
 
 /* Forward Euler gives particles at rest a velocity before they have moved: there is no energy to compare with
  * yet, and no divergence at any step. */
-static void test_first_step_of_a_fall(void **unused) {
-  (void)unused;
+static void test_first_step_of_a_fall(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   for (double h = 1.0; h > 1e-6; h /= 8.0) {
-    hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+    owned_system *system = small_system(2, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 1, .rest_length = 1.0});
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_commit(system));
     compare_with_rule(system, gravity, "forward-euler", h, 1000, 1);
     assert_int_equal(predict(system, gravity, "forward-euler", h, 1000, 1).step, 0);
-    hooke_system_destroy(system);
   }
 }
 
@@ -163,25 +149,21 @@ static int32_t push(int64_t n, double t, const double *q, const double *v, doubl
 static int32_t run_pushed(double strength, double *diverged_at, double *end) {
   const double q[] = {0, 0, 0};
   double from[] = {0.5, strength};
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  owned_system *system = small_system(1, q, NULL, 1.0, 0);
   check_ok(hooke_system_set_force(system, push, NULL, from));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.0625, .duration = 1.0, .every = 0.125});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   const int32_t status = hooke_integrator_run(integrator, state);
   *diverged_at = hooke_integrator_number(integrator, "diverged_at");
   *end = hooke_state_time(state);
   for (int k = 0; k < 3; k++)
     assert_true(isfinite(hooke_state_position(state)[k]));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return status;
 }
 
-static void test_callbacks(void **unused) {
-  (void)unused;
+static void test_callbacks(no_state) {
   double diverged_at, end;
   assert_int_equal(run_pushed(1e9, &diverged_at, &end), HOOKE_OK);
   assert_true(isnan(diverged_at));
@@ -202,20 +184,17 @@ static int32_t explode(int64_t n, double t, const double *x, double *rate, void 
   return 0;
 }
 
-static void test_first_order(void **unused) {
-  (void)unused;
-  hooke_state *state = NULL;
+static void test_first_order(no_state) {
+  owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(1, &state));
   hooke_state_position(state)[0] = 1.0;
-  hooke_integrator *integrator = start_first_order(
+  owned_integrator *integrator = start_first_order(
       1, explode, NULL,
       (struct run){.method = "forward-euler", .step = 1.0, .duration = 100.0, .every = 1.0});
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   check_close(hooke_integrator_number(integrator, "diverged_at"), 31.0, 0.0); /* 1e310 is infinite */
   check_close(hooke_state_time(state), 30.0, 0.0);
   check_between(hooke_state_position(state)[0], 9e299, 1.1e300);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* ---- frames after divergence ---- */
@@ -256,9 +235,9 @@ static int32_t see_beyond(int64_t step, const hooke_state *state, void *ctx) {
 static struct beyond run_beyond(const hooke_system *system, double after, int64_t most_after) {
   const struct run run = {.method = "symplectic-euler", .step = 0.21, .duration = 420.0, .every = 0.42};
   struct beyond b = {.h = 0.21, .most_after = most_after};
-  hooke_options *options = run_options(run);
-  hooke_integrator *usual = start_run(system, run);
-  hooke_state *state = start_state(system), *same = start_state(system);
+  owned_options *options = run_options(run);
+  owned_integrator *usual = start_run(system, run);
+  owned_state *state = start_state(system), *same = start_state(system);
   const int64_t size = hooke_state_size(state);
   canonical_create(system, &b.canonical);
   b.q = new_doubles(2 * size);
@@ -282,16 +261,11 @@ static struct beyond run_beyond(const hooke_system *system, double after, int64_
   assert_int_equal(hooke_integrator_count(b.integrator, "stop_value"), 0);
   canonical_destroy(&b.canonical);
   hooke_integrator_destroy(b.integrator);
-  hooke_integrator_destroy(usual);
-  hooke_options_destroy(options);
-  hooke_state_destroy(state);
-  hooke_state_destroy(same);
   return b;
 }
 
-static void test_frames_after(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(10.0);
+static void test_frames_after(no_state) {
+  owned_system *system = small_oscillator(10.0);
   struct beyond b = run_beyond(system, -1.0, -1);
   check_between((double)b.after, 100.0, 1000.0);
   assert_true(b.reached > 1e150); /* whose square is beyond all numbers soon after */
@@ -305,7 +279,6 @@ static void test_frames_after(void **unused) {
   b = run_beyond(system, 7.0, 3); /* an observer may end it */
   assert_int_equal(b.after, 3);
   free(b.q);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

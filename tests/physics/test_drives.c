@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double TWO_PI = 6.28318530717958647693;
@@ -48,17 +47,15 @@ static void follow(hooke_system *system, expected_motion *motion) {
     if (hooke_method_is_built(method) != 1) continue;
     struct watch watch = {motion, 0};
     double before[6];
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_run(system, (struct run){.method = method, .step = 1e-3, .duration = 2.0, .every = 0.01});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     memcpy(before, hooke_state_position(state), sizeof before);
     check_ok(hooke_integrator_on_frame(integrator, compare_motion, &watch));
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(watch.frames, 201);
     assert_true(largest_difference(3, before + 3, hooke_state_position(state) + 3) >
                 1e-2); /* the mass follows */
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
   hooke_system_destroy(system);
 }
@@ -74,8 +71,7 @@ static void harmonic_motion(double t, double *q, double *v) {
   }
 }
 
-static void test_harmonic(void **unused) {
-  (void)unused;
+static void test_harmonic(no_state) {
   const double amplitude[] = {0.3, 0.0, -0.1};
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
@@ -98,8 +94,7 @@ static int32_t callback_drive(int64_t count, double t, double *q, double *v, voi
   return 0;
 }
 
-static void test_callback(void **unused) {
-  (void)unused;
+static void test_callback(no_state) {
   int64_t calls = 0;
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
@@ -146,8 +141,7 @@ static void table_motion(double t, double *q, double *v) {
   }
 }
 
-static void test_table(void **unused) {
-  (void)unused;
+static void test_table(no_state) {
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
   check_ok(hooke_system_drive_table(system, 1, &driven, SAMPLES, table_time, &table_place[0][0]));
@@ -157,22 +151,19 @@ static void test_table(void **unused) {
 /* Position and velocity of the driven particle at time t, from the state after a step that ends there. */
 static void place_at(const hooke_system *system, double t, double *q, double *v) {
   const double h = 0x1p-10;
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
+  owned_state *state = start_state(system);
   hooke_state_set_time(state, t - h);
   check_ok(hooke_integrator_step(integrator, state, 1));
   memcpy(q, hooke_state_position(state), 3 * sizeof(double));
   memcpy(v, hooke_state_velocity(state), 3 * sizeof(double));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* At inner samples the position is the sample, and the velocity the same from both sides. */
-static void test_table_is_smooth(void **unused) {
-  (void)unused;
+static void test_table_is_smooth(no_state) {
   const int64_t driven = 0;
   const double origin[] = {0.25, -0.5, 1.0}, near = 1e-9;
-  hooke_system *system = driven_pair();
+  owned_system *system = driven_pair();
   check_ok(hooke_system_drive_table(system, 1, &driven, SAMPLES, table_time, &table_place[0][0]));
   check_ok(hooke_system_commit(system));
   for (int k = 0; k < SAMPLES; k++) {
@@ -188,12 +179,10 @@ static void test_table_is_smooth(void **unused) {
       check_close(left_v[a], right_v[a], 1e-6);
     }
   }
-  hooke_system_destroy(system);
 }
 
 /* The velocity of every drive is the derivative of its position. */
-static void test_velocity_is_derivative(void **unused) {
-  (void)unused;
+static void test_velocity_is_derivative(no_state) {
   const int64_t driven[] = {0, 1};
   const double amplitude[] = {0.3, 0.2, -0.1};
   hooke_system *systems[2] = {driven_pair(), driven_pair()};

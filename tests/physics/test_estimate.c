@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Two periods: at their end a phase that is off shows a twelfth of what it does between, so that who judges the
  * end alone claims too much. */
@@ -43,23 +42,21 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
 static double estimated_run(const hooke_system *system, const hooke_options *options,
                             hooke_measurement *estimate) {
   struct watcher watcher = {estimate, 0.0};
-  hooke_integrator *integrator;
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator;
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, see, &watcher));
   check_ok(hooke_estimate_begin(estimate, integrator, state));
   check_ok(hooke_integrator_run(integrator, state));
   check_ok(hooke_measurement_run(estimate, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   return watcher.worst;
 }
 
 /* The farthest particle at any frame is at most as far off as is said; the excess is at most that of a safety
  * factor of 3 for an order of 1, or of one more where errors do not follow the tolerance. */
 static void check_estimate(const hooke_system *system, const char *method, int64_t *known) {
-  hooke_measurement *estimate;
-  hooke_options *options =
+  owned_measurement *estimate;
+  owned_options *options =
       run_options((struct run){.method = method, .step = 2.5e-3, .duration = DURATION, .every = EVERY});
   check_ok(estimate_of(system, NAN, &estimate));
   const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
@@ -72,13 +69,10 @@ static void check_estimate(const hooke_system *system, const char *method, int64
     check_close(number_of(estimate, "rms"), found, 1e-12 * found); /* one particle is free */
   }
   assert_true(isnan(number_of(estimate, "met")));
-  hooke_measurement_destroy(estimate);
-  hooke_options_destroy(options);
 }
 
-static void test_errors_are_at_most_what_is_said_and_not_much_less(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
+static void test_errors_are_at_most_what_is_said_and_not_much_less(no_state) {
+  owned_system *system = small_oscillator(OMEGA);
   int64_t known = 0, methods = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -87,7 +81,6 @@ static void test_errors_are_at_most_what_is_said_and_not_much_less(void **unused
     check_estimate(system, method, &known);
   }
   if (known < methods) check_failed("%d estimates for %d methods", (int)known, (int)methods);
-  hooke_system_destroy(system);
 }
 
 /* Estimates a run whose integrator was destroyed before; the caller destroys the estimate; `time` [s] of its
@@ -96,7 +89,7 @@ static hooke_measurement *estimated_later(const hooke_system *system, const hook
                                           double time) {
   hooke_integrator *integrator;
   hooke_measurement *estimate;
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(estimate_of(system, NAN, &estimate));
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
@@ -105,34 +98,26 @@ static hooke_measurement *estimated_later(const hooke_system *system, const hook
   hooke_integrator_destroy(integrator);
   hooke_state_set_time(state, time);
   check_ok(hooke_measurement_run(estimate, state));
-  hooke_state_destroy(state);
   return estimate;
 }
 
-static void test_the_integrator_may_be_gone(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
-  hooke_options *options =
+static void test_the_integrator_may_be_gone(no_state) {
+  owned_system *system = small_oscillator(OMEGA);
+  owned_options *options =
       run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = DURATION, .every = EVERY});
-  hooke_measurement *one = estimated_later(system, options, DURATION),
+  owned_measurement *one = estimated_later(system, options, DURATION),
                     *other = estimated_later(system, options, DURATION),
                     *short_of = estimated_later(system, options, 0.5 * DURATION);
   check_close(number_of(other, "estimate"), number_of(one, "estimate"), 0.0);
   assert_string_equal(text_of(other, "by"), text_of(one, "by"));
   assert_string_equal(text_of(short_of, "reason"), "the run did not come to its end");
-  hooke_measurement_destroy(one);
-  hooke_measurement_destroy(other);
-  hooke_measurement_destroy(short_of);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* At a step of 0.2 s, h omega is 1.2, and the phase is lost after some periods, whatever half the step does. */
-static void test_a_run_that_lost_the_motion_is_not_known(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
-  hooke_measurement *estimate;
-  hooke_options *options =
+static void test_a_run_that_lost_the_motion_is_not_known(no_state) {
+  owned_system *system = small_oscillator(OMEGA);
+  owned_measurement *estimate;
+  owned_options *options =
       run_options((struct run){.method = "symplectic-euler", .step = 0.2, .duration = 200.0, .every = 0.2});
   check_ok(estimate_of(system, NAN, &estimate));
   const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
@@ -143,9 +128,6 @@ static void test_a_run_that_lost_the_motion_is_not_known(void **unused) {
   } else if (found < truly) {
     check_failed("said to be off by %.3g m, and is by %.3g m", found, truly);
   }
-  hooke_measurement_destroy(estimate);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
@@ -153,24 +135,20 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-static void test_callbacks_are_not_called_again_unless_asked(void **unused) {
-  (void)unused;
+static void test_callbacks_are_not_called_again_unless_asked(no_state) {
   for (int asked = 0; asked < 2; asked++) {
-    hooke_system *system;
-    hooke_options *own,
+    owned_options *own,
         *options =
             run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = 0.5, .every = EVERY});
-    hooke_measurement *estimate;
+    owned_measurement *estimate;
     const double mass = 1.0;
-    check_ok(hooke_system_create(&system));
-    check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){1, 0, 0}, 1, &mass, NULL));
+    owned_system *system = small_system(1, (double[]){0, 0, 0}, (double[]){1, 0, 0}, mass, 0);
     check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    check_ok(hooke_options_create("estimate", &own));
-    check_ok(hooke_options_set_number(own, "callbacks", asked));
+    own = options_with("estimate", "callbacks=%d", asked);
     check_ok(hooke_measurement_create("estimate", system, NULL, own, &estimate));
-    hooke_integrator *integrator;
-    hooke_state *state = start_state(system);
+    owned_integrator *integrator;
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_create(system, options, &integrator));
     check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
     check_ok(hooke_estimate_begin(estimate, integrator, state));
@@ -178,31 +156,22 @@ static void test_callbacks_are_not_called_again_unless_asked(void **unused) {
     check_ok(hooke_measurement_run(estimate, state));
     assert_int_equal(isnan(number_of(estimate, "estimate")) != 0, !asked);
     assert_string_equal(text_of(estimate, "reason"), asked ? "" : "a callback takes part");
-    hooke_integrator_destroy(integrator);
-    hooke_state_destroy(state);
-    hooke_measurement_destroy(estimate);
-    hooke_options_destroy(own);
-    hooke_options_destroy(options);
-    hooke_system_destroy(system);
   }
 }
 
 static double number_of_run(const hooke_system *system, const char *method, double step, const char *what) {
-  hooke_options *options =
+  owned_options *options =
       run_options((struct run){.method = method, .step = step, .duration = DURATION, .every = EVERY});
-  hooke_measurement *estimate;
+  owned_measurement *estimate;
   check_ok(estimate_of(system, NAN, &estimate));
   estimated_run(system, options, estimate);
   const double number = number_of(estimate, what);
-  hooke_measurement_destroy(estimate);
-  hooke_options_destroy(options);
   return number;
 }
 
 /* With forward Euler the energy grows by the factor 1 + (h omega)^2 a step. */
-static void test_energy_that_grows_by_itself_is_seen(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
+static void test_energy_that_grows_by_itself_is_seen(no_state) {
+  owned_system *system = small_oscillator(OMEGA);
   const double step = 1e-3, rate = OMEGA * OMEGA * step;
   const double expected = exp(rate * DURATION) - exp(0.5 * rate * DURATION);
   const double found = number_of_run(system, "forward-euler", step, "energy_rise");
@@ -210,15 +179,12 @@ static void test_energy_that_grows_by_itself_is_seen(void **unused) {
     check_failed("a rise of %.4g of the energy, not of %.4g", found, expected);
   check_close(number_of_run(system, "symplectic-euler", 1e-2, "energy_rise"), 0.0, 0.0);
   check_close(number_of_run(system, "backward-euler", 1e-2, "energy_rise"), 0.0, 0.0);
-  hooke_system_destroy(system);
 }
 
 /* One particle slowed by drag alone, by h lambda a step. */
 static hooke_system *slowed_particle(double rate) {
-  hooke_system *system;
   const double mass = 2.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){0, 3, 0}, 1, &mass, NULL));
+  hooke_system *system = small_system(1, (double[]){0, 0, 0}, (double[]){0, 3, 0}, mass, 0);
   check_ok(hooke_system_set_drag(system, rate * mass));
   check_ok(hooke_system_commit(system));
   return system;
@@ -227,28 +193,24 @@ static hooke_system *slowed_particle(double rate) {
 /* With forward Euler the velocity is multiplied by r = 1 - h lambda a step. For r < -1/2 all heat from the
  * third step on is that of a reversing velocity: 2 h lambda r^6/(1 - r^2) of the energy. The sum may be cut
  * short on a busy machine. */
-static void test_heat_that_was_not_there_is_seen(void **unused) {
-  (void)unused;
+static void test_heat_that_was_not_there_is_seen(no_state) {
   const double step = 1e-3, r = -0.9;
-  hooke_system *system = slowed_particle((1.0 - r) / step);
+  owned_system *system = slowed_particle((1.0 - r) / step);
   const double expected = 2.0 * (1.0 - r) * pow(r, 6.0) / (1.0 - r * r);
   const double found = number_of_run(system, "forward-euler", step, "heat_excess");
   if (!(found > 0.5 * expected && found < (1.0 + 1e-9) * expected))
     check_failed("an excess of %.6g of the energy, not of %.6g", found, expected);
   check_close(number_of_run(system, "forward-euler", 0.25 * step, "heat_excess"), 0.0, 0.0);
-  hooke_system_destroy(system);
 }
 
 /* Motion that decays without overshooting, or oscillates, has no spurious heat at any of these steps. */
-static void test_heat_that_was_there_is_no_excess(void **unused) {
-  (void)unused;
+static void test_heat_that_was_there_is_no_excess(no_state) {
   for (double x = 0.1; x < 2.0; x += 0.1) {
-    hooke_system *system = slowed_particle(x / 1e-3);
+    owned_system *system = slowed_particle(x / 1e-3);
     const double found = number_of_run(system, "rk4", 1e-3, "heat_excess");
     if (!(found >= 0.0 && found <= 0.01)) check_failed("rk4 at h lambda = %g: %.3g", x, found);
-    hooke_system_destroy(system);
   }
-  hooke_system *system = small_oscillator(OMEGA);
+  owned_system *system = small_oscillator(OMEGA);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!hooke_method_is_built(method)) continue;
@@ -256,7 +218,6 @@ static void test_heat_that_was_there_is_no_excess(void **unused) {
     if (hooke_method_is_adaptive(method) ? !isnan(found) : found != 0.0)
       check_failed("%s: %.3g of an oscillator without damping", method, found);
   }
-  hooke_system_destroy(system);
 }
 
 /* A chain of 0.1 kg whose particles fly apart; dampers have rates of up to 400 gamma [1/s]. */
@@ -266,21 +227,15 @@ static hooke_system *damped_chain(double gamma, int driven) {
   const double mass = 0.1;
   const int64_t first = 0;
   int64_t ends[2 * (COUNT - 1)];
-  hooke_options *options;
-  hooke_system *system;
   for (int k = 0; k < 3 * COUNT; k++) {
     place[k] = k % 3 ? 0.0 : 0.1 * (k / 3);
     velocity[k] = k < 3 ? 0.0 : (k * 29 % 17 - 8) / 8.0;
   }
   for (int k = 0; k < 2 * (COUNT - 1); k++)
     ends[k] = (k + 1) / 2;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, COUNT, place, velocity, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-  check_ok(hooke_options_set_number(options, "damping", gamma));
+  hooke_system *system = small_system(COUNT, place, velocity, mass, 0);
+  owned_options *options = options_with("springs", "stiffness=1 damping=%.17g", gamma);
   check_ok(hooke_system_add_springs(system, "", COUNT - 1, ends, options));
-  hooke_options_destroy(options);
   if (driven)
     check_ok(hooke_system_drive_harmonic(system, 1, &first, (double[]){0, 0.2, 0}, 1.5, 0.0));
   else
@@ -291,14 +246,13 @@ static hooke_system *damped_chain(double gamma, int driven) {
 
 /* Euler's step is just below the limit of the damping. Verlet has no such limit, since its second half takes
  * the damping at the new velocity; from h lambda = 2 on its velocities reverse. */
-static void test_a_damper_too_stiff_for_the_step_is_seen(void **unused) {
-  (void)unused;
+static void test_a_damper_too_stiff_for_the_step_is_seen(no_state) {
   static const struct {
     const char *method;
     double gamma;
   } coarse[] = {{"forward-euler", 0.24}, {"symplectic-euler", 0.22}, {"verlet", 2.0}};
   for (int k = 0; k < 6; k++) {
-    hooke_system *system = damped_chain(coarse[k / 2].gamma, k % 2);
+    owned_system *system = damped_chain(coarse[k / 2].gamma, k % 2);
     const double found = number_of_run(system, coarse[k / 2].method, 2e-2, "heat_excess");
     if (!(found > 0.01)) check_failed("%s: %.3g at a coarse step", coarse[k / 2].method, found);
     for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -307,7 +261,6 @@ static void test_a_damper_too_stiff_for_the_step_is_seen(void **unused) {
       const double fine = number_of_run(system, method, 5e-4, "heat_excess");
       if (!(fine >= 0.0 && fine < 1e-3)) check_failed("%s: %.3g at a fine step", method, fine);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -332,86 +285,65 @@ static void check_want(const hooke_system *system, const char *method, double wa
   hooke_options_destroy(options);
 }
 
-static void test_what_is_picked_keeps_to_the_wanted_error(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
+static void test_what_is_picked_keeps_to_the_wanted_error(no_state) {
+  owned_system *system = small_oscillator(OMEGA);
   static const double wants[] = {0.1, 1e-3, 1e-6};
   for (int k = 0; k < 3; k++)
     check_want(system, NULL, wants[k]);
   check_want(system, "verlet", 1e-4);
   check_want(system, "cvode-adams", 1e-4);
-  hooke_system_destroy(system);
 }
 
 /* A soft block of 3 x 3 x 3 particles, fixed at one side, that sags: its bound lies far below its limit. */
 static hooke_system *sagging_block(void) {
-  hooke_options *options;
-  hooke_system *system;
-  check_ok(hooke_options_create("lattice", &options));
-  check_ok(hooke_options_set_numbers(options, "edges", 9, (double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}));
-  check_ok(hooke_options_set_numbers(options, "size", 3, (double[]){3, 3, 3}));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_text(options, "pinned", "bottom"));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 500.0));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 500.0));
-  check_ok(hooke_options_set_number(options, "structural.damping", 0.2));
-  check_ok(hooke_system_create(&system));
+  owned_options *options =
+      options_with("lattice", "edges=1,0,0,0,1,0,0,0,1 size=3,3,3 mass=1 pinned=bottom "
+                              "structural.stiffness=500 shear.stiffness=500 structural.damping=0.2");
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_gravity(system, (double[]){0, -1, 0}));
   check_ok(hooke_system_add_part(system, "lattice", "block", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
 /* The smallest limit of its method at the frames of a run. */
 static double least_limit_along(const hooke_system *system, const hooke_options *run) {
-  hooke_options *options;
-  hooke_measurement *limit;
-  hooke_state *state = start_state(system);
-  check_ok(hooke_options_create("limit", &options));
+  owned_measurement *limit;
+  owned_state *state = start_state(system);
+  owned_options *options = options_with("limit", "along=1");
   check_ok(hooke_options_set_text(options, "methods", hooke_options_text(run, "method")));
-  check_ok(hooke_options_set_number(options, "along", 1.0));
   check_ok(hooke_measurement_create("limit", system, run, options, &limit));
   check_ok(hooke_measurement_run(limit, state));
   const double least = hooke_measurement_number(limit, "rows", 0, "smallest");
-  hooke_measurement_destroy(limit);
-  hooke_state_destroy(state);
-  hooke_options_destroy(options);
   return least;
 }
 
 /* Ratio of the picked step, which is at most 0.9 of the limit at every frame, to the bound at the start. */
 static double picked_over_bound(const hooke_system *system, const char *method) {
-  hooke_options *options = run_options((struct run){.duration = 1.0, .every = 0.1});
-  hooke_state *state = start_state(system);
-  hooke_measurement *estimate;
+  owned_options *options = run_options((struct run){.duration = 1.0, .every = 0.1});
+  owned_state *state = start_state(system);
+  owned_measurement *estimate;
   double bound = NAN;
   check_ok(estimate_of(system, 0.05, &estimate));
   check_ok(hooke_estimate_pick(estimate, method, options));
   check_ok(hooke_step_bound(system, method, hooke_state_position(state), &bound));
   const double step = hooke_options_number(options, "step"), limit = least_limit_along(system, options);
   if (!(step <= 0.9 * limit)) check_failed("%s is picked with %g s, of a limit of %g s", method, step, limit);
-  hooke_measurement_destroy(estimate);
-  hooke_state_destroy(state);
-  hooke_options_destroy(options);
   return step / bound;
 }
 
-static void test_a_picked_step_may_pass_the_bound_but_not_the_limit(void **unused) {
-  (void)unused;
+static void test_a_picked_step_may_pass_the_bound_but_not_the_limit(no_state) {
   if (!hooke_method_is_built("cvode-adams") || !hooke_build_fact("lapack")[0]) skip();
-  hooke_system *system = sagging_block();
+  owned_system *system = sagging_block();
   check_between(picked_over_bound(system, "symplectic-euler"), 0.95, 2.0);
   check_between(picked_over_bound(system, "rk4"), 0.95, 2.0);
-  hooke_system_destroy(system);
 }
 
-static void test_what_cannot_be_asked_for(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
+static void test_what_cannot_be_asked_for(no_state) {
+  owned_system *system = small_oscillator(OMEGA);
   hooke_measurement *estimate = NULL;
-  hooke_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
-  hooke_state *state = start_state(system);
+  owned_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
+  owned_state *state = start_state(system);
   check_status(estimate_of(system, -1.0, &estimate), HOOKE_BAD_VALUE);
   check_status(estimate_of(system, INFINITY, &estimate), HOOKE_BAD_VALUE);
   check_ok(estimate_of(system, NAN, &estimate));
@@ -432,19 +364,15 @@ static void test_what_cannot_be_asked_for(void **unused) {
   const int32_t status = hooke_estimate_pick(estimate, "forward-euler", options);
   assert_true(status == HOOKE_UNSUITED || status == HOOKE_NOT_BUILT);
   hooke_measurement_destroy(estimate);
-  hooke_state_destroy(state);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* Nothing of a state that does not fit is read, and the run stops where it would be seen. */
-static void test_states_that_do_not_fit_are_refused(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
+static void test_states_that_do_not_fit_are_refused(no_state) {
+  owned_system *system = small_oscillator(OMEGA);
   const struct run run = {.method = "rk4", .step = 0.01, .duration = 0.1};
-  hooke_integrator *integrator = start_run(system, run),
+  owned_integrator *integrator = start_run(system, run),
                    *endless = start_run(system, (struct run){.method = "rk4", .step = 0.01});
-  hooke_measurement *estimate = NULL;
+  owned_measurement *estimate = NULL;
   hooke_state *state = start_state(system), *wrong[3];
   check_ok(hooke_state_create_first_order(6, &wrong[0]));
   check_ok(hooke_state_create_second_order(5, &wrong[1]));
@@ -461,11 +389,7 @@ static void test_states_that_do_not_fit_are_refused(void **unused) {
     check_status(hooke_integrator_recent(integrator, 0, wrong[k]), HOOKE_BAD_VALUE);
     hooke_state_destroy(wrong[k]);
   }
-  hooke_measurement_destroy(estimate);
   hooke_state_destroy(state);
-  hooke_integrator_destroy(endless);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

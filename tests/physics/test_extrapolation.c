@@ -7,9 +7,8 @@
 #include "run.h"
 #include "small.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
+#include <math.h>
 
 static struct extrapolation problem_of(struct long_force *force, long double tolerance) {
   return (struct extrapolation){.size = 6 * force->canonical->particle_count,
@@ -23,8 +22,8 @@ static struct extrapolation problem_of(struct long_force *force, long double tol
 /* ---- solutions ---- */
 
 static double worst_error(const struct reference *reference, long double tolerance) {
-  hooke_system *system = build_reference(reference);
-  hooke_state *state = start_state(system);
+  owned_system *system = build_reference(reference);
+  owned_state *state = start_state(system);
   const int64_t size = 3 * reference->particle_count;
   struct canonical canonical;
   canonical_create(system, &canonical);
@@ -44,13 +43,10 @@ static double worst_error(const struct reference *reference, long double toleran
   }
   free(y);
   canonical_destroy(&canonical);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
   return (double)worst;
 }
 
-static void test_solutions(void **unused) {
-  (void)unused;
+static void test_solutions(no_state) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     check_between(worst_error(&references[k], 1e-15L), 0.0, 1e-13);
     check_between(worst_error(&references[k], 1e-5L), 1e-10, 1e-2);
@@ -60,7 +56,7 @@ static void test_solutions(void **unused) {
 /* ---- forces ---- */
 
 static void compare_forces(uint64_t seed, int32_t features) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = seed,
                                                     .particles = 40,
                                                     .springs = 90,
@@ -70,7 +66,7 @@ static void compare_forces(uint64_t seed, int32_t features) {
                                                     .features = features},
                       &scene);
   const int64_t size = 3 * scene.canonical.particle_count;
-  double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
   long double *y = new_block(2 * size, (int64_t)sizeof *y), *f = new_block(2 * size, (int64_t)sizeof *f);
   random_scene_shake(&scene, seed, q, v);
   canonical_acceleration(&scene.canonical, 0.0, q, v, a);
@@ -86,16 +82,11 @@ static void compare_forces(uint64_t seed, int32_t features) {
     check_close((double)f[k], held ? 0.0 : v[k], 0.0);
     check_close((double)f[size + k], a[k], 1e-12 * scale);
   }
-  free(q);
-  free(v);
-  free(a);
   free(y);
   free(f);
-  random_scene_destroy(&scene);
 }
 
-static void test_forces(void **unused) {
-  (void)unused;
+static void test_forces(no_state) {
   for (uint64_t seed = 1; seed <= 40; seed++)
     compare_forces(seed,
                    (SCENE_EVERYTHING & ~SCENE_CALLBACK & ~SCENE_DRIVEN) & (int32_t)(seed * 0x9e3779b9u));
@@ -115,8 +106,7 @@ static hooke_system *make_net(const double *q, int64_t pinned, int32_t overdampe
       v[3 * p + a] = spin[(a + 1) % 3] * (q[3 * p + (a + 2) % 3] - q[(a + 2) % 3]) -
                      spin[(a + 2) % 3] * (q[3 * p + (a + 1) % 3] - q[(a + 1) % 3]);
   }
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   if (overdamped) check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_add_particles(system, NET, q, overdamped ? NULL : v, NET, mass, NULL));
   small_springs(system, 6, ends,
@@ -137,8 +127,8 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
   const double gravity[3] = {0.0, -9.81, 1.0};
   double a[3 * NET];
   long double y[6 * NET], f[6 * NET];
-  hooke_system *system = make_net(q, pinned, overdamped);
-  hooke_state *state = start_state(system);
+  owned_system *system = make_net(q, pinned, overdamped);
+  owned_state *state = start_state(system);
   struct canonical canonical;
   canonical_create(system, &canonical);
   canonical.gravity = gravity;
@@ -162,18 +152,14 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
     check_close((double)f[(overdamped ? 3 * NET : 0) + k], overdamped ? 0.0 : v[k], 0.0);
   }
   canonical_destroy(&canonical);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
-static void test_bodies(void **unused) {
-  (void)unused;
+static void test_bodies(no_state) {
   compare_net(-1, 0);
   compare_net(0, 0);
 }
 
-static void test_overdamped(void **unused) {
-  (void)unused;
+static void test_overdamped(no_state) {
   compare_net(-1, 1);
   compare_net(0, 1);
 }
@@ -184,16 +170,14 @@ static void test_overdamped(void **unused) {
 static void compare_motion(const struct long_drive *drive, double t) {
   const double origin[3] = {0.3, -0.2, 0.1}, mass = 1.0;
   const int64_t one = 0;
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(1, origin, NULL, mass, 0);
   if (drive->samples > 0)
     check_ok(hooke_system_drive_table(system, 1, &one, drive->samples, drive->time, drive->displacement));
   else
     check_ok(hooke_system_drive_harmonic(system, 1, &one, drive->amplitude, drive->frequency, drive->phase));
   check_ok(hooke_system_commit(system));
-  hooke_state *state = start_state(system);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
+  owned_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
   hooke_state_set_time(state, t);
   check_ok(hooke_integrator_step(integrator, state, 0));
   long double d[3], u[3];
@@ -202,13 +186,9 @@ static void compare_motion(const struct long_drive *drive, double t) {
     check_close(hooke_state_position(state)[a], origin[a] + (double)d[a], 1e-14);
     check_close(hooke_state_velocity(state)[a], (double)u[a], 1e-12);
   }
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
-static void test_motions(void **unused) {
-  (void)unused;
+static void test_motions(no_state) {
   double time[] = {0.1, 0.25, 0.4, 0.9};
   double displacement[] = {0, 0, 0, 0.01, 0.02, -0.01, 0.015, -0.01, 0.0, 0.03, 0.01, 0.02};
   const struct long_drive wave = {.amplitude = {0.1, -0.2, 0.05}, .frequency = 3.0, .phase = 0.7};
@@ -239,8 +219,7 @@ static void equally(const long double *y, const long double *f, long double *sca
 }
 
 /* From y = 1/2 at rest: 0 at t = 1 with speed -1, back there at 3/2 with speed 1, at rest at 1/2 at 5/2. */
-static void test_jumps(void **unused) {
-  (void)unused;
+static void test_jumps(no_state) {
   struct extrapolation problem = {
       .size = 2, .rate = jumping, .scale = equally, .tolerance = 1e-15L, .most_evaluations = 100000};
   long double y[2] = {0.5L, 0.0L}, step = 0.1L;
@@ -264,8 +243,7 @@ static void by_one(const long double *y, const long double *f, long double *scal
 }
 
 /* y' = y^2 from 1 has y = 1/(1 - t): it ends before t = 1, and the number of steps shows it. */
-static void test_giving_up(void **unused) {
-  (void)unused;
+static void test_giving_up(no_state) {
   struct extrapolation problem = {
       .size = 1, .rate = blowing_up, .scale = by_one, .tolerance = 1e-15L, .most_evaluations = 20000};
   long double y = 1.0L, step = 0.1L;

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "law_scene.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,13 +30,12 @@ static void energy_along(double s, double *value, void *ctx) {
   *value = hooke_system_energy(curve->system, "potential", q, NULL);
 }
 
-static void test_force_is_gradient(void **unused) {
-  (void)unused;
+static void test_force_is_gradient(no_state) {
   const double rest[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* has no energy */
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       double force[LAW_SIZE], slope;
       law_scene_create(&laws[k], seed, &scene);
       check_ok(hooke_system_force(scene.system, 0.0, scene.q, rest, force));
@@ -46,25 +46,22 @@ static void test_force_is_gradient(void **unused) {
         differentiate(1, energy_along, 0.01, &curve, &slope);
         check_close(force[c], -slope, 1e-8 * size);
       }
-      law_scene_destroy(&scene);
     }
   }
 }
 
 /* The scenes of springs that only pull contain both taut and slack ones, so that the test above covers the
  * switch. */
-static void test_pull_only_scenes_have_both_sides(void **unused) {
-  (void)unused;
+static void test_pull_only_scenes_have_both_sides(no_state) {
   int64_t slack = 0, unloaded = 0, taut = 0;
   for (int k = 0; k < LAW_COUNT; k++) {
     if (!laws[k].pull_only) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       law_scene_create(&laws[k], seed, &scene);
       slack += scene.slack;
       unloaded += scene.unloaded;
       taut += scene.taut;
-      law_scene_destroy(&scene);
     }
   }
   assert_true(slack >= 10);
@@ -73,10 +70,9 @@ static void test_pull_only_scenes_have_both_sides(void **unused) {
 }
 
 /* M g and m a: the force is the mass times the acceleration, on free particles. */
-static void test_force_is_mass_times_acceleration(void **unused) {
-  (void)unused;
+static void test_force_is_mass_times_acceleration(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
-    struct law_scene scene;
+    owned_law_scene scene;
     double force[LAW_SIZE], acceleration[LAW_SIZE];
     law_scene_create(&laws[k], 77, &scene);
     check_ok(hooke_system_force(scene.system, 0.7, scene.q, scene.v, force));
@@ -86,7 +82,6 @@ static void test_force_is_mass_times_acceleration(void **unused) {
       check_close(force[c], mass[c / 3] * acceleration[c], 1e-14 * size);
     for (int c = LAW_SIZE - 3; c < LAW_SIZE; c++)
       check_close(acceleration[c], 0.0, 0.0);
-    law_scene_destroy(&scene);
   }
 }
 
@@ -108,12 +103,11 @@ static void energy_in_time(double s, double *value, void *ctx) {
   *value = hooke_system_energy(curve->system, "total", q, v);
 }
 
-static void test_dissipated_power(void **unused) {
-  (void)unused;
+static void test_dissipated_power(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* does work of its own */
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       struct motion_curve curve;
       double rate;
       law_scene_create(&laws[k], seed, &scene);
@@ -129,19 +123,17 @@ static void test_dissipated_power(void **unused) {
         check_between(power, 1e-3 * size, size * 10.0);
       else
         check_between(power, 0.0, 0.0);
-      law_scene_destroy(&scene);
     }
   }
 }
 
 /* ---- action and reaction, momentum, angular momentum ---- */
 
-static void test_third_law(void **unused) {
-  (void)unused;
+static void test_third_law(no_state) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].gravity || laws[k].drag || laws[k].callback || laws[k].anchors) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
-      struct law_scene scene;
+      owned_law_scene scene;
       double force[LAW_SIZE], sum[3] = {0}, torque[3] = {0}, size = 0.0;
       law_scene_create(&laws[k], seed, &scene);
       check_ok(hooke_system_force(scene.system, 0.0, scene.q, scene.v, force));
@@ -159,7 +151,6 @@ static void test_third_law(void **unused) {
         check_close(sum[a], 0.0, 1e-14 * size);
         check_close(torque[a], 0.0, 1e-14 * size);
       }
-      law_scene_destroy(&scene);
     }
   }
 }
@@ -168,23 +159,17 @@ static void test_third_law(void **unused) {
  * is q += h v(new), conserves angular momentum; forward Euler changes it by h^2 v x a. */
 static void drift(const char *method, double *momentum, double *angular) {
   double q[LAW_SIZE], v[LAW_SIZE], before[6], after[6], mass[LAW_PARTICLES], size = 0.0;
-  struct law_scene scene;
+  owned_law_scene scene;
   law_scene_create(&laws[1], 5, &scene);
   memcpy(q, scene.q, sizeof q);
   memcpy(v, scene.v, sizeof v);
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   for (int p = 0; p < LAW_PARTICLES; p++)
     mass[p] = 0.5 + 0.1 * p;
   check_ok(hooke_system_add_particles(system, LAW_PARTICLES, q, v, LAW_PARTICLES, mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 20.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.1));
-  check_ok(hooke_options_set_number(options, "rest_scale", 0.8));
+  owned_options *options = options_with("springs", "stiffness=20 damping=0.1 rest_scale=0.8");
   check_ok(hooke_system_add_springs(system, NULL, LAW_SPRINGS, scene.ends, options));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   for (int k = 0; k < LAW_SIZE; k++)
     size += mass[k / 3] * fabs(v[k]);
 
@@ -197,12 +182,9 @@ static void drift(const char *method, double *momentum, double *angular) {
   *momentum = largest_difference(3, before, after) / size;
   *angular = largest_difference(3, before + 3, after + 3) / size;
   assert_true(largest_difference(LAW_SIZE, q, scene.q) > 0.1); /* it did move */
-  hooke_system_destroy(system);
-  law_scene_destroy(&scene);
 }
 
-static void test_momentum(void **unused) {
-  (void)unused;
+static void test_momentum(no_state) {
   double momentum, angular;
   drift("symplectic-euler", &momentum, &angular);
   check_between(momentum, 0.0, 1e-14);
@@ -213,13 +195,11 @@ static void test_momentum(void **unused) {
 }
 
 /* The sums themselves, by hand. */
-static void test_momentum_of_two(void **unused) {
-  (void)unused;
+static void test_momentum_of_two(no_state) {
   const double q[] = {1, 0, 0, 0, 2, 0, 5, 5, 5}, v[] = {0, 3, 0, 0, 0, 4, 0, 0, 0}, mass[] = {2, 0.5, 9};
   const int64_t pinned = 2;
   double momentum[3], angular[3];
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 3, q, v, 3, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   check_ok(hooke_system_commit(system));
@@ -229,7 +209,6 @@ static void test_momentum_of_two(void **unused) {
   check_same_bits(3, momentum, expected);
   check_same_bits(3, angular, expected_angular);
   check_close(hooke_system_energy(system, "kinetic", NULL, v), 0.5 * (2 * 9 + 0.5 * 16), 1e-15);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -3,9 +3,8 @@
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MARKS = 700 }; /* more than two tiles, before the cloth and after it */
@@ -22,23 +21,13 @@ static void add_marks(hooke_system *system, int64_t count) {
 
 /* A cloth that hangs from its upper corners, with `before` and `after` idle particles. */
 static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
-  hooke_system *system;
-  hooke_options *cloth;
-  const double origin[3] = {0, 0, 0}, edges[6] = {1, 0, 0, 0, 0, 1}, size[2] = {12, 11};
   const double gravity[3] = {0, -9.81, 0};
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   add_marks(system, before);
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "mass", 1));
-  check_ok(hooke_options_set_text(cloth, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 50));
-  check_ok(hooke_options_set_number(cloth, "structural.damping", damping));
-  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 20));
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  hooke_options_destroy(cloth);
+  small_part(system, "cloth", "cloth",
+             "edges=1,0,0,0,0,1 size=12,11 mass=1 pinned=top-corners "
+             "structural.stiffness=50 structural.damping=%.17g shear.stiffness=20",
+             damping);
   add_marks(system, after);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.01));
@@ -47,11 +36,11 @@ static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
 }
 
 static void check_method(const char *method, int64_t before, int64_t after, double damping) {
-  hooke_system *alone = new_scene(0, 0, damping), *among = new_scene(before, after, damping);
+  owned_system *alone = new_scene(0, 0, damping), *among = new_scene(before, after, damping);
   const int64_t n = hooke_system_particle_count(alone), all = hooke_system_particle_count(among);
   const struct run run = {.method = method, .step = 1e-3, .duration = 0.05, .every = 0.01};
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *q2 = new_doubles(3 * all),
-         *v2 = new_doubles(3 * all);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *q2 = new_doubles(3 * all),
+                *v2 = new_doubles(3 * all);
   assert_int_equal(all, n + before + after);
   assert_int_equal(hooke_system_count(among, "idle"), before + after);
   assert_int_equal(hooke_system_count(alone, "idle"), 0);
@@ -66,24 +55,16 @@ static void check_method(const char *method, int64_t before, int64_t after, doub
   } else {
     check_between(largest_difference(3 * n, q2 + 3 * before, q), 0.0, is_fixed_step(method) ? 1e-13 : 1e-7);
   }
-  hooke_state *state = start_state(among);
+  owned_state *state = start_state(among);
   const double *at = hooke_state_position(state);
   check_same_bits(3 * before, q2, at);
   check_same_bits(3 * after, q2 + 3 * (before + n), at + 3 * (before + n));
   for (int64_t k = 0; k < 3 * all; k++) {
     if (k < 3 * before || k >= 3 * (before + n)) assert_true(v2[k] == 0.0);
   }
-  hooke_state_destroy(state);
-  hooke_system_destroy(alone);
-  hooke_system_destroy(among);
-  free(q);
-  free(v);
-  free(q2);
-  free(v2);
 }
 
-static void marks_change_nothing(void **state) {
-  (void)state;
+static void marks_change_nothing(no_state) {
   enum { COUNTS = 4 };
   static const int64_t count[COUNTS][2] = {{MARKS, 0}, {0, MARKS}, {MARKS + 3, MARKS - 100}, {5, 1}};
   for (int64_t k = 0; k < hooke_method_count(); k++) {

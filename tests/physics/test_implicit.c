@@ -6,8 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const methods[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
@@ -28,10 +26,10 @@ static hooke_system *oscillator(double omega, double zeta) {
 /* One step from x, x'/omega = start against the matrix of the method, as a share of the start. */
 static void check_step(const char *method, const char *form, double zeta, double h, const double start[2]) {
   const double omega = 40.0;
-  hooke_system *system = oscillator(omega, zeta);
-  hooke_integrator *integrator =
+  owned_system *system = oscillator(omega, zeta);
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = method, .newton = form, .step = h / omega});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   hooke_state_position(state)[3] = start[0];
   hooke_state_velocity(state)[3] = start[1] * omega;
   check_ok(hooke_integrator_step(integrator, state, 1));
@@ -49,13 +47,9 @@ static void check_step(const char *method, const char *form, double zeta, double
     check_failed("%s, %s, zeta = %g, h omega = %g: off by %g and %g of %Lg and %Lg", method, form, zeta, h, x,
                  v, there[0], there[1]);
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
-static void amplification_is_the_closed_form(void **unused) {
-  (void)unused;
+static void amplification_is_the_closed_form(no_state) {
   const double zetas[] = {0.0, 0.01, 0.5, 1.0, 30.0}, starts[][2] = {{1.0, 0.0}, {0.6, -0.8}};
   for (int m = 0; m < METHODS * FORMS; m++) {
     for (int z = 0; z < 5; z++) {
@@ -69,33 +63,28 @@ static void amplification_is_the_closed_form(void **unused) {
 
 /* Between 0 and 1 of the energy after one step that resolves nothing: all of it by the midpoint rule, almost
  * nothing by the others. */
-static void what_no_step_resolves(void **unused) {
-  (void)unused;
+static void what_no_step_resolves(no_state) {
   const double low[] = {0.0, 0.0, 1.0 - 1e-12}, high[] = {1e-10, 1e-8, 1.0 + 1e-12};
   for (int m = 0; m < METHODS; m++) {
-    hooke_system *system = oscillator(40.0, 0.0);
-    hooke_integrator *integrator = start_run(system, (struct run){.method = methods[m], .step = 1e6 / 40.0});
-    hooke_state *state = start_state(system);
+    owned_system *system = oscillator(40.0, 0.0);
+    owned_integrator *integrator = start_run(system, (struct run){.method = methods[m], .step = 1e6 / 40.0});
+    owned_state *state = start_state(system);
     const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
     const double before = hooke_system_energy(system, "total", q, v);
     check_ok(hooke_integrator_step(integrator, state, 1));
     check_between(hooke_system_energy(system, "total", q, v) / before, low[m], high[m]);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
 /* A free net that turns: the midpoint rule keeps momentum and angular momentum, whose flow is quadratic. */
-static void midpoint_keeps_angular_momentum(void **unused) {
-  (void)unused;
+static void midpoint_keeps_angular_momentum(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.3}, v[] = {0, -1, 0, 1, 0, 0.5, 0, 2, 0, -1, 0, 0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 3, 3, 0, 0, 2, 1, 3};
-  hooke_system *system = small_system(4, q, v, 0.5, 0);
+  owned_system *system = small_system(4, q, v, 0.5, 0);
   small_springs(system, 6, ends, (struct springs){.stiffness = 40, .damping = 0.02, .rest_length = 0.9});
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "implicit-midpoint", .step = 0.02});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "implicit-midpoint", .step = 0.02});
+  owned_state *state = start_state(system);
   double before[3], after[3], moved[3];
   hooke_system_angular_momentum(system, hooke_state_position(state), hooke_state_velocity(state), before);
   check_ok(hooke_integrator_step(integrator, state, 500));
@@ -103,9 +92,6 @@ static void midpoint_keeps_angular_momentum(void **unused) {
   for (int a = 0; a < 3; a++)
     moved[a] = fabs(after[a] - before[a]);
   check_between(largest(3, moved), 0.0, 1e-10 * largest(3, before));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -17,9 +17,9 @@ enum { METHODS = 3, FORMS = 2, STEPS = 3 };
 /* 1 if all steps were taken; q is where they came to. */
 static int try_steps(const hooke_system *system, const char *method, const char *form, double h, double *q) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = method, .newton = form, .newton_tolerance = BY_DEFAULT, .step = h});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   const int32_t status = hooke_integrator_step(integrator, state, STEPS);
   if (status == HOOKE_OK) {
     assert_int_equal(hooke_integrator_count(integrator, "steps"), STEPS);
@@ -31,15 +31,13 @@ static int try_steps(const hooke_system *system, const char *method, const char 
   memcpy(q, hooke_state_position(state), (size_t)size * sizeof(double));
   for (int64_t k = 0; k < size; k++)
     assert_true(isfinite(q[k]));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
   return status == HOOKE_OK;
 }
 
 static void check_cloth(int side, double stiffness, double damping, double h, int count) {
-  hooke_system *system = small_cloth(side, stiffness, damping);
+  owned_system *system = small_cloth(side, stiffness, damping);
   const int64_t size = 3 * hooke_system_particle_count(system);
-  double *first = new_doubles(size), *q = new_doubles(size);
+  owned_doubles *first = new_doubles(size), *q = new_doubles(size);
   for (int m = 0; m < count * FORMS; m++) {
     const char *method = methods[m / FORMS], *form = forms[m % FORMS];
     const int done = try_steps(system, method, form, h, m == 0 ? first : q);
@@ -52,9 +50,6 @@ static void check_cloth(int side, double stiffness, double damping, double h, in
       check_failed("%s, %s: side %d, %g N, %g N s, %g s: %g m from tr-bdf2", method, form, side, stiffness,
                    damping, h, apart);
   }
-  free(first);
-  free(q);
-  hooke_system_destroy(system);
 }
 
 /* Of 100 ms the softest alone: those of stiffer cloths take a minute. There the midpoint rule turns what it
@@ -75,13 +70,11 @@ static void check_given_side(void **side) {
   check_side(*(const int *)*side, 0);
 }
 
-static void cloths_of_20(void **unused) {
-  (void)unused;
+static void cloths_of_20(no_state) {
   check_side(20, 0);
 }
 
-static void cloths_of_41(void **unused) {
-  (void)unused;
+static void cloths_of_41(no_state) {
   if (HOOKE_SANITIZED) skip(); /* the code is that of the other, which is shorter */
   check_side(41, 1);
 }

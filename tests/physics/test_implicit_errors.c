@@ -17,15 +17,12 @@ static hooke_measurement *ladder(const hooke_system *system, const char *form, i
   hooke_measurement *study = NULL;
   /* linear equations of one iteration are solved to a fixed residual, which no step makes smaller */
   const double tolerance = strcmp(form, "converged") == 0 ? BY_DEFAULT : 1e-4;
-  hooke_options *run = run_options((struct run){
+  owned_options *run = run_options((struct run){
                     .newton = form, .newton_tolerance = tolerance, .duration = DURATION, .every = EVERY}),
                 *options;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", METHODS));
+  options = options_with("study", "methods=%s", METHODS);
   check_ok(hooke_options_set_numbers(options, "steps", count, steps));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
   check_ok(hooke_measurement_run(study, NULL));
@@ -50,15 +47,12 @@ static void check_ladder(const hooke_measurement *study, const char *form, int64
 }
 
 static void check_cloth(int64_t side, double stiffness, double damping, const char *form, int64_t count) {
-  hooke_system *system = small_cloth(side, stiffness, damping);
-  hooke_measurement *study = ladder(system, form, count);
+  owned_system *system = small_cloth(side, stiffness, damping);
+  owned_measurement *study = ladder(system, form, count);
   check_ladder(study, form, count);
-  hooke_measurement_destroy(study);
-  hooke_system_destroy(system);
 }
 
-static void errors_fall_on_cloths_of_20(void **unused) {
-  (void)unused;
+static void errors_fall_on_cloths_of_20(no_state) {
   check_cloth(20, 1e3, 0.0, "converged", MOST_STEPS);
   if (HOOKE_SANITIZED) return;
   check_cloth(20, 1e3, 0.0, "one-iteration", MOST_STEPS);
@@ -66,8 +60,7 @@ static void errors_fall_on_cloths_of_20(void **unused) {
   check_cloth(20, 1e4, 20.0, "one-iteration", MOST_STEPS);
 }
 
-static void errors_fall_on_cloths_of_41(void **unused) {
-  (void)unused;
+static void errors_fall_on_cloths_of_41(no_state) {
   if (HOOKE_SANITIZED) skip(); /* the code is that of the other, which is shorter */
   check_cloth(41, 1e3, 0.5, "converged", MOST_STEPS - 2);
 }

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "hooke.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,24 +12,18 @@
 static const double EDGES[9] = {1.2, 0, 0, 0, 0.6, 0, 0, 0, 0.9};
 
 static hooke_options *lattice_options(const double *size, const double *edges) {
-  hooke_options *options;
-  check_ok(hooke_options_create("lattice", &options));
-  check_ok(hooke_options_set_numbers(options, "origin", 3, (double[]){0.1, -0.2, 0.3}));
+  hooke_options *options = options_with("lattice", "origin=0.1,-0.2,0.3");
   check_ok(hooke_options_set_numbers(options, "edges", 9, edges));
   check_ok(hooke_options_set_numbers(options, "size", 3, size));
   return options;
 }
 
 static void set_springs(hooke_options *options) {
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 50));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
-  check_ok(hooke_options_set_number(options, "shear.damping", 0.01));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 5));
+  set_options(options, "structural.stiffness=50 shear.stiffness=20 shear.damping=0.01 bend.stiffness=5");
 }
 
 static hooke_system *build(hooke_options *options) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "lattice", "block", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   hooke_options_destroy(options);
@@ -44,12 +39,11 @@ static hooke_system *full(int nx, int ny, int nz) {
 
 /* ---- counts and order ---- */
 
-static void families_have_the_springs_of_the_formula(void **unused) {
-  (void)unused;
+static void families_have_the_springs_of_the_formula(no_state) {
   for (int64_t nx = 2; nx <= 5; nx++) {
     for (int64_t ny = 2; ny <= 4; ny++) {
       for (int64_t nz = 2; nz <= 4; nz++) {
-        hooke_system *system = full((int)nx, (int)ny, (int)nz);
+        owned_system *system = full((int)nx, (int)ny, (int)nz);
         const int64_t n = nx * ny * nz, cells = (nx - 1) * (ny - 1) * (nz - 1);
         const int64_t faces = (nx - 1) * (ny - 1) * nz + (nx - 1) * ny * (nz - 1) + nx * (ny - 1) * (nz - 1);
         const int64_t apart = (nx - 2) * ny * nz + nx * (ny - 2) * nz + nx * ny * (nz - 2);
@@ -59,27 +53,25 @@ static void families_have_the_springs_of_the_formula(void **unused) {
         assert_int_equal(hooke_system_count(system, "springs"),
                          hooke_system_group_size(system, "springs", 0) +
                              hooke_system_group_size(system, "springs", 1) + apart);
-        hooke_system_destroy(system);
       }
     }
   }
 }
 
 /* Direction by direction, as steps along x, y and z; in each x fastest, then y, then z. */
-static void springs_are_in_order(void **unused) {
-  (void)unused;
+static void springs_are_in_order(no_state) {
   enum { NX = 4, NY = 3, NZ = 5 };
   static const int step[16][3] = {{1, 0, 0},   {0, 1, 0}, {0, 0, 1},  {1, 1, 0}, {-1, 1, 0}, {1, 0, 1},
                                   {-1, 0, 1},  {0, 1, 1}, {0, -1, 1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, 1},
                                   {-1, -1, 1}, {2, 0, 0}, {0, 2, 0},  {0, 0, 2}};
   static const int size[3] = {NX, NY, NZ};
-  hooke_system *system = full(NX, NY, NZ);
+  owned_system *system = full(NX, NY, NZ);
   const int64_t count = hooke_system_count(system, "springs");
   int64_t *ends = new_block(2 * count, sizeof *ends), k = 0;
   double *material = new_doubles(3 * count), *rest = material + 2 * count;
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(system, "springs", NULL, material, material + count, rest));
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state);
   for (int d = 0; d < 16; d++) {
     const int64_t begin = k;
@@ -108,10 +100,8 @@ static void springs_are_in_order(void **unused) {
   check_close(q[3 * (NX * NY * NZ - 1)], 1.3, 1e-15);
   check_close(q[3 * (NX * NY * NZ - 1) + 1], 0.4, 1e-15);
   check_close(q[3 * (NX * NY * NZ - 1) + 2], 1.2, 1e-15);
-  hooke_state_destroy(state);
   free(material);
   free(ends);
-  hooke_system_destroy(system);
 }
 
 /* ---- the same to the bit as springs one by one ---- */
@@ -120,56 +110,45 @@ static hooke_system *one_by_one(const hooke_system *part) {
   static const double stiffness[] = {50, 20, 5}, damping[] = {0, 0.01, 0};
   const int64_t n = hooke_system_particle_count(part), count = hooke_system_count(part, "springs");
   int64_t *ends = new_block(2 * count, sizeof *ends), first = 0;
-  double *material = new_doubles(3 * count);
-  hooke_system *system;
-  hooke_state *state = start_state(part);
+  owned_doubles *material = new_doubles(3 * count);
+  owned_state *state = start_state(part);
   check_ok(hooke_system_members(part, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(part, "springs", NULL, material, material + count, material + 2 * count));
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, n, hooke_state_position(state), NULL, n,
                                       hooke_system_mass(part), NULL));
   for (int g = 0; g < 3; g++) {
     const int64_t size = hooke_system_group_size(part, "springs", g);
-    hooke_options *options;
-    check_ok(hooke_options_create("springs", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", stiffness[g]));
-    check_ok(hooke_options_set_number(options, "damping", damping[g]));
+    owned_options *options =
+        options_with("springs", "stiffness=%.17g damping=%.17g", stiffness[g], damping[g]);
     check_ok(hooke_options_set_numbers(options, "rest_length", size, material + 2 * count + first));
     check_ok(hooke_system_add_springs(system, NULL, size, ends + 2 * first, options));
-    hooke_options_destroy(options);
     first += size;
   }
   check_ok(hooke_system_commit(system));
-  hooke_state_destroy(state);
-  free(material);
   free(ends);
   return system;
 }
 
-static void a_part_runs_as_its_springs_do(void **unused) {
-  (void)unused;
+static void a_part_runs_as_its_springs_do(no_state) {
   enum { N = 6 * 5 * 7 };
-  hooke_system *part = full(6, 5, 7), *plain = one_by_one(part);
+  owned_system *part = full(6, 5, 7), *plain = one_by_one(part);
   double q[3 * N], v[3 * N], other_q[3 * N], other_v[3 * N];
   const hooke_system *systems[2] = {part, plain};
   double *ends[2][2] = {{q, v}, {other_q, other_v}};
   for (int s = 0; s < 2; s++) {
-    hooke_state *state = start_state(systems[s]);
+    owned_state *state = start_state(systems[s]);
     for (int p = 0; p < N; p++)
       hooke_state_velocity(state)[3 * p + p % 3] = sin(1.0 + p);
-    hooke_integrator *run =
+    owned_integrator *run =
         start_run(systems[s], (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1});
     check_ok(hooke_integrator_run(run, state));
     memcpy(ends[s][0], hooke_state_position(state), sizeof q);
     memcpy(ends[s][1], hooke_state_velocity(state), sizeof v);
-    hooke_integrator_destroy(run);
-    hooke_state_destroy(state);
   }
   check_same_bits(3 * N, other_q, q);
   check_same_bits(3 * N, other_v, v);
   check_between(fabs(q[0] - 0.1), 1e-4, 1.0); /* it has moved */
-  hooke_system_destroy(part);
-  hooke_system_destroy(plain);
 }
 
 /* ---- mechanics ---- */
@@ -181,12 +160,11 @@ static double pull(double count, double ks, double x, double y, double z, double
   return count * ks * (length / rest - 1.0) * along / length;
 }
 
-static void a_stretched_block_pulls_with_the_sum_of_its_springs(void **unused) {
-  (void)unused;
+static void a_stretched_block_pulls_with_the_sum_of_its_springs(no_state) {
   enum { NX = 5, NY = 4, NZ = 6, LAYER = NX * NY };
-  hooke_system *system = full(NX, NY, NZ);
+  owned_system *system = full(NX, NY, NZ);
   const int64_t n = hooke_system_particle_count(system);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *force = new_doubles(3 * n);
   const double stretch = 1.07, x = 1.2 / (NX - 1), y = 0.6 / (NY - 1), z = 0.9 / (NZ - 1);
   for (int64_t p = 0; p < n; p++)
@@ -207,18 +185,15 @@ static void a_stretched_block_pulls_with_the_sum_of_its_springs(void **unused) {
   check_close(inside, 0.0, 1e-10); /* the upward pull equals the downward one */
   check_close(aside, 0.0, 1e-10);
   free(force);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
-static void density_makes_the_mass_of_the_volume(void **unused) {
-  (void)unused;
+static void density_makes_the_mass_of_the_volume(no_state) {
   static const double skew[9] = {1, 0.2, 0, 0.3, 2, 0.1, 0.5, 0, 3};
   const double volume = fabs(1 * (2 * 3 - 0.1 * 0) - 0.2 * (0.3 * 3 - 0.1 * 0.5) + 0 * (0.3 * 0 - 2 * 0.5));
   for (int n = 2; n <= 4; n++) {
     hooke_options *options = lattice_options((double[]){n, 3, n + 1}, skew);
     check_ok(hooke_options_set_number(options, "density", 7));
-    hooke_system *system = build(options);
+    owned_system *system = build(options);
     const double *mass = hooke_system_mass(system);
     double total = 0.0;
     for (int64_t p = 0; p < hooke_system_particle_count(system); p++)
@@ -228,25 +203,20 @@ static void density_makes_the_mass_of_the_volume(void **unused) {
     check_close(mass[0], piece / 8, 1e-14);
     check_close(mass[n], piece / 4, 1e-14); /* y in the middle, x and z at an end */
     check_same_bits(1, &mass[n * 3 * (n + 1) - 1], &mass[0]);
-    hooke_system_destroy(system);
   }
 }
 
 static void check_size_refused(double nx, double ny, double nz, int32_t status, const char *message) {
-  hooke_options *options = lattice_options((double[]){nx, ny, nz}, EDGES);
-  hooke_system *system;
+  owned_options *options = lattice_options((double[]){nx, ny, nz}, EDGES);
   check_ok(hooke_options_set_number(options, "mass", 1));
   set_springs(options);
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_status(hooke_system_add_part(system, "lattice", NULL, options, NULL, NULL), status);
   check_message(message);
   assert_int_equal(hooke_system_particle_count(system), 0);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void impossible_sizes_are_refused_before_anything_is_allocated(void **unused) {
-  (void)unused;
+static void impossible_sizes_are_refused_before_anything_is_allocated(no_state) {
   check_size_refused(2147483647, 2147483647, 2147483647, HOOKE_BAD_VALUE,
                      "2147483647 x 2147483647 x 2147483647 needs");
   /* 1e9 particles, but more springs than can be numbered */
@@ -258,27 +228,22 @@ static void impossible_sizes_are_refused_before_anything_is_allocated(void **unu
 
 static void check_held(const char *pinned, int64_t from, int64_t to) {
   hooke_options *options = lattice_options((double[]){3, 2, 4}, EDGES);
-  check_ok(hooke_options_set_number(options, "mass", 1));
-  check_ok(hooke_options_set_text(options, "pinned", pinned));
-  hooke_system *system = build(options);
+  set_options(options, "mass=1 pinned=%s", pinned);
+  owned_system *system = build(options);
   for (int64_t p = 0; p < 24; p++)
     assert_int_equal(hooke_system_inverse_mass(system)[p] == 0.0, p >= from && p < to);
-  hooke_system_destroy(system);
 }
 
-static void pinned_layers_have_names(void **unused) {
-  (void)unused;
+static void pinned_layers_have_names(no_state) {
   check_held("bottom", 0, 6);
   check_held("top", 18, 24);
   check_held("7", 7, 8);
 }
 
 /* A driven layer moves the block. */
-static void a_layer_can_be_driven(void **unused) {
-  (void)unused;
+static void a_layer_can_be_driven(no_state) {
   enum { LAYER = 9, N = 27 };
-  hooke_options *options = lattice_options((double[]){3, 3, 3}, EDGES);
-  hooke_system *system;
+  owned_options *options = lattice_options((double[]){3, 3, 3}, EDGES);
   int64_t layer[LAYER];
   double q[3 * N];
   for (int k = 0; k < LAYER; k++)
@@ -286,7 +251,7 @@ static void a_layer_can_be_driven(void **unused) {
   check_ok(hooke_options_set_number(options, "mass", 1));
   set_springs(options);
   check_ok(hooke_options_set_text(options, "pinned", "bottom"));
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_part(system, "lattice", NULL, options, NULL, NULL));
   check_ok(hooke_system_drive_harmonic(system, LAYER, layer, (double[]){0.1, 0, 0}, 0.5, 0.0));
   check_ok(hooke_system_commit(system));
@@ -298,8 +263,6 @@ static void a_layer_can_be_driven(void **unused) {
     check_close(q[3 * (N - LAYER + k)], x + 0.1, 1e-15); /* a quarter of its oscillation */
     check_between(q[3 * (LAYER + k)], x + 0.001, x + 0.15);
   }
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -13,9 +13,7 @@
 
 /* Limits of all methods at the initial state, without measuring. `accuracy` 0: the default. */
 static hooke_measurement *limit_of(const hooke_system *system, double accuracy) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  hooke_options *options = options_with("limit", "predict=1");
   if (accuracy > 0.0) check_ok(hooke_options_set_number(options, "accuracy", accuracy));
   return limit_at_start(system, NULL, options);
 }
@@ -44,27 +42,15 @@ static void check_digits(double value, double expected, double relative) {
 
 /* N x n particles of 0.01 kg, 0.1 m apart, springs of 50 N, hung by two corners. */
 static hooke_system *build_cloth(int n, double damping, double drag) {
-  hooke_system *system;
-  hooke_options *options;
-  const double side = 0.1 * (n - 1), edges[6] = {side, 0.0, 0.0, 0.0, 0.0, side}, size[2] = {n, n};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 0.01 * n * n));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  const char *family[3][2] = {{"structural.stiffness", "structural.damping"},
-                              {"shear.stiffness", "shear.damping"},
-                              {"bend.stiffness", "bend.damping"}};
-  for (int k = 0; k < 3; k++) {
-    check_ok(hooke_options_set_number(options, family[k][0], 50.0));
-    check_ok(hooke_options_set_number(options, family[k][1], damping));
-  }
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  const double side = 0.1 * (n - 1);
+  hooke_system *system = new_system();
+  small_part(system, "cloth", NULL,
+             "edges=%.17g,0,0,0,0,%.17g size=%d,%d mass=%.17g pinned=top-corners "
+             "structural.stiffness=50 structural.damping=%.17g shear.stiffness=50 shear.damping=%.17g "
+             "bend.stiffness=50 bend.damping=%.17g",
+             side, side, n, n, 0.01 * n * n, damping, damping, damping);
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
@@ -72,9 +58,8 @@ static hooke_system *build_cloth(int n, double damping, double drag) {
 static hooke_system *build_nets(int64_t copies) {
   const struct reference *net = find_reference("six-particles");
   const int64_t n = net->particle_count;
-  hooke_system *system;
-  double *position = new_doubles(3 * n * copies), *mass = new_doubles(n * copies);
-  check_ok(hooke_system_create(&system));
+  owned_doubles *position = new_doubles(3 * n * copies), *mass = new_doubles(n * copies);
+  hooke_system *system = new_system();
   for (int64_t k = 0; k < n * copies; k++) {
     mass[k] = net->mass[net->mass_count > 1 ? k % n : 0];
     for (int a = 0; a < 3; a++)
@@ -84,8 +69,7 @@ static hooke_system *build_nets(int64_t copies) {
   for (int64_t g = 0; g < net->group_count; g++) {
     const struct reference_group *group = &net->group[g];
     int64_t *ends = new_block(2 * group->count * copies, (int64_t)sizeof *ends);
-    double *rest = new_doubles(group->count * copies);
-    hooke_options *options;
+    owned_doubles *rest = new_doubles(group->count * copies);
     for (int64_t k = 0; k < group->count * copies; k++) {
       double square = 0.0;
       for (int e = 0; e < 2; e++)
@@ -97,15 +81,12 @@ static hooke_system *build_nets(int64_t copies) {
       }
       rest[k] = group->rest_scale * (group->rest_length < 0.0 ? sqrt(square) : group->rest_length);
     }
-    check_ok(hooke_options_create("springs", &options));
+    owned_options *options = new_options("springs");
     if (group->law) check_ok(hooke_options_set_text(options, "law", group->law));
-    check_ok(hooke_options_set_number(options, "stiffness", group->stiffness));
-    check_ok(hooke_options_set_number(options, "damping", group->damping));
+    set_options(options, "stiffness=%.17g damping=%.17g", group->stiffness, group->damping);
     check_ok(hooke_options_set_numbers(options, "rest_length", group->count * copies, rest));
     check_ok(hooke_system_add_springs(system, group->name, group->count * copies, ends, options));
-    hooke_options_destroy(options);
     free(ends);
-    free(rest);
   }
   for (int64_t c = 0; c < copies; c++) {
     for (int64_t k = 0; k < net->pinned_count; k++) {
@@ -114,8 +95,6 @@ static hooke_system *build_nets(int64_t copies) {
     }
   }
   check_ok(hooke_system_commit(system));
-  free(position);
-  free(mass);
   return system;
 }
 
@@ -129,8 +108,7 @@ static const struct {
   cloth10 = {582.2601378383093, 0.0034348908160279894, 0.003058102791710135, 0.005078523465343316,
              0.0003999999999994838};
 
-static void critical_steps_to_ten_digits(void **unused) {
-  (void)unused;
+static void critical_steps_to_ten_digits(no_state) {
   hooke_system *system = build_reference(find_reference("six-particles"));
   hooke_measurement *limit = limit_of(system, 0.0);
   check_digits(hooke_measurement_number(limit, "limit", 0, "frequency_max"), net6.frequency, 1e-12);
@@ -159,8 +137,7 @@ static void critical_steps_to_ten_digits(void **unused) {
 }
 
 /* x'' + 2 zeta omega x' + omega^2 x = 0: a mass on a spring at its rest length, which is free across. */
-static void one_mode_follows_the_table(void **unused) {
-  (void)unused;
+static void one_mode_follows_the_table(no_state) {
   const double omega = 7.0, mass = 2.0, position[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   static const struct {
@@ -168,14 +145,14 @@ static void one_mode_follows_the_table(void **unused) {
   } table[] = {{0.0, 0.0, 2.0, 2.82843},     {0.05, 0.1, 1.90250, 2.90980}, {0.1, 0.2, 1.80998, 2.95085},
                {0.5, 1.0, 1.23607, 2.62254}, {1.0, 2.0, 0.82843, 2.78529},  {5.0, 0.20204, 0.19804, 0.28137}};
   for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
-    hooke_system *system = small_system(2, position, NULL, mass, 1);
+    owned_system *system = small_system(2, position, NULL, mass, 1);
     small_springs(system, 1, ends,
                   (struct springs){.law = "length",
                                    .stiffness = mass * omega * omega,
                                    .damping = 2.0 * table[k].zeta * omega * mass,
                                    .rest_length = -1.0});
     check_ok(hooke_system_commit(system));
-    hooke_measurement *limit = limit_of(system, 0.0);
+    owned_measurement *limit = limit_of(system, 0.0);
     check_close(omega * predicted(limit, "forward-euler"), table[k].forward_euler, 1e-5);
     check_close(omega * predicted(limit, "symplectic-euler"), table[k].symplectic_euler, 1e-5);
     check_close(omega * predicted(limit, "verlet"), 2.0, 1e-12);
@@ -183,22 +160,19 @@ static void one_mode_follows_the_table(void **unused) {
     check_between(number_of(limit, "forward-euler", "never_stable"), k == 0, k == 0);
     check_close(hooke_measurement_number(limit, "limit", 0, "rate_max"), 2.0 * table[k].zeta * omega,
                 1e-12 * omega);
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
 /* Copies of the same scene take another path: iterations for more unknowns, a partial spectrum beyond. */
-static void many_copies_have_the_limits_of_one(void **unused) {
-  (void)unused;
+static void many_copies_have_the_limits_of_one(no_state) {
   static const struct {
     int64_t copies; /* 15 unknowns each */
     int32_t exact;
     double digits;
   } scenes[] = {{20, 1, 1e-9}, {60, 0, 1e-9}, {800, 0, 1e-3}};
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
-    hooke_system *system = build_nets(scenes[k].copies);
-    hooke_measurement *limit = limit_of(system, 0.0);
+    owned_system *system = build_nets(scenes[k].copies);
+    owned_measurement *limit = limit_of(system, 0.0);
     const double digits = scenes[k].digits;
     check_digits(predicted(limit, "verlet"), net6.verlet, digits);
     check_digits(predicted(limit, "symplectic-euler"), net6.symplectic_euler, digits);
@@ -216,18 +190,15 @@ static void many_copies_have_the_limits_of_one(void **unused) {
       assert_true(strstr(hooke_measurement_text(limit, "rows", row_of(limit, "rk4"), "note"),
                          "only the fastest") != NULL);
     }
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
 /* All eigenvalues by dense matrices, the largest by iterations: just below the maximum size of the former. */
-static void iterations_agree_with_dense_matrices(void **unused) {
-  (void)unused;
+static void iterations_agree_with_dense_matrices(no_state) {
   const int sizes[] = {11, 22}; /* 357 and 1446 unknowns */
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = build_cloth(sizes[k], 0.0, 0.0);
-    hooke_measurement *limit = limit_of(system, 1e-6);
+    owned_system *system = build_cloth(sizes[k], 0.0, 0.0);
+    owned_measurement *limit = limit_of(system, 1e-6);
     const double omega = hooke_measurement_number(limit, "limit", 0, "frequency_max");
     double most = 0.0;
     for (int64_t j = 0; j < hooke_measurement_row_count(limit, "modes"); j++)
@@ -235,16 +206,13 @@ static void iterations_agree_with_dense_matrices(void **unused) {
     check_digits(omega, most, 1e-9);
     check_digits(hooke_measurement_number(limit, "modes", 0, "imaginary"), most, 0.0);
     check_between(number_of(limit, "forward-euler", "never_stable"), 1, 1);
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
 /* To the given accuracy, and not much better, with less work. */
-static void large_scenes_keep_the_accuracy(void **unused) {
-  (void)unused;
-  hooke_system *system = build_cloth(70, 0.02, 0.0);
-  hooke_measurement *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
+static void large_scenes_keep_the_accuracy(no_state) {
+  owned_system *system = build_cloth(70, 0.02, 0.0);
+  owned_measurement *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "forward-euler"};
   for (int m = 0; m < 4; m++) {
     check_digits(predicted(rough, methods[m]), predicted(fine, methods[m]), 1e-3);
@@ -253,15 +221,11 @@ static void large_scenes_keep_the_accuracy(void **unused) {
   check_between(hooke_measurement_number(rough, "limit", 0, "products"), 10, 120);
   assert_true(hooke_measurement_number(fine, "limit", 0, "products") >
               2.0 * hooke_measurement_number(rough, "limit", 0, "products"));
-  hooke_measurement_destroy(rough);
-  hooke_measurement_destroy(fine);
-  hooke_system_destroy(system);
 }
 
 /* ---- bounds ---- */
 
-static void bounds_are_never_above_the_limit(void **unused) {
-  (void)unused;
+static void bounds_are_never_above_the_limit(no_state) {
   const int features[] = {SCENE_GRAVITY, SCENE_DRAG, SCENE_DAMPING, SCENE_PULL_ONLY, SCENE_PINNED};
   double lowest = INFINITY, highest = 0.0;
   enum { MOST_ROWS = 16 };
@@ -269,7 +233,7 @@ static void bounds_are_never_above_the_limit(void **unused) {
   for (uint64_t seed = 1; seed <= 10000; seed++) {
     if (left_out((int64_t)seed, 11)) continue;
     tried++;
-    struct random_scene scene;
+    owned_random_scene scene;
     struct random_scene_request request = {.seed = seed, .particles = 4 + (int64_t)(seed % 5)};
     request.springs = request.particles + (int64_t)(seed % 7);
     request.features = SCENE_DAMPING;
@@ -296,7 +260,6 @@ static void bounds_are_never_above_the_limit(void **unused) {
       }
     }
     hooke_measurement_destroy(limit);
-    random_scene_destroy(&scene);
   }
   /* a bound is useful, and not sharp */
   check_between(lowest, 0.4, 0.9);
@@ -326,10 +289,9 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void the_smallest_limit_of_a_run(void **unused) {
-  (void)unused;
-  hooke_system *system = build_reference(find_reference("six-particles"));
-  hooke_options *run =
+static void the_smallest_limit_of_a_run(no_state) {
+  owned_system *system = build_reference(find_reference("six-particles"));
+  owned_options *run =
       run_options((struct run){.method = "rk4", .step = 0.01, .duration = 1.0, .every = 0.1});
   struct smallest s = {limit_of(system, 0.0), start_state(system), INFINITY, NAN};
   const double first = predicted(s.limit, "symplectic-euler");
@@ -342,10 +304,8 @@ static void the_smallest_limit_of_a_run(void **unused) {
   hooke_state_destroy(state);
 
   hooke_measurement *along = NULL;
-  hooke_options *options = NULL;
   state = start_state(system);
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_number(options, "along", 1.0));
+  owned_options *options = options_with("limit", "along=1");
   check_ok(hooke_measurement_create("limit", system, run, options, &along));
   check_ok(hooke_measurement_run(along, state));
   check_digits(number_of(along, "symplectic-euler", "smallest"), s.limit_met, 1e-9);
@@ -359,26 +319,22 @@ static void the_smallest_limit_of_a_run(void **unused) {
   check_ok(hooke_measurement_create("limit", system, NULL, options, &along));
   check_status(hooke_measurement_run(along, state), HOOKE_BAD_VALUE);
   hooke_measurement_destroy(along);
-  hooke_options_destroy(options);
   hooke_measurement_destroy(s.limit);
   hooke_state_destroy(s.copy);
-  hooke_options_destroy(run);
   hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- edge cases ---- */
 
-static void nothing_limits(void **unused) {
-  (void)unused;
+static void nothing_limits(no_state) {
   const double position[] = {0, 0, 0, 1, 0, 0};
   const int64_t both[] = {0, 1};
   for (int scene = 0; scene < 3; scene++) {
-    hooke_system *system = small_system(scene == 2 ? 1 : 2, position, NULL, 1.0, 0);
+    owned_system *system = small_system(scene == 2 ? 1 : 2, position, NULL, 1.0, 0);
     if (scene == 0) small_springs(system, 1, both, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
     if (scene == 0) check_ok(hooke_system_pin(system, 2, both));
     check_ok(hooke_system_commit(system));
-    hooke_measurement *limit = limit_of(system, 0.0);
+    owned_measurement *limit = limit_of(system, 0.0);
     for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
       assert_true(isinf(hooke_measurement_number(limit, "rows", row, "predicted")));
       check_between(hooke_measurement_number(limit, "rows", row, "never_stable"), 0, 0);
@@ -388,87 +344,72 @@ static void nothing_limits(void **unused) {
     check_between(hooke_measurement_number(limit, "limit", 0, "frequency_max"), 0, 0);
     assert_null(hooke_measurement_series(limit, "limit", 0, "shape", NULL));
     assert_true(hooke_measurement_row_count(limit, "blame") == 0);
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
-static void drag_alone(void **unused) {
-  (void)unused;
+static void drag_alone(no_state) {
   const double place[3] = {0.0, 0.0, 0.0};
-  hooke_system *falling = small_system(1, place, NULL, 1.0, 0);
+  owned_system *falling = small_system(1, place, NULL, 1.0, 0);
   check_ok(hooke_system_set_drag(falling, 0.25));
   check_ok(hooke_system_commit(falling));
-  hooke_measurement *limit = limit_of(falling, 0.0);
+  owned_measurement *limit = limit_of(falling, 0.0);
   check_digits(predicted(limit, "forward-euler"), 8.0, 1e-12);
   check_digits(predicted(limit, "symplectic-euler"), 8.0, 1e-12);
   check_digits(predicted(limit, "rk4"), 4.0 * 2.785293563405282, 1e-11);
   assert_true(isinf(predicted(limit, "verlet")));
   check_digits(hooke_measurement_number(limit, "limit", 0, "rate_max"), 0.25, 1e-14);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(falling);
 }
 
 /* Of a cloth with so many particles that not all modes are computed: what drag limits, it is named for. */
-static void drag_is_named_whatever_its_amount(void **unused) {
-  (void)unused;
-  hooke_options *run = run_options((struct run){.method = "heun"});
+static void drag_is_named_whatever_its_amount(no_state) {
+  owned_options *run = run_options((struct run){.method = "heun"});
   for (double drag = 20.0; drag < 1e6; drag *= 100.0) {
-    hooke_system *cloth = build_cloth(14, 0.0, drag);
-    hooke_options *options;
-    check_ok(hooke_options_create("limit", &options));
-    check_ok(hooke_options_set_number(options, "predict", 1.0));
-    hooke_measurement *limit = limit_at_start(cloth, run, options);
+    owned_system *cloth = build_cloth(14, 0.0, drag);
+    hooke_options *options = options_with("limit", "predict=1");
+    owned_measurement *limit = limit_at_start(cloth, run, options);
     check_digits(predicted(limit, "heun"), 2.0 * 0.01 / drag, 1e-3);
     const char *force = hooke_measurement_text(limit, "blame", 0, "force");
     if (force == NULL || strcmp(force, "drag") != 0) check_failed("drag of %g: blamed on %s", drag, force);
     check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.99, 1.0);
     assert_non_null(strstr(hooke_measurement_text(limit, "changes", 0, "sentence"), "drag limits the step"));
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(cloth);
   }
-  hooke_options_destroy(run);
 }
 
 /* A compressed spring pushes its ends apart sideways: that is no limit of a step, and it is counted. */
-static void compression_is_left_out(void **unused) {
-  (void)unused;
+static void compression_is_left_out(no_state) {
   const double position[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   const double rest_lengths[] = {2.0, 0.5};
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = small_system(2, position, NULL, 1.0, 1);
+    owned_system *system = small_system(2, position, NULL, 1.0, 1);
     small_springs(system, 1, ends,
                   (struct springs){.law = "length", .stiffness = 100.0, .rest_length = rest_lengths[k]});
     check_ok(hooke_system_commit(system));
-    hooke_measurement *limit = limit_of(system, 0.0);
+    owned_measurement *limit = limit_of(system, 0.0);
     check_between(hooke_measurement_number(limit, "limit", 0, "clamped"), k == 0, k == 0);
     check_digits(predicted(limit, "verlet"), 0.2, 1e-12);
     /* stretched, it is stiff in three directions, and two frequencies are 10 sqrt(1/2) */
     check_between(hooke_measurement_number(limit, "limit", 0, "mode_count"), k == 0 ? 1 : 3, k == 0 ? 1 : 3);
     if (k == 1)
       check_digits(hooke_measurement_number(limit, "modes", 2, "imaginary"), 10.0 * sqrt(0.5), 1e-12);
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
 /* One spring of a rope is 50 times stiffer: it carries the mode, whose displacements have norm 1. */
-static void the_odd_spring_is_named(void **unused) {
-  (void)unused;
+static void the_odd_spring_is_named(no_state) {
   double position[36] = {0};
   int64_t ends[22];
   for (int k = 0; k < 12; k++)
     position[3 * k] = 0.1 * k;
   for (int k = 0; k < 11; k++)
     ends[2 * k] = k, ends[2 * k + 1] = k + 1;
-  hooke_system *system = small_system(12, position, NULL, 0.1, 1);
+  owned_system *system = small_system(12, position, NULL, 0.1, 1);
   small_springs(system, 5, ends, (struct springs){.stiffness = 10.0, .damping = 0.01, .rest_length = -1.0});
   small_springs(system, 1, ends + 10, (struct springs){.stiffness = 500.0, .rest_length = -1.0});
   small_springs(system, 5, ends + 12,
                 (struct springs){.stiffness = 10.0, .damping = 0.01, .rest_length = -1.0});
   check_ok(hooke_system_commit(system));
-  hooke_measurement *limit = limit_of(system, 0.0);
+  owned_measurement *limit = limit_of(system, 0.0);
   check_between(hooke_measurement_number(limit, "blame", 0, "number"), 5, 5);
   check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.9, 1.0);
   check_between(hooke_measurement_number(limit, "blame", 0, "first"), 5, 5);
@@ -477,22 +418,16 @@ static void the_odd_spring_is_named(void **unused) {
   check_close(largest(36, shape), 1.0, 1e-12);
   check_close(shape[15] + shape[18], 0.0, 0.05); /* its ends move against each other */
   check_between(hooke_measurement_number(limit, "changes", 0, "gain"), 2.0, 8.0);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
-static void the_same_every_time(void **unused) {
-  (void)unused;
-  hooke_system *system = build_nets(30);
-  hooke_measurement *first = limit_of(system, 0.0), *second = limit_of(system, 0.0);
+static void the_same_every_time(no_state) {
+  owned_system *system = build_nets(30);
+  owned_measurement *first = limit_of(system, 0.0), *second = limit_of(system, 0.0);
   for (int64_t row = 0; row < hooke_measurement_row_count(first, "rows"); row++) {
     const double one = hooke_measurement_number(first, "rows", row, "predicted"),
                  two = hooke_measurement_number(second, "rows", row, "predicted");
     check_same_bits(1, &one, &two);
   }
-  hooke_measurement_destroy(first);
-  hooke_measurement_destroy(second);
-  hooke_system_destroy(system);
 }
 
 static int32_t stop(double done, const char *what, void *ctx) {
@@ -500,9 +435,8 @@ static int32_t stop(double done, const char *what, void *ctx) {
   return ++*(int *)ctx;
 }
 
-static void bad_input(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(7.0), *other = build_nets(1), *open = NULL;
+static void bad_input(no_state) {
+  owned_system *system = small_oscillator(7.0), *other = build_nets(1), *open = NULL;
   hooke_measurement *limit = limit_of(system, 0.0);
   hooke_state *state = start_state(other);
   check_status(hooke_measurement_run(limit, state), HOOKE_BAD_VALUE);
@@ -528,19 +462,14 @@ static void bad_input(void **unused) {
   hooke_measurement_destroy(limit);
   hooke_measurement_destroy(NULL);
 
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
+  owned_options *options = new_options("limit");
   check_status(hooke_options_set_number(options, "accuracy", 0.5), HOOKE_BAD_VALUE);
   check_ok(hooke_options_set_text(options, "methods", "verlet,no-such-method"));
   check_status(hooke_measurement_create("limit", system, NULL, options, &limit), HOOKE_BAD_VALUE);
   check_message("no-such-method");
-  hooke_options_destroy(options);
   check_ok(hooke_system_create(&open));
   check_status(hooke_measurement_create("limit", open, NULL, NULL, &limit), HOOKE_BAD_CALL);
-  hooke_system_destroy(open);
   hooke_state_destroy(state);
-  hooke_system_destroy(other);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -17,13 +17,9 @@ enum { MOST_PARTICLES = 32, MOST_SPRINGS = 256 };
  * them. */
 static hooke_measurement *find_limit(const hooke_system *system, const char *methods, double accuracy,
                                      int32_t predict, const hooke_options *run) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
+  hooke_options *options = new_options("limit");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
-  check_ok(hooke_options_set_number(options, "accuracy", accuracy));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "nonlinear", run != NULL));
-  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  set_options(options, "accuracy=%.17g predict=%d nonlinear=%d budget=200", accuracy, predict, run != NULL);
   return limit_at_start(system, run, options);
 }
 
@@ -53,33 +49,28 @@ static hooke_system *random_network(uint64_t seed, double damping) {
     stiffness[k] = random_between(&source, 5.0, 50.0);
     damp[k] = damping * random_between(&source, 0.0, 2.0);
   }
-  hooke_system *system;
-  hooke_options *options;
   const int64_t pinned = 0, driven = 3;
   const double amplitude[3] = {0.1, 0.0, 0.0};
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, N, position, NULL, N, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   if (seed % 4 == 0) check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options =
+      options_with("springs", "law=length rest_scale=%.17g", random_between(&source, 0.8, 1.1));
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, damp));
-  check_ok(hooke_options_set_number(options, "rest_scale", random_between(&source, 0.8, 1.1)));
   if (seed % 3 == 0) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(system, "network", SPRINGS, ends, options));
-  hooke_options_destroy(options);
   if (seed % 2 == 0) check_ok(hooke_system_set_drag(system, 0.2 * damping));
   check_ok(hooke_system_commit(system));
   return system;
 }
 
-static void random_networks_run_up_to_the_prediction(void **unused) {
-  (void)unused;
+static void random_networks_run_up_to_the_prediction(no_state) {
   for (uint64_t seed = 1; seed <= 100; seed++) {
     if (left_out((int64_t)seed, 5)) continue;
-    hooke_system *system = random_network(seed, 1.0);
-    hooke_measurement *limit = find_limit(system, "symplectic-euler,verlet,rk4", 1e-3, 0, NULL);
+    owned_system *system = random_network(seed, 1.0);
+    owned_measurement *limit = find_limit(system, "symplectic-euler,verlet,rk4", 1e-3, 0, NULL);
     for (int64_t row = 0; row < 3; row++) {
       const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
       const double measured = hooke_measurement_number(limit, "rows", row, "measured");
@@ -93,27 +84,20 @@ static void random_networks_run_up_to_the_prediction(void **unused) {
                     measured * (1.0 + 1e-3));
       check_between(hooke_measurement_number(limit, "rows", row, "steps_run"), 1000.0, 1e7);
     }
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
 /* The same comparison with the prediction for another damping must fail. */
-static void another_damping_is_noticed(void **unused) {
-  (void)unused;
+static void another_damping_is_noticed(no_state) {
   int noticed = 0;
   for (uint64_t seed = 1; seed <= 5; seed++) {
-    hooke_system *system = random_network(seed, 1.0), *other = random_network(seed, 1.1);
-    hooke_measurement *limit = find_limit(system, "symplectic-euler", 1e-3, 0, NULL);
-    hooke_measurement *wrong = find_limit(other, "symplectic-euler", 1e-3, 1, NULL);
+    owned_system *system = random_network(seed, 1.0), *other = random_network(seed, 1.1);
+    owned_measurement *limit = find_limit(system, "symplectic-euler", 1e-3, 0, NULL);
+    owned_measurement *wrong = find_limit(other, "symplectic-euler", 1e-3, 1, NULL);
     const double measured = hooke_measurement_number(limit, "rows", 0, "measured");
     assert_true(agree(measured, hooke_measurement_number(limit, "rows", 0, "predicted"), 1e-3));
     noticed += !agree(measured, hooke_measurement_number(wrong, "rows", 0, "predicted"), 1e-3);
     assert_true(isnan(hooke_measurement_number(wrong, "rows", 0, "measured")));
-    hooke_measurement_destroy(limit);
-    hooke_measurement_destroy(wrong);
-    hooke_system_destroy(system);
-    hooke_system_destroy(other);
   }
   assert_int_equal(noticed, 5);
 }
@@ -169,17 +153,13 @@ static hooke_system *build_piece(const struct piece *piece, enum odd odd, double
     stiffness[k] = odd == STIFF_SPRING && k == piece->stiff ? 5000.0 : 100.0;
     damping[k] = beta * stiffness[k];
   }
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, n, position, NULL, n, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", count, damping));
   check_ok(hooke_system_add_springs(system, piece->name, count, ends, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
@@ -249,75 +229,62 @@ static void check_pieces(const struct piece *piece) {
       if (z > 0 && left_out(odd + z, 3)) continue;
       char scene[100];
       snprintf(scene, sizeof scene, "%s, %s, damping ratio %g", piece->name, names[odd], ratios[z]);
-      hooke_system *system = build_piece(piece, (enum odd)odd, 2.0 * ratios[z] / omega);
-      hooke_measurement *limit = find_limit(system, NULL, ACCURACY, 0, NULL);
+      owned_system *system = build_piece(piece, (enum odd)odd, 2.0 * ratios[z] / omega);
+      owned_measurement *limit = find_limit(system, NULL, ACCURACY, 0, NULL);
       if (z == 0) omega = hooke_measurement_number(limit, "limit", 0, "frequency_max");
       check_close(hooke_measurement_number(limit, "limit", 0, "frequency_max"), omega, 1e-6 * omega);
       assert_true(hooke_measurement_row_count(limit, "rows") >= 5);
       for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
         check_row(limit, row, scene);
       check_blame(limit, piece, (enum odd)odd);
-      hooke_measurement_destroy(limit);
-      hooke_system_destroy(system);
     }
   }
 }
 
-static void ropes(void **unused) {
-  (void)unused;
+static void ropes(no_state) {
   check_pieces(&pieces[0]);
 }
 
-static void cloths(void **unused) {
-  (void)unused;
+static void cloths(no_state) {
   check_pieces(&pieces[1]);
 }
 
-static void lattices(void **unused) {
-  (void)unused;
+static void lattices(no_state) {
   check_pieces(&pieces[2]);
 }
 
 /* ---- the scene itself ---- */
 
 /* A spring of no length is linear at any stretch, so the whole run gives the same limit. */
-static void linear_scene_runs_up_to_the_prediction(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(7.0);
-  hooke_options *run =
+static void linear_scene_runs_up_to_the_prediction(no_state) {
+  owned_system *system = small_oscillator(7.0);
+  owned_options *run =
       run_options((struct run){.method = "symplectic-euler", .step = 0.01, .duration = 300.0});
-  hooke_measurement *limit = find_limit(system, "symplectic-euler,verlet", 1e-2, 0, run);
+  owned_measurement *limit = find_limit(system, "symplectic-euler,verlet", 1e-2, 0, run);
   for (int64_t row = 0; row < 2; row++) {
     check_close(hooke_measurement_number(limit, "rows", row, "predicted"), 2.0 / 7.0, 1e-6);
     check_close(hooke_measurement_number(limit, "rows", row, "ratio"), 1.0, 1e-2);
   }
-  hooke_measurement_destroy(limit);
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
 }
 
 /* A spring that only pulls counts as taut in the linear twin; where it never becomes taut, the scene itself
  * is stable at any step. */
-static void slack_scene_takes_any_step(void **unused) {
-  (void)unused;
+static void slack_scene_takes_any_step(no_state) {
   const double position[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, down[3] = {0.0, -1.0, 0.0};
   const int64_t ends[2] = {0, 1};
   for (int slack = 0; slack <= 1; slack++) {
-    hooke_system *system = small_system(2, position, NULL, 1.0, 1);
+    owned_system *system = small_system(2, position, NULL, 1.0, 1);
     small_springs(system, 1, ends, (struct springs){"length", 100.0, 0.0, slack ? 1e6 : 1.0, 1});
     check_ok(hooke_system_set_gravity(system, down));
     check_ok(hooke_system_commit(system));
-    hooke_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 60.0});
-    hooke_measurement *limit = find_limit(system, "verlet", 1e-2, 0, run);
+    owned_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 60.0});
+    owned_measurement *limit = find_limit(system, "verlet", 1e-2, 0, run);
     const double measured = hooke_measurement_number(limit, "rows", 0, "measured");
     check_close(hooke_measurement_number(limit, "rows", 0, "predicted"), 0.2, 1e-6);
     if (slack)
       assert_true(isinf(measured));
     else
       check_between(measured, 0.1, 1.0);
-    hooke_measurement_destroy(limit);
-    hooke_options_destroy(run);
-    hooke_system_destroy(system);
   }
 }
 
@@ -327,20 +294,17 @@ static int32_t stop_at_once(double done, const char *what, void *ctx) {
   return ++*(int *)ctx == 3;
 }
 
-static void progress_can_stop(void **unused) {
-  (void)unused;
-  hooke_system *system = random_network(5, 1.0);
+static void progress_can_stop(no_state) {
+  owned_system *system = random_network(5, 1.0);
   hooke_measurement *limit = find_limit(system, "rk4", 1e-3, 1, NULL);
   hooke_measurement_destroy(limit);
   check_ok(hooke_measurement_create("limit", system, NULL, NULL, &limit));
   int calls = 0;
   hooke_measurement_on_progress(limit, stop_at_once, &calls);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_measurement_run(limit, state), HOOKE_STOPPED);
   assert_int_equal(calls, 3);
-  hooke_state_destroy(state);
   hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

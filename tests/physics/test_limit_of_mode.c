@@ -2,6 +2,7 @@
  * a report. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,8 +16,7 @@ static void check_digits(double value, double expected) {
   check_close(value, expected, 1e-13 * fabs(expected));
 }
 
-static void test_closed_forms(void **ctx) {
-  (void)ctx;
+static void test_closed_forms(no_state) {
   for (double w = 1e-3; w < 1e5; w *= 7.0) {
     for (double z = 0.0; z < 30.0; z = 2.0 * z + 0.01) {
       const double d = z * w, fastest = z > 1.0 ? d + w * sqrt(z * z - 1.0) : w;
@@ -30,16 +30,14 @@ static void test_closed_forms(void **ctx) {
 }
 
 /* Motion without restoring force, and no motion at all. */
-static void test_without_stiffness(void **ctx) {
-  (void)ctx;
+static void test_without_stiffness(no_state) {
   check_digits(of("forward-euler", 0.0, 5.0), 0.2);
   check_digits(of("symplectic-euler", 0.0, 5.0), 0.2);
   assert_true(isinf(of("verlet", 0.0, 5.0)));
   assert_true(isinf(of("symplectic-euler", 0.0, 0.0)) && isinf(of("forward-euler", 0.0, 0.0)));
 }
 
-static void test_what_has_none(void **ctx) {
-  (void)ctx;
+static void test_what_has_none(no_state) {
   assert_true(isnan(of("verlot", 1.0, 0.0)));
   assert_true(isnan(of("verlet", -1.0, 0.0)) && isnan(of("verlet", 1.0, -1.0)));
   assert_true(isnan(of("verlet", (double)NAN, 0.0)) && isnan(of("verlet", 1.0, (double)NAN)));
@@ -49,17 +47,10 @@ static void test_what_has_none(void **ctx) {
 static hooke_system *build_one(double damping, int as_body) {
   const double q[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, mass = 0.5;
   const int64_t ends[2] = {0, 1}, pinned = 0;
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(2, q, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 20.0));
-  check_ok(hooke_options_set_number(options, "damping", damping));
-  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+  owned_options *options = options_with("springs", "stiffness=20 damping=%.17g rest_length=1", damping);
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
-  hooke_options_destroy(options);
   if (as_body) check_ok(hooke_system_add_body(system, NULL, 1, ends + 1, 0));
   check_ok(hooke_system_commit(system));
   return system;
@@ -70,19 +61,16 @@ static hooke_system *build(double damping) {
 }
 
 static hooke_measurement *make(hooke_system *system) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1.0));
+  hooke_options *options = options_with("limit", "predict=1");
   return start_limit(system, NULL, options);
 }
 
 /* Over- and underdamped: the prediction for the only mode, and the reported modes. */
-static void test_an_oscillator(void **ctx) {
-  (void)ctx;
+static void test_an_oscillator(no_state) {
   const double dampings[] = {0.4, 3.0, 12.0, 90.0};
   for (int j = 0; j < 4; j++) {
-    hooke_system *system = build(dampings[j]);
-    hooke_measurement *limit = make(system);
+    owned_system *system = build(dampings[j]);
+    owned_measurement *limit = make(system);
     check_ok(hooke_measurement_run(limit, NULL)); /* the initial state */
     const double w = sqrt(40.0), d = dampings[j]; /* 20/0.5, and gamma/0.5 = 2 d */
     for (int64_t k = 0; k < hooke_measurement_row_count(limit, "rows"); k++) {
@@ -98,8 +86,6 @@ static void test_an_oscillator(void **ctx) {
       check_close(hooke_measurement_number(limit, "modes", k, "frequency"), w, 1e-12 * w);
       check_close(hooke_measurement_number(limit, "modes", k, "decay"), d, 1e-12 * d);
     }
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
@@ -110,15 +96,13 @@ static double radius(const hooke_system *system, const char *method, double h) {
   double m[2][2];
   for (int k = 0; k < 2; k++) {
     const double by = 1e-3;
-    hooke_integrator *it = start_run(system, (struct run){.method = method, .step = h});
-    hooke_state *state = start_state(system);
+    owned_integrator *it = start_run(system, (struct run){.method = method, .step = h});
+    owned_state *state = start_state(system);
     double *x = hooke_state_position(state) + 3, *v = hooke_state_velocity(state) + 3;
     *(k == 0 ? x : v) += by;
     check_ok(hooke_integrator_step(it, state, 1));
     m[0][k] = (*x - 1.0) / by;
     m[1][k] = *v / by;
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(it);
   }
   const double half = 0.5 * (m[0][0] + m[1][1]), product = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   const double root = half * half - product;
@@ -142,14 +126,13 @@ static void check_limit(const hooke_system *system, const char *method, double l
 
 /* Of every method, without damping and with it up to far above the critical one, of a particle and of a
  * body. */
-static void test_limits_are_those_of_the_steps(void **ctx) {
-  (void)ctx;
+static void test_limits_are_those_of_the_steps(no_state) {
   const double w = sqrt(40.0), ratios[] = {0.0, 0.02, 0.3, 0.9, 1.7, 6.0};
   for (int k = 0; k < 12; k++) {
     const double decay = ratios[k % 6] * w;
     const int as_body = k >= 6;
-    hooke_system *system = build_one(decay, as_body);
-    hooke_measurement *limit = as_body ? make(system) : NULL;
+    owned_system *system = build_one(decay, as_body);
+    owned_measurement *limit = as_body ? make(system) : NULL;
     if (limit) check_ok(hooke_measurement_run(limit, NULL));
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
@@ -159,8 +142,6 @@ static void test_limits_are_those_of_the_steps(void **ctx) {
                   limit ? hooke_measurement_number(limit, "rows", row, "predicted") : of(method, w, decay),
                   w);
     }
-    hooke_measurement_destroy(limit);
-    hooke_system_destroy(system);
   }
 }
 
@@ -169,34 +150,28 @@ static int32_t stop(double done, const char *what, void *ctx) {
   return 1;
 }
 
-static void test_reports_that_are_refused(void **ctx) {
-  (void)ctx;
-  hooke_system *system = build(1.0), *other;
-  hooke_measurement *limit = make(system);
-  hooke_state *foreign;
+static void test_reports_that_are_refused(no_state) {
+  owned_system *system = build(1.0), *other;
+  owned_measurement *limit = make(system);
+  owned_state *foreign;
   assert_int_equal(hooke_measurement_write(limit, "page.html"), HOOKE_BAD_CALL);
   hooke_measurement_on_progress(limit, stop, NULL);
   assert_int_equal(hooke_measurement_run(limit, NULL), HOOKE_STOPPED);
   assert_int_equal(hooke_measurement_write(limit, "page.html"),
                    HOOKE_HAVE_CHARTJS ? HOOKE_BAD_CALL : HOOKE_NOT_BUILT);
   hooke_measurement_on_progress(limit, NULL, NULL);
-  check_ok(hooke_system_create(&other));
+  other = new_system();
   check_ok(hooke_system_commit(other));
   foreign = start_state(other);
   assert_int_equal(hooke_measurement_run(limit, foreign), HOOKE_BAD_VALUE);
   check_ok(hooke_measurement_run(limit, NULL));
   assert_int_equal(hooke_measurement_write(limit, "page.pdf"), HOOKE_BAD_VALUE);
-  hooke_state_destroy(foreign);
-  hooke_system_destroy(other);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
 /* A row is that of its table, and both stand in the document. */
-static void test_json(void **ctx) {
-  (void)ctx;
-  hooke_system *system = build(1.0);
-  hooke_measurement *limit = make(system);
+static void test_json(no_state) {
+  owned_system *system = build(1.0);
+  owned_measurement *limit = make(system);
   check_ok(hooke_measurement_run(limit, NULL));
   const int64_t last = hooke_measurement_row_count(limit, "rows") - 1;
   assert_null(hooke_measurement_json(limit, "orders", 0));
@@ -211,8 +186,6 @@ static void test_json(void **ctx) {
   assert_int_equal(strncmp(whole, "{\"time\": 0, \"method\": ", 22), 0);
   free(row);
   free(rows);
-  hooke_measurement_destroy(limit);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

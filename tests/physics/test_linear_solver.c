@@ -5,8 +5,6 @@
 #include "run.h"
 #include "small.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const solvers[] = {"auto", "direct", "blocks", "gmres"};
@@ -25,15 +23,14 @@ static int is_built(const char *solver) {
   return has_factor() || strcmp(solver, "direct") != 0;
 }
 
-static void references_are_met(void **unused) {
-  (void)unused;
+static void references_are_met(no_state) {
   needs_cvode();
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     const struct reference *reference = &references[k];
     const struct reference_state *last = &reference->state[reference->state_count - 1];
     const int64_t size = 3 * reference->particle_count;
-    hooke_system *system = build_reference(reference);
-    double *q = new_doubles(size);
+    owned_system *system = build_reference(reference);
+    owned_doubles *q = new_doubles(size);
     for (int s = 0; s < SOLVERS; s++) {
       if (!is_built(solvers[s])) continue;
       run_to_end(system,
@@ -46,19 +43,16 @@ static void references_are_met(void **unused) {
       const double error = largest_difference(size, q, last->position) / largest(size, last->position);
       if (!(error <= 1e-7)) check_failed("%s by %s: error %.3g", reference->name, solvers[s], error);
     }
-    free(q);
-    hooke_system_destroy(system);
   }
 }
 
 /* Every force, driven and pinned particles, springs that only pull, callbacks with and without their
  * derivative. */
-static void everything(void **unused) {
-  (void)unused;
+static void everything(no_state) {
   static const char *const methods[] = {"cvode-bdf", "arkode-esdirk"};
   needs_cvode();
   for (uint64_t seed = 1; seed <= 6; seed++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 30,
                                                       .springs = 70,
@@ -68,7 +62,7 @@ static void everything(void **unused) {
                                                       .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT},
                         &scene);
     const int64_t size = 3 * hooke_system_particle_count(scene.system);
-    double *expected = new_doubles(2 * size), *found = new_doubles(2 * size);
+    owned_doubles *expected = new_doubles(2 * size), *found = new_doubles(2 * size);
     struct run run = {.method = "cvode-adams", .rtol = 1e-11, .atol = 1e-13, .duration = 0.4};
     run_to_end(scene.system, run, expected, expected + size);
     run.rtol = 1e-9, run.atol = 1e-11;
@@ -85,9 +79,6 @@ static void everything(void **unused) {
           check_failed("seed %d, %s by %s: errors %.3g, %.3g", (int)seed, methods[m], solvers[s], q, v);
       }
     }
-    free(expected);
-    free(found);
-    random_scene_destroy(&scene);
   }
 }
 
@@ -108,8 +99,7 @@ static hooke_system *rope(double lightest) {
     ends[2 * k + 1] = k + 1;
   }
   const int64_t pinned = 0;
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, PARTICLES, position, NULL, PARTICLES, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   small_springs(system, SEGMENTS, ends, (struct springs){NULL, 1e4, 10.0, -1.0, 0});
@@ -127,12 +117,11 @@ struct counted {
 static struct counted run_counted(hooke_integrator *integrator, const hooke_system *system) {
   struct counted found = {.steps = -hooke_integrator_count(integrator, "steps"),
                           .linear = -hooke_integrator_count(integrator, "linear_iterations")};
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   found.steps += hooke_integrator_count(integrator, "steps");
   found.linear += hooke_integrator_count(integrator, "linear_iterations");
   memcpy(found.q, hooke_state_position(state), sizeof found.q);
-  hooke_state_destroy(state);
   return found;
 }
 
@@ -144,20 +133,18 @@ static hooke_integrator *start(const hooke_system *system, const char *solver) {
 }
 
 static struct counted run_alone(const hooke_system *system, const char *solver) {
-  hooke_integrator *integrator = start(system, solver);
+  owned_integrator *integrator = start(system, solver);
   const struct counted found = run_counted(integrator, system);
-  hooke_integrator_destroy(integrator);
   return found;
 }
 
 /* A factor needs few iterations, and the automatic choice selects it; also beside a particle of a millionth
  * of the mass. */
-static void factor_pays(void **unused) {
-  (void)unused;
+static void factor_pays(no_state) {
   needs_cvode();
   if (!has_factor()) skip();
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = rope(k == 0 ? 0.25 / PARTICLES : 1e-9);
+    owned_system *system = rope(k == 0 ? 0.25 / PARTICLES : 1e-9);
     double exact[SIZE];
     run_to_end(
         system,
@@ -172,53 +159,39 @@ static void factor_pays(void **unused) {
     check_between(largest_difference(SIZE, direct.q, exact), 1e-9, 1e-4);
     check_between(largest_difference(SIZE, blocks.q, exact), 1e-9, 1e-4);
     check_between(largest_difference(SIZE, chosen.q, exact), 1e-9, 1e-4);
-    hooke_system_destroy(system);
   }
 }
 
 /* A run keeps nothing of the previous one. */
-static void runs_repeat(void **unused) {
-  (void)unused;
+static void runs_repeat(no_state) {
   needs_cvode();
-  hooke_system *system = rope(0.25 / PARTICLES);
+  owned_system *system = rope(0.25 / PARTICLES);
   for (int s = 0; s < SOLVERS - 1; s++) {
     if (!is_built(solvers[s])) continue;
-    hooke_integrator *integrator = start(system, solvers[s]);
+    owned_integrator *integrator = start(system, solvers[s]);
     const struct counted first = run_counted(integrator, system), second = run_counted(integrator, system);
     assert_int_equal(second.steps, first.steps);
     assert_int_equal(second.linear, first.linear);
     check_same_bits(SIZE, second.q, first.q);
-    hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
 }
 
 /* The message names the missing library. */
-static void not_built(void **unused) {
-  (void)unused;
+static void not_built(no_state) {
   needs_cvode();
   if (has_factor()) skip();
-  hooke_system *system = rope(0.25 / PARTICLES);
-  hooke_options *options = NULL;
+  owned_system *system = rope(0.25 / PARTICLES);
   hooke_integrator *integrator = NULL;
-  check_ok(hooke_options_create("run", &options));
-  check_ok(hooke_options_set_text(options, "method", "cvode-bdf"));
-  check_ok(hooke_options_set_number(options, "duration", 0.3));
-  check_ok(hooke_options_set_text(options, "linear_solver", "direct"));
+  owned_options *options = options_with("run", "method=cvode-bdf duration=0.3 linear_solver=direct");
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_NOT_BUILT);
   assert_non_null(strstr(hooke_last_error(), "CHOLMOD"));
   assert_null(integrator);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void words(void **unused) {
-  (void)unused;
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("run", &options));
+static void words(no_state) {
+  owned_options *options = new_options("run");
   assert_string_equal(hooke_options_text(options, "linear_solver"), "auto");
   check_status(hooke_options_set_text(options, "linear_solver", "cholmod"), HOOKE_BAD_VALUE);
-  hooke_options_destroy(options);
 }
 
 int main(void) {

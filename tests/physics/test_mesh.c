@@ -2,6 +2,7 @@
 #include "check.h"
 #include "hooke.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -68,17 +69,14 @@ static struct mesh torus(int64_t m, int64_t n) {
 }
 
 static hooke_options *options_of(const struct mesh *mesh) {
-  hooke_options *options;
-  check_ok(hooke_options_create("mesh", &options));
+  hooke_options *options = new_options("mesh");
   check_ok(hooke_mesh_set(options, mesh->vertices, mesh->vertex, mesh->triangles, mesh->triangle));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 30));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 4));
+  set_options(options, "structural.stiffness=30 bend.stiffness=4");
   return options;
 }
 
 static hooke_system *build(hooke_options *options) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "mesh", "m", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   hooke_options_destroy(options);
@@ -94,30 +92,27 @@ static hooke_system *build_with(const struct mesh *mesh, const char *option, dou
 /* ---- springs ---- */
 
 static void check_euler(struct mesh mesh, int64_t characteristic, int64_t border) {
-  hooke_system *system = build_with(&mesh, "mass", 1);
+  owned_system *system = build_with(&mesh, "mass", 1);
   const int64_t edges = hooke_system_group_size(system, "springs", 0);
   assert_int_equal(mesh.vertices - edges + mesh.triangles, characteristic);
   assert_int_equal(2 * edges, 3 * mesh.triangles + border);
   assert_int_equal(hooke_system_group_size(system, "springs", 1), edges - border);
-  hooke_system_destroy(system);
 }
 
-static void edges_obey_euler(void **unused) {
-  (void)unused;
+static void edges_obey_euler(no_state) {
   check_euler(icosahedron(), 2, 0);
   check_euler(torus(7, 5), 0, 0);
   check_euler(sheet(5, 4), 1, 2 * (4 + 3));
   check_euler(sheet(2, 2), 1, 4);
 }
 
-static void springs_are_in_order(void **unused) {
-  (void)unused;
+static void springs_are_in_order(no_state) {
   struct mesh mesh = sheet(5, 4);
-  hooke_system *system = build_with(&mesh, "mass", 1);
+  owned_system *system = build_with(&mesh, "mass", 1);
   const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
-  double *material = new_doubles(3 * count);
+  owned_doubles *material = new_doubles(3 * count);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(system, "springs", NULL, material, material + count, material + 2 * count));
   assert_string_equal(hooke_system_group_name(system, "springs", 0), "m.structural");
@@ -154,9 +149,7 @@ static void springs_are_in_order(void **unused) {
     check_close(material[2 * count + k], sqrt(x * x + y * y + z * z), 1e-15);
     check_close(material[k] * material[2 * count + k], k < edges ? 30.0 : 4.0, 1e-13);
   }
-  free(material);
   free(ends);
-  hooke_system_destroy(system);
 }
 
 /* ---- masses ---- */
@@ -168,8 +161,7 @@ static double total_mass(const hooke_system *system) {
   return total;
 }
 
-static void mass_is_shared_by_area(void **unused) {
-  (void)unused;
+static void mass_is_shared_by_area(no_state) {
   struct mesh mesh = sheet(5, 4);
   hooke_system *system = build_with(&mesh, "mass", 0.6);
   const double *mass = hooke_system_mass(system), cell = 0.6 / 12.0;
@@ -191,34 +183,29 @@ static void mass_is_shared_by_area(void **unused) {
 }
 
 /* The ratio refers to the critical damping of the two particles of the spring. */
-static void damping_by_ratio_is_that_of_both_ends(void **unused) {
-  (void)unused;
+static void damping_by_ratio_is_that_of_both_ends(no_state) {
   struct mesh mesh = sheet(5, 4);
   hooke_options *options = options_of(&mesh);
-  check_ok(hooke_options_set_number(options, "mass", 0.6));
-  check_ok(hooke_options_set_number(options, "structural.damping_ratio", 0.3));
-  hooke_system *system = build(options);
+  set_options(options, "mass=0.6 structural.damping_ratio=0.3");
+  owned_system *system = build(options);
   const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
-  double *kappa = new_doubles(3 * count);
+  owned_doubles *kappa = new_doubles(3 * count);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(system, "springs", NULL, kappa, kappa + count, kappa + 2 * count));
   for (int64_t k = 0; k < edges; k++) {
     const double a = hooke_system_mass(system)[ends[2 * k]], b = hooke_system_mass(system)[ends[2 * k + 1]];
     check_close(kappa[count + k], 2 * 0.3 * sqrt(kappa[k] / (1 / a + 1 / b)), 1e-14);
   }
-  free(kappa);
   free(ends);
-  hooke_system_destroy(system);
 }
 
 /* ---- vertices ---- */
 
 /* A mesh in which every triangle has its own vertices becomes the mesh with shared ones, in the order of
  * first appearance. */
-static void vertices_at_one_place_are_one(void **unused) {
-  (void)unused;
+static void vertices_at_one_place_are_one(no_state) {
   const struct mesh shared = icosahedron();
   struct mesh loose = {.vertices = 3 * shared.triangles, .triangles = shared.triangles};
   double expected[36];
@@ -235,10 +222,10 @@ static void vertices_at_one_place_are_one(void **unused) {
     if (s == kept) memcpy(expected + 3 * kept, shared.vertex + 3 * v, 3 * sizeof(double));
     if (s == kept) seen[kept++] = v;
   }
-  hooke_system *system = build_with(&loose, "mass", 1);
+  owned_system *system = build_with(&loose, "mass", 1);
   assert_int_equal(hooke_system_particle_count(system), 12);
   assert_int_equal(hooke_system_count(system, "springs"), 60);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   for (int k = 0; k < 36; k++)
     check_close(hooke_state_position(state)[k], expected[k], 0.0);
   int told = 0;
@@ -248,22 +235,17 @@ static void vertices_at_one_place_are_one(void **unused) {
     told++;
   }
   assert_int_equal(told, 1);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 static int64_t particles_with_weld(const struct mesh *mesh, double weld) {
   hooke_options *options = options_of(mesh);
-  check_ok(hooke_options_set_number(options, "mass", 1));
-  check_ok(hooke_options_set_number(options, "weld", weld));
-  hooke_system *system = build(options);
+  set_options(options, "mass=1 weld=%.17g", weld);
+  owned_system *system = build(options);
   const int64_t count = hooke_system_particle_count(system);
-  hooke_system_destroy(system);
   return count;
 }
 
-static void a_distance_welds_what_is_within_it(void **unused) {
-  (void)unused;
+static void a_distance_welds_what_is_within_it(no_state) {
   struct mesh loose = {.vertices = 0};
   const struct mesh shared = sheet(5, 4);
   for (int64_t k = 0; k < 3 * shared.triangles; k++) {
@@ -280,37 +262,28 @@ static void a_distance_welds_what_is_within_it(void **unused) {
   assert_int_equal(particles_with_weld(&loose, 0.2), 20);
 }
 
-static void the_transform_scales_then_moves(void **unused) {
-  (void)unused;
+static void the_transform_scales_then_moves(no_state) {
   struct mesh mesh = icosahedron();
   hooke_options *options = options_of(&mesh);
-  check_ok(hooke_options_set_number(options, "mass", 1));
-  check_ok(hooke_options_set_number(options, "transform.scale", 0.25));
-  check_ok(hooke_options_set_numbers(options, "transform.translate", 3, (double[]){1, 2, 3}));
-  hooke_system *system = build(options);
-  hooke_state *state = start_state(system);
+  set_options(options, "mass=1 transform.scale=0.25 transform.translate=1,2,3");
+  owned_system *system = build(options);
+  owned_state *state = start_state(system);
   for (int k = 0; k < 36; k++)
     check_close(hooke_state_position(state)[k], 0.25 * mesh.vertex[k] + 1 + k % 3, 0.0);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 /* ---- refusals ---- */
 
 static void check_refused(struct mesh mesh, const char *message) {
-  hooke_options *options = options_of(&mesh);
-  hooke_system *system;
+  owned_options *options = options_of(&mesh);
   check_ok(hooke_options_set_number(options, "mass", 1));
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_status(hooke_system_add_part(system, "mesh", NULL, options, NULL, NULL), HOOKE_BAD_VALUE);
   check_message(message);
   assert_int_equal(hooke_system_particle_count(system), 0);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void planted_faults_are_found(void **unused) {
-  (void)unused;
+static void planted_faults_are_found(no_state) {
   struct mesh mesh = sheet(5, 4);
   mesh.triangle[17] = 20;
   check_refused(mesh, "triangles[5][2]: there is no vertex 20; allowed: 0 to 19, as numbers begin at 0");
@@ -343,27 +316,22 @@ static void planted_faults_are_found(void **unused) {
   check_refused(mesh, "triangles[1]: a second face on vertices 0, 1 and 3, after that of triangle 0");
 }
 
-static void a_mesh_needs_its_numbers(void **unused) {
-  (void)unused;
-  hooke_options *options, *rope;
-  hooke_system *system;
+static void a_mesh_needs_its_numbers(no_state) {
+  owned_options *options, *rope;
   const struct mesh mesh = icosahedron();
-  check_ok(hooke_options_create("rope", &rope));
+  rope = new_options("rope");
   check_status(hooke_mesh_set(rope, 12, mesh.vertex, 20, mesh.triangle), HOOKE_BAD_VALUE);
   check_message("not those of a mesh");
   check_status(hooke_mesh_read("none.obj", rope), HOOKE_BAD_VALUE);
   check_message("not those of a mesh");
-  check_ok(hooke_options_create("mesh", &options));
+  options = new_options("mesh");
   check_status(hooke_mesh_set(options, 12, NULL, 20, mesh.triangle), HOOKE_BAD_VALUE);
   check_status(hooke_mesh_set(options, 12, mesh.vertex, -1, mesh.triangle), HOOKE_BAD_VALUE);
   check_status(hooke_mesh_set(options, 0, mesh.vertex, 20, mesh.triangle), HOOKE_BAD_VALUE);
   check_ok(hooke_options_set_text(options, "file", "ball.obj"));
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_status(hooke_system_add_part(system, "mesh", NULL, options, NULL, NULL), HOOKE_BAD_VALUE);
   check_message("hooke_mesh_read()");
-  hooke_options_destroy(options);
-  hooke_options_destroy(rope);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -6,11 +6,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-static void test_table(void **unused) {
-  (void)unused;
+static void test_table(no_state) {
   const char *expected[] = {"forward-euler", "symplectic-euler", "verlet",  "shardlow",          "heun",
                             "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint", "cvode-bdf",
                             "cvode-adams"};
@@ -59,15 +57,13 @@ static hooke_system *system_of(const char *problem) {
 }
 
 static int32_t create(const char *method, const char *problem) {
-  hooke_options *options = run_options((struct run){.method = method, .step = 0.1, .duration = 1.0});
-  hooke_system *system = system_of(problem);
+  owned_options *options = run_options((struct run){.method = method, .step = 0.1, .duration = 1.0});
+  owned_system *system = system_of(problem);
   hooke_integrator *integrator = NULL;
   const int32_t status = strcmp(problem, "first-order") == 0
                              ? hooke_integrator_create_first_order(1, no_rate, NULL, options, &integrator)
                              : hooke_integrator_create(system, options, &integrator);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
-  hooke_options_destroy(options);
   return status;
 }
 
@@ -87,8 +83,7 @@ static void check_list(const char *method, const char *problem) {
 }
 
 /* Integrators are made of what a method says that it takes, and of nothing else. */
-static void test_methods_take_what_they_say(void **unused) {
-  (void)unused;
+static void test_methods_take_what_they_say(no_state) {
   static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order"};
   int32_t taken[4] = {0};
   for (int k = 0; k < 4; k++) {
@@ -114,33 +109,29 @@ static void test_methods_take_what_they_say(void **unused) {
 /* The largest position error at the first reference time, over the largest position. */
 static double error_of(const struct reference *reference, const hooke_system *system, struct run run) {
   const int64_t size = 3 * reference->particle_count;
-  double *q = new_doubles(size), *v = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size);
   run.duration = reference->state[0].time;
   run_to_end(system, run, q, v);
   for (int64_t k = 0; k < size; k++)
     assert_true(isfinite(q[k]) && isfinite(v[k]));
   const double error = largest_difference(size, q, reference->state[0].position);
-  free(q);
-  free(v);
   return error / largest(size, reference->state[0].position);
 }
 
 static void refuse_absent(const hooke_system *system, const char *method) {
   hooke_integrator *integrator = NULL;
-  hooke_options *options = run_options((struct run){.method = method, .step = 0.1, .duration = 1.0});
+  owned_options *options = run_options((struct run){.method = method, .step = 0.1, .duration = 1.0});
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_NOT_BUILT);
   assert_null(integrator);
   check_message(method);
-  hooke_options_destroy(options);
 }
 
 /* Half the step gives at most 0.6 of the error (order 1 or better), a tighter tolerance a smaller error, and
  * an error-controlled method at rtol 1e-9 a smaller error than every fixed step of order 1 here. */
-static void test_every_method_on_every_scene(void **unused) {
-  (void)unused;
+static void test_every_method_on_every_scene(no_state) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     const struct reference *reference = &references[k];
-    hooke_system *system = build_reference(reference);
+    owned_system *system = build_reference(reference);
     double best_fixed = INFINITY, worst_adaptive = 0.0;
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
@@ -172,28 +163,26 @@ static void test_every_method_on_every_scene(void **unused) {
       check_failed("%s: error %g at rtol 1e-9, %g by a fixed step", reference->name, worst_adaptive,
                    best_fixed);
     }
-    hooke_system_destroy(system);
   }
 }
 
 /* A pendulum on a stiff, strongly damped rod. Newton with the right derivative takes long steps over the fast
  * mode once it has died out; the fixed-point iteration of cvode-adams cannot, nor could Newton with a wrong
  * derivative. */
-static void test_bdf_strides_over_damped_modes(void **unused) {
-  (void)unused;
+static void test_bdf_strides_over_damped_modes(no_state) {
   if (hooke_method_is_built("cvode-bdf") != 1) skip();
   const double position[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, position, NULL, 0.3, 1);
+  owned_system *system = small_system(2, position, NULL, 0.3, 1);
   small_springs(system, 1, ends, (struct springs){.stiffness = 1e4, .damping = 1e3, .rest_length = 1.0});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
   const char *methods[] = {"cvode-bdf", "cvode-adams"};
   double steps[2], end[2][6];
   for (int m = 0; m < 2; m++) {
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_run(system, (struct run){.method = methods[m], .rtol = 1e-6, .atol = 1e-9, .duration = 2.0});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_run(integrator, state));
     memcpy(end[m], hooke_state_position(state), sizeof end[m]);
     steps[m] = (double)hooke_integrator_count(integrator, "steps");
@@ -202,12 +191,9 @@ static void test_bdf_strides_over_damped_modes(void **unused) {
       check_between((double)hooke_integrator_count(integrator, "nonlinear_iterations"), steps[0],
                     3.0 * steps[0]);
     }
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
   check_between(steps[0], 20.0, 0.3 * steps[1]);
   check_between(largest_difference(6, end[0], end[1]), 0.0, 1e-4);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

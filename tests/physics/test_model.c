@@ -5,16 +5,14 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* ---- coincident ends, and springs without length ---- */
 
-static void test_coincident_ends(void **unused) {
-  (void)unused;
+static void test_coincident_ends(no_state) {
   const double q[] = {0, 0, 0, 1, 2, 3, 1, 2, 3, 4, 2, 3}, v[] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0};
   const int64_t ends[] = {1, 2, 2, 1, 2, 3};
   double a[12];
-  hooke_system *system = small_system(4, q, v, 1.0, 1);
+  owned_system *system = small_system(4, q, v, 1.0, 1);
   small_springs(system, 2, ends, (struct springs){.stiffness = 100, .damping = 5, .rest_length = 0.5});
   small_springs(system, 1, ends + 4, (struct springs){.stiffness = 100, .rest_length = 3.0});
   check_ok(hooke_system_commit(system));
@@ -24,8 +22,8 @@ static void test_coincident_ends(void **unused) {
     check_close(a[k], 0.0, 0.0); /* the third spring is at rest */
 
   /* the run counts them too, and there are none once the ends have parted */
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 1e-3});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 1e-3});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 1));
   assert_int_equal(hooke_integrator_count(integrator, "coincident_springs"), 2);
   check_ok(hooke_integrator_step(integrator, state, 1));
@@ -33,14 +31,10 @@ static void test_coincident_ends(void **unused) {
   assert_int_equal(hooke_system_coincident_springs(system, hooke_state_position(state)), 0);
   for (int k = 0; k < 12; k++)
     assert_true(isfinite(hooke_state_position(state)[k]));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* With rest length 0 the force is -k x everywhere: smooth at the origin, and not counted as coincident. */
-static void test_springs_without_length(void **unused) {
-  (void)unused;
+static void test_springs_without_length(no_state) {
   hooke_system *system = small_oscillator(3.0); /* mass 2: k = 18 */
   const double v[6] = {0}, zero[6] = {0};
   double q[6] = {0, 0, 0, 0.3, -0.4, 1.2}, force[6];
@@ -63,24 +57,20 @@ static void test_springs_without_length(void **unused) {
 static void fall(double damping, double drag, double h, int64_t steps, double *velocity, double *height) {
   const double q[] = {0, 0, 0, 1, 0.3, 0}, v[] = {0, 0, 0, 0, 0, 2}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, v, 0.5, 0);
+  owned_system *system = small_system(2, q, v, 0.5, 0);
   small_springs(system, 1, ends, (struct springs){.stiffness = 20, .damping = damping, .rest_length = 0.7});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, steps));
   const double *x = hooke_state_position(state), *u = hooke_state_velocity(state);
   *height = 0.5 * (x[1] + x[4]) - 0.15;
   *velocity = 0.5 * (u[1] + u[4]);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
-static void test_drag_or_damping(void **unused) {
-  (void)unused;
+static void test_drag_or_damping(no_state) {
   const double h = 1e-3, n = 1000.0, factor = 1.0 - 1.5 * h / 0.5;
   double velocity, height;
   fall(0.0, 0.0, h, 1000, &velocity, &height);
@@ -101,7 +91,7 @@ static void test_drag_or_damping(void **unused) {
  * number of segments. */
 static double hanging_length(const char *law, int64_t segments, double step) {
   const double gravity[] = {0, 0, -10}, piece = 1.0 / (double)segments;
-  double *q = new_doubles(3 * (segments + 1)), *mass = new_doubles(segments + 1);
+  owned_doubles *q = new_doubles(3 * (segments + 1)), *mass = new_doubles(segments + 1);
   int64_t *ends = new_block(2 * segments, (int64_t)sizeof(int64_t)), first = 0;
   for (int64_t k = 0; k <= segments; k++) {
     q[3 * k + 2] = -(double)k * piece;
@@ -110,53 +100,44 @@ static double hanging_length(const char *law, int64_t segments, double step) {
   for (int64_t k = 0; k < 2 * segments; k++)
     ends[k] = (k + 1) / 2;
   mass[segments] = 0.2 * piece + 0.2;
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, segments + 1, q, NULL, segments + 1, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &first));
   small_springs(system, segments, ends,
                 (struct springs){.law = law, .stiffness = 16, .damping = 1.2, .rest_length = piece});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = step});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = step});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 500000));
   const double length = -hooke_state_position(state)[3 * segments + 2];
   check_between(largest(3 * (segments + 1), hooke_state_velocity(state)), 0.0, 1e-6); /* it hangs still */
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
-  free(q);
-  free(mass);
   free(ends);
   return length;
 }
 
-static void test_stretch_does_not_depend_on_resolution(void **unused) {
-  (void)unused;
+static void test_stretch_does_not_depend_on_resolution(no_state) {
   const int64_t segments[] = {1, 2, 8, 64};
   for (int k = 0; k < 4; k++)
     check_close(hanging_length("strain", segments[k], 2e-5), 1.0 + 4.0 / 16.0, 1e-6);
 }
 
 /* By the length law n springs in a row give n times the stretch. */
-static void test_stretch_by_the_length_law(void **unused) {
-  (void)unused;
+static void test_stretch_by_the_length_law(no_state) {
   check_close(hanging_length("length", 1, 5e-5), 1.0 + 4.0 / 16.0, 1e-6);
   check_close(hanging_length("length", 2, 5e-5), 1.0 + 2.0 * 4.0 / 16.0, 1e-6);
 }
 
 /* ---- pinned particles and cables ---- */
 
-static void test_pinned_never_move(void **unused) {
-  (void)unused;
+static void test_pinned_never_move(no_state) {
   const double q[] = {0.1, 0.2, 0.3, 1, 1, 1, -1, 0.5, 2}, gravity[] = {1, 2, 3}, zero[3] = {0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 0};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
     double end[9], speed[9];
-    hooke_system *system = small_system(3, q, NULL, 1.0, 1);
+    owned_system *system = small_system(3, q, NULL, 1.0, 1);
     small_springs(system, 3, ends, (struct springs){.stiffness = 30, .damping = 0.3, .rest_length = 0.4});
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_set_drag(system, 0.1));
@@ -166,13 +147,11 @@ static void test_pinned_never_move(void **unused) {
     check_same_bits(3, end, q);
     check_same_bits(3, speed, zero);
     assert_true(fabs(end[3] - q[3]) > 1e-2);
-    hooke_system_destroy(system);
   }
 }
 
 /* A slack cable lets its ends pass, with damping or without; a taut one is a spring. */
-static void test_cables(void **unused) {
-  (void)unused;
+static void test_cables(no_state) {
   const int64_t ends[] = {0, 1};
   const struct {
     double distance, velocity, pull; /* force on the first end, along the second */
@@ -186,7 +165,7 @@ static void test_cables(void **unused) {
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const double q[] = {0, 0, 0, cases[k].distance, 0, 0}, v[] = {0, 0, 0, cases[k].velocity, 0, 0};
     double force[6];
-    hooke_system *system = small_system(2, q, v, 1.0, 0);
+    owned_system *system = small_system(2, q, v, 1.0, 0);
     small_springs(
         system, 1, ends,
         (struct springs){.law = "length", .stiffness = 100, .damping = 3, .rest_length = 1, .pull_only = 1});
@@ -196,15 +175,13 @@ static void test_cables(void **unused) {
     check_close(force[3], -cases[k].pull, cases[k].pull == 0.0 ? 0.0 : 1e-13);
     const double stretch = fmax(0.0, cases[k].distance - 1.0);
     check_close(hooke_system_energy(system, "springs", q, NULL), 50.0 * stretch * stretch, 1e-14);
-    hooke_system_destroy(system);
   }
 }
 
 /* A scene pays only for the forces that it names. */
-static void test_forces_that_are_there(void **unused) {
-  (void)unused;
+static void test_forces_that_are_there(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -1, 0};
-  hooke_system *empty = small_system(2, q, NULL, 1.0, 0), *full = small_system(2, q, NULL, 1.0, 0);
+  owned_system *empty = small_system(2, q, NULL, 1.0, 0), *full = small_system(2, q, NULL, 1.0, 0);
   const int64_t ends[] = {0, 1};
   small_springs(full, 1, ends, (struct springs){.stiffness = 1, .rest_length = -1});
   check_ok(hooke_system_set_gravity(full, gravity));
@@ -218,23 +195,19 @@ static void test_forces_that_are_there(void **unused) {
   for (int64_t k = 0; k < 3; k++)
     assert_string_equal(hooke_system_force_name(full, k), expected[k]);
   assert_null(hooke_system_force_name(full, 3));
-  hooke_system_destroy(empty);
-  hooke_system_destroy(full);
 }
 
 /* Without damping velocities are not read: not even a NaN there affects the forces. */
-static void test_velocities_are_not_read(void **unused) {
-  (void)unused;
+static void test_velocities_are_not_read(no_state) {
   const double q[] = {0, 0, 0, 1, 0.5, 0}, lost[] = {NAN, NAN, NAN, NAN, NAN, NAN};
   const int64_t ends[] = {0, 1};
   double force[6];
   for (int damped = 0; damped < 2; damped++) {
-    hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+    owned_system *system = small_system(2, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 10, .damping = damped, .rest_length = 0.5});
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_force(system, 0.0, q, lost, force));
     assert_int_equal(isfinite(force[0]) != 0, !damped);
-    hooke_system_destroy(system);
   }
 }
 

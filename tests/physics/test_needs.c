@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,15 +13,12 @@
 
 static hooke_measurement *make(const hooke_system *system, struct run run, double want, const char *watch,
                                int refine) {
-  hooke_options *of_run = run_options(run), *options;
+  owned_options *of_run = run_options(run), *options;
   hooke_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_number(options, "want", want));
+  options = options_with("needs", "want=%.17g", want);
   if (watch) check_ok(hooke_options_set_text(options, "watch", watch));
   check_ok(hooke_options_set_number(options, "refine", refine));
   check_ok(hooke_measurement_create("needs", system, of_run, options, &needs));
-  hooke_options_destroy(options);
-  hooke_options_destroy(of_run);
   return needs;
 }
 
@@ -32,24 +28,18 @@ static hooke_measurement *start(const hooke_system *system, struct run run, doub
 
 /* A rope that hangs from its start, released unstretched; with weak springs two apart. */
 static hooke_system *hanging_rope(int segments, double bend) {
-  hooke_system *system;
-  hooke_options *rope;
-  const double from[3] = {0, 0, 0}, to[3] = {0, -1, 0}, gravity[3] = {0, -9.81, 0};
+  const double gravity[3] = {0, -9.81, 0};
   const int64_t first = 0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
-  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, "segments", segments));
-  check_ok(hooke_options_set_number(rope, "density", 0.1));
-  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 20));
-  check_ok(hooke_options_set_number(rope, "stretch.damping", 0.05));
+  hooke_system *system = new_system();
+  owned_options *rope = options_with("rope",
+                                     "from=0,0,0 to=0,-1,0 segments=%d density=0.1 "
+                                     "stretch.stiffness=20 stretch.damping=0.05",
+                                     segments);
   if (bend > 0.0) check_ok(hooke_options_set_number(rope, "bend.stiffness", bend));
   check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
   check_ok(hooke_system_pin(system, 1, &first));
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(rope);
   return system;
 }
 
@@ -83,23 +73,20 @@ static int32_t keep_frame(int64_t step, const hooke_state *state, void *ctx) {
 /* All particles but the first at every frame; of a finer rope those that the coarse one has, too. */
 static struct frames *run_frames(const hooke_system *system, const hooke_options *options, int64_t every) {
   struct frames *frames = new_block(1, sizeof *frames);
-  hooke_integrator *integrator;
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator;
+  owned_state *state = start_state(system);
   frames->every = every;
   frames->size = 3 * ((hooke_system_particle_count(system) - 1) / every);
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, keep_frame, frames));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   return frames;
 }
 
 static struct frames *run_fine(const hooke_system *system, double step, int64_t every) {
-  hooke_options *options =
+  owned_options *options =
       run_options((struct run){.method = "rk4", .step = step, .duration = 0.5, .every = 0.02});
   struct frames *frames = run_frames(system, options, every);
-  hooke_options_destroy(options);
   return frames;
 }
 
@@ -121,11 +108,10 @@ static double distance(const struct frames *a, const struct frames *b) {
 
 static const struct run half_a_second = {.method = "rk4", .duration = 0.5, .every = 0.02};
 
-static void changes_are_those_of_runs_made_apart(void **state) {
-  (void)state;
+static void changes_are_those_of_runs_made_apart(no_state) {
   const double want = 1e-3;
-  hooke_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
-  hooke_measurement *needs = start(system, half_a_second, want, NULL);
+  owned_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
+  owned_measurement *needs = start(system, half_a_second, want, NULL);
   check_ok(hooke_measurement_run(needs, NULL));
   struct frames *full = run_fine(system, 1e-4, 1), *no_bend = run_fine(without, 1e-4, 1);
   const int64_t bend = row_of(needs, "rope.bend");
@@ -157,9 +143,6 @@ static void changes_are_those_of_runs_made_apart(void **state) {
   check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_CALL);
   free(full);
   free(no_bend);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
-  hooke_system_destroy(without);
 }
 
 /* ---- errors and costs of the two runs within the want ---- */
@@ -167,7 +150,7 @@ static void changes_are_those_of_runs_made_apart(void **state) {
 /* The run of a system with the step or tolerances found for it. */
 static struct frames *run_found(const hooke_measurement *needs, const hooke_system *system,
                                 const char *table) {
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_options_copy(hooke_needs_lean_run(needs), &options));
   static const char *const names[] = {"step", "rtol", "atol"};
   for (int k = 0; k < 3; k++) {
@@ -175,7 +158,6 @@ static struct frames *run_found(const hooke_measurement *needs, const hooke_syst
     if (!isnan(value)) check_ok(hooke_options_set_number(options, names[k], value));
   }
   struct frames *frames = run_frames(system, options, 1);
-  hooke_options_destroy(options);
   return frames;
 }
 
@@ -192,38 +174,34 @@ static void check_said(const hooke_measurement *needs, const char *table, const 
   free(run);
 }
 
-static void errors_include_that_of_the_full_run(void **state) {
-  (void)state;
+static void errors_include_that_of_the_full_run(no_state) {
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
-  hooke_system *system = hanging_rope(12, 1e-3);
+  owned_system *system = hanging_rope(12, 1e-3);
   struct frames *truth = run_fine(system, 1e-4, 1);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     if (!hooke_method_is_built(methods[k])) continue;
     struct run run = half_a_second;
     run.method = methods[k];
-    hooke_measurement *needs = start(system, run, 3e-4, NULL);
+    owned_measurement *needs = start(system, run, 3e-4, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     const double own = hooke_measurement_number(needs, "full", 0, "own_error");
     check_between(own, 1e-10, 0.0625 * 3e-4);
     assert_int_equal(hooke_system_particle_count(hooke_needs_lean(needs)), 13);
     check_said(needs, "lean", hooke_needs_lean(needs), truth);
     check_said(needs, "cheapest", system, truth);
-    hooke_measurement_destroy(needs);
   }
   free(truth);
-  hooke_system_destroy(system);
 }
 
 /* By a method of order 1, whose error alone limits the step: omitting weak springs saves no steps, though the
  * full system takes ten times as many for an error of a tenth of the want. */
-static void savings_are_those_at_equal_error(void **state) {
-  (void)state;
+static void savings_are_those_at_equal_error(no_state) {
   const double want = 4e-4;
   struct run run = half_a_second;
   run.method = "symplectic-euler";
-  hooke_system *system = hanging_rope(12, 1e-5);
+  owned_system *system = hanging_rope(12, 1e-5);
   struct frames *truth = run_fine(system, 1e-4, 1);
-  hooke_measurement *needs = start(system, run, want, "0-12");
+  owned_measurement *needs = start(system, run, want, "0-12");
   check_ok(hooke_measurement_run(needs, NULL));
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "rope.bend"), "left_out") == 1.0);
   const double lean = hooke_measurement_number(needs, "lean", 0, "steps"),
@@ -238,16 +216,13 @@ static void savings_are_those_at_equal_error(void **state) {
   struct frames *within = run_found(needs, system, "cheapest");
   run.step = half_a_second.every /
              floor(half_a_second.every / hooke_measurement_number(needs, "cheapest", 0, "step") / 1.4);
-  hooke_options *coarse = run_options(run);
+  owned_options *coarse = run_options(run);
   struct frames *beyond = run_frames(system, coarse, 1);
   check_between(distance(truth, within), 0.6 * want, want);
   check_between(distance(truth, beyond), want, 2.0 * want);
-  hooke_options_destroy(coarse);
   free(within);
   free(beyond);
   free(truth);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 /* ---- scenes without motion ---- */
@@ -270,9 +245,8 @@ static hooke_measurement *find_hung(const hooke_system *system) {
   return needs;
 }
 
-static void a_scene_that_rests_is_told_so(void **state) {
-  (void)state;
-  hooke_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
+static void a_scene_that_rests_is_told_so(no_state) {
+  owned_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
                *moving = hung_mass(9.81, 0.1);
   hooke_measurement *needs = find_hung(rest);
   assert_non_null(strstr(hooke_measurement_text(needs, "needs", 0, "note"), "nothing moves"));
@@ -304,19 +278,14 @@ static void a_scene_that_rests_is_told_so(void **state) {
   assert_string_equal(hooke_measurement_text(needs, "needs", 0, "note"), "");
   check_between(hooke_measurement_number(needs, "full", 0, "moved"), 0.19, 0.2);
   hooke_measurement_destroy(needs);
-  hooke_system_destroy(rest);
-  hooke_system_destroy(balance);
-  hooke_system_destroy(little);
-  hooke_system_destroy(moving);
 }
 
 /* ---- resolutions ---- */
 
 /* The remaining error at 8 pieces, predicted from 8, 16 and 32, compared with 128. */
-static void refinement_predicts_a_much_finer_rope(void **state) {
-  (void)state;
-  hooke_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
-  hooke_measurement *needs = make(coarse, half_a_second, 1e-4, NULL, 1);
+static void refinement_predicts_a_much_finer_rope(no_state) {
+  owned_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
+  owned_measurement *needs = make(coarse, half_a_second, 1e-4, NULL, 1);
   check_ok(hooke_measurement_run(needs, NULL));
   assert_int_equal(hooke_measurement_row_count(needs, "parts"), 1);
   assert_string_equal(hooke_measurement_text(needs, "parts", 0, "part"), "rope");
@@ -334,9 +303,6 @@ static void refinement_predicts_a_much_finer_rope(void **state) {
   check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_CALL);
   free(at_coarse);
   free(at_fine);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(coarse);
-  hooke_system_destroy(fine);
 }
 
 /* ---- callbacks, methods, chaos ---- */
@@ -357,27 +323,23 @@ static hooke_system *pushed_pair(double *strength) {
   return system;
 }
 
-static void a_callback_is_an_ingredient(void **state) {
-  (void)state;
+static void a_callback_is_an_ingredient(no_state) {
   double strengths[2] = {1e-6, 1.0};
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = pushed_pair(&strengths[k]);
-    hooke_measurement *needs =
+    owned_system *system = pushed_pair(&strengths[k]);
+    owned_measurement *needs =
         start(system, (struct run){.method = "verlet", .duration = 1, .every = 0.05}, 1e-3, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "callback"), "needed") == (double)k);
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
 }
 
-static void every_method_finds_the_same(void **state) {
-  (void)state;
+static void every_method_finds_the_same(no_state) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (!hooke_method_is_built(method)) continue;
-    hooke_system *system = hanging_rope(4, 0.01);
-    hooke_measurement *needs =
+    owned_system *system = hanging_rope(4, 0.01);
+    owned_measurement *needs =
         start(system, (struct run){.method = method, .duration = 0.2, .every = 0.02}, 2e-3, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     assert_string_equal(hooke_measurement_text(needs, "needs", 0, "method"), method);
@@ -392,29 +354,24 @@ static void every_method_finds_the_same(void **state) {
                   strstr(hooke_measurement_text(needs, "lean", 0, "note"), "clear of") != NULL);
     assert_true(isnan(hooke_measurement_number(needs, "full", 0, "step")) ==
                 hooke_method_is_adaptive(method));
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
 }
 
 /* Two masses on stiff rods, released from upright: a double pendulum. */
-static void chaos_is_judged_as_far_as_a_step_can_follow(void **state) {
-  (void)state;
+static void chaos_is_judged_as_far_as_a_step_can_follow(no_state) {
   const double position[9] = {0, 0, 0, 0.1, 1, 0, 0.25, 2, 0}, gravity[3] = {0, -9.81, 0};
   const int64_t ends[4] = {0, 1, 1, 2};
-  hooke_system *system = small_system(3, position, NULL, 1.0, 1);
+  owned_system *system = small_system(3, position, NULL, 1.0, 1);
   small_springs(system, 2, ends, (struct springs){.stiffness = 2e3, .damping = 5, .rest_length = -1});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 1e-9));
   check_ok(hooke_system_commit(system));
-  hooke_measurement *needs =
+  owned_measurement *needs =
       start(system, (struct run){.method = "symplectic-euler", .duration = 8, .every = 0.05}, 0.01, NULL);
   check_ok(hooke_measurement_run(needs, NULL));
   check_between(hooke_measurement_number(needs, "needs", 0, "judged_until"), 0.8, 7.0);
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "gravity"), "needed") == 1.0);
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "drag"), "needed") == 0.0);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 /* ---- stopping, refusals ---- */
@@ -431,9 +388,8 @@ static int32_t listen(double done, const char *what, void *ctx) {
   return ++listener->calls > listener->most;
 }
 
-static void whoever_stops_it_keeps_what_is_known(void **state) {
-  (void)state;
-  hooke_system *system = hanging_rope(12, 0.05);
+static void whoever_stops_it_keeps_what_is_known(no_state) {
+  owned_system *system = hanging_rope(12, 0.05);
   struct listener all = {.most = INT64_MAX};
   hooke_measurement *needs = start(system, half_a_second, 1e-3, NULL);
   hooke_measurement_on_progress(needs, listen, &all);
@@ -457,26 +413,20 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
     hooke_measurement_destroy(needs);
   }
   check_between((double)stopped, 2.0, 8.0);
-  hooke_system_destroy(system);
 }
 
 static void check_watch(const hooke_system *system, const char *watch, const char *message) {
-  hooke_options *run = run_options(half_a_second), *options;
-  hooke_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_number(options, "want", 1e-3));
+  owned_options *run = run_options(half_a_second), *options;
+  owned_measurement *needs = NULL;
+  options = options_with("needs", "want=1e-3");
   check_ok(hooke_options_set_text(options, "watch", watch));
   check_status(hooke_measurement_create("needs", system, run, options, &needs),
                message ? HOOKE_BAD_VALUE : HOOKE_OK);
   if (message) check_message(message);
-  hooke_measurement_destroy(needs);
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
 }
 
-static void what_cannot_be_is_refused(void **state) {
-  (void)state;
-  hooke_system *system = hanging_rope(12, 0.05);
+static void what_cannot_be_is_refused(no_state) {
+  owned_system *system = hanging_rope(12, 0.05);
   static const char *const good[] = {"rope", "rope.bend", "0", "12", "1-5", "0,3-4,12"};
   static const char *const bad[] = {"robe", "13", "5-1", "1,",   ",1",
                                     "1-",   "-1", "1 2", "0-13", "99999999999999999999"};
@@ -484,35 +434,29 @@ static void what_cannot_be_is_refused(void **state) {
     check_watch(system, good[k], NULL);
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
     check_watch(system, bad[k], "rope, rope.stretch, rope.bend, or particle numbers");
-  hooke_options *run = run_options((struct run){.method = "rk4"}), *options;
+  owned_options *run = run_options((struct run){.method = "rk4"}), *options;
   hooke_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
+  options = new_options("needs");
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("want");
   check_ok(hooke_options_set_number(options, "want", 1e-3));
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("duration");
-  check_ok(hooke_options_set_number(run, "duration", 0.5));
-  check_ok(hooke_options_set_text(run, "method", "rk5"));
+  set_options(run, "duration=0.5 method=rk5");
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("\"rk5\" is not a method");
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 
-  hooke_system *alone = small_oscillator(1.0);
+  owned_system *alone = small_oscillator(1.0);
   needs = make(alone, half_a_second, 1e-3, NULL, 1);
   check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_VALUE);
   check_message("no parts");
   hooke_measurement_destroy(needs);
-  hooke_system_destroy(alone);
 }
 
 /* Functions for needs refuse studies, and the reverse. */
-static void kinds_keep_to_what_is_theirs(void **state) {
-  (void)state;
-  hooke_system *system = hanging_rope(4, 0.0);
-  hooke_options *run = run_options(half_a_second);
+static void kinds_keep_to_what_is_theirs(no_state) {
+  owned_system *system = hanging_rope(4, 0.0);
+  owned_options *run = run_options(half_a_second);
   hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *study = NULL;
   double q[15] = {0};
   assert_null(hooke_needs_lean(needs));
@@ -533,8 +477,6 @@ static void kinds_keep_to_what_is_theirs(void **state) {
   check_message("hooke_verify_create()");
   hooke_measurement_destroy(study);
   hooke_measurement_destroy(needs);
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
 }
 
 /* ---- groups of triples and tetrahedra that no part adds ---- */
@@ -556,10 +498,7 @@ static hooke_system *body_and_line(int has) {
   }
   if (has & TRIPLES) check_ok(hooke_system_add_bending(system, NULL, 2, triples, 1, &coefficient));
   if (has & TETRAHEDRA) {
-    check_ok(hooke_options_create("altitude", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", 20.0));
-    check_ok(hooke_options_set_number(options, "damping", damping));
-    check_ok(hooke_options_set_number(options, "rest_scale", 1.3));
+    options = options_with("altitude", "stiffness=20 damping=%.17g rest_scale=1.3", damping);
     check_ok(hooke_system_add_altitude(system, "body", 1, corners, options));
     hooke_options_destroy(options);
   }
@@ -568,8 +507,7 @@ static hooke_system *body_and_line(int has) {
   return system;
 }
 
-static void groups_without_parts_are_ingredients(void **unused) {
-  (void)unused;
+static void groups_without_parts_are_ingredients(no_state) {
   static const struct {
     const char *without;
     int left;
@@ -578,15 +516,15 @@ static void groups_without_parts_are_ingredients(void **unused) {
               {"damping", GROUPS - DAMPING},
               {"drag", GROUPS - DRAG}};
   const double want = 1.5e-3;
-  hooke_system *system = body_and_line(GROUPS);
-  hooke_measurement *needs = start(system, half_a_second, want, NULL);
+  owned_system *system = body_and_line(GROUPS);
+  owned_measurement *needs = start(system, half_a_second, want, NULL);
   check_ok(hooke_measurement_run(needs, NULL));
   struct frames *full = run_fine(system, 1e-4, 1);
   const double judged =
       hooke_measurement_number(needs, "needs", 0, "judged_until"); /* altitude springs jump */
   check_between(judged, 0.1, 0.5);
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-    hooke_system *without = body_and_line(rows[k].left);
+    owned_system *without = body_and_line(rows[k].left);
     struct frames *frames = run_fine(without, 1e-4, 1);
     full->count = frames->count = 1 + llround(judged / half_a_second.every);
     const double change = distance(full, frames);
@@ -595,16 +533,12 @@ static void groups_without_parts_are_ingredients(void **unused) {
     check_close(hooke_measurement_number(needs, "rows", row, "error"), change, 0.2 * want);
     assert_true(hooke_measurement_number(needs, "rows", row, "needed") == (change > want));
     free(frames);
-    hooke_system_destroy(without);
   }
   free(full);
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 /* Groups with the name of an ingredient, without a name, or without members. */
-static void every_ingredient_has_a_name_of_its_own(void **unused) {
-  (void)unused;
+static void every_ingredient_has_a_name_of_its_own(no_state) {
   const double place[] = {0, 0, 0, 0.3, 0, 0, 0.1, 0.28, 0, 0.12, 0.1, 0.26, 9, 9, 9}, none = 0.0,
                stiff = 2.0;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
@@ -619,54 +553,42 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
                                          "drag",
                                          "resistance to compression",
                                          "a particle that touches nothing"};
-  hooke_system *system = small_system(5, place, NULL, 0.1, 1);
-  hooke_options *springs, *altitude;
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
+  owned_system *system = small_system(5, place, NULL, 0.1, 1);
+  owned_options *springs, *altitude;
+  springs = options_with("springs", "stiffness=5");
   for (int k = 0; k < 5; k++)
     check_ok(hooke_system_add_springs(system, names[k], 3, ends, springs));
   check_ok(hooke_system_add_bending(system, "none", 1, triple, 1, &none));
   check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &stiff));
-  check_ok(hooke_options_create("altitude", &altitude));
-  check_ok(hooke_options_set_number(altitude, "stiffness", 0.0));
+  altitude = options_with("altitude", "stiffness=0");
   check_ok(hooke_system_add_altitude(system, "none", 1, corners, altitude));
   check_ok(hooke_options_set_number(altitude, "stiffness", 1.0));
   check_ok(hooke_system_add_altitude(system, NULL, 1, corners, altitude));
   check_ok(hooke_system_set_drag(system, 0.01));
   check_ok(hooke_system_commit(system));
-  hooke_measurement *needs = start(system, half_a_second, 1.0, "0-3");
+  owned_measurement *needs = start(system, half_a_second, 1.0, "0-3");
   check_ok(hooke_measurement_run(needs, NULL));
   for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++)
     row_of(needs, expected[k]);
   assert_int_equal(hooke_measurement_row_count(needs, "rows"), sizeof expected / sizeof expected[0]);
-  hooke_measurement_destroy(needs);
-  hooke_options_destroy(altitude);
-  hooke_options_destroy(springs);
-  hooke_system_destroy(system);
 }
 
 /* Springs that only pull have no resistance to compression that could be left out. */
-static void what_is_not_there_is_no_ingredient(void **unused) {
-  (void)unused;
+static void what_is_not_there_is_no_ingredient(no_state) {
   const double place[] = {0, 0, 0, 0.3, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_options *springs;
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
+  owned_options *springs = options_with("springs", "stiffness=5");
   for (int32_t pushes = 0; pushes < 2; pushes++) {
-    hooke_system *system = small_system(2, place, NULL, 0.1, 1);
+    owned_system *system = small_system(2, place, NULL, 0.1, 1);
     check_ok(hooke_options_set_number(springs, "compression", (double)pushes));
     check_ok(hooke_system_add_springs(system, "line", 1, ends, springs));
     check_ok(hooke_system_commit(system));
-    hooke_measurement *needs = start(system, half_a_second, 1.0, NULL);
+    owned_measurement *needs = start(system, half_a_second, 1.0, NULL);
     check_ok(hooke_measurement_run(needs, NULL));
     row_of(needs, "line");
     if (pushes) row_of(needs, "resistance to compression");
     assert_int_equal(hooke_measurement_row_count(needs, "rows"), 1 + pushes);
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
-  hooke_options_destroy(springs);
 }
 
 int main(void) {

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,11 +13,8 @@ enum { SIDE = 4, PLATE = 2 * SIDE * SIDE, ALL = PLATE + 4, MOST_FRAMES = 64 };
 static const double WANT = 2e-3, DURATION = 1.0, EVERY = 0.02;
 
 static hooke_options *plate_options(double stiffness) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("lattice", &options));
-  check_ok(hooke_options_set_numbers(options, "edges", 9, (double[]){0.4, 0, 0, 0, 0.04, 0, 0, 0, 0.4}));
-  check_ok(hooke_options_set_numbers(options, "size", 3, (double[]){SIDE, 2, SIDE}));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
+  hooke_options *options =
+      options_with("lattice", "edges=0.4,0,0,0,0.04,0,0,0,0.4 size=%d,2,%d mass=1", SIDE, SIDE);
   for (int k = 0; k < 2; k++) {
     const char *const stiff[] = {"structural.stiffness", "shear.stiffness"};
     const char *const damped[] = {"structural.damping", "shear.damping"};
@@ -29,10 +27,9 @@ static hooke_options *plate_options(double stiffness) {
 /* Let go where its four soft springs are slack. */
 static hooke_system *hanging_plate(double stiffness) {
   const double corner[] = {0, 0.5, 0, 0.4, 0.5, 0, 0, 0.5, 0.4, 0.4, 0.5, 0.4}, mass = 1.0;
-  hooke_options *plate = plate_options(stiffness), *soft = NULL;
-  hooke_system *system = NULL;
+  owned_options *plate = plate_options(stiffness), *soft = NULL;
   int64_t first, pinned[4], ends[8];
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_part(system, "lattice", "plate", plate, NULL, NULL));
   check_ok(hooke_system_add_particles(system, 4, corner, NULL, 1, &mass, &first));
@@ -41,26 +38,19 @@ static hooke_system *hanging_plate(double stiffness) {
     ends[2 * k + 1] = SIDE + (k % 2) * (SIDE - 1) + (k / 2) * (PLATE - 2 * SIDE); /* on top */
   }
   check_ok(hooke_system_pin(system, 4, pinned));
-  check_ok(hooke_options_create("springs", &soft));
-  check_ok(hooke_options_set_number(soft, "stiffness", 20.0));
-  check_ok(hooke_options_set_number(soft, "damping", 0.3));
+  soft = options_with("springs", "stiffness=20 damping=0.3");
   check_ok(hooke_system_add_springs(system, "hangers", 4, ends, soft));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(plate);
-  hooke_options_destroy(soft);
   return system;
 }
 
 static hooke_measurement *needs_of(const hooke_system *system, const char *method) {
-  hooke_options *options,
+  owned_options *options,
       *run = run_options((struct run){.method = method, .duration = DURATION, .every = EVERY});
   hooke_measurement *needs = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_number(options, "want", WANT));
+  options = options_with("needs", "want=%.17g", WANT);
   check_ok(hooke_measurement_create("needs", system, run, options, &needs));
   check_ok(hooke_measurement_run(needs, NULL));
-  hooke_options_destroy(options);
-  hooke_options_destroy(run);
   return needs;
 }
 
@@ -97,14 +87,12 @@ static int32_t keep_frame(int64_t step, const hooke_state *state, void *ctx) {
 static struct path *path_of(const hooke_system *system, const hooke_options *options,
                             const hooke_measurement *needs) {
   struct path *path = new_block(1, sizeof *path);
-  hooke_integrator *integrator;
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator;
+  owned_state *state = start_state(system);
   path->needs = needs;
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, keep_frame, path));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   return path;
 }
 
@@ -129,13 +117,12 @@ static double of_run(const hooke_measurement *needs, const char *table, const ch
   return hooke_measurement_number(needs, table, 0, column);
 }
 
-static void a_stiff_plate_is_offered_as_a_body(void **unused) {
-  (void)unused;
+static void a_stiff_plate_is_offered_as_a_body(no_state) {
   const char *const methods[] = {"verlet", "symplectic-euler"};
   for (int m = 0; m < 2; m++) {
     if (left_out(m, 2)) continue;
-    hooke_system *system = hanging_plate(2e4);
-    hooke_measurement *needs = needs_of(system, methods[m]);
+    owned_system *system = hanging_plate(2e4);
+    owned_measurement *needs = needs_of(system, methods[m]);
     const int64_t row = body_row(needs);
     assert_true(hooke_measurement_number(needs, "rows", row, "needed") == 0.0);
     assert_true(hooke_measurement_number(needs, "rows", row, "left_out") == 1.0);
@@ -146,7 +133,7 @@ static void a_stiff_plate_is_offered_as_a_body(void **unused) {
     assert_non_null(
         strstr(hooke_measurement_text(needs, "lean", 0, "note"), "plate: rigid (\"rigid\": true); "));
 
-    hooke_options *fine = run_options((struct run){.method = methods[m],
+    owned_options *fine = run_options((struct run){.method = methods[m],
                                                    .step = of_run(needs, "full", "step") / 8,
                                                    .duration = DURATION,
                                                    .every = EVERY});
@@ -157,24 +144,18 @@ static void a_stiff_plate_is_offered_as_a_body(void **unused) {
     check_between(told, 1e-5, WANT);
     free(full);
     free(lean);
-    hooke_options_destroy(fine);
-    hooke_measurement_destroy(needs);
-    hooke_system_destroy(system);
   }
 }
 
-static void a_plate_that_bends_is_not(void **unused) {
-  (void)unused;
-  hooke_system *system = hanging_plate(100.0);
-  hooke_measurement *needs = needs_of(system, "verlet");
+static void a_plate_that_bends_is_not(no_state) {
+  owned_system *system = hanging_plate(100.0);
+  owned_measurement *needs = needs_of(system, "verlet");
   const int64_t row = body_row(needs);
   check_between(hooke_measurement_number(needs, "rows", row, "error"), 2.0 * WANT, 1.0);
   assert_true(hooke_measurement_number(needs, "rows", row, "needed") == 1.0);
   assert_true(hooke_measurement_number(needs, "rows", row, "left_out") == 0.0);
   assert_int_equal(hooke_system_count(hooke_needs_lean(needs), "bodies"), 0);
   assert_null(strstr(hooke_measurement_text(needs, "lean", 0, "note"), "rigid"));
-  hooke_measurement_destroy(needs);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

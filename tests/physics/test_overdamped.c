@@ -2,6 +2,7 @@
 #include "check.h"
 #include "order.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,17 +14,12 @@ static const double GAMMA = 2.0, KAPPA = 30.0, LONG = 1.5, REST = 1.0;
 static hooke_system *open_pair(void) {
   const double q[6] = {0.0, 0.0, 0.0, 1.5, 0.0, 0.0};
   const int64_t ends[2] = {0, 1};
-  hooke_system *system = NULL;
-  hooke_options *springs = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_add_particles(system, 2, q, NULL, 0, NULL, NULL));
   check_ok(hooke_system_set_drag(system, GAMMA));
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", KAPPA * REST));
-  check_ok(hooke_options_set_number(springs, "rest_length", REST));
+  owned_options *springs = options_with("springs", "stiffness=%.17g rest_length=%.17g", KAPPA * REST, REST);
   check_ok(hooke_system_add_springs(system, "pair", 1, ends, springs));
-  hooke_options_destroy(springs);
   return system;
 }
 
@@ -47,18 +43,15 @@ static double error_of(const hooke_system *system, struct run run) {
 }
 
 static int takes_pair(const hooke_system *system, const char *method) {
-  hooke_options *options = run_options((struct run){.method = method, .step = 1e-3});
-  hooke_integrator *it = NULL;
+  owned_options *options = run_options((struct run){.method = method, .step = 1e-3});
+  owned_integrator *it = NULL;
   const int32_t status = hooke_integrator_create(system, options, &it);
-  hooke_integrator_destroy(it);
-  hooke_options_destroy(options);
   return status == HOOKE_OK;
 }
 
 /* The closed form, at the order of the method from both sides. */
-static void test_orders(void **unused) {
-  (void)unused;
-  hooke_system *system = make_pair();
+static void test_orders(no_state) {
+  owned_system *system = make_pair();
   int taken = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -73,12 +66,10 @@ static void test_orders(void **unused) {
     taken++;
   }
   assert_int_equal(taken, 6); /* forward Euler, Heun, Runge-Kutta, three implicit ones */
-  hooke_system_destroy(system);
 }
 
-static void test_adaptive(void **unused) {
-  (void)unused;
-  hooke_system *system = make_pair();
+static void test_adaptive(no_state) {
+  owned_system *system = make_pair();
   const char *methods[] = {"cvode-bdf", "cvode-adams", "rk8pd", "arkode-esdirk"},
              *solvers[] = {"auto", "blocks", "direct", "gmres"};
   for (int k = 0; k < 4; k++) {
@@ -92,13 +83,11 @@ static void test_adaptive(void **unused) {
       check_close(error, 0.0, 1e-7);
     }
   }
-  hooke_system_destroy(system);
 }
 
 /* Stable up to the end of the real axis, and beyond not. */
-static void test_limits(void **unused) {
-  (void)unused;
-  hooke_system *system = make_pair();
+static void test_limits(no_state) {
+  owned_system *system = make_pair();
   const struct {
     const char *method;
     double reach;
@@ -118,24 +107,19 @@ static void test_limits(void **unused) {
     check_close(below[3] - below[0], REST, 1e-2);
     assert_true(fabs(above[3] - above[0] - REST) > LONG - REST);
   }
-  hooke_system_destroy(system);
 }
 
-static void test_divergence(void **unused) {
-  (void)unused;
-  hooke_system *system = make_pair();
-  hooke_integrator *it = start_run(
+static void test_divergence(no_state) {
+  owned_system *system = make_pair();
+  owned_integrator *it = start_run(
       system, (struct run){.method = "forward-euler", .step = 0.11, .duration = 11.0, .every = 0.11});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(it, state), HOOKE_DIVERGED);
   check_message("energy has risen");
   check_between(
       hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state)), 1.0,
       101.0 * 0.5 * KAPPA * 0.25);
   assert_true(hooke_system_energy(system, "kinetic", NULL, hooke_state_velocity(state)) == 0.0);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(it);
-  hooke_system_destroy(system);
 }
 
 /* What falls has the speed m g/gamma at once; a callback is given v = 0; dissipation is the work of gravity. */
@@ -148,14 +132,12 @@ static int32_t push(int64_t n, double t, const double *q, const double *v, doubl
   return 0;
 }
 
-static void test_forces(void **unused) {
-  (void)unused;
+static void test_forces(no_state) {
   const double start[6] = {0}, mass[2] = {2.0, 0.5}, g[3] = {0.0, -9.81, 0.0};
   const char *methods[] = {"forward-euler",     "heun",     "rk4", "backward-euler", "tr-bdf2",
                            "implicit-midpoint", "cvode-bdf"};
   double largest_v = 0.0, q[6], v[6];
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_add_particles(system, 2, start, NULL, 2, mass, NULL));
   check_ok(hooke_system_set_drag(system, 4.0));
@@ -175,16 +157,14 @@ static void test_forces(void **unused) {
   check_close(hooke_system_dissipated_power(system, q, v), 4.0 * (0.75 * 0.75 + 1.0625 * 9.81 * 9.81 * 0.25),
               1e-9);
   check_close(hooke_system_energy(system, "gravity", q, NULL), 9.81 * (2.0 * q[1] + 0.5 * q[4]), 1e-9);
-  hooke_system_destroy(system);
 }
 
 /* One end is moved as x = 0.1 sin(t): the other follows by exp(-kappa t/gamma), at the order of each method. */
-static void test_driven(void **unused) {
-  (void)unused;
+static void test_driven(no_state) {
   const double amplitude[3] = {0.1, 0.0, 0.0}, a = KAPPA / GAMMA, t = 0.2;
   const int64_t first = 0;
   const char *methods[] = {"forward-euler", "heun", "rk4", "backward-euler", "tr-bdf2", "implicit-midpoint"};
-  hooke_system *system = open_pair();
+  owned_system *system = open_pair();
   check_ok(hooke_system_drive_harmonic(system, 1, &first, amplitude, 1.0 / (2.0 * M_PI), 0.0));
   check_ok(hooke_system_commit(system));
   const double from = LONG - REST, forced = 0.1 * a / (a * a + 1.0);
@@ -203,7 +183,6 @@ static void test_driven(void **unused) {
     }
     check_order(methods[k], 3, error, order - 0.15, order + 0.2);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- refusals ---- */
@@ -218,15 +197,13 @@ static void check_refused(hooke_system *system, const char *message) {
 static hooke_system *open_parts(double mass, double gravity, const char *option) {
   const char *const kinds[] = {"lattice", "rope"}, *const family[] = {"structural", "stretch"};
   const double edges[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, size[3] = {3, 2, 3}, end[3] = {6, 1, 0};
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, GAMMA));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, gravity, 0.0}));
   for (int k = 0; k < 2; k++) {
-    hooke_options *part = NULL;
     char name[64];
-    check_ok(hooke_options_create(kinds[k], &part));
+    owned_options *part = new_options(kinds[k]);
     if (k == 0) check_ok(hooke_options_set_numbers(part, "edges", 9, edges));
     if (k == 0) check_ok(hooke_options_set_numbers(part, "size", 3, size));
     if (k == 1) check_ok(hooke_options_set_numbers(part, "from", 3, (double[]){4, 0, 0}));
@@ -239,21 +216,18 @@ static hooke_system *open_parts(double mass, double gravity, const char *option)
     check_ok(hooke_options_set_number(part, name, 0.8));
     const int32_t status = hooke_system_add_part(system, kinds[k], NULL, part, NULL, NULL);
     assert_int_equal(status, option ? HOOKE_BAD_VALUE : HOOKE_OK);
-    hooke_options_destroy(part);
   }
   return system;
 }
 
 /* Masses do nothing without gravity, so parts need none. */
-static void test_parts_without_mass(void **unused) {
-  (void)unused;
+static void test_parts_without_mass(no_state) {
   enum { N = 18 + 6 };
   double q[2][3 * N];
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = open_parts(k ? 3.0 : 0.0, 0.0, NULL);
+    owned_system *system = open_parts(k ? 3.0 : 0.0, 0.0, NULL);
     check_ok(hooke_system_commit(system));
     run_to_end(system, (struct run){.method = "rk4", .step = 0.01, .duration = 1.0}, q[k], NULL);
-    hooke_system_destroy(system);
   }
   check_same_bits(3 * N, q[0], q[1]);
   check_between(fabs(q[0][3 * N - 3] - 6.0), 0.05, 0.5); /* the end of the rope has moved */
@@ -262,11 +236,9 @@ static void test_parts_without_mass(void **unused) {
   check_message("stretch.damping_ratio: is given to a part that has neither mass nor density");
 }
 
-static void test_refusals(void **unused) {
-  (void)unused;
+static void test_refusals(no_state) {
   const double g[3] = {0.0, 0.0, 1.0}, q[3] = {0.0, 0.0, 1.0}, v[3] = {0.0, 1.0, 0.0}, mass = 1.0;
   const int64_t ends[2] = {0, 1};
-  hooke_options *springs = NULL;
   hooke_system *system = open_pair();
   check_status(hooke_system_set_dynamics(system, "fast"), HOOKE_BAD_VALUE);
   check_ok(hooke_system_set_drag(system, 0.0));
@@ -281,11 +253,8 @@ static void test_refusals(void **unused) {
   check_ok(hooke_system_add_particles(system, 1, q, v, 1, &mass, NULL));
   check_refused(system, "particles.velocity[2][1]: 1 is not allowed");
   system = open_pair();
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", 1.0));
-  check_ok(hooke_options_set_number(springs, "damping", 0.1));
+  owned_options *springs = options_with("springs", "stiffness=1 damping=0.1");
   check_ok(hooke_system_add_springs(system, "damped", 1, ends, springs));
-  hooke_options_destroy(springs);
   check_status(hooke_system_commit(system), HOOKE_BAD_VALUE);
   check_message("damping: the spring of particle 0 is damped");
   check_ok(hooke_system_set_dynamics(system, "overdamped")); /* still open, with its masses and drag */

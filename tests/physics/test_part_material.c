@@ -1,41 +1,25 @@
 /* Density, damping ratio and bending stiffness of parts: the resulting particles, springs and triples. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-static hooke_options *new_options(const char *kind, const char *of_mass, double mass) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create(kind, &options));
-  check_ok(hooke_options_set_number(options, of_mass, mass));
-  return options;
-}
-
 static hooke_options *new_rope(double length, double segments, const char *of_mass, double mass) {
-  hooke_options *options = new_options("rope", of_mass, mass);
-  const double to[3] = {0.6 * length, 0.0, 0.8 * length};
-  check_ok(hooke_options_set_text(options, "from", "0,0,0"));
-  check_ok(hooke_options_set_numbers(options, "to", 3, to));
-  check_ok(hooke_options_set_number(options, "segments", segments));
-  return options;
+  return options_with("rope", "from=0,0,0 to=%.17g,0,%.17g segments=%.17g %s=%.17g", 0.6 * length,
+                      0.8 * length, segments, of_mass, mass);
 }
 
 /* Edges of 2 m and 1 m, 60 degrees apart. */
 static hooke_options *new_cloth(double nu, double nv, const char *of_mass, double mass) {
-  hooke_options *options = new_options("cloth", of_mass, mass);
-  const double edges[6] = {2.0, 0.0, 0.0, 0.5, 0.0, sqrt(0.75)}, size[2] = {nu, nv};
-  check_ok(hooke_options_set_text(options, "origin", "1,2,3"));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  return options;
+  return options_with("cloth", "origin=1,2,3 edges=2,0,0,0.5,0,%.17g size=%.17g,%.17g %s=%.17g", sqrt(0.75),
+                      nu, nv, of_mass, mass);
 }
 
 /* The options are destroyed. */
 static hooke_system *build(const char *kind, hooke_options *options) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, kind, "part", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   hooke_options_destroy(options);
@@ -63,10 +47,9 @@ static double total(const hooke_system *system) {
   return sum;
 }
 
-static void a_rope_weighs_the_same_at_every_resolution(void **unused) {
-  (void)unused;
+static void a_rope_weighs_the_same_at_every_resolution(no_state) {
   for (int n = 1; n <= 64; n *= 2) {
-    hooke_system *rope = build("rope", new_rope(3.0, n, "density", 0.2));
+    owned_system *rope = build("rope", new_rope(3.0, n, "density", 0.2));
     const double *mass = hooke_system_mass(rope);
     check_close(total(rope), 0.6, 1e-15);
     check_close(mass[0], 0.3 / n, 1e-16);
@@ -76,16 +59,14 @@ static void a_rope_weighs_the_same_at_every_resolution(void **unused) {
     check_close(derived(rope, NULL, "mass of an end"), mass[0], 0.0);
     if (n > 1) check_close(derived(rope, NULL, "mass of an inner particle"), mass[1], 0.0);
     assert_int_equal(hooke_system_count(rope, "derived"), n > 1 ? 2 : 1);
-    hooke_system_destroy(rope);
   }
 }
 
-static void a_cloth_weighs_its_area(void **unused) {
-  (void)unused;
+static void a_cloth_weighs_its_area(no_state) {
   const int size[][2] = {{2, 2}, {2, 5}, {6, 2}, {7, 4}, {33, 17}};
   for (size_t k = 0; k < sizeof size / sizeof size[0]; k++) {
     const int nu = size[k][0], nv = size[k][1];
-    hooke_system *cloth = build("cloth", new_cloth(nu, nv, "density", 0.3));
+    owned_system *cloth = build("cloth", new_cloth(nu, nv, "density", 0.3));
     const double cell = 2.0 * sqrt(0.75) / ((nu - 1) * (nv - 1)), *mass = hooke_system_mass(cloth);
     check_close(total(cloth), 0.3 * 2.0 * sqrt(0.75), 1e-14);
     for (int p = 0; p < nu * nv; p++) {
@@ -95,53 +76,40 @@ static void a_cloth_weighs_its_area(void **unused) {
     }
     check_close(derived(cloth, NULL, "mass of a corner"), mass[0], 0.0);
     assert_int_equal(hooke_system_count(cloth, "derived"), 1 + (nu > 2 || nv > 2) + (nu > 2 && nv > 2));
-    hooke_system_destroy(cloth);
   }
 }
 
-static void a_mass_is_shared_equally(void **unused) {
-  (void)unused;
-  hooke_system *rope = build("rope", new_rope(3.0, 4, "mass", 0.5));
+static void a_mass_is_shared_equally(no_state) {
+  owned_system *rope = build("rope", new_rope(3.0, 4, "mass", 0.5));
   for (int p = 0; p < 5; p++)
     check_close(hooke_system_mass(rope)[p], 0.1, 0.0);
   assert_int_equal(hooke_system_count(rope, "derived"), 0);
   assert_null(hooke_system_derived_text(rope, 0, "name"));
   assert_true(isnan(hooke_system_derived_value(rope, 0)));
-  hooke_system_destroy(rope);
 }
 
 /* ---- damping ratio ---- */
 
 /* Two particles of one spring: each swing is smaller than the previous one by exp(-2 pi zeta/sqrt(1 -
  * zeta^2)). */
-static void a_pair_swings_as_its_ratio_says(void **unused) {
-  (void)unused;
+static void a_pair_swings_as_its_ratio_says(no_state) {
   const double zeta = 0.2, m = 0.25, kappa = 50.0 / 0.8;
   hooke_options *options = new_rope(1.0, 1, "mass", 2.0 * m);
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "stretch.damping_ratio", zeta));
-  check_ok(hooke_options_set_number(options, "stretch.rest_scale", 0.8));
-  hooke_system *pair = build("rope", options);
+  set_options(options, "stretch.stiffness=50 stretch.damping_ratio=%.17g stretch.rest_scale=0.8", zeta);
+  owned_system *pair = build("rope", options);
   const double omega = sqrt(2.0 * kappa / m), period = 2.0 * acos(-1.0) / (omega * sqrt(1.0 - zeta * zeta));
   double q[6];
   run_to_end(pair, (struct run){.method = "rk4", .step = period / 1000, .duration = period, .every = period},
              q, NULL);
   const double length = hypot(q[0] - q[3], q[2] - q[5]);
   check_close((length - 0.8) / 0.2, exp(-2.0 * acos(-1.0) * zeta / sqrt(1.0 - zeta * zeta)), 1e-8);
-  hooke_system_destroy(pair);
 }
 
-static void every_direction_has_its_own(void **unused) {
-  (void)unused;
+static void every_direction_has_its_own(no_state) {
   hooke_options *options = new_cloth(21, 31, "density", 0.3);
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 40.0));
-  check_ok(hooke_options_set_number(options, "structural.damping_ratio", 0.1));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 7.0));
-  check_ok(hooke_options_set_number(options, "shear.damping_ratio", 0.3));
-  check_ok(hooke_options_set_number(options, "shear.rest_scale", 1.1));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 3.0));
-  check_ok(hooke_options_set_number(options, "bend.damping", 0.02));
-  hooke_system *cloth = build("cloth", options);
+  set_options(options, "structural.stiffness=40 structural.damping_ratio=0.1 shear.stiffness=7 "
+                       "shear.damping_ratio=0.3 shear.rest_scale=1.1 bend.stiffness=3 bend.damping=0.02");
+  owned_system *cloth = build("cloth", options);
   const double u = 0.1, v = 1.0 / 30, m = 0.3 * u * v * sqrt(0.75);
   const double along = sqrt(u * u + v * v + u * v), across = sqrt(u * u + v * v - u * v);
   const struct {
@@ -153,7 +121,7 @@ static void every_direction_has_its_own(void **unused) {
                {"shear", "kappa along u + v", "gamma along u + v", 20 * 30, 7.0, 1.1 * along, 0.3},
                {"shear", "kappa along u - v", "gamma along u - v", 20 * 30, 7.0, 1.1 * across, 0.3}};
   const int64_t springs = hooke_system_count(cloth, "springs");
-  double *kappa = new_doubles(springs), *gamma = new_doubles(springs);
+  owned_doubles *kappa = new_doubles(springs), *gamma = new_doubles(springs);
   check_ok(hooke_system_members(cloth, "springs", NULL, kappa, gamma, NULL));
   int64_t k = 0;
   for (size_t s = 0; s < sizeof strip / sizeof strip[0]; s++) {
@@ -171,35 +139,26 @@ static void every_direction_has_its_own(void **unused) {
   for (; k < springs; k++)
     assert_true(gamma[k] > 0.0);
   assert_true(isnan(derived(cloth, "bend", "gamma along u"))); /* is kept as given */
-  free(kappa);
-  free(gamma);
-  hooke_system_destroy(cloth);
 }
 
 /* Values equal to the bit take no memory of their own: a cloth with a ratio is as small as one with a
  * damping. */
-static void ratios_keep_the_runs(void **unused) {
-  (void)unused;
+static void ratios_keep_the_runs(no_state) {
   hooke_options *ratio = new_cloth(40, 50, "mass", 0.3), *plain = new_cloth(40, 50, "mass", 0.3);
-  check_ok(hooke_options_set_number(ratio, "structural.stiffness", 40.0));
-  check_ok(hooke_options_set_number(ratio, "structural.damping_ratio", 0.1));
-  check_ok(hooke_options_set_number(plain, "structural.stiffness", 40.0));
-  check_ok(hooke_options_set_number(plain, "structural.damping", 0.1));
-  hooke_system *a = build("cloth", ratio), *b = build("cloth", plain);
+  set_options(ratio, "structural.stiffness=40 structural.damping_ratio=0.1");
+  set_options(plain, "structural.stiffness=40 structural.damping=0.1");
+  owned_system *a = build("cloth", ratio), *b = build("cloth", plain);
   check_between((double)(hooke_system_count(a, "memory") - hooke_system_count(b, "memory")), 0.0, 2000.0);
-  hooke_system_destroy(a);
-  hooke_system_destroy(b);
 }
 
 /* ---- bending ---- */
 
 /* Lines along u row by row, then lines along v, first particle row by row; half at the edges. */
-static void a_cloth_bends_along_its_lines(void **unused) {
-  (void)unused;
+static void a_cloth_bends_along_its_lines(no_state) {
   const int nu = 5, nv = 4;
   hooke_options *options = new_cloth(nu, nv, "mass", 0.3);
   check_ok(hooke_options_set_number(options, "bending", 0.7));
-  hooke_system *cloth = build("cloth", options);
+  owned_system *cloth = build("cloth", options);
   const double u = 0.5, v = 1.0 / 3, area = u * v * sqrt(0.75);
   const double along_u = 0.7 * (area / u) / (u * u * u), along_v = 0.7 * (area / v) / (v * v * v);
   assert_int_equal(hooke_system_count(cloth, "bending"), nv * (nu - 2) + (nv - 2) * nu);
@@ -225,35 +184,28 @@ static void a_cloth_bends_along_its_lines(void **unused) {
   check_close(derived(cloth, "bending", "c along v"), along_v, 1e-13);
   check_close(derived(cloth, "bending", "c along v at an edge"), 0.5 * along_v, 1e-13);
   assert_string_equal(hooke_system_group_name(cloth, "bending", 0), "part.bending");
-  hooke_system_destroy(cloth);
 }
 
 /* A cloth of one cell across has edges only; one of two particles along a direction does not bend along it.
  */
-static void narrow_cloths(void **unused) {
-  (void)unused;
+static void narrow_cloths(no_state) {
   hooke_options *strip = new_cloth(2, 6, "mass", 0.3), *cell = new_cloth(2, 2, "mass", 0.3);
   check_ok(hooke_options_set_number(strip, "bending", 0.7));
   check_ok(hooke_options_set_number(cell, "bending", 0.7));
-  hooke_system *a = build("cloth", strip), *b = build("cloth", cell);
+  owned_system *a = build("cloth", strip), *b = build("cloth", cell);
   assert_int_equal(hooke_system_count(a, "bending"), 8);
   assert_true(isnan(derived(a, "bending", "c along v")));
   assert_true(derived(a, "bending", "c along v at an edge") > 0.0);
   assert_int_equal(hooke_system_group_count(b, "bending"), 0);
   assert_int_equal(hooke_system_count(b, "derived"), 0);
-  hooke_system_destroy(a);
-  hooke_system_destroy(b);
 }
 
 /* A part that fails midway leaves nothing behind. */
-static void failures_are_rolled_back(void **unused) {
-  (void)unused;
-  hooke_system *system = NULL;
-  hooke_options *fine = new_rope(1.0, 4, "density", 0.2), *bad = new_rope(1.0, 4, "density", 0.2);
+static void failures_are_rolled_back(no_state) {
+  owned_options *fine = new_rope(1.0, 4, "density", 0.2), *bad = new_rope(1.0, 4, "density", 0.2);
   check_ok(hooke_options_set_number(fine, "bending", 1.0));
-  check_ok(hooke_options_set_number(bad, "bending", 1.0));
-  check_ok(hooke_options_set_text(bad, "pinned", "9"));
-  check_ok(hooke_system_create(&system));
+  set_options(bad, "bending=1 pinned=9");
+  owned_system *system = new_system();
   check_ok(hooke_system_add_part(system, "rope", NULL, fine, NULL, NULL));
   check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);
   check_message("pinned[0]");
@@ -267,9 +219,6 @@ static void failures_are_rolled_back(void **unused) {
   check_ok(hooke_options_unset(bad, "density"));
   check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);
   check_message("neither mass nor density");
-  hooke_options_destroy(fine);
-  hooke_options_destroy(bad);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -18,14 +18,13 @@ struct counter {
 
 static void begin_counting(const hooke_system *system, struct counter *c) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   *c = (struct counter){.system = system, .springs = hooke_system_count(system, "springs")};
   c->ends = new_block(2 * c->springs, sizeof *c->ends);
   c->rest_length = new_doubles(c->springs);
   c->before = new_doubles(size);
   check_ok(hooke_system_members(system, "springs", c->ends, NULL, NULL, c->rest_length));
   memcpy(c->before, hooke_state_position(state), (size_t)size * sizeof(double));
-  hooke_state_destroy(state);
 }
 
 static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
@@ -116,10 +115,9 @@ static hooke_system *system_of(const struct scene *scene) {
   return system;
 }
 
-static void test_every_method(void **unused) {
-  (void)unused;
+static void test_every_method(no_state) {
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
-    hooke_system *system = system_of(&scenes[k]);
+    owned_system *system = system_of(&scenes[k]);
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
       if (hooke_method_is_built(method) != 1) continue;
@@ -130,7 +128,6 @@ static void test_every_method(void **unused) {
         if ((count > 0) != scenes[k].passes) check_failed("%s, %s: %d", scenes[k].name, method, (int)count);
       }
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -141,7 +138,7 @@ enum { PAIRS = 17000 };
 /* Pairs of particles on their own, next to one another or far apart in a random order. */
 static hooke_system *pairs(int32_t shuffled) {
   struct random_source source = {7};
-  double *q = new_doubles(6 * (int64_t)PAIRS), *v = new_doubles(6 * (int64_t)PAIRS);
+  owned_doubles *q = new_doubles(6 * (int64_t)PAIRS), *v = new_doubles(6 * (int64_t)PAIRS);
   int64_t *ends = new_block(2 * (int64_t)PAIRS, sizeof *ends);
   for (int64_t k = 0; k < 2 * (int64_t)PAIRS; k++)
     ends[k] = k;
@@ -160,62 +157,50 @@ static hooke_system *pairs(int32_t shuffled) {
   hooke_system *system = small_system(2 * (int64_t)PAIRS, q, v, 1.0, 0);
   small_springs(system, PAIRS, ends, (struct springs){"length", 10.0, 0.0, 0.5, 0});
   check_ok(hooke_system_commit(system));
-  free(q);
-  free(v);
   free(ends);
   return system;
 }
 
-static void test_batches_and_threads(void **unused) {
-  (void)unused;
+static void test_batches_and_threads(no_state) {
   for (int shuffled = 0; shuffled < 2; shuffled++) {
-    hooke_system *system = pairs(shuffled);
+    owned_system *system = pairs(shuffled);
     const struct run alone = {.method = "symplectic-euler", .step = 0.004, .duration = 0.08, .threads = 1},
                      together = {.method = "verlet", .step = 0.004, .duration = 0.08, .threads = 2};
     assert_in_range(check_run(system, alone, 2), PAIRS / 2, 2 * PAIRS);
     assert_in_range(check_run(system, together, 1), PAIRS / 2, 2 * PAIRS);
-    hooke_system_destroy(system);
   }
 }
 
 /* ---- anchors, loops of the caller's own, and what is not known ---- */
 
-static void test_anchors(void **unused) {
-  (void)unused;
+static void test_anchors(no_state) {
   const double q[] = {2, 0, 0, 2, 1, 0}, points[] = {0.5, 0, 0, 0.5, 1, 0}, rest_length[] = {0.5, 0.0};
   const int64_t particles[] = {0, 1};
-  hooke_options *options = NULL;
-  hooke_system *system = small_system(2, q, NULL, 1.0, 0);
-  check_ok(hooke_options_create("anchors", &options));
+  owned_system *system = small_system(2, q, NULL, 1.0, 0);
+  owned_options *options = options_with("anchors", "stiffness=10");
   check_ok(hooke_options_set_numbers(options, "points", 6, points));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
   check_ok(hooke_options_set_numbers(options, "rest_length", 2, rest_length));
   check_ok(hooke_system_add_anchors(system, NULL, 2, particles, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "rk4", .step = 0.01, .duration = 1.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(passages_of(integrator), 1);
   assert_non_null(strstr(hooke_integrator_text(integrator, "zero_passages"),
                          "1 time, first that of particle 0 and its anchor at t = 0.6"));
   assert_null(hooke_integrator_text(integrator, "passages"));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
-static void test_own_loops(void **unused) {
-  (void)unused;
-  hooke_system *system = system_of(&scenes[1]);
+static void test_own_loops(no_state) {
+  owned_system *system = system_of(&scenes[1]);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const struct run run = {.method = hooke_method_name(m), .step = 0.01, .duration = 4.0, .rtol = 1e-6};
     if (hooke_method_is_built(run.method) != 1) continue;
     const int64_t whole = check_run(system, run, 1);
     for (int advances = 0; advances < 2; advances++) {
-      hooke_integrator *integrator = start_run(system, run);
-      hooke_state *state = start_state(system);
+      owned_integrator *integrator = start_run(system, run);
+      owned_state *state = start_state(system);
       check_ok(hooke_integrator_step(integrator, state, 0));
       while (hooke_state_time(state) < 4.0 - 1e-9) {
         check_ok(advances ? hooke_integrator_advance(integrator, 5)
@@ -224,39 +209,31 @@ static void test_own_loops(void **unused) {
       }
       check_between((double)passages_of(integrator), (double)whole,
                     (double)whole + !is_fixed_step(run.method));
-      hooke_integrator_destroy(integrator);
-      hooke_state_destroy(state);
     }
   }
-  hooke_system_destroy(system);
 }
 
 /* A particle that is put on the other side by hand has not passed. */
-static void test_putting(void **unused) {
-  (void)unused;
+static void test_putting(no_state) {
   const double there[] = {-0.2, 0, 0}, slow[] = {0, 0, 0};
   const int64_t particle = 1;
-  hooke_system *system = system_of(&scenes[0]);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.01});
-  hooke_state *state = start_state(system);
+  owned_system *system = system_of(&scenes[0]);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.01});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 62));
   assert_int_equal(passages_of(integrator), 0);
   check_between(hooke_state_position(state)[3], 0.05, 0.25);
   check_ok(hooke_integrator_put(integrator, 1, &particle, there, slow));
   check_ok(hooke_integrator_advance(integrator, 5));
   assert_int_equal(passages_of(integrator), 0);
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
-static void test_checkpoint(void **unused) {
-  (void)unused;
+static void test_checkpoint(no_state) {
   const char *path = "passages-checkpoint";
   const struct run run = {.method = "rk4", .step = 0.01, .duration = 10.0};
-  hooke_system *system = system_of(&scenes[0]);
+  owned_system *system = system_of(&scenes[0]);
   hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 100));
   assert_int_equal(passages_of(integrator), 1);
   check_ok(hooke_checkpoint_write(path, integrator, state, NULL));
@@ -268,8 +245,6 @@ static void test_checkpoint(void **unused) {
   assert_int_equal(passages_of(integrator), -1);
   assert_non_null(strstr(hooke_integrator_text(integrator, "zero_passages"), "length zero at least "));
   hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
   remove(path);
 }
 
@@ -278,24 +253,20 @@ static void test_checkpoint(void **unused) {
 static double end_of(double wall, double rest_length, int64_t *passages) {
   const double q[] = {wall, 0, 0, 1.5, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){"length", 10.0, 0.1, rest_length, 0});
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "rk4", .step = 0.002, .duration = 10.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   *passages = passages_of(integrator);
   const double x = hooke_state_position(state)[3];
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
   return x;
 }
 
 /* A far wall makes the spring a signed one: x = 0.5 + a damped oscillation. */
-static void test_far_wall(void **unused) {
-  (void)unused;
+static void test_far_wall(no_state) {
   const double w = sqrt(10.0 - 0.05 * 0.05), t = 10.0;
   const double x = 0.5 + exp(-0.05 * t) * (cos(w * t) + 0.05 / w * sin(w * t));
   int64_t passages;

@@ -5,17 +5,12 @@
 #include "sanitized.h"
 #include "small.h"
 
-#include <string.h>
-
 /* The options, with method and step; the caller destroys them. */
 static hooke_options *picked(const hooke_system *system, const char *method, double duration, double want) {
   hooke_options *options = run_options((struct run){.duration = duration, .every = duration / 5.0});
-  hooke_options *wanted;
   hooke_measurement *estimate;
-  check_ok(hooke_options_create("estimate", &wanted));
-  check_ok(hooke_options_set_number(wanted, "want", want));
+  owned_options *wanted = options_with("estimate", "want=%.17g", want);
   check_ok(hooke_measurement_create("estimate", system, NULL, wanted, &estimate));
-  hooke_options_destroy(wanted);
   const int32_t status = hooke_estimate_pick(estimate, method, options);
   hooke_measurement_destroy(estimate);
   if (status == HOOKE_NOT_BUILT) skip();
@@ -25,36 +20,29 @@ static hooke_options *picked(const hooke_system *system, const char *method, dou
 
 /* Explicit methods take some 1e4 to 1e6 steps, backward Euler 160, these 20. Which one of all is cheapest is
  * timed, so each is asked for. */
-static void implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths(void **unused) {
-  (void)unused;
+static void implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths(no_state) {
   static const char *const methods[] = {"tr-bdf2", "implicit-midpoint"};
-  hooke_system *system = small_cloth(12, 5e4, 20.0);
+  owned_system *system = small_cloth(12, 5e4, 20.0);
   for (int k = 0; k < 2; k++) {
     if (left_out(k, 2)) continue;
-    hooke_options *options = picked(system, methods[k], 0.2, 1e-3);
+    owned_options *options = picked(system, methods[k], 0.2, 1e-3);
     const double step = hooke_options_number(options, "step"),
                  bound = bound_at_start(system, "symplectic-euler");
     assert_string_equal(hooke_options_text(options, "method"), methods[k]);
     if (!(step > 100.0 * bound))
       check_failed("%s: a step of %g s, the bound of explicit Euler is %g s", methods[k], step, bound);
-    hooke_options_destroy(options);
   }
-  hooke_system_destroy(system);
 }
 
 /* At its largest step Verlet solves for the damping, in the time of several steps without. */
-static void verlet_is_picked_at_a_step_that_solves_nothing(void **unused) {
-  (void)unused;
-  hooke_system *system = small_cloth(12, 50.0, 0.01);
-  hooke_options *options = picked(system, "verlet", 0.5, 1e-3);
-  hooke_integrator *integrator;
+static void verlet_is_picked_at_a_step_that_solves_nothing(no_state) {
+  owned_system *system = small_cloth(12, 50.0, 0.01);
+  owned_options *options = picked(system, "verlet", 0.5, 1e-3);
+  owned_integrator *integrator;
   check_ok(hooke_integrator_create(system, options, &integrator));
   const double step = hooke_options_number(options, "step"), bound = bound_at_start(system, "verlet");
   if (hooke_integrator_count(integrator, "explicit_damping") != 1 || !(step > 0.2 * bound))
     check_failed("a step of %g s of %g s is picked", step, bound);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

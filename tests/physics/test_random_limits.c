@@ -6,9 +6,9 @@
 #include "random.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,15 +91,12 @@ static void draw_springs(struct random_source *source, struct scene *s) {
     if (rest[k] == 0.0) rest[k] = random_whole(source, 0, 1) ? 0.3 : 0.0;
     add_spring(s, 2, pair, d, kappa[k], gamma[k], rest[k]);
   }
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", SPRINGS, rest));
   if (random_whole(source, 0, 2) == 0) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(s->system, "springs", SPRINGS, ends, options));
-  hooke_options_destroy(options);
 }
 
 /* At their own places by default, or tied to points elsewhere. */
@@ -118,14 +115,12 @@ static void draw_anchors(struct random_source *source, struct scene *s) {
     const double d[3] = {x[0] - point[3 * k], x[1] - point[3 * k + 1], x[2] - point[3 * k + 2]};
     add_spring(s, 1, tied + k, d, kappa[k], gamma[k], rest[k]);
   }
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("anchors", &options));
+  owned_options *options = new_options("anchors");
   if (elsewhere) check_ok(hooke_options_set_numbers(options, "points", 3 * ANCHORS, point));
   check_ok(hooke_options_set_numbers(options, "stiffness", ANCHORS, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", ANCHORS, gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", ANCHORS, rest));
   check_ok(hooke_system_add_anchors(s->system, "anchors", ANCHORS, tied, options));
-  hooke_options_destroy(options);
 }
 
 static void draw_triples(struct random_source *source, struct scene *s) {
@@ -143,10 +138,7 @@ static void draw_triples(struct random_source *source, struct scene *s) {
 }
 
 static hooke_options *altitude_options(double stiffness, double damping) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "damping", damping));
+  hooke_options *options = options_with("altitude", "stiffness=%.17g damping=%.17g", stiffness, damping);
   return options;
 }
 
@@ -155,9 +147,8 @@ static void draw_tetrahedron(struct random_source *source, struct scene *s) {
   const int64_t corners[4] = {0, 1, 2, 3};
   const double stiffness = between(source, 5.0, 50.0), damping = s->overdamped ? 0.0 : some_damping(source);
   hooke_options *options = altitude_options(0.0, 1.0);
-  hooke_system *damper = NULL;
   double v[DOF] = {0.0}, force[DOF];
-  check_ok(hooke_system_create(&damper));
+  owned_system *damper = new_system();
   check_ok(hooke_system_add_particles(damper, N, s->q, NULL, N, s->mass, NULL));
   check_ok(hooke_system_add_altitude(damper, NULL, 1, corners, options));
   hooke_options_destroy(options);
@@ -169,7 +160,6 @@ static void draw_tetrahedron(struct random_source *source, struct scene *s) {
     for (int i = 0; i < DOF; i++)
       s->k[i][j] -= stiffness * force[i], s->c[i][j] -= damping * force[i];
   }
-  hooke_system_destroy(damper);
   options = altitude_options(stiffness, damping);
   check_ok(hooke_system_add_altitude(s->system, "altitude", 1, corners, options));
   hooke_options_destroy(options);
@@ -350,12 +340,10 @@ static int grows(const struct scene *s, const char *method, double h, int square
 
 /* ---- limits ---- */
 
-static hooke_measurement *limits_of(const struct scene *s, const char *methods, int predict) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("limit", &options));
+static hooke_measurement *scene_limits(const struct scene *s, const char *methods, int predict) {
+  hooke_options *options = new_options("limit");
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
-  check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", 200.0));
+  set_options(options, "predict=%d budget=200", predict);
   return limit_at_start(s->system, NULL, options);
 }
 
@@ -397,7 +385,7 @@ static void check_scene(uint64_t seed) {
       "forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4"};
   struct scene s;
   draw(seed, &s);
-  hooke_measurement *predicted = limits_of(&s, NULL, 1);
+  hooke_measurement *predicted = scene_limits(&s, NULL, 1);
   for (int m = 0; m < 6; m++) {
     const int64_t row = hooke_measurement_find(predicted, "rows", "method", methods[m]);
     if (row < 0) continue;
@@ -409,19 +397,17 @@ static void check_scene(uint64_t seed) {
       check_failed("scene %d, %s: grows below the bound %.8g s", (int)seed, methods[m], bound);
     /* what grows at every step is slow to measure */
     if (!(limit > 0.0) || (needs_damping(methods[m]) && !getenv("HOOKE_LONG"))) continue;
-    hooke_measurement *measured = limits_of(&s, methods[m], 0);
+    owned_measurement *measured = scene_limits(&s, methods[m], 0);
     const double found = hooke_measurement_number(measured, "rows", 0, "measured");
     /* or growth is too slow to be seen, which a note says */
     if (!isnan(found) || !needs_damping(methods[m]) || !hooke_measurement_text(measured, "rows", 0, "note"))
       check_limit(&s, seed, methods[m], "measured", found);
-    hooke_measurement_destroy(measured);
   }
   hooke_measurement_destroy(predicted);
   hooke_system_destroy(s.system);
 }
 
-static void limits_are_those_of_the_matrices(void **unused) {
-  (void)unused;
+static void limits_are_those_of_the_matrices(no_state) {
   const uint64_t count = getenv("HOOKE_LONG") ? 2000 : 24;
   for (uint64_t seed = 1; seed <= count; seed++) {
     if (!left_out((int64_t)seed, 4)) check_scene(seed);
@@ -429,8 +415,7 @@ static void limits_are_those_of_the_matrices(void **unused) {
 }
 
 /* With the damping of springs and anchors of no length left out, scenes would be found wrong. */
-static void damping_left_out_is_noticed(void **unused) {
-  (void)unused;
+static void damping_left_out_is_noticed(no_state) {
   int noticed = 0;
   for (uint64_t seed = 1; seed <= 24; seed++) {
     struct scene s;

@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct checker {
@@ -25,16 +24,15 @@ static const struct checker *next_built(int64_t *k) {
 
 /* ---- found by name, not listed ---- */
 
-static void test_names(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(2.0);
+static void test_names(no_state) {
+  owned_system *system = small_oscillator(2.0);
   for (int c = 0; c < CHECKERS; c++) {
     const char *name = checkers[c].method;
     for (int64_t m = 0; m < hooke_method_count(); m++)
       assert_string_not_equal(hooke_method_name(m), name);
     assert_int_equal(hooke_method_is_adaptive(name), 1);
     assert_non_null(strstr(hooke_method_summary(name), checkers[c].library));
-    hooke_options *options = run_options((struct run){.method = name});
+    owned_options *options = run_options((struct run){.method = name});
     hooke_integrator *integrator = NULL;
     if (hooke_method_is_built(name)) {
       check_ok(hooke_integrator_create(system, options, &integrator));
@@ -43,11 +41,9 @@ static void test_names(void **unused) {
       check_message(checkers[c].library);
     }
     hooke_integrator_destroy(integrator);
-    hooke_options_destroy(options);
   }
   assert_null(hooke_method_name(hooke_method_count()));
   assert_null(hooke_method_name(-1));
-  hooke_system_destroy(system);
 }
 
 /* ---- solutions to 15 digits, with frames at every state, at awkward times, and without ---- */
@@ -80,11 +76,11 @@ static double largest_error(const struct reference *reference, const char *metho
   const struct reference_state *last = &reference->state[reference->state_count - 1];
   struct visit visit = {.reference = reference, .every = every, .duration = last->time};
   const int64_t size = 3 * reference->particle_count;
-  hooke_system *system = build_reference(reference);
-  hooke_integrator *integrator = start_run(
+  owned_system *system = build_reference(reference);
+  owned_integrator *integrator = start_run(
       system,
       (struct run){.method = method, .rtol = 1e-10, .atol = 1e-12, .duration = last->time, .every = every});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, at_frame, &visit));
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(visit.frame, hooke_integrator_count(integrator, "frames"));
@@ -93,14 +89,10 @@ static double largest_error(const struct reference *reference, const char *metho
   assert_true(visit.seen >= 1); /* the end is one */
   check_close(hooke_state_time(state), last->time, 0.0);
   const double error = largest_difference(size, hooke_state_position(state), last->position);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return fmax(visit.error, error / largest(size, last->position));
 }
 
-static void test_solutions(void **unused) {
-  (void)unused;
+static void test_solutions(no_state) {
   const double every[] = {0.05, 0.37, 1e3};
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
@@ -117,12 +109,11 @@ static void test_solutions(void **unused) {
 
 /* ---- every force, driven particles and springs that only pull: with Adams ---- */
 
-static void test_everything(void **unused) {
-  (void)unused;
+static void test_everything(no_state) {
   const struct checker *checker;
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   for (uint64_t seed = 1; seed <= 6; seed++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 30,
                                                       .springs = 70,
@@ -131,7 +122,7 @@ static void test_everything(void **unused) {
                                                       .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT},
                         &scene);
     const int64_t size = 3 * scene.canonical.particle_count;
-    double *expected = new_doubles(2 * size), *found = new_doubles(2 * size);
+    owned_doubles *expected = new_doubles(2 * size), *found = new_doubles(2 * size);
     struct run run = {.method = "cvode-adams", .rtol = 1e-11, .atol = 1e-13, .duration = 0.75};
     run_to_end(scene.system, run, expected, expected + size);
     run.rtol = 1e-10, run.atol = 1e-12;
@@ -142,9 +133,6 @@ static void test_everything(void **unused) {
       check_between(largest_difference(size, found + size, expected + size) / largest(size, expected + size),
                     0.0, 1e-6);
     }
-    free(expected);
-    free(found);
-    random_scene_destroy(&scene);
   }
 }
 
@@ -178,8 +166,8 @@ static void start_spiral(struct spiral *spiral, struct run run, hooke_integrator
 
 static double spiral_error(const char *method, double rtol) {
   struct spiral spiral = {0};
-  hooke_integrator *integrator;
-  hooke_state *state;
+  owned_integrator *integrator;
+  owned_state *state;
   start_spiral(
       &spiral,
       (struct run){.method = method, .rtol = rtol, .atol = 1e-3 * rtol, .duration = 2.0, .every = 2.0},
@@ -187,13 +175,10 @@ static double spiral_error(const char *method, double rtol) {
   check_ok(hooke_integrator_run(integrator, state));
   const double expected[] = {exp(-1.0) * cos(6.0), exp(-1.0) * sin(6.0)};
   const double error = largest_difference(2, hooke_state_position(state), expected);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
   return error;
 }
 
-static void test_first_order(void **unused) {
-  (void)unused;
+static void test_first_order(no_state) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     const double loose = spiral_error(checker->method, 1e-4), tight = spiral_error(checker->method, 1e-10);
@@ -205,13 +190,12 @@ static void test_first_order(void **unused) {
 
 /* ---- ends: stops, limits, non-finite numbers ---- */
 
-static void test_stop(void **unused) {
-  (void)unused;
+static void test_stop(no_state) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     struct spiral spiral = {.stop_after = 1.0};
-    hooke_integrator *integrator;
-    hooke_state *state;
+    owned_integrator *integrator;
+    owned_state *state;
     start_spiral(&spiral,
                  (struct run){.method = checker->method, .rtol = 1e-8, .duration = 2.0, .every = 2.0},
                  &integrator, &state);
@@ -228,18 +212,15 @@ static void test_stop(void **unused) {
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_same_bits(2, hooke_state_position(state), before);
     check_close(hooke_state_time(state), 3.0, 0.0);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
 }
 
-static void test_not_finite(void **unused) {
-  (void)unused;
+static void test_not_finite(no_state) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     struct spiral spiral = {.nan_after = 1.0};
-    hooke_integrator *integrator;
-    hooke_state *state;
+    owned_integrator *integrator;
+    owned_state *state;
     start_spiral(&spiral,
                  (struct run){.method = checker->method, .rtol = 1e-8, .duration = 2.0, .every = 2.0},
                  &integrator, &state);
@@ -249,8 +230,6 @@ static void test_not_finite(void **unused) {
     const double t = hooke_state_time(state), *x = hooke_state_position(state);
     check_between(t, 0.9, 1.0);
     check_close(x[0], exp(-0.5 * t) * cos(3.0 * t), 1e-6);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
 }
 
@@ -264,51 +243,42 @@ static int32_t guarded_rate(int64_t n, double t, const double *x, double *rate, 
   return 0;
 }
 
-static void test_recovers(void **unused) {
-  (void)unused;
+static void test_recovers(no_state) {
   if (hooke_method_is_built("rk8pd") != 1) skip();
   int64_t refused = 0;
-  hooke_integrator *integrator = start_first_order(
+  owned_integrator *integrator = start_first_order(
       1, guarded_rate, &refused,
       (struct run){.method = "rk8pd", .rtol = 0.1, .atol = 0.5, .duration = 50.0, .every = 50.0});
-  hooke_state *state = NULL;
+  owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(1, &state));
   hooke_state_position(state)[0] = 1.0;
   check_ok(hooke_integrator_run(integrator, state));
   check_between((double)refused, 1.0, 1e5);
   check_between(hooke_state_position(state)[0], -0.5, 0.5);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
-static void test_step_limit(void **unused) {
-  (void)unused;
+static void test_step_limit(no_state) {
   const struct checker *checker;
-  hooke_system *system = small_oscillator(3.0);
+  owned_system *system = small_oscillator(3.0);
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
-    hooke_options *options = run_options((struct run){.method = checker->method, .duration = 1000.0});
-    hooke_integrator *integrator = NULL;
+    owned_options *options = run_options((struct run){.method = checker->method, .duration = 1000.0});
+    owned_integrator *integrator = NULL;
     check_ok(hooke_options_set_number(options, "max_steps", 12));
     check_ok(hooke_integrator_create(system, options, &integrator));
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_status(hooke_integrator_run(integrator, state), HOOKE_STEP_LIMIT);
     assert_int_equal(hooke_integrator_count(integrator, "steps"), 12);
     check_between(hooke_state_time(state), 1e-3, 100.0);
     check_close(hooke_state_position(state)[3], cos(3.0 * hooke_state_time(state)), 1e-4);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_options_destroy(options);
   }
-  hooke_system_destroy(system);
 }
 
-static void test_order_of_arkode(void **unused) {
-  (void)unused;
+static void test_order_of_arkode(no_state) {
   if (hooke_method_is_built("arkode-esdirk") != 1) skip();
-  hooke_system *system = small_oscillator(3.0);
+  owned_system *system = small_oscillator(3.0);
   double steps[6];
   for (int order = 2; order <= 6; order++) {
-    hooke_options *options = run_options(
+    owned_options *options = run_options(
         (struct run){.method = "arkode-esdirk", .rtol = 1e-8, .atol = 1e-8, .duration = 5.0, .every = 5.0});
     hooke_integrator *integrator = NULL;
     check_ok(hooke_options_set_number(options, "max_order", order));
@@ -317,33 +287,29 @@ static void test_order_of_arkode(void **unused) {
       check_message("3 to 5");
     } else {
       check_ok(hooke_integrator_create(system, options, &integrator));
-      hooke_state *state = start_state(system);
+      owned_state *state = start_state(system);
       check_ok(hooke_integrator_run(integrator, state));
       check_close(hooke_state_position(state)[3], cos(15.0), 1e-5);
       steps[order] = (double)hooke_integrator_count(integrator, "steps");
-      hooke_state_destroy(state);
     }
     hooke_integrator_destroy(integrator);
-    hooke_options_destroy(options);
   }
   check_between(steps[3] / steps[4], 3.0, 50.0);
   check_between(steps[3] / steps[5], 3.0, 50.0);
   assert_true(steps[4] != steps[5]);
-  hooke_system_destroy(system);
 }
 
 /* ---- restarting, continuing, zero steps ---- */
 
-static void test_again(void **unused) {
-  (void)unused;
+static void test_again(no_state) {
   const char *counts[] = {"steps", "force_evaluations", "nonlinear_iterations", "linear_iterations",
                           "error_test_failures"};
   const struct checker *checker;
-  hooke_system *system = build_reference(find_reference("six-particles"));
+  owned_system *system = build_reference(find_reference("six-particles"));
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_run(system, (struct run){.method = checker->method, .rtol = 1e-7, .duration = 0.5});
-    hooke_state *first = start_state(system), *second = start_state(system);
+    owned_state *first = start_state(system), *second = start_state(system);
     int64_t once[5];
     check_ok(hooke_integrator_run(integrator, first));
     for (int k = 0; k < 5; k++)
@@ -354,26 +320,20 @@ static void test_again(void **unused) {
       assert_int_equal(hooke_integrator_count(integrator, counts[k]), 2 * once[k]);
     check_same_bits(18, hooke_state_position(second), hooke_state_position(first));
     check_same_bits(18, hooke_state_velocity(second), hooke_state_velocity(first));
-    hooke_state_destroy(first);
-    hooke_state_destroy(second);
-    hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
 }
 
-static void test_steps_by_hand(void **unused) {
-  (void)unused;
+static void test_steps_by_hand(no_state) {
   const struct checker *checker;
-  hooke_system *system = build_reference(find_reference("six-particles"));
+  owned_system *system = build_reference(find_reference("six-particles"));
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     hooke_state *state[2];
     for (int parts = 0; parts < 2; parts++) {
-      hooke_integrator *integrator = start_run(system, (struct run){.method = checker->method, .rtol = 1e-7});
+      owned_integrator *integrator = start_run(system, (struct run){.method = checker->method, .rtol = 1e-7});
       state[parts] = start_state(system);
       check_ok(hooke_integrator_step(integrator, state[parts], parts ? 3 : 20));
       if (parts) check_ok(hooke_integrator_step(integrator, state[parts], 17));
       assert_int_equal(hooke_integrator_count(integrator, "steps"), 20);
-      hooke_integrator_destroy(integrator);
     }
     check_between(hooke_state_time(state[0]), 1e-3, 10.0);
     check_close(hooke_state_time(state[1]), hooke_state_time(state[0]), 0.0);
@@ -381,14 +341,12 @@ static void test_steps_by_hand(void **unused) {
     hooke_state_destroy(state[0]);
     hooke_state_destroy(state[1]);
   }
-  hooke_system_destroy(system);
 }
 
-static void test_nothing_free(void **unused) {
-  (void)unused;
+static void test_nothing_free(no_state) {
   const struct checker *checker;
   const double position[] = {1.0, 2.0, 3.0};
-  hooke_system *system = small_system(1, position, NULL, 1.0, 1);
+  owned_system *system = small_system(1, position, NULL, 1.0, 1);
   check_ok(hooke_system_commit(system));
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     double q[3], v[3];
@@ -396,7 +354,6 @@ static void test_nothing_free(void **unused) {
     check_same_bits(3, q, position);
     check_close(largest(3, v), 0.0, 0.0);
   }
-  hooke_system_destroy(system);
 }
 
 int main(void) {

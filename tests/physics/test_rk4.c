@@ -3,8 +3,6 @@
 #include "run.h"
 
 #include <complex.h>
-#include <math.h>
-#include <string.h>
 
 static int32_t multiply(int64_t n, double t, const double *x, double *rate, void *ctx) {
   const double *a = ctx;
@@ -14,14 +12,13 @@ static int32_t multiply(int64_t n, double t, const double *x, double *rate, void
   return 0;
 }
 
-static void factor_of_a_step(void **unused) {
-  (void)unused;
+static void factor_of_a_step(no_state) {
   double a[] = {-0.8, 5.0};
   const double h = 0.1;
   const double complex z = h * (a[0] + I * a[1]);
   const double complex factor = 1.0 + z + z * z / 2.0 + z * z * z / 6.0 + z * z * z * z / 24.0;
-  hooke_integrator *integrator = start_first_order(2, multiply, a, (struct run){.method = "rk4", .step = h});
-  hooke_state *state = NULL;
+  owned_integrator *integrator = start_first_order(2, multiply, a, (struct run){.method = "rk4", .step = h});
+  owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(2, &state));
   hooke_state_position(state)[0] = 1.0;
   double complex expected = 1.0;
@@ -32,8 +29,6 @@ static void factor_of_a_step(void **unused) {
     check_close(hooke_state_position(state)[1], cimag(expected), 1e-14);
   }
   assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 200);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* A rate that depends on time alone is integrated by Simpson's rule, which is exact for t^3. */
@@ -43,16 +38,13 @@ static int32_t cubic(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void times_of_the_stages(void **unused) {
-  (void)unused;
-  hooke_integrator *integrator =
+static void times_of_the_stages(no_state) {
+  owned_integrator *integrator =
       start_first_order(1, cubic, NULL, (struct run){.method = "rk4", .step = 0.5});
-  hooke_state *state = NULL;
+  owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(1, &state));
   check_ok(hooke_integrator_step(integrator, state, 6));
   check_close(hooke_state_position(state)[0], 81.0, 1e-13);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 int main(void) {

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <stdlib.h>
 #ifdef __GLIBC__
@@ -23,33 +24,21 @@ static double bytes_in_use(void) {
 
 /* The stated memory equals that allocated since `before`. */
 static double bytes_of_run(const hooke_system *system, const char *method, double before) {
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
-  hooke_state *made = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
+  owned_state *made = start_state(system);
   const double taken = bytes_in_use() - before, size = (double)hooke_state_size(made);
   const double bytes = (double)hooke_system_count(system, "memory") + 8.0 * (2.0 * size + 1.0) +
                        (double)hooke_integrator_count(integrator, "memory_bytes");
   if (taken > 0.0) check_between(taken / bytes, 0.99, 1.02);
-  hooke_state_destroy(made);
-  hooke_integrator_destroy(integrator);
   return bytes;
 }
 
 static hooke_system *build_cloth(void) {
-  const double edges[] = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0}, sizes[] = {SIDE, SIDE}, origin[] = {0.0, 0.0, 0.0};
-  hooke_options *options;
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, sizes));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "structural.damping", 0.01));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 50.0));
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", options, NULL, NULL));
-  hooke_options_destroy(options);
+  hooke_system *system = new_system();
+  small_part(system, "cloth", "cloth",
+             "edges=1,0,0,0,0,1 size=%d,%d mass=1 structural.stiffness=50 "
+             "structural.damping=0.01 shear.stiffness=50 bend.stiffness=50",
+             (int)SIDE, (int)SIDE);
   check_ok(hooke_system_commit(system));
   return system;
 }
@@ -70,7 +59,7 @@ static hooke_system *build_sheet(int kinds, int moving) {
   struct random_source source = {77};
   int64_t *number = new_order(&source, PARTICLES), *place = new_order(&source, (int64_t)kinds * PARTICLES);
   int64_t *ends = new_block(2 * kinds * PARTICLES, (int64_t)sizeof *ends), count = 0;
-  double *q = new_doubles(3 * PARTICLES), *v = new_doubles(3 * PARTICLES);
+  owned_doubles *q = new_doubles(3 * PARTICLES), *v = new_doubles(3 * PARTICLES);
   for (int64_t k = 0; k < kinds * PARTICLES; k++) {
     const int64_t p = place[k] / kinds, row = p / SIDE + step[place[k] % kinds][0],
                   column = p % SIDE + step[place[k] % kinds][1];
@@ -83,46 +72,34 @@ static hooke_system *build_sheet(int kinds, int moving) {
     q[3 * number[p] + 2] = (double)(p / SIDE) + random_between(&source, 0.0, 0.1);
     v[3 * p] = moving ? random_between(&source, -1.0, 1.0) : 0.0;
   }
-  hooke_options *options;
-  hooke_system *system;
   const double mass = 1.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, PARTICLES, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.01));
+  hooke_system *system = small_system(PARTICLES, q, v, mass, 0);
+  owned_options *options = options_with("springs", "stiffness=50 damping=0.01");
   check_ok(hooke_system_add_springs(system, "net", count, ends, options));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   free(number);
   free(place);
   free(ends);
-  free(q);
-  free(v);
   return system;
 }
 
 /* At least positions and velocities, twice. */
-static void test_memory_of_a_cloth(void **unused) {
-  (void)unused;
+static void test_memory_of_a_cloth(no_state) {
   const double before = bytes_in_use();
-  hooke_system *system = build_cloth();
+  owned_system *system = build_cloth();
   check_between(bytes_of_run(system, "symplectic-euler", before) / PARTICLES, 96.0, 150.0);
   check_between(bytes_of_run(system, "forward-euler", before) / PARTICLES, 96.0, 150.0);
-  hooke_system_destroy(system);
 }
 
-static void test_memory_without_order(void **unused) {
-  (void)unused;
+static void test_memory_without_order(no_state) {
   const int kinds[] = {3, 6, 3, 6};
   for (int k = 0; k < 4; k++) {
     const double before = bytes_in_use();
-    hooke_system *system = build_sheet(kinds[k], k >= 2);
+    owned_system *system = build_sheet(kinds[k], k >= 2);
     const double springs = (double)hooke_system_count(system, "springs");
     const double least = 96.0 * PARTICLES + 16.0 * springs, most = 200.0 * PARTICLES + 24.0 * springs;
     check_between(bytes_of_run(system, "symplectic-euler", before), least, most);
     check_between((double)hooke_system_count(system, "spring_memory") / springs, 16.0, 34.0);
-    hooke_system_destroy(system);
   }
 }
 
@@ -146,27 +123,21 @@ static int32_t drive(int64_t count, double t, double *q, double *v, void *ctx) {
 static void build_rope(int driven, struct rope *rope) {
   struct random_source source = {3};
   int64_t *ends = new_block(2 * LONG_ROPE, (int64_t)sizeof *ends);
-  double *q = new_doubles(3 * LONG_ROPE);
+  owned_doubles *q = new_doubles(3 * LONG_ROPE);
   const double mass = 1.0;
   for (int64_t p = 0; p < LONG_ROPE; p++) {
     q[3 * p] = (double)p + random_between(&source, 0.0, 0.3);
     ends[2 * p] = p;
     ends[2 * p + 1] = p + 1;
   }
-  hooke_options *options;
   check_ok(hooke_system_create(&rope->system));
   check_ok(hooke_system_add_particles(rope->system, LONG_ROPE, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "stiffness", 100.0));
-  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+  owned_options *options = options_with("springs", "law=length stiffness=100 rest_length=1");
   check_ok(hooke_system_add_springs(rope->system, "rope", LONG_ROPE - 1, ends, options));
   const int64_t last = LONG_ROPE - 1;
   if (driven) check_ok(hooke_system_drive_callback(rope->system, 1, &last, drive, rope));
   check_ok(hooke_system_commit(rope->system));
-  hooke_options_destroy(options);
   free(ends);
-  free(q);
 }
 
 static int32_t look(int64_t step, const hooke_state *state, void *ctx) {
@@ -210,7 +181,7 @@ static void check_same(const struct outcome *found, const struct outcome *wanted
 }
 
 static void check_recent(const struct rope *rope, const struct outcome *outcome) {
-  hooke_state *recent = start_state(rope->system);
+  owned_state *recent = start_state(rope->system);
   assert_int_equal(hooke_integrator_count(outcome->integrator, "recent"), 1);
   check_ok(hooke_integrator_recent(outcome->integrator, 0, recent));
   check_status(hooke_integrator_recent(outcome->integrator, 1, recent), HOOKE_BAD_VALUE);
@@ -219,7 +190,6 @@ static void check_recent(const struct rope *rope, const struct outcome *outcome)
                   hooke_state_position(outcome->state));
   check_same_bits(hooke_state_size(recent), hooke_state_velocity(recent),
                   hooke_state_velocity(outcome->state));
-  hooke_state_destroy(recent);
 }
 
 static void compare(struct rope *rope, double step, int32_t status) {
@@ -240,8 +210,7 @@ static void compare(struct rope *rope, double step, int32_t status) {
   release(&watched);
 }
 
-static void test_last_good_state(void **unused) {
-  (void)unused;
+static void test_last_good_state(no_state) {
   struct rope rope = {NULL, 0, 0};
   build_rope(0, &rope);
   compare(&rope, 0.01, HOOKE_OK);
@@ -249,8 +218,7 @@ static void test_last_good_state(void **unused) {
   hooke_system_destroy(rope.system);
 }
 
-static void test_stops(void **unused) {
-  (void)unused;
+static void test_stops(no_state) {
   struct rope rope = {NULL, 40, 0};
   build_rope(1, &rope);
   compare(&rope, 0.01, HOOKE_STOPPED);

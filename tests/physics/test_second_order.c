@@ -19,26 +19,23 @@ struct problem {
 };
 
 static void start_problem(struct problem *p, struct run run, hooke_integrator **it, hooke_state **state) {
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   check_ok(
       hooke_integrator_create_second_order(p->size, p->force, NULL, p, 1, &p->inverse_mass, options, it));
   check_ok(hooke_state_create_second_order(p->size, state));
   assert_int_equal(hooke_state_size(*state), p->size);
   memcpy(hooke_state_position(*state), p->q, (size_t)p->size * sizeof(double));
   memcpy(hooke_state_velocity(*state), p->v, (size_t)p->size * sizeof(double));
-  hooke_options_destroy(options);
 }
 
 /* q and v at the end of a run. */
 static void run_problem(struct problem *p, struct run run, double end[8]) {
-  hooke_integrator *it;
-  hooke_state *state;
+  owned_integrator *it;
+  owned_state *state;
   start_problem(p, run, &it, &state);
   check_ok(hooke_integrator_run(it, state));
   memcpy(end, hooke_state_position(state), (size_t)p->size * sizeof(double));
   memcpy(end + p->size, hooke_state_velocity(state), (size_t)p->size * sizeof(double));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(it);
 }
 
 /* ---- forces ---- */
@@ -104,8 +101,7 @@ static double period(double amplitude) {
   return 2.0 * M_PI / sqrt(G) / a;
 }
 
-static void test_period(void **unused) {
-  (void)unused;
+static void test_period(no_state) {
   const char *tight[] = {"cvode-adams", "cvode-bdf", "rk8pd", "arkode-esdirk"};
   for (int k = 0; k < 4; k++) {
     struct problem p = pendulum;
@@ -127,8 +123,7 @@ static double error_at(const struct problem *problem, const char *method, double
 
 /* Every fixed-step method has the order that it has for particles, with and without damping, also where df/dv
  * is not symmetric. */
-static void test_orders(void **unused) {
-  (void)unused;
+static void test_orders(no_state) {
   const struct problem *problems[] = {&pendulum, &oscillator, &charge, &rods};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -147,8 +142,7 @@ static void test_orders(void **unused) {
   }
 }
 
-static void test_double_pendulum(void **unused) {
-  (void)unused;
+static void test_double_pendulum(no_state) {
   struct problem p = rods;
   double by_rk4[8], by_cvode[8], start[4] = {2.0, 1.0, 0.0, 0.0};
   run_problem(&p, (struct run){.method = "rk4", .step = 1e-3, .duration = 5.0}, by_rk4);
@@ -160,8 +154,7 @@ static void test_double_pendulum(void **unused) {
 }
 
 /* The numbers that fill up the last row of three change nothing: four pendulums are one, four times. */
-static void test_sizes(void **unused) {
-  (void)unused;
+static void test_sizes(no_state) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method) || is_implicit(method)) continue;
@@ -178,8 +171,7 @@ static void test_sizes(void **unused) {
   }
 }
 
-static void test_outcomes(void **unused) {
-  (void)unused;
+static void test_outcomes(no_state) {
   struct problem swings = pendulum, rises = pendulum;
   hooke_integrator *it;
   hooke_state *state;
@@ -205,18 +197,16 @@ static void test_outcomes(void **unused) {
 
 static void check_refused(int64_t size, hooke_force *force, int64_t count, double mass, const char *message) {
   const double masses[3] = {mass, mass, mass};
-  hooke_options *options = run_options((struct run){.method = "rk4", .step = 1.0});
+  owned_options *options = run_options((struct run){.method = "rk4", .step = 1.0});
   hooke_integrator *it = NULL;
   check_status(hooke_integrator_create_second_order(size, force, NULL, NULL, count, masses, options, &it),
                HOOKE_BAD_VALUE);
   check_message(message);
-  hooke_options_destroy(options);
 }
 
-static void test_refusals(void **unused) {
-  (void)unused;
+static void test_refusals(no_state) {
   struct problem p = pendulum;
-  hooke_integrator *it;
+  owned_integrator *it;
   hooke_state *state, *other;
   check_refused(0, swing, 1, 1.0, "size");
   check_refused(3, NULL, 1, 1.0, "force");
@@ -233,7 +223,6 @@ static void test_refusals(void **unused) {
   check_message("position[0]");
   hooke_state_destroy(other);
   hooke_state_destroy(state);
-  hooke_integrator_destroy(it);
 }
 
 static int32_t save_and_stop(int64_t step, const hooke_state *state, void *ctx) {
@@ -243,8 +232,7 @@ static int32_t save_and_stop(int64_t step, const hooke_state *state, void *ctx) 
 }
 
 /* A run goes on from a checkpoint with the bits of one that was not interrupted. */
-static void test_checkpoints(void **unused) {
-  (void)unused;
+static void test_checkpoints(no_state) {
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "implicit-midpoint"};
   for (int k = 0; k < 4; k++) {
     struct problem p = rods, heavier = rods;

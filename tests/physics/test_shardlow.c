@@ -6,7 +6,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <string.h>
 
 /* ---- one pair ---- */
 
@@ -14,29 +13,24 @@
 static double part_left(double z) {
   const double q[] = {0, 0, 0, 1, 0, 0}, v[] = {0, 0, 0, 1, 0, 0}, mass[] = {1.0, 3.0}, h = 0.5;
   const int64_t ends[] = {0, 1};
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 2, q, v, 2, mass, NULL));
   const double w = 1.0 / mass[0] + 1.0 / mass[1];
   small_springs(
       system, 1, ends,
       (struct springs){.law = "length", .stiffness = 0.0, .damping = 2.0 * z / (h * w), .rest_length = 1.0});
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 1));
   const double *u = hooke_state_velocity(state), left = u[3] - u[0];
   check_close(mass[0] * u[0] + mass[1] * u[3], 3.0, 1e-15);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return left;
 }
 
 /* From z = 1e-3 to 1e4 a half step: the relative velocity is what the formula says, falls as z rises, and
  * never grows nor changes its sign. */
-static void factor_is_the_formula(void **unused) {
-  (void)unused;
+static void factor_is_the_formula(no_state) {
   double before = 1.0;
   for (int k = 0; k <= 140; k++) {
     const double z = pow(10.0, -3.0 + k / 20.0), factor = 1.0 / (1.0 + z + z * z / 2.0);
@@ -55,13 +49,12 @@ static double total(const hooke_system *system, hooke_state *state) {
 }
 
 /* Momentum and moment of momentum stay to rounding, and the energy falls. */
-static void momentum_stays(void **unused) {
-  (void)unused;
+static void momentum_stays(no_state) {
   const double dampings[] = {1e-3, 1.0, 1e3, 1e6};
   for (int k = 0; k < 4; k++) {
-    hooke_system *system = small_net((uint64_t)(k + 1), dampings[k], 1e-6, 0);
-    hooke_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = 1e-3});
-    hooke_state *state = start_state(system);
+    owned_system *system = small_net((uint64_t)(k + 1), dampings[k], 1e-6, 0);
+    owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = 1e-3});
+    owned_state *state = start_state(system);
     struct random_source source = {99};
     double *v = hooke_state_velocity(state), before[6], after[6];
     for (int i = 0; i < 3 * SMALL_NET_PARTICLES; i++)
@@ -75,25 +68,19 @@ static void momentum_stays(void **unused) {
     for (int a = 0; a < 6; a++)
       check_close(after[a], before[a], 1e-12);
     assert_true(total(system, state) < energy);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
 /* Stable up to 2/omega of the frozen springs, however strong the damping is; and not above, where it is weak.
  * */
-static void damping_leaves_the_limit(void **unused) {
-  (void)unused;
+static void damping_leaves_the_limit(no_state) {
   if (!hooke_build_fact("lapack")[0]) skip();
   const double dampings[] = {0.0, 1e-3, 0.1, 10.0, 1e4};
   for (int k = 0; k < 5; k++) {
-    hooke_system *system = small_net(7, dampings[k], 1e-6, 1);
-    hooke_options *run = run_options((struct run){.method = "shardlow", .step = 1e-3, .duration = 1.0});
-    hooke_measurement *limit = NULL;
-    hooke_options *options = NULL;
-    check_ok(hooke_options_create("limit", &options));
-    check_ok(hooke_options_set_text(options, "methods", "shardlow,verlet"));
+    owned_system *system = small_net(7, dampings[k], 1e-6, 1);
+    owned_options *run = run_options((struct run){.method = "shardlow", .step = 1e-3, .duration = 1.0});
+    owned_measurement *limit = NULL;
+    owned_options *options = options_with("limit", "methods=shardlow,verlet");
     check_ok(hooke_measurement_create("limit", system, run, options, &limit));
     check_ok(hooke_measurement_run(limit, NULL));
     const double predicted = hooke_measurement_number(limit, "rows", 0, "predicted"),
@@ -103,19 +90,13 @@ static void damping_leaves_the_limit(void **unused) {
       check_between(measured / predicted, 0.999, 1.002);
     else
       check_between(measured / predicted, 0.999, INFINITY);
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_run(system, (struct run){.method = "shardlow", .step = 0.98 * predicted});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     hooke_state_velocity(state)[5] += 1e-6;
     const double energy = total(system, state);
     check_ok(hooke_integrator_step(integrator, state, 20000));
     check_between(total(system, state) / energy, 0.0, 1e3);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_measurement_destroy(limit);
-    hooke_options_destroy(options);
-    hooke_options_destroy(run);
-    hooke_system_destroy(system);
   }
 }
 
@@ -135,16 +116,15 @@ static int32_t brake(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* After the first sweep, and the predicted velocity; one that stops leaves the state as it was. */
-static void callback_sees_the_predicted_velocity(void **unused) {
-  (void)unused;
+static void callback_sees_the_predicted_velocity(no_state) {
   const double q[] = {0, 0, 0}, v[] = {1, 0, 0}, h = 0.25, drag = 0.8;
   struct witness witness = {0};
-  hooke_system *system = small_system(1, q, v, 1.0, 0);
+  owned_system *system = small_system(1, q, v, 1.0, 0);
   check_ok(hooke_system_set_force(system, brake, NULL, &witness));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 1));
   const double z = h / 2.0 * drag, factor = 1.0 / (1.0 + z + z * z / 2.0);
   const double half = factor * (1.0 - h / 2.0 * 0.5), ahead = half - h / 2.0 * 0.5 * factor;
@@ -155,30 +135,23 @@ static void callback_sees_the_predicted_velocity(void **unused) {
   const double before = hooke_state_velocity(state)[0];
   check_status(hooke_integrator_step(integrator, state, 1), HOOKE_STOPPED);
   assert_true(hooke_state_velocity(state)[0] == before);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* A cable that goes slack is not pushed: its damper takes no more than its tension. */
-static void cables_never_push(void **unused) {
-  (void)unused;
+static void cables_never_push(no_state) {
   const double q[] = {0, 0, 0, 1.1, 0, 0}, v[] = {0, 0, 0, -5, 0, 0}, h = 1e-3, kappa = 10.0;
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, v, 1.0, 1);
+  owned_system *system = small_system(2, q, v, 1.0, 1);
   small_springs(system, 1, ends,
                 (struct springs){
                     .law = "length", .stiffness = kappa, .damping = 1e3, .rest_length = 1.0, .pull_only = 1});
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
+  owned_state *state = start_state(system);
   /* while it is taut, tension and damper are in balance, and then there is neither */
   check_ok(hooke_integrator_step(integrator, state, 40));
   check_close(hooke_state_velocity(state)[3], -5.0, 2.0 * h * kappa * 0.1);
   check_close(hooke_state_position(state)[3], 1.1 - 40.0 * h * 5.0, 1e-3);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -1,6 +1,7 @@
 /* Strands: their particles, what joins them, and that they are at rest. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,27 +9,19 @@
 
 static const double from[3] = {1.0, 2.0, -0.5}, to[3] = {2.0, 0.0, 1.5}; /* 3 m apart */
 
-static hooke_options *new_options(int64_t segments, double curl, double turns) {
-  static const char *const family[] = {"stretch.stiffness", "bend.stiffness", "twist.stiffness",
-                                       "altitude.stiffness"};
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("strand", &options));
+static hooke_options *strand_options(int64_t segments, double curl, double turns) {
+  hooke_options *options = options_with("strand",
+                                        "segments=%d density=0.5 stretch.stiffness=10 bend.stiffness=20 "
+                                        "twist.stiffness=30 altitude.stiffness=40",
+                                        (int)segments);
   check_ok(hooke_options_set_numbers(options, "from", 3, from));
   check_ok(hooke_options_set_numbers(options, "to", 3, to));
-  check_ok(hooke_options_set_number(options, "segments", (double)segments));
-  check_ok(hooke_options_set_number(options, "density", 0.5));
-  if (curl > 0.0) {
-    check_ok(hooke_options_set_number(options, "curl", curl));
-    check_ok(hooke_options_set_number(options, "turns", turns));
-  }
-  for (int k = 0; k < 4; k++)
-    check_ok(hooke_options_set_number(options, family[k], 10.0 * (k + 1)));
+  if (curl > 0.0) set_options(options, "curl=%.17g turns=%.17g", curl, turns);
   return options;
 }
 
 static hooke_system *new_strand(const hooke_options *options) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   return system;
@@ -48,11 +41,9 @@ static void about_axis(const double *q, double *along, double *distance) {
 
 static void check_at_rest(const hooke_system *system, const double *q) {
   const int64_t n = hooke_system_particle_count(system);
-  double *force = new_doubles(3 * n), *still = new_doubles(3 * n);
+  owned_doubles *force = new_doubles(3 * n), *still = new_doubles(3 * n);
   check_ok(hooke_system_force(system, 0.0, q, still, force));
   check_between(largest(3 * n, force), 0.0, 1e-12);
-  free(force);
-  free(still);
 }
 
 static void check_counts(const hooke_system *system, int64_t n) {
@@ -71,12 +62,11 @@ static void check_counts(const hooke_system *system, int64_t n) {
   free(ends);
 }
 
-static void a_straight_strand_winds_about_its_axis(void **unused) {
-  (void)unused;
+static void a_straight_strand_winds_about_its_axis(no_state) {
   enum { SEGMENTS = 9, N = 2 * SEGMENTS + 1 };
-  hooke_options *options = new_options(SEGMENTS, 0.0, 0.0);
-  hooke_system *system = new_strand(options);
-  hooke_state *state = start_state(system);
+  owned_options *options = strand_options(SEGMENTS, 0.0, 0.0);
+  owned_system *system = new_strand(options);
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), piece = 3.0 / SEGMENTS;
   check_counts(system, N);
   double mass = 0.0;
@@ -102,18 +92,14 @@ static void a_straight_strand_winds_about_its_axis(void **unused) {
     check_between(second / first, 1.3, 1.4);
     check_close(rest[7 * k + 4] + rest[7 * k + 5] + rest[7 * k + 6], rest[4] + rest[5] + rest[6], 1e-14);
   }
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
-  hooke_options_destroy(options);
 }
 
-static void a_curl_is_a_helix(void **unused) {
-  (void)unused;
+static void a_curl_is_a_helix(no_state) {
   enum { SEGMENTS = 20, N = SEGMENTS + 1 };
   for (int left = 0; left <= 1; left++) {
-    hooke_options *options = new_options(SEGMENTS, 0.2, left ? -2.5 : 2.5);
-    hooke_system *system = new_strand(options);
-    hooke_state *state = start_state(system);
+    owned_options *options = strand_options(SEGMENTS, 0.2, left ? -2.5 : 2.5);
+    owned_system *system = new_strand(options);
+    owned_state *state = start_state(system);
     const double *q = hooke_state_position(state);
     check_counts(system, N);
     double length = 0.0, mass = 0.0, rest[7 * (N - 3)];
@@ -132,23 +118,19 @@ static void a_curl_is_a_helix(void **unused) {
     check_ok(hooke_system_members(system, "altitude", NULL, NULL, NULL, rest));
     for (int k = 0; k < 7 * (N - 3); k++)
       assert_true((rest[k] < 0.0) == left && fabs(rest[k]) == fabs(rest[k % 7]));
-    hooke_state_destroy(state);
-    hooke_system_destroy(system);
-    hooke_options_destroy(options);
   }
 }
 
 /* The shortest strands: no springs that would need more particles. */
-static void short_strands(void **unused) {
-  (void)unused;
-  hooke_options *options = new_options(1, 0.0, 0.0);
+static void short_strands(no_state) {
+  hooke_options *options = strand_options(1, 0.0, 0.0);
   hooke_system *system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 3);
   assert_int_equal(hooke_system_count(system, "springs"), 3);
   assert_int_equal(hooke_system_count(system, "altitude"), 0);
   hooke_system_destroy(system);
   hooke_options_destroy(options);
-  options = new_options(1, 0.2, 0.3);
+  options = strand_options(1, 0.2, 0.3);
   system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 2);
   assert_int_equal(hooke_system_count(system, "springs"), 1);
@@ -156,15 +138,12 @@ static void short_strands(void **unused) {
   hooke_options_destroy(options);
 }
 
-static void ends_are_pinned_by_name(void **unused) {
-  (void)unused;
-  hooke_options *options = new_options(4, 0.0, 0.0);
+static void ends_are_pinned_by_name(no_state) {
+  owned_options *options = strand_options(4, 0.0, 0.0);
   check_ok(hooke_options_set_text(options, "pinned", "end,start,1"));
-  hooke_system *system = new_strand(options);
+  owned_system *system = new_strand(options);
   for (int k = 0; k < 9; k++)
     assert_true((hooke_system_inverse_mass(system)[k] == 0.0) == (k == 0 || k == 1 || k == 8));
-  hooke_system_destroy(system);
-  hooke_options_destroy(options);
 }
 
 int main(void) {

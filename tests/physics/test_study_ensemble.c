@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,17 +35,14 @@ static double statistic(const hooke_measurement *study, const char *method, cons
 
 static hooke_measurement *start(const hooke_system *system, struct study s) {
   hooke_measurement *study = NULL;
-  hooke_options *run = run_options((struct run){.duration = s.duration, .every = s.every}), *options;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", s.methods));
+  owned_options *run = run_options((struct run){.duration = s.duration, .every = s.every}), *options;
+  options = options_with("study", "methods=%s", s.methods);
   if (s.watch) check_ok(hooke_options_set_text(options, "watch", s.watch));
   if (s.step > 0.0) check_ok(hooke_options_set_number(options, "steps", s.step));
   if (s.rtol > 0.0) check_ok(hooke_options_set_number(options, "tolerances", s.rtol));
   check_ok(hooke_options_set_number(options, "ensemble", s.members));
   if (s.seed > 0.0) check_ok(hooke_options_set_number(options, "seed", s.seed));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
     skip();
@@ -67,11 +63,10 @@ static double error_in(const hooke_measurement *study, const char *quantity) {
 
 /* For the oscillator x(t) = cos(w t), by the known error of verlet: its period has a relative error of (w
  * h)^2/24. */
-static void errors_of_what_is_watched_are_true(void **unused) {
-  (void)unused;
+static void errors_of_what_is_watched_are_true(no_state) {
   const double omega = 6.0, h = 0.01, period = 2.0 * 3.14159265358979323846 / omega;
-  hooke_system *system = small_oscillator(omega);
-  hooke_measurement *study = start(system, (struct study){.duration = 10.0,
+  owned_system *system = small_oscillator(omega);
+  owned_measurement *study = start(system, (struct study){.duration = 10.0,
                                                           .every = 0.02,
                                                           .methods = "verlet",
                                                           .step = h,
@@ -105,8 +100,6 @@ static void errors_of_what_is_watched_are_true(void **unused) {
   /* all of it is trusted, so no statistics are needed */
   assert_int_equal(hooke_measurement_row_count(study, "ensemble"), 0);
   assert_true(isnan(statistic(study, "verlet", "kinetic", "mean")));
-  hooke_measurement_destroy(study);
-  hooke_system_destroy(system);
 }
 
 /* ---- ensembles ---- */
@@ -162,9 +155,8 @@ static void check_rate(const hooke_system *system, struct study s, const hooke_m
   s.methods = method;
   for (int k = 0; k < others; k++) {
     s.seed = 3.0 + k;
-    hooke_measurement *other = start(system, s);
+    owned_measurement *other = start(system, s);
     count_agreement(other, large, method, &means, &agreeing);
-    hooke_measurement_destroy(other);
   }
   print_message("%d of %d means agree\n", (int)agreeing, (int)means);
   assert_true((double)agreeing >= 0.95 * (double)means - 1e-9);
@@ -172,12 +164,12 @@ static void check_rate(const hooke_system *system, struct study s, const hooke_m
 
 /* `planted` loses energy at its step; `method` loses none that is visible. */
 static void test_ensembles(hooke_system *system, struct study s, const char *method, const char *planted) {
-  hooke_measurement *small = start(system, s);
+  owned_measurement *small = start(system, s);
   struct study larger = s;
   larger.members *= getenv("HOOKE_LONG") ? 10.0 : 5.0;
   larger.seed = 2.0;
   larger.methods = "symplectic-euler"; /* no requirement here, and the least time */
-  hooke_measurement *large = start(system, larger);
+  owned_measurement *large = start(system, larger);
   check_between(hooke_measurement_number(small, "reference", 0, "trusted_until"), 0.05 * s.duration,
                 0.95 * s.duration);
   check_between(hooke_measurement_number(small, "ensemble", 0, "from"),
@@ -187,13 +179,10 @@ static void test_ensembles(hooke_system *system, struct study s, const char *met
   check_rate(system, s, small, large, method);
   check_between(statistic(small, planted, "energy", "bias"), -INFINITY, -5.0);
   check_between(statistic(small, planted, "kinetic", "bias"), -INFINITY, -5.0);
-  hooke_measurement_destroy(large);
-  hooke_measurement_destroy(small);
   hooke_system_destroy(system);
 }
 
-static void a_pendulum_has_statistics(void **unused) {
-  (void)unused;
+static void a_pendulum_has_statistics(no_state) {
   test_ensembles(double_pendulum(),
                  (struct study){.duration = 30.0,
                                 .every = 0.1,
@@ -205,8 +194,7 @@ static void a_pendulum_has_statistics(void **unused) {
                  "cvode-adams", "backward-euler");
 }
 
-static void a_crumpling_cloth_has_statistics(void **unused) {
-  (void)unused;
+static void a_crumpling_cloth_has_statistics(no_state) {
   test_ensembles(small_crumpling_cloth(4),
                  (struct study){.duration = 5.0,
                                 .every = 0.1,
@@ -218,9 +206,8 @@ static void a_crumpling_cloth_has_statistics(void **unused) {
                  "cvode-adams", "backward-euler");
 }
 
-static void the_seed_decides(void **unused) {
-  (void)unused;
-  hooke_system *system = double_pendulum();
+static void the_seed_decides(no_state) {
+  owned_system *system = double_pendulum();
   double mean[3];
   for (int k = 0; k < 3; k++) {
     hooke_measurement *study =
@@ -235,7 +222,6 @@ static void the_seed_decides(void **unused) {
   }
   check_same_bits(1, &mean[0], &mean[1]);
   assert_true(mean[0] != mean[2]);
-  hooke_system_destroy(system);
 }
 
 /* ---- the noise of starts ---- */
@@ -303,40 +289,31 @@ static void check_noise(const struct starts *starts, double noise) {
   check_between(torn, 0.0, 1e-3 * noise);
 }
 
-static void the_noise_is_what_it_is_said_to_be(void **unused) {
-  (void)unused;
+static void the_noise_is_what_it_is_said_to_be(no_state) {
   struct starts starts = {.last = 0.0};
-  hooke_system *system = chain_and_plate(&starts);
-  hooke_measurement *study = start(
+  owned_system *system = chain_and_plate(&starts);
+  owned_measurement *study = start(
       system,
       (struct study){
           .duration = 12.0, .every = 1.0, .members = MEMBERS, .methods = "symplectic-euler", .step = 0.01});
 
   assert_true(starts.count >= STARTS);
   check_noise(&starts, hooke_measurement_number(study, "ensemble", 0, "noise"));
-  hooke_measurement_destroy(study);
-  hooke_system_destroy(system);
 }
 
-static void one_start_is_refused(void **unused) {
-  (void)unused;
-  hooke_system *system = double_pendulum();
-  hooke_options *run = run_options((struct run){.duration = 1.0}), *options;
+static void one_start_is_refused(no_state) {
+  owned_system *system = double_pendulum();
+  owned_options *run = run_options((struct run){.duration = 1.0}), *options;
   hooke_measurement *study = NULL;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_number(options, "ensemble", 1.0));
+  options = options_with("study", "ensemble=1");
   int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status != HOOKE_NOT_BUILT) {
     check_status(status, HOOKE_BAD_VALUE);
     check_message("at least 2");
-    check_ok(hooke_options_set_number(options, "ensemble", 2.0));
-    check_ok(hooke_options_set_text(options, "watch", "3.y"));
+    set_options(options, "ensemble=2 watch=3.y");
     check_status(hooke_measurement_create("study", system, run, options, &study), HOOKE_BAD_VALUE);
     check_message("particles 0 to 2");
   }
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -32,15 +32,14 @@ static hooke_state *start_at_one(int64_t size) {
   return state;
 }
 
-static void test_real_factor(void **unused) {
-  (void)unused;
+static void test_real_factor(no_state) {
   const double rates[] = {-1.0, -3.7, 0.25, -19.0, 2.0, 0.0};
   const double h = 0.1;
   for (size_t k = 0; k < sizeof rates / sizeof rates[0]; k++) {
     struct rate a = {rates[k], 0.0, 0};
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_first_order(1, multiply, &a, (struct run){.method = "forward-euler", .step = h});
-    hooke_state *state = start_at_one(1);
+    owned_state *state = start_at_one(1);
     const double factor = 1.0 + rates[k] * h;
     for (int step = 0; step < 20; step++) {
       const double before = hooke_state_position(state)[0];
@@ -50,18 +49,15 @@ static void test_real_factor(void **unused) {
     }
     assert_int_equal(a.calls, 20);
     assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 20);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
 }
 
-static void test_complex_factor(void **unused) {
-  (void)unused;
+static void test_complex_factor(no_state) {
   struct rate a = {-0.8, 5.0, 0};
   const double h = 0.05, real = 1.0 + a.real * h, imaginary = a.imaginary * h;
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_first_order(2, multiply, &a, (struct run){.method = "forward-euler", .step = h});
-  hooke_state *state = start_at_one(2);
+  owned_state *state = start_at_one(2);
   for (int step = 0; step < 50; step++) {
     double *x = hooke_state_position(state);
     const double expected[] = {real * x[0] - imaginary * x[1], real * x[1] + imaginary * x[0]};
@@ -70,8 +66,6 @@ static void test_complex_factor(void **unused) {
     check_close(x[0], expected[0], 4 * DBL_EPSILON * size);
     check_close(x[1], expected[1], 4 * DBL_EPSILON * size);
   }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* ---- every method that takes first-order problems ---- */
@@ -82,23 +76,20 @@ static double error_of(const char *method, double step, double rtol) {
   const struct run run =
       adaptive ? (struct run){.method = method, .rtol = rtol, .atol = rtol * 1e-2, .duration = 2.0}
                : (struct run){.method = method, .step = step, .duration = 2.0};
-  hooke_integrator *integrator = start_first_order(2, multiply, &a, run);
-  hooke_state *state = start_at_one(2);
+  owned_integrator *integrator = start_first_order(2, multiply, &a, run);
+  owned_state *state = start_at_one(2);
   check_ok(hooke_integrator_run(integrator, state));
   check_close(hooke_state_time(state), 2.0, 0.0);
   const double *x = hooke_state_position(state), decay = exp(-1.0);
   const double error = hypot(x[0] - decay * cos(6.0), x[1] - decay * sin(6.0));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
   return error;
 }
 
 static int32_t takes_first_order(const char *method) {
   struct rate a = {-1.0, 0.0, 0};
   hooke_integrator *integrator = NULL;
-  hooke_options *options = run_options((struct run){.method = method, .step = 0.1});
+  owned_options *options = run_options((struct run){.method = method, .step = 0.1});
   const int32_t status = hooke_integrator_create_first_order(1, multiply, &a, options, &integrator);
-  hooke_options_destroy(options);
   if (status == HOOKE_OK)
     hooke_integrator_destroy(integrator);
   else
@@ -106,8 +97,7 @@ static int32_t takes_first_order(const char *method) {
   return status;
 }
 
-static void test_every_method(void **unused) {
-  (void)unused;
+static void test_every_method(no_state) {
   int64_t taken = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -138,8 +128,7 @@ static void test_every_method(void **unused) {
   assert_true(taken >= 1);
 }
 
-static void test_symplectic_euler_refuses(void **unused) {
-  (void)unused;
+static void test_symplectic_euler_refuses(no_state) {
   assert_int_equal(takes_first_order("symplectic-euler"), HOOKE_UNSUITED);
   check_message("symplectic-euler");
   check_message("positions and velocities");

@@ -8,7 +8,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- work ---- */
@@ -27,8 +26,7 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 }
 
 /* The force at the end of a step is that of the next one's start, unless velocities are in it. */
-static void force_evaluations(void **unused) {
-  (void)unused;
+static void force_evaluations(no_state) {
   const struct expense expenses[] = {{"plain", 0, 0, 0, "auto", 1, 1},
                                      {"plain", 0, 0, 0, "explicit", 1, 1},
                                      {"drag", 0, 0.5, 0, "implicit", 1, 1},
@@ -42,14 +40,14 @@ static void force_evaluations(void **unused) {
     const struct expense *e = &expenses[k];
     const double q[] = {0, 0, 0, 1, 0, 0, 1, 1.5, 0};
     const int64_t ends[] = {0, 1, 1, 2};
-    hooke_system *system = small_system(3, q, NULL, 1.0, 1);
+    owned_system *system = small_system(3, q, NULL, 1.0, 1);
     small_springs(system, 2, ends, (struct springs){.stiffness = 4, .damping = e->damping, .rest_length = 1});
     check_ok(hooke_system_set_drag(system, e->drag));
     if (e->callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    hooke_integrator *integrator =
+    owned_integrator *integrator =
         start_run(system, (struct run){.method = "verlet", .step = 0.01, .verlet_damping = e->how});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_step(integrator, state, 40));
     check_ok(hooke_integrator_step(integrator, state, 60));
     const int64_t found = hooke_integrator_count(integrator, "force_evaluations");
@@ -65,9 +63,6 @@ static void force_evaluations(void **unused) {
                         e->damping == 0.0 ? e->how
                         : solves          ? "implicit"
                                           : "explicit");
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
@@ -89,15 +84,14 @@ static int32_t brake(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* It sees the predicted velocity at the second kick. All numbers are binary fractions. */
-static void callback_sees_the_predicted_velocity(void **unused) {
-  (void)unused;
+static void callback_sees_the_predicted_velocity(no_state) {
   const double q[] = {0, 0, 0}, v[] = {1, 0, 0};
   struct witness witness = {0};
-  hooke_system *system = small_system(1, q, v, 1.0, 0);
+  owned_system *system = small_system(1, q, v, 1.0, 0);
   check_ok(hooke_system_set_force(system, brake, NULL, &witness));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.25});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.25});
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 1));
   assert_int_equal(witness.calls, 2);
   const double half = 1.0 - 0.125 * 0.5, ahead = half - 0.125 * 0.5, whole = half - 0.125 * 0.5 * ahead;
@@ -107,9 +101,6 @@ static void callback_sees_the_predicted_velocity(void **unused) {
   check_close(witness.v[1], ahead, 0.0);
   check_close(hooke_state_velocity(state)[0], whole, 0.0);
   check_close(hooke_state_position(state)[0], 0.25 * half, 0.0);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* ---- one oscillator ---- */
@@ -129,14 +120,13 @@ static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) 
 }
 
 /* Steps of the scalar formula: in the spring explicit and solved for, in the ether a division. */
-static void one_step_is_the_formula(void **unused) {
-  (void)unused;
+static void one_step_is_the_formula(no_state) {
   const double omega = 3.0, zeta = 0.4, h = 0.3, c = 2.0 * zeta * omega;
   for (int how = 0; how < 3; how++) {
-    hooke_system *system = damped_oscillator(omega, zeta, how == 2);
-    hooke_integrator *integrator = start_run(
+    owned_system *system = damped_oscillator(omega, zeta, how == 2);
+    owned_integrator *integrator = start_run(
         system, (struct run){.method = "verlet", .step = h, .verlet_damping = how == 1 ? "implicit" : NULL});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     double x = 1.0, v = 0.0;
     for (int k = 0; k < 20; k++) {
       const double kick = h / 2.0 * (-omega * omega * x - c * v), half = v + kick;
@@ -147,38 +137,31 @@ static void one_step_is_the_formula(void **unused) {
       check_close(hooke_state_position(state)[3], x, 1e-14);
       check_close(hooke_state_velocity(state)[3], v, 3e-14);
     }
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
 /* A scene that has come to rest: velocities whose squares underflow are damped like any other. */
-static void hardly_any_velocity(void **unused) {
-  (void)unused;
+static void hardly_any_velocity(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0}, h = 0.1, gamma = 2.0;
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   small_springs(system, 1, ends,
                 (struct springs){.law = "length", .stiffness = 1.0, .damping = gamma, .rest_length = 1.0});
   check_ok(hooke_system_commit(system));
   const double speeds[] = {1e-3, 1e-99, 1e-101, 1e-150, 1e-200, 1e-300};
   for (size_t i = 0; i < 2 * sizeof speeds / sizeof speeds[0]; i++) {
     const size_t k = i / 2, how = i % 2;
-    hooke_integrator *integrator = start_run(
+    owned_integrator *integrator = start_run(
         system,
         (struct run){.method = "verlet", .step = h, .verlet_damping = how == 0 ? "explicit" : "implicit"});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     hooke_state_velocity(state)[3] = speeds[k];
     check_ok(hooke_integrator_step(integrator, state, 1));
     const double half = 1.0 - h / 2.0 * gamma, stretch = k == 0 ? h * half : 0.0; /* else it rounds to none */
     const double expected = how == 0 ? half - h / 2.0 * (stretch + gamma * (2.0 * half - 1.0))
                                      : (half - h / 2.0 * stretch) / (1.0 + h / 2.0 * gamma);
     check_close(hooke_state_velocity(state)[3] / speeds[k], expected, 1e-12);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- explicit damping ---- */
@@ -193,16 +176,15 @@ static double largest_explicit(const hooke_system *system) {
 }
 
 /* At its largest step nothing grows, however strong the damping is, and the choice is made by the step. */
-static void explicit_damping_is_stable(void **unused) {
-  (void)unused;
+static void explicit_damping_is_stable(no_state) {
   const double dampings[] = {1e-3, 0.1, 1.0, 10.0, 1e3};
   for (int k = 0; k < 10; k++) {
-    hooke_system *system = small_net((uint64_t)(k + 1), dampings[k % 5], 0.0, 1);
+    owned_system *system = small_net((uint64_t)(k + 1), dampings[k % 5], 0.0, 1);
     const double most = largest_explicit(system);
     for (int above = 0; above < 2; above++) {
       const double step = (above ? 1.0 + 1e-9 : 1.0 - 1e-9) * most;
-      hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
-      hooke_state *state = start_state(system);
+      owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
+      owned_state *state = start_state(system);
       assert_int_equal(hooke_integrator_count(integrator, "explicit_damping"), !above);
       hooke_state_velocity(state)[5] += 1e-6;
       const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
@@ -213,37 +195,30 @@ static void explicit_damping_is_stable(void **unused) {
         after = fmax(after, hooke_system_energy(system, "total", q, v));
       }
       check_between(after / before, 0.0, 1.0 + 1e-3);
-      hooke_state_destroy(state);
-      hooke_integrator_destroy(integrator);
     }
-    hooke_options *options =
+    owned_options *options =
         run_options((struct run){.method = "verlet", .step = 1.01 * most, .verlet_damping = "explicit"});
     hooke_integrator *refused = NULL;
     check_status(hooke_integrator_create(system, options, &refused), HOOKE_BAD_VALUE);
     check_message("explicit; allowed: up to");
-    hooke_options_destroy(options);
-    hooke_system_destroy(system);
   }
 }
 
 /* Where a damper depends on more than a direction no step is known to be stable. */
-static void damped_cables_are_solved_for(void **unused) {
-  (void)unused;
+static void damped_cables_are_solved_for(no_state) {
   const double q[] = {0, 0, 0, 1.5, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   small_springs(system, 1, ends,
                 (struct springs){.stiffness = 1.0, .damping = 0.1, .rest_length = 1.0, .pull_only = 1});
   check_ok(hooke_system_commit(system));
   hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1e-3});
   assert_int_equal(hooke_integrator_count(integrator, "explicit_damping"), 0);
   hooke_integrator_destroy(integrator);
-  hooke_options *options =
+  owned_options *options =
       run_options((struct run){.method = "verlet", .step = 1e-3, .verlet_damping = "explicit"});
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("only pull");
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* ---- energy ---- */
@@ -268,12 +243,11 @@ static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
 
 /* A stiff elastic pendulum, nonlinear and without damping: energy oscillates without drift over 100 000
  * steps. */
-static void energy_stays_bounded(void **unused) {
-  (void)unused;
-  hooke_system *system = build_reference(find_reference("elastic-pendulum"));
+static void energy_stays_bounded(no_state) {
+  owned_system *system = build_reference(find_reference("elastic-pendulum"));
   struct energies e = {.system = system, .steps = 100000};
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 4e-3});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 4e-3});
+  owned_state *state = start_state(system);
   e.first = hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state));
   check_ok(hooke_integrator_on_step(integrator, 7, watch_energy, &e));
   check_ok(hooke_integrator_step(integrator, state, e.steps));
@@ -282,9 +256,6 @@ static void energy_stays_bounded(void **unused) {
       fabs(e.first) + hooke_system_energy(system, "kinetic", NULL, hooke_state_velocity(state));
   check_between(e.half[0], 1e-6 * weight, 0.05 * weight);
   check_between(e.half[1] / e.half[0], 0.8, 1.2);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

@@ -29,23 +29,19 @@ static int32_t note(const char *kind, const char *sentence, double t, double lim
 
 /* One step of a run with warnings; the bound of the oscillator is its limit. */
 static int32_t watch_run(const char *method, double step, struct warned *warned, double *q) {
-  hooke_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator =
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = method, .step = step, .duration = 10.0 * step, .every = step});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   if (warned) check_ok(hooke_integrator_on_warning(integrator, note, warned));
   const int32_t status = hooke_integrator_run(integrator, state);
   if (q) memcpy(q, hooke_state_position(state), 6 * sizeof(double));
   if (status == HOOKE_STOPPED)
     assert_int_equal(hooke_integrator_count(integrator, "stop_value"), warned->answer);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
   return status;
 }
 
-static void test_warnings(void **unused) {
-  (void)unused;
+static void test_warnings(no_state) {
   const struct {
     const char *method;
     double step;
@@ -80,15 +76,13 @@ static void test_warnings(void **unused) {
   }
 }
 
-static void test_a_warning_may_stop_the_run(void **unused) {
-  (void)unused;
+static void test_a_warning_may_stop_the_run(no_state) {
   struct warned warned = {.answer = 7};
   check_status(watch_run("verlet", 0.192, &warned, NULL), HOOKE_STOPPED);
   check_message("warning callback returned 7");
 }
 
-static void test_a_watch_changes_no_bits(void **unused) {
-  (void)unused;
+static void test_a_watch_changes_no_bits(no_state) {
   double watched[6], alone[6];
   struct warned warned = {.count = 0};
   check_ok(watch_run("symplectic-euler", 0.192, &warned, watched));
@@ -98,26 +92,21 @@ static void test_a_watch_changes_no_bits(void **unused) {
 }
 
 /* Each kind once a run, and again in the next run. */
-static void test_once_a_run(void **unused) {
-  (void)unused;
+static void test_once_a_run(no_state) {
   struct warned warned = {.count = 0};
-  hooke_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator = start_run(
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.192, .duration = 1920.0, .every = 0.192});
   check_ok(hooke_integrator_on_warning(integrator, note, &warned));
   for (int k = 1; k <= 2; k++) {
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_run(integrator, state));
-    hooke_state_destroy(state);
     assert_int_equal(warned.count, k);
   }
   check_ok(hooke_integrator_on_warning(integrator, NULL, NULL));
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(warned.count, 2);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 int main(void) {

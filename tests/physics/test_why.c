@@ -62,11 +62,9 @@ static hooke_measurement *explain(hooke_integrator *integrator) {
  * unless it is HOOKE_OK. */
 static int32_t explain_within(const hooke_integrator *integrator, double budget, hooke_progress *progress,
                               void *ctx, hooke_measurement **why) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("why", &options));
+  owned_options *options = new_options("why");
   if (budget > 0.0) check_ok(hooke_options_set_number(options, "budget", budget));
   check_ok(hooke_why_create(integrator, options, why));
-  hooke_options_destroy(options);
   hooke_measurement_on_progress(*why, progress, ctx);
   const int32_t status = hooke_measurement_run(*why, NULL);
   if (status == HOOKE_OK) return status;
@@ -86,26 +84,23 @@ static void check_text(const char *found, const char *expected) {
 /* The run with advice `place` finishes. */
 static void check_advice(const hooke_system *system, const hooke_integrator *integrator,
                          const hooke_measurement *why, int64_t place) {
-  hooke_options *options = NULL;
-  hooke_integrator *again = NULL;
-  hooke_state *state = start_state(system);
+  owned_options *options = NULL;
+  owned_integrator *again = NULL;
+  owned_state *state = start_state(system);
   check_ok(hooke_options_copy(hooke_integrator_options(integrator), &options));
   check_ok(hooke_why_advice_apply(why, place, options));
   check_ok(hooke_integrator_create(system, options, &again));
   check_ok(hooke_integrator_run(again, state));
   check_close(hooke_state_time(state), hooke_options_number(options, "duration"), 1e-12);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(again);
-  hooke_options_destroy(options);
 }
 
 static void check_callback(hooke_system *system, struct run run, const char *word, double time, double slack,
                            int64_t particle) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   const int32_t outcome = hooke_integrator_run(integrator, state);
   if (outcome != HOOKE_DIVERGED && outcome != HOOKE_SOLVER_FAILED) check_failed("outcome %d", (int)outcome);
-  hooke_measurement *why = explain(integrator);
+  owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "force-not-finite");
   check_text(hooke_measurement_text(why, "why", 0, "method"), run.method);
   check_close(hooke_measurement_number(why, "why", 0, "particle"), (double)particle, 0.0);
@@ -118,16 +113,12 @@ static void check_callback(hooke_system *system, struct run run, const char *wor
   check_text(hooke_measurement_text(why, "advice", 1, "option"), "");
   if (strstr(hooke_measurement_text(why, "advice", 1, "change"), word) == NULL)
     check_failed("%s", hooke_measurement_text(why, "advice", 1, "change"));
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);
 }
 
 /* NaN from a time on; infinite beyond a position; from fixed steps, from stages within steps, from a solver.
  */
-static void test_force_callbacks(void **unused) {
-  (void)unused;
+static void test_force_callbacks(no_state) {
   needs_lapack();
   const struct run runs[] = {
       {.method = "symplectic-euler", .step = 0.01, .duration = 3.0, .every = 0.5},
@@ -154,8 +145,7 @@ static void test_force_callbacks(void **unused) {
   check_callback(system, runs[0], "force callback", 0.6, 0.3, 1);
 }
 
-static void test_drive_callback(void **unused) {
-  (void)unused;
+static void test_drive_callback(no_state) {
   needs_lapack();
   struct fault fault = {.from = 0.995, .value = NAN};
   const int64_t first = 0;
@@ -174,45 +164,39 @@ static int32_t cubic_force(int64_t n, double t, const double *q, const double *v
   return 0;
 }
 
-static void test_innocent_callback(void **unused) {
-  (void)unused;
+static void test_innocent_callback(no_state) {
   needs_lapack();
-  hooke_system *system = row(1);
+  owned_system *system = row(1);
   check_ok(hooke_system_set_force(system, cubic_force, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.2, .duration = 400.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_measurement *why = explain(integrator);
+  owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
   check_between(hooke_measurement_number(why, "why", 0, "limit"), 0.1, 0.2);
   check_advice(system, integrator, why, 0);
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* ---- a diagnosis ---- */
 
 /* sqrt(k/m) = 10: the limit is 0.2; the growth of symplectic Euler is known, and so is the step that
  * overflows. */
-static void test_numbers_of_an_oscillator(void **unused) {
-  (void)unused;
+static void test_numbers_of_an_oscillator(no_state) {
   needs_lapack();
-  hooke_system *system = small_oscillator(10.0);
-  hooke_integrator *every_step = start_run(
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *every_step = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21});
-  hooke_integrator *rarely = start_run(
+  owned_integrator *rarely = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 21.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(every_step, state), HOOKE_DIVERGED);
   const double last_good = hooke_state_time(state), bad = hooke_integrator_number(every_step, "diverged_at");
-  hooke_state *late = start_state(system);
+  owned_state *late = start_state(system);
   check_status(hooke_integrator_run(rarely, late), HOOKE_DIVERGED);
   check_close(hooke_state_time(late), 0.0, 0.0);
-  hooke_measurement *why = explain(rarely);
+  owned_measurement *why = explain(rarely);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
   check_close(hooke_measurement_number(why, "why", 0, "limit"), 0.2, 1e-6);
   check_close(hooke_measurement_number(why, "why", 0, "step"), 0.21, 0.0);
@@ -238,71 +222,52 @@ static void test_numbers_of_an_oscillator(void **unused) {
   check_status(hooke_why_advice_apply(why, 9, NULL), HOOKE_BAD_VALUE);
 
   /* the same from states that were kept */
-  hooke_measurement *kept = NULL;
-  hooke_state *first = start_state(system);
+  owned_measurement *kept = NULL;
+  owned_state *first = start_state(system);
   check_ok(hooke_why_create_kept(system, hooke_integrator_options(every_step), first, state, NULL, &kept));
   check_ok(hooke_measurement_run(kept, NULL));
   check_status(hooke_measurement_run(kept, NULL), HOOKE_BAD_CALL);
   check_text(hooke_measurement_text(kept, "why", 0, "cause"), "step-above-limit");
   check_close(hooke_measurement_number(kept, "why", 0, "time"), last_good, 0.0);
   check_close(hooke_measurement_number(kept, "why", 0, "noticed"), bad, 0.0);
-  hooke_measurement_destroy(kept);
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(first);
-  hooke_state_destroy(late);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(rarely);
-  hooke_integrator_destroy(every_step);
-  hooke_system_destroy(system);
 }
 
 /* Repeating the steps and trying advice leaves the integrator unchanged. */
-static void test_asking_changes_nothing(void **unused) {
-  (void)unused;
+static void test_asking_changes_nothing(no_state) {
   needs_lapack();
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   const struct run run = {.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21};
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   const int64_t steps = hooke_integrator_count(integrator, "steps");
-  hooke_measurement *one = explain(integrator), *two = explain(integrator);
+  owned_measurement *one = explain(integrator), *two = explain(integrator);
   check_text(hooke_measurement_text(one, "why", 0, "sentence"),
              hooke_measurement_text(two, "why", 0, "sentence"));
   check_text(hooke_measurement_text(one, "advice", 0, "value"),
              hooke_measurement_text(two, "advice", 0, "value"));
   assert_int_equal(hooke_integrator_count(integrator, "steps"), steps);
-  hooke_measurement_destroy(one);
-  hooke_measurement_destroy(two);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* Error-controlled methods with tolerances a thousand times the motion: energy creeps up until it is too
  * much. */
-static void test_tolerances_that_are_too_loose(void **unused) {
-  (void)unused;
+static void test_tolerances_that_are_too_loose(no_state) {
   needs_lapack();
   const char *const methods[] = {"cvode-adams", "rk8pd"};
   for (int k = 0; k < 2; k++) {
     if (!hooke_method_is_built(methods[k])) continue;
-    hooke_system *system = small_oscillator(10.0);
-    hooke_integrator *integrator = start_run(
+    owned_system *system = small_oscillator(10.0);
+    owned_integrator *integrator = start_run(
         system, (struct run){.method = methods[k], .duration = 1000.0, .rtol = 0.1, .atol = 1000.0});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-    hooke_measurement *why = explain(integrator);
+    owned_measurement *why = explain(integrator);
     check_text(hooke_measurement_text(why, "why", 0, "cause"), "solver-failed");
     assert_non_null(strstr(hooke_measurement_text(why, "why", 0, "sentence"),
                            "the tolerances (rtol 0.1) let errors grow"));
     assert_true(isnan(hooke_measurement_number(why, "why", 0, "step")));
     check_text(hooke_measurement_text(why, "advice", 0, "option"), "method");
     check_advice(system, integrator, why, 0);
-    hooke_measurement_destroy(why);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
@@ -316,8 +281,7 @@ static int32_t escaping_force(int64_t n, double t, const double *q, const double
   return 0;
 }
 
-static void test_solvers_that_give_up(void **unused) {
-  (void)unused;
+static void test_solvers_that_give_up(no_state) {
   needs_lapack();
   const struct run runs[] = {
       {.method = "cvode-adams", .duration = 100.0},
@@ -328,14 +292,14 @@ static void test_solvers_that_give_up(void **unused) {
     if (!hooke_method_is_built(runs[k].method)) continue;
     const double position[] = {0, 0, 0, 1.1, 0, 0}, velocity[] = {0, 0, 0, 0, 0.5, 0};
     const int64_t ends[] = {0, 1};
-    hooke_system *system = small_system(2, position, velocity, 1.0, 1);
+    owned_system *system = small_system(2, position, velocity, 1.0, 1);
     small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 1.0, .rest_length = 1.0});
     check_ok(hooke_system_set_force(system, escaping_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    hooke_integrator *integrator = start_run(system, runs[k]);
-    hooke_state *state = start_state(system);
+    owned_integrator *integrator = start_run(system, runs[k]);
+    owned_state *state = start_state(system);
     check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
-    hooke_measurement *why = explain(integrator);
+    owned_measurement *why = explain(integrator);
     check_text(hooke_measurement_text(why, "why", 0, "cause"), "solver-failed");
     assert_non_null(strstr(hooke_measurement_text(why, "why", 0, "sentence"), "the solver gave up: "));
     check_between(hooke_measurement_number(why, "why", 0, "time"), 1.6, 1.8);
@@ -344,29 +308,24 @@ static void test_solvers_that_give_up(void **unused) {
     check_text(hooke_measurement_text(why, "advice", 0, "option"), "duration");
     check_between(strtod(hooke_measurement_text(why, "advice", 0, "value"), NULL), 1.4, 1.78);
     check_advice(system, integrator, why, 0);
-    hooke_measurement_destroy(why);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
   }
 }
 
 /* A step above the limit of 0.2 s, and the same force, which no step gets past: the step that the limit gives comes
  * last, and its words own up to that. */
-static void test_a_step_that_is_not_enough(void **unused) {
-  (void)unused;
+static void test_a_step_that_is_not_enough(no_state) {
   needs_lapack();
   const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 60, 0};
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, position, velocity, 1.0, 1);
+  owned_system *system = small_system(2, position, velocity, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
   check_ok(hooke_system_set_force(system, escaping_force, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_measurement *why = explain(integrator);
+  owned_measurement *why = explain(integrator);
   check_close(hooke_measurement_number(why, "why", 0, "limit"), 0.2, 1e-6);
   int64_t found = -1;
   for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++) {
@@ -378,18 +337,13 @@ static void test_a_step_that_is_not_enough(void **unused) {
   check_text(
       hooke_measurement_text(why, "advice", 1, "change"),
       "a step of 0.01 s, below the limit, which is not enough (tried: the run ends early with it, too)");
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
-static void test_kept_state_that_is_not_finite(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(10.0);
-  hooke_options *options = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 1.0});
-  hooke_state *first = start_state(system), *last = start_state(system);
-  hooke_measurement *why = NULL;
+static void test_kept_state_that_is_not_finite(no_state) {
+  owned_system *system = small_oscillator(10.0);
+  owned_options *options = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 1.0});
+  owned_state *first = start_state(system), *last = start_state(system);
+  owned_measurement *why = NULL;
   hooke_state_position(last)[4] = NAN;
   check_status(hooke_why_create_kept(system, options, first, last, NULL, &why),
                has_lapack() ? HOOKE_OK : HOOKE_NOT_BUILT);
@@ -398,37 +352,26 @@ static void test_kept_state_that_is_not_finite(void **unused) {
     check_message("position[1][1]: nan is not allowed");
     assert_int_equal(hooke_measurement_row_count(why, "why"), 0);
   }
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(last);
-  hooke_state_destroy(first);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* A loop of the caller's own has no duration. */
-static void test_own_loop(void **unused) {
-  (void)unused;
+static void test_own_loop(no_state) {
   needs_lapack();
-  hooke_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3});
-  hooke_state *state = start_state(system);
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3});
+  owned_state *state = start_state(system);
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 100 && status == HOOKE_OK; k++)
     status = hooke_integrator_step(integrator, state, 100);
   check_status(status, HOOKE_DIVERGED);
-  hooke_measurement *why = explain(integrator);
+  owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
   check_text(hooke_measurement_text(why, "advice", 0, "option"), "step");
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are also
  * stiff across. Advice is then tried from a state shortly before the failure. */
-static void test_trouble_that_comes_late(void **unused) {
-  (void)unused;
+static void test_trouble_that_comes_late(no_state) {
   if (left_out(1, 2)) skip(); /* the code is that of the others, after far fewer steps */
   needs_lapack();
   const double position[] = {-1, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0};
@@ -438,28 +381,24 @@ static void test_trouble_that_comes_late(void **unused) {
   double other[15];
   for (int k = 0; k < 15; k++)
     other[k] = -out[k];
-  hooke_system *system = small_system(5, position, velocity, 1.0, 0);
+  owned_system *system = small_system(5, position, velocity, 1.0, 0);
   check_ok(hooke_system_pin(system, 2, pinned));
   small_springs(system, 4, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
   check_ok(hooke_system_drive_table(system, 1, &left, 5, time, out));
   check_ok(hooke_system_drive_table(system, 1, &right, 5, time, other));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system,
       (struct run){.method = "symplectic-euler", .step = 0.13, .duration = 0.13 * 3e6, .every = 130.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_measurement *why = explain(integrator);
+  owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
   check_between(hooke_measurement_number(why, "why", 0, "limit"), 0.1, 0.13);
   check_between(hooke_measurement_number(why, "why", 0, "time"), 2.6e5, 2.81e5);
   check_text(hooke_measurement_text(why, "advice", 0, "option"), "step");
   assert_non_null(strstr(hooke_measurement_text(why, "advice", 0, "change"), "tried from t = 2"));
   check_advice(system, integrator, why, 0);
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 static int32_t explode(int64_t n, double t, const double *x, double *rate, void *ctx) {
@@ -479,14 +418,13 @@ static int32_t count_down(double done, const char *what, void *ctx) {
 
 /* Stopping at any call, within replays, searches and trials, gives no results; otherwise the callback changes
  * nothing. */
-static void test_progress_ends_it(void **unused) {
-  (void)unused;
+static void test_progress_ends_it(no_state) {
   needs_lapack();
-  hooke_system *system = row(1);
+  owned_system *system = row(1);
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 500.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   int calls = 1000000;
   hooke_measurement *why = NULL;
@@ -512,64 +450,50 @@ static void test_progress_ends_it(void **unused) {
     stopped++;
   }
   assert_true(2 * stopped >= tried);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* A call of a callback counts as 50 us, as a script may take: 85 % of 2 s are 34,000 of them, in which the trial of a
  * smaller step does not come to its end. */
-static void test_callbacks_are_not_called_for_ever(void **unused) {
-  (void)unused;
+static void test_callbacks_are_not_called_for_ever(no_state) {
   needs_lapack();
   struct fault none = {.particle = 2, .from = INFINITY};
-  hooke_system *system = row(1);
+  owned_system *system = row(1);
   check_ok(hooke_system_set_force(system, faulty_force, NULL, &none));
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 5e5, .every = 5e4});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   none.calls = 0;
-  hooke_measurement *why = NULL;
+  owned_measurement *why = NULL;
   check_ok(explain_within(integrator, 0.0, NULL, NULL, &why));
   check_between((double)none.calls, 3.3e4, 3.6e4);
   check_text(hooke_measurement_text(why, "advice", 0, "option"), "step");
   assert_non_null(strstr(hooke_measurement_text(why, "advice", 0, "change"), "tried up to t = "));
   assert_non_null(
       strstr(hooke_measurement_text(why, "why", 0, "left_out"), "(2 s of counted work): what else"));
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* Without time nothing is claimed but certain facts. */
-static void test_no_time(void **unused) {
-  (void)unused;
+static void test_no_time(no_state) {
   needs_lapack();
-  hooke_system *system = row(1);
+  owned_system *system = row(1);
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 500.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_measurement *why = NULL;
+  owned_measurement *why = NULL;
   check_ok(explain_within(integrator, 1e-9, NULL, NULL, &why));
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "unknown");
   if (strstr(hooke_measurement_text(why, "why", 0, "left_out"), "time was short") == NULL)
     check_failed("%s", hooke_measurement_text(why, "why", 0, "left_out"));
   assert_true(isnan(hooke_measurement_number(why, "why", 0, "limit")));
-  hooke_measurement_destroy(why);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
-static void test_nothing_to_explain(void **unused) {
-  (void)unused;
+static void test_nothing_to_explain(no_state) {
   hooke_measurement *why = NULL;
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.01, .duration = 1.0});
   hooke_state *state = start_state(system);
@@ -579,9 +503,8 @@ static void test_nothing_to_explain(void **unused) {
   check_message("did not blow up");
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 
-  hooke_integrator *first_order = start_first_order(
+  owned_integrator *first_order = start_first_order(
       1, explode, NULL, (struct run){.method = "forward-euler", .step = 0.1, .duration = 10.0});
   check_ok(hooke_state_create_first_order(1, &state));
   hooke_state_position(state)[0] = 1.0;
@@ -589,7 +512,6 @@ static void test_nothing_to_explain(void **unused) {
   check_status(explain_run(first_order, &why), HOOKE_UNSUITED);
   check_status(hooke_integrator_on_warning(first_order, NULL, NULL), HOOKE_UNSUITED);
   hooke_state_destroy(state);
-  hooke_integrator_destroy(first_order);
 }
 
 /* ---- kept states ---- */
@@ -601,14 +523,13 @@ static int32_t record(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void test_recent_states(void **unused) {
-  (void)unused;
+static void test_recent_states(no_state) {
   enum { STEPS = 20 };
-  hooke_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator = start_run(
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *integrator = start_run(
       system, (struct run){.method = "verlet", .step = 0.01, .duration = STEPS * 0.01, .every = 0.01});
-  hooke_state *state = start_state(system), *recent = start_state(system);
-  double *seen = new_doubles(4 * (STEPS + 1));
+  owned_state *state = start_state(system), *recent = start_state(system);
+  owned_doubles *seen = new_doubles(4 * (STEPS + 1));
   assert_int_equal(hooke_integrator_count(integrator, "recent"), 0);
   check_status(hooke_integrator_recent(integrator, 0, recent), HOOKE_BAD_VALUE);
   check_ok(hooke_integrator_on_frame(integrator, record, seen));
@@ -622,74 +543,56 @@ static void test_recent_states(void **unused) {
   }
   check_status(hooke_integrator_recent(integrator, 8, recent), HOOKE_BAD_VALUE);
   check_status(hooke_integrator_recent(integrator, -1, recent), HOOKE_BAD_VALUE);
-  free(seen);
-  hooke_state_destroy(recent);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* As many as 16 MB hold, and always the last one: a state of n particles has 48 n bytes. */
-static void test_recent_states_are_few_at_scale(void **unused) {
-  (void)unused;
+static void test_recent_states_are_few_at_scale(no_state) {
   const struct { int64_t n, count; } sizes[] = {{1000, 8}, {60000, 4}, {400000, 1}};
   for (int s = 0; s < 3; s++) {
     const int64_t n = sizes[s].n;
-    double *position = new_doubles(3 * n);
-    hooke_system *system = small_system(n, position, NULL, 1.0, 0);
+    owned_doubles *position = new_doubles(3 * n);
+    owned_system *system = small_system(n, position, NULL, 1.0, 0);
     check_ok(hooke_system_commit(system));
-    hooke_integrator *integrator = start_run(
+    owned_integrator *integrator = start_run(
         system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 1.0, .every = 0.1});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(hooke_integrator_count(integrator, "recent"), sizes[s].count);
     check_between((double)hooke_integrator_count(integrator, "memory_bytes"), (double)(120 * n),
                   (double)(120 * n) + fmax(16e6, 48.1 * (double)n) + 4096.0);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
-    free(position);
   }
 }
 
-static void test_without_lapack(void **unused) {
-  (void)unused;
+static void test_without_lapack(no_state) {
   if (has_lapack()) skip();
   hooke_measurement *why = NULL;
-  hooke_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator =
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3, .duration = 300.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   check_status(explain_run(integrator, &why), HOOKE_NOT_BUILT);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 /* ---- overflow without springs ---- */
 
 static void check_overflow(hooke_system *system, int64_t particle, const char *words) {
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator =
+  owned_integrator *integrator =
       start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 10.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_measurement *why = explain(integrator);
+  owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "overflow");
   if (strstr(hooke_measurement_text(why, "why", 0, "sentence"), words) == NULL)
     check_failed("%s", hooke_measurement_text(why, "why", 0, "sentence"));
   assert_int_equal(hooke_measurement_row_count(why, "blame"), 0);
   assert_true(hooke_measurement_number(why, "why", 0, "particle") == (double)particle);
-  hooke_measurement_destroy(why);
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
   hooke_system_destroy(system);
 }
 
 /* Bending and altitude springs of 1e300: the first step overflows, and no spring is blamed. */
-static void test_overflow_without_springs(void **unused) {
-  (void)unused;
+static void test_overflow_without_springs(no_state) {
   needs_lapack();
   const double line[] = {0, 0, 0, 1, 0.5, 0, 2, 0, 0}, coefficient = 1e300;
   const int64_t triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
@@ -698,13 +601,9 @@ static void test_overflow_without_springs(void **unused) {
   check_overflow(bent, 1, "on 1 kg, with a step of 0.1 s");
 
   const double body[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  hooke_options *options = NULL;
   hooke_system *stiff = small_system(4, body, NULL, 1.0, 1);
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1e300));
-  check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
+  owned_options *options = options_with("altitude", "stiffness=1e300 rest_scale=1.5");
   check_ok(hooke_system_add_altitude(stiff, "stiff", 1, corners, options));
-  hooke_options_destroy(options);
   check_overflow(stiff, 1, "on 1 kg, with a step of 0.1 s");
 }
 

@@ -10,6 +10,10 @@
 #include <cmocka.h>
 
 #include "hooke.h"
+#include "owned.h"
+
+/* The parameter of a test that is set up by itself. */
+#define no_state __attribute__((unused)) void **unused
 
 /* The call returned exactly this status; prints the library's message otherwise. */
 #define check_status(call, status) check_status_at((call), (status), #call, __FILE__, __LINE__)

@@ -32,6 +32,8 @@ struct extreme_outcome {
 /* Never fails the test: refusals are outcomes. */
 void extreme_run(const hooke_system *system, struct extreme_run run, struct extreme_outcome *outcome);
 void extreme_release(struct extreme_outcome *outcome);
+/* Released where its block ends. */
+#define owned_outcome __attribute__((cleanup(extreme_release))) struct extreme_outcome
 
 /* ---- judges: NULL, or the fault ---- */
 

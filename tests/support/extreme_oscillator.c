@@ -88,7 +88,7 @@ static void check_method(const struct extreme_oscillator *o, const struct model 
   const double absolute = o->absolute != 0.0 ? o->absolute : 0.01 * tolerance;
   const double allowed = tolerance * (1.0 + o->distance / model->amplitude) + absolute;
   const double h = (double)(o->step / model->omega);
-  struct extreme_outcome outcome;
+  owned_outcome outcome;
   extreme_run(model->system,
               (struct extreme_run){.method = method,
                                    .step = h,
@@ -120,7 +120,6 @@ static void check_method(const struct extreme_oscillator *o, const struct model 
   extreme_demand(o->family, o->name, method, complaint, &outcome);
   check_sums(model, &outcome);
   extreme_record(o->family, o->name, method, &outcome, error);
-  extreme_release(&outcome);
 }
 
 void extreme_oscillate(const struct extreme_oscillator *oscillator) {

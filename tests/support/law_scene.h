@@ -34,6 +34,8 @@ struct law_scene {
  * that only pulls. */
 void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene);
 void law_scene_destroy(struct law_scene *scene);
+/* Destroyed where its block ends. */
+#define owned_law_scene __attribute__((cleanup(law_scene_destroy))) struct law_scene
 
 /* Derivative at 0 of g(s) (count numbers), by central differences at h, h/2, h/4, h/8 extrapolated to order
  * 8. */

@@ -1,6 +1,7 @@
 #include "run.h"
 
 #include "check.h"
+#include "small.h"
 
 #include <math.h>
 #include <string.h>
@@ -145,4 +146,26 @@ hooke_measurement *limit_at_start(const hooke_system *system, const hooke_option
   check_ok(hooke_measurement_run(limit, state));
   hooke_state_destroy(state);
   return limit;
+}
+
+hooke_measurement *limits_of(const hooke_system *system, const char *methods, int32_t predict) {
+  hooke_options *options =
+      options_with("limit", "methods=%s accuracy=1e-3 predict=%d budget=200", methods, predict);
+  return limit_at_start(system, NULL, options);
+}
+
+void check_limits_met(hooke_system *system, const char *methods) {
+  owned_measurement *limit = limits_of(system, methods, 0);
+  for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
+    const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
+    const double measured = hooke_measurement_number(limit, "rows", row, "measured");
+    if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
+      check_failed("%s: measured %.8g, predicted %.8g (%s)",
+                   hooke_measurement_text(limit, "rows", row, "method"), measured, predicted,
+                   hooke_measurement_text(limit, "rows", row, "note"));
+    }
+    check_between(hooke_measurement_number(limit, "rows", row, "bound"), 0.3 * measured,
+                  measured * (1.0 + 1e-3));
+  }
+  hooke_system_destroy(system);
 }

@@ -4,28 +4,77 @@
 #include "random.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void set_words(hooke_options *options, const char *words, va_list arguments) {
+  char all[1024], *next = all;
+  const int size = vsnprintf(all, sizeof all, words, arguments);
+  assert_in_range(size, 0, sizeof all - 1);
+  while (next != NULL && *next != '\0') {
+    char *name = next;
+    if ((next = strchr(name, ' ')) != NULL) *next++ = '\0';
+    char *value = strchr(name, '=');
+    assert_non_null(value);
+    *value++ = '\0';
+    check_ok(hooke_options_set_text(options, name, value));
+  }
+}
+
+hooke_options *new_options(const char *table) {
+  hooke_options *options = NULL;
+  check_ok(hooke_options_create(table, &options));
+  return options;
+}
+
+hooke_options *options_with(const char *table, const char *words, ...) {
+  hooke_options *options = new_options(table);
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
+  return options;
+}
+
+void set_options(hooke_options *options, const char *words, ...) {
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
+}
+
+void small_part(hooke_system *system, const char *kind, const char *name, const char *words, ...) {
+  owned_options *options = new_options(kind);
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
+  check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
+}
+
+hooke_system *new_system(void) {
+  hooke_system *system = NULL;
+  check_ok(hooke_system_create(&system));
+  return system;
+}
 
 hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
                            int32_t pin_first) {
-  hooke_system *system = NULL;
+  hooke_system *system = new_system();
   const int64_t first = 0;
-  check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, count, position, velocity, 1, &mass, NULL));
   if (pin_first) check_ok(hooke_system_pin(system, 1, &first));
   return system;
 }
 
 void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  if (springs.law != NULL) check_ok(hooke_options_set_text(options, "law", springs.law));
-  check_ok(hooke_options_set_number(options, "stiffness", springs.stiffness));
-  check_ok(hooke_options_set_number(options, "damping", springs.damping));
+  owned_options *options =
+      options_with("springs", "law=%s stiffness=%.17g damping=%.17g",
+                   springs.law != NULL ? springs.law : "strain", springs.stiffness, springs.damping);
   if (springs.rest_length >= 0.0)
     check_ok(hooke_options_set_number(options, "rest_length", springs.rest_length));
   if (springs.pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(system, "springs", count, ends, options));
-  hooke_options_destroy(options);
 }
 
 hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin_first) {
@@ -106,4 +155,15 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping) {
   check_ok(hooke_system_commit(system));
   hooke_options_destroy(options);
   return system;
+}
+
+double volume_of(const double *q, const int64_t *p) {
+  double e[3][3];
+  for (int k = 0; k < 3; k++) {
+    for (int a = 0; a < 3; a++)
+      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }

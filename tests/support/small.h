@@ -2,7 +2,20 @@
 #ifndef TESTS_SUPPORT_SMALL_H
 #define TESTS_SUPPORT_SMALL_H
 
-#include "hooke/system.h"
+#include "hooke.h"
+
+hooke_options *new_options(const char *table);
+/* Options of a table, set by "name=value name=value", in which printf() puts the rest: numbers by %.17g, which
+ * keeps every bit. */
+__attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *table, const char *words, ...);
+__attribute__((format(printf, 2, 3))) void set_options(hooke_options *options, const char *words, ...);
+
+/* Adds a part, with its options likewise. */
+__attribute__((format(printf, 4, 5))) void small_part(hooke_system *system, const char *kind,
+                                                      const char *name, const char *words, ...);
+
+/* An open system without particles. */
+hooke_system *new_system(void);
 
 /* One group of springs that share a material. */
 struct springs {
@@ -34,5 +47,8 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping);
 /* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples:
  * chaotic after a second or so. */
 hooke_system *small_crumpling_cloth(int64_t side);
+
+/* Six times the volume of the tetrahedron with these corners, with its sign. */
+double volume_of(const double *q, const int64_t *corners);
 
 #endif

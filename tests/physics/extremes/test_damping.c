@@ -27,13 +27,11 @@ static void test_damping(int32_t drag) {
   }
 }
 
-static void test_of_springs(void **unused) {
-  (void)unused;
+static void test_of_springs(no_state) {
   test_damping(0);
 }
 
-static void test_by_drag(void **unused) {
-  (void)unused;
+static void test_by_drag(no_state) {
   test_damping(1);
 }
 

@@ -6,9 +6,6 @@
 
 #include <fenv.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* 0 if subnormal operands or results are flushed to zero. */
 static double denormals_left(void) {
@@ -24,28 +21,25 @@ static int32_t probe(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* Neither loading the library nor any method changes the floating-point state of this thread. */
-static void test_never_flushed(void **unused) {
-  (void)unused;
+static void test_never_flushed(no_state) {
   const double q[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   double left = denormals_left();
   assert_true(left == 1.0);
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.stiffness = 3.0, .damping = 0.1, .rest_length = 0.5});
   check_ok(hooke_system_set_force(system, probe, NULL, &left));
   check_ok(hooke_system_commit(system));
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = 0.01, .steps = 20}, &outcome);
     extreme_demand("denormals", "flush-to-zero", method, extreme_not_right(&outcome, 0.0, 0.0, 0.0),
                    &outcome);
     extreme_note("denormals", "flush-to-zero", method, left == 1.0 ? "never set" : "set");
     assert_true(left == 1.0 && denormals_left() == 1.0 && fegetround() == FE_TONEAREST);
-    extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 /* An oscillator close to its rest length of 1 m: speeds, forces and changes are subnormal, and every bit is
@@ -54,7 +48,7 @@ static void check_bits(const char *name, double amplitude, double rest_length, d
   const double q[] = {0, 0, 0, rest_length, amplitude, 0}, v[] = {0, 0, 0, 3.0 * amplitude, 0, amplitude};
   const int64_t ends[] = {0, 1}, steps = 200;
   const double h = 0.01;
-  hooke_system *system = small_system(2, q, v, 0.5, 1);
+  owned_system *system = small_system(2, q, v, 0.5, 1);
   small_springs(system, 1, ends,
                 (struct springs){.law = "length", .stiffness = 2.0, .rest_length = rest_length});
   check_ok(hooke_system_set_drag(system, drag));
@@ -65,7 +59,7 @@ static void check_bits(const char *name, double amplitude, double rest_length, d
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = h, .steps = steps, .atol = 1e-300},
                 &outcome);
     extreme_demand("denormals", name, method, extreme_not_right(&outcome, 0.0, 0.0, 0.0), &outcome);
@@ -82,14 +76,11 @@ static void check_bits(const char *name, double amplitude, double rest_length, d
       check_between(fabs(outcome.v[3]), 0.0, 10.0 * amplitude + 1e-298);
       extreme_record("denormals", name, method, &outcome, NAN);
     }
-    extreme_release(&outcome);
   }
   canonical_destroy(&canonical);
-  hooke_system_destroy(system);
 }
 
-static void test_bits(void **unused) {
-  (void)unused;
+static void test_bits(no_state) {
   check_bits("speed 1e-310 m/s about 1 m", 1e-310, 1.0, 0.0);
   check_bits("motion of 1e-310 m, rest length 0", 1e-310, 0.0, 0.0);
   check_bits("motion of 1e-150 m, rest length 0", 1e-150, 0.0, 0.0);

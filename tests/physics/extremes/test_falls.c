@@ -3,6 +3,7 @@
  * split off make another w of it: v' = B (B v + h g) with A = B^2. */
 #include "check.h"
 #include "extreme.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +36,7 @@ static void check_method(const hooke_system *system, const char *name, const cha
   int known;
   const long double a = factor(method, (long double)z, &known), end = expl(-(long double)z * steps);
   const long double terminal = drag > 0.0 ? -FALL * mass / (long double)drag : 0.0L;
-  struct extreme_outcome outcome;
+  owned_outcome outcome;
   extreme_run(system,
               (struct extreme_run){.method = method, .step = h, .steps = steps, .rtol = 1e-9, .atol = 1e-12},
               &outcome);
@@ -59,18 +60,14 @@ static void check_method(const hooke_system *system, const char *name, const cha
   }
   extreme_demand("falls", name, method, complaint, &outcome);
   extreme_record("falls", name, method, &outcome, error);
-  extreme_release(&outcome);
 }
 
-static void test_fall(void **unused) {
-  (void)unused;
+static void test_fall(no_state) {
   const double resolved[] = {0.0, 1e-6, 0.1, 1.0, 10.0, 1e6};
   const double gravity[] = {0, -FALL, 0}, q[] = {0, 0, 0}, h = 0.25, mass = 2.0;
   for (int k = 0; k < 6; k++) {
     const double drag = resolved[k] * mass / h;
-    hooke_system *system = NULL;
-    check_ok(hooke_system_create(&system));
-    check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
+    owned_system *system = small_system(1, q, NULL, mass, 0);
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_set_drag(system, drag));
     check_ok(hooke_system_commit(system));
@@ -80,7 +77,6 @@ static void test_fall(void **unused) {
       const char *method = hooke_method_name(m);
       if (hooke_method_is_built(method) == 1) check_method(system, name, method, resolved[k], h, drag, mass);
     }
-    hooke_system_destroy(system);
   }
 }
 

@@ -5,29 +5,25 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static void good_run(struct extreme_outcome *outcome) {
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   extreme_run(system, (struct extreme_run){.method = "symplectic-euler", .step = 0.01, .steps = 100},
               outcome);
-  hooke_system_destroy(system);
   assert_null(extreme_unsound(outcome));
   assert_null(extreme_not_right(outcome, 1e-3, 1e-4, 1e-2));
 }
 
 static void bad_run(struct extreme_outcome *outcome) {
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   extreme_run(system, (struct extreme_run){.method = "forward-euler", .step = 0.1, .steps = 100}, outcome);
-  hooke_system_destroy(system);
   assert_null(extreme_unsound(outcome));
   assert_null(extreme_not_refused(outcome));
   assert_null(extreme_not_ended(outcome, HOOKE_DIVERGED, "diverged"));
 }
 
-static void test_numbers(void **unused) {
-  (void)unused;
+static void test_numbers(no_state) {
   const double wrong[] = {NAN, INFINITY, -INFINITY};
   for (int k = 0; k < 3; k++) {
     struct extreme_outcome outcome;
@@ -46,14 +42,13 @@ static void test_numbers(void **unused) {
     assert_non_null(extreme_not_refused(&outcome));
     extreme_release(&outcome);
   }
-  struct extreme_outcome outcome;
+  owned_outcome outcome;
   good_run(&outcome);
   outcome.energy = NAN;
   assert_non_null(extreme_unsound(&outcome));
   outcome.energy = 1.0;
   outcome.wrong_frames = 1;
   assert_non_null(extreme_unsound(&outcome));
-  extreme_release(&outcome);
 }
 
 /* A frame with a NaN is detected during the run. */
@@ -63,23 +58,19 @@ static int32_t poison(int64_t n, double t, const double *q, const double *v, dou
   return 0;
 }
 
-static void test_watch(void **unused) {
-  (void)unused;
+static void test_watch(no_state) {
   const double q[] = {0, 0, 0};
-  struct extreme_outcome outcome;
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  owned_outcome outcome;
+  owned_system *system = small_system(1, q, NULL, 1.0, 0);
   check_ok(hooke_system_set_force(system, poison, NULL, NULL));
   check_ok(hooke_system_commit(system));
   extreme_run(system, (struct extreme_run){.method = "symplectic-euler", .step = 0.1, .steps = 10}, &outcome);
   assert_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, "not finite"));
   assert_int_equal(outcome.frames, 7); /* 0 to 0.6 s, the last before the NaN */
-  extreme_release(&outcome);
-  hooke_system_destroy(system);
 }
 
-static void test_answers(void **unused) {
-  (void)unused;
-  struct extreme_outcome outcome;
+static void test_answers(no_state) {
+  owned_outcome outcome;
   good_run(&outcome);
   assert_non_null(extreme_not_right(&outcome, 1.0, 0.0, 0.5));
   assert_non_null(extreme_not_right(&outcome, 1e-9, 1e-4, 1e-2)); /* too good to be true */
@@ -88,12 +79,10 @@ static void test_answers(void **unused) {
   assert_non_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, ""));
   outcome.status = HOOKE_STOPPED;
   assert_non_null(extreme_unsound(&outcome));
-  extreme_release(&outcome);
 }
 
 /* Silent use of another value than the given one: the state kept within bounds, or the run cut short. */
-static void test_clamps(void **unused) {
-  (void)unused;
+static void test_clamps(no_state) {
   struct extreme_outcome outcome;
   bad_run(&outcome);
   outcome.status = HOOKE_OK;
@@ -109,8 +98,7 @@ static void test_clamps(void **unused) {
   extreme_release(&outcome);
 }
 
-static void test_messages(void **unused) {
-  (void)unused;
+static void test_messages(no_state) {
   struct extreme_outcome outcome;
   bad_run(&outcome);
   assert_non_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, "overslept"));
@@ -132,8 +120,7 @@ static void test_messages(void **unused) {
 
 /* Checks of the oscillator references: the matrices have the determinants and traces of their methods, the
  * solution satisfies its equation, and a matrix with an error of 1e-6 is noticed. */
-static void test_oscillator(void **unused) {
-  (void)unused;
+static void test_oscillator(no_state) {
   const long double start[] = {1.0L, 0.5L}, zetas[] = {0.0L, 0.3L, 1.0L, 4.0L};
   for (int k = 0; k < 4; k++) {
     const long double zeta = zetas[k], e = 1e-4L;

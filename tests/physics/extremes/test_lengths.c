@@ -9,8 +9,7 @@
 
 /* ---- rest lengths ---- */
 
-static void test_rest_length(void **unused) {
-  (void)unused;
+static void test_rest_length(no_state) {
   const double rest[] = {0.0, 1e-300, 1e-12};
   for (int k = 0; k < 3; k++) {
     char name[64];
@@ -30,20 +29,14 @@ static void test_rest_length(void **unused) {
 static int32_t add_spring(const char *law, double stiffness, double rest_length) {
   const double q[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
-  hooke_options *options = NULL;
-  hooke_system *system = small_system(2, q, NULL, 1.0, 1);
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", law));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", rest_length));
+  owned_system *system = small_system(2, q, NULL, 1.0, 1);
+  owned_options *options =
+      options_with("springs", "law=%s stiffness=%.17g rest_length=%.17g", law, stiffness, rest_length);
   const int32_t status = hooke_system_add_springs(system, NULL, 1, ends, options);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
   return status;
 }
 
-static void test_refused(void **unused) {
-  (void)unused;
+static void test_refused(no_state) {
   const struct {
     const char *name, *law;
     double stiffness, rest_length;
@@ -79,7 +72,7 @@ struct pair {
 static void check_pair(const struct pair *pair) {
   const double q[] = {0, 0, 0, pair->distance, 0, 0}, h = 0.01, steps = 100, d = pair->distance;
   const int64_t ends[] = {0, 1};
-  hooke_system *system = small_system(2, q, NULL, 2.0, 0);
+  owned_system *system = small_system(2, q, NULL, 2.0, 0);
   small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 1.0});
   check_ok(hooke_system_commit(system));
   const double moved = pair->coincident ? 0.0 : 0.5 * (1.0 - d) * (1.0 - cos(h * steps));
@@ -87,7 +80,7 @@ static void check_pair(const struct pair *pair) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = h, .steps = (int64_t)steps}, &outcome);
     const double error = extreme_error(&outcome, expected, 1.0);
     /* a method of order 1 has an error of about h/2 of the way */
@@ -97,13 +90,10 @@ static void check_pair(const struct pair *pair) {
     extreme_demand("lengths", pair->name, method, complaint, &outcome);
     assert_int_equal(outcome.coincident, pair->coincident);
     extreme_record("lengths", pair->name, method, &outcome, error);
-    extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
-static void test_coincident(void **unused) {
-  (void)unused;
+static void test_coincident(no_state) {
   const struct pair pairs[] = {
       {"ends 0 m apart", 0.0, 1, 0.0, 0},          {"ends 1e-300 m apart", 1e-300, 1, 0.0, 0},
       {"ends 1e-162 m apart", 1e-162, 1, 0.0, 0},  {"ends 2e-162 m apart", 2e-162, 0, 0.2, 1},
@@ -116,8 +106,7 @@ static void test_coincident(void **unused) {
 
 /* The length of the force, kappa l0, shows the accuracy of the direction: below 1.5e-154 m the square of a
  * distance is subnormal and loses digits, below 1.6e-162 m it is 0. */
-static void test_direction(void **unused) {
-  (void)unused;
+static void test_direction(no_state) {
   const struct {
     double distance, low, high; /* bounds of |force - 1| */
   } at[] = {{1e-12, 0.0, 1e-11}, {1e-100, 0.0, 4e-16}, {1.6e-154, 0.0, 4e-16}, {1e-158, 1e-12, 1e-6},
@@ -126,14 +115,13 @@ static void test_direction(void **unused) {
     const double q[] = {0, 0, 0, 0, at[k].distance, 0}, v[6] = {0};
     const int64_t ends[] = {0, 1};
     double force[6];
-    hooke_system *system = small_system(2, q, NULL, 1.0, 0);
+    owned_system *system = small_system(2, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 1.0});
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_force(system, 0.0, q, v, force));
     check_between(fabs(force[4] - 1.0), at[k].low, at[k].high);
     assert_true(force[1] == -force[4] && force[0] == 0.0 && force[5] == 0.0);
     assert_int_equal(hooke_system_coincident_springs(system, q), at[k].low == 1.0);
-    hooke_system_destroy(system);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "extreme.h"
 #include "oscillator.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,18 +34,14 @@ static struct ensemble ensemble(const char *law, double stiffness, double mass, 
     v[3 * (PHASES + k)] = -amplitude * omega * sin(phase);
   }
   struct ensemble e = {.rest = rest, .amplitude = amplitude};
-  hooke_options *options = NULL;
   double kappa[PHASES];
   check_ok(hooke_system_create(&e.system));
   check_ok(hooke_system_add_particles(e.system, 2 * PHASES, q, v, 1, &mass, NULL));
   check_ok(hooke_system_pin(e.system, PHASES, pinned));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", law));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", rest));
+  owned_options *options =
+      options_with("springs", "law=%s stiffness=%.17g rest_length=%.17g", law, stiffness, rest);
   check_ok(hooke_system_add_springs(e.system, NULL, PHASES, ends, options));
   check_ok(hooke_system_commit(e.system));
-  hooke_options_destroy(options);
   check_ok(hooke_system_members(e.system, "springs", NULL, kappa, NULL, NULL));
   e.omega = sqrtl((long double)kappa[0] * hooke_system_inverse_mass(e.system)[PHASES]);
   return e;
@@ -108,7 +105,7 @@ static void check_walk(const char *name, struct ensemble e) {
   const double h = (double)(0.1L / e.omega);
   const int64_t shorter = is_long() ? 1000000 : 100000, longer = 100 * shorter / (is_long() ? 1 : 5);
   hooke_integrator *integrator = start_run(e.system, (struct run){.method = method, .step = h});
-  hooke_state *start = start_state(e.system), *state = start_state(e.system);
+  owned_state *start = start_state(e.system), *state = start_state(e.system);
   check_ok(hooke_integrator_step(integrator, state, shorter));
   const struct errors first = compare(&e, start, state, method, h * e.omega, shorter);
   check_ok(hooke_integrator_step(integrator, state, longer - shorter));
@@ -131,29 +128,25 @@ static void check_walk(const char *name, struct ensemble e) {
   snprintf(words, sizeof words, "%.0e", last.rounding);
   if (!is_long()) extreme_note(FAMILY, name, method, words);
   hooke_integrator_destroy(integrator);
-  hooke_state_destroy(start);
-  hooke_state_destroy(state);
   hooke_system_destroy(e.system);
 }
 
-static void test_walk(void **unused) {
-  (void)unused;
+static void test_walk(no_state) {
   check_walk("rounding of what is kept, about 0 m", ensemble("length", 1.0, 1.0, 0.0, 1.0));
   check_walk("rounding of what is kept, about 1 m", ensemble("strain", 7.3, 0.37, 1.0, 0.3));
 }
 
 /* Every method over a thousand radians. */
-static void test_every_method(void **unused) {
-  (void)unused;
+static void test_every_method(no_state) {
   const char *name = "1000 radians, 64 phases";
   struct ensemble e = ensemble("length", 7.3, 0.37, 0.0, 0.3);
   const double h = (double)(0.05L / e.omega), tolerance = 1e-9;
   const int64_t steps = 20000;
-  hooke_state *start = start_state(e.system);
+  owned_state *start = start_state(e.system);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(e.system,
                 (struct extreme_run){.method = method,
                                      .step = h,
@@ -185,23 +178,18 @@ static void test_every_method(void **unused) {
       complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
     extreme_demand(FAMILY, name, method, complaint, &outcome);
     extreme_record(FAMILY, name, method, &outcome, error);
-    extreme_release(&outcome);
   }
-  hooke_state_destroy(start);
   hooke_system_destroy(e.system);
 }
 
 /* Time is k times the step, to the bit, where a running sum would be far off. */
-static void test_time(void **unused) {
-  (void)unused;
+static void test_time(no_state) {
   const double q[] = {0, 0, 0}, mass = 1.0, h = 0.1;
   const int64_t steps = 3000000;
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, q, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(1, q, NULL, mass, 0);
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
+  owned_state *state = start_state(system);
   double sum = 0.0;
   for (int64_t k = 0; k < steps; k++)
     sum += h;
@@ -209,9 +197,6 @@ static void test_time(void **unused) {
   check_ok(hooke_integrator_step(integrator, state, steps - steps / 3));
   assert_true(hooke_state_time(state) == (double)steps * h);
   check_between(fabs(sum - (double)steps * h), 1e-7, 1e-3);
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 int main(int argc, char **argv) {

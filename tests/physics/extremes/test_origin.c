@@ -3,15 +3,14 @@
 #include "check.h"
 #include "extreme.h"
 #include "random.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <stdlib.h>
 
 /* A stretch of 0.1 m on a spring of 1 m: its remaining digits are those of 0.1 m over the spacing. */
-static void test_oscillator(void **unused) {
-  (void)unused;
+static void test_oscillator(no_state) {
   const double distance[] = {0.0, 1e3, 1e6, 1e9};
   for (int k = 0; k < 4; k++) {
     char name[64];
@@ -39,24 +38,16 @@ static double lost_at(double distance, const char *method, double h) {
   for (int far = 0; far < 2; far++) {
     const double x = far ? distance : 0.0, q[] = {x, 0, 0, x + 1.1, 0, 0}, mass = 1.0;
     const int64_t first = 0, ends[] = {0, 1};
-    hooke_system *system = NULL;
-    hooke_options *options = NULL;
-    check_ok(hooke_system_create(&system));
-    check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
+    owned_system *system = small_system(2, q, NULL, mass, 0);
     check_ok(hooke_system_pin(system, 1, &first));
-    check_ok(hooke_options_create("springs", &options));
-    check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-    check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+    owned_options *options = options_with("springs", "stiffness=1 rest_length=1");
     check_ok(hooke_system_add_springs(system, NULL, 1, ends, options));
     check_ok(hooke_system_commit(system));
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = h, .steps = 1000, .frame_steps = 100},
                 &outcome);
     extreme_demand("origin", "digits", method, extreme_not_right(&outcome, 0.0, 0.0, 0.0), &outcome);
     end[far] = outcome.q[3] - outcome.q[0];
-    extreme_release(&outcome);
-    hooke_options_destroy(options);
-    hooke_system_destroy(system);
   }
   return fabs(end[1] - end[0]) / amplitude;
 }
@@ -76,37 +67,21 @@ static void check_digits(double distance, const char *name) {
   }
 }
 
-static void test_digits(void **unused) {
-  (void)unused;
+static void test_digits(no_state) {
   check_digits(1e6, "1e+06 m away: lost in 1000 steps");
   check_digits(1e9, "1e+09 m away: lost in 1000 steps");
   check_digits(1e12, "1e+12 m away: lost in 1000 steps");
 }
 
 /* Where shifted positions are exact, forces are those at the origin, to the bit. */
-static void test_same_forces(void **unused) {
-  (void)unused;
+static void test_same_forces(no_state) {
   enum { SIDE = 9, COUNT = SIDE * SIDE, SIZE = 3 * COUNT };
-  const double origin[] = {0, 0, 0}, edges[] = {1, 0, 0, 0, 0, 1}, sides[] = {SIDE, SIDE};
-  hooke_options *part = NULL;
-  hooke_system *system = NULL;
-  check_ok(hooke_options_create("cloth", &part));
-  check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(part, "size", 2, sides));
-  check_ok(hooke_options_set_number(part, "mass", 1.0));
-  const char *families[] = {"structural", "shear", "bend"};
-  for (int k = 0; k < 3; k++) {
-    char name[64];
-    snprintf(name, sizeof name, "%s.stiffness", families[k]);
-    check_ok(hooke_options_set_number(part, name, 50.0));
-    snprintf(name, sizeof name, "%s.damping", families[k]);
-    check_ok(hooke_options_set_number(part, name, 0.1));
-  }
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, part, NULL, NULL));
+  owned_system *system = new_system();
+  small_part(system, "cloth", NULL,
+             "edges=1,0,0,0,0,1 size=%d,%d mass=1 structural.stiffness=50 structural.damping=0.1 "
+             "shear.stiffness=50 shear.damping=0.1 bend.stiffness=50 bend.damping=0.1",
+             (int)SIDE, (int)SIDE);
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(part);
   struct random_source source = {7};
   double near[SIZE], far[SIZE], v[SIZE], at_origin[SIZE], away[SIZE];
   for (int k = 0; k < SIZE; k++) {
@@ -121,7 +96,6 @@ static void test_same_forces(void **unused) {
   far[0] += 0x1p-20; /* a shift by one spacing is noticed */
   check_ok(hooke_system_force(system, 0.0, far, v, away));
   assert_true(away[0] != at_origin[0]);
-  hooke_system_destroy(system);
 }
 
 int main(int argc, char **argv) {

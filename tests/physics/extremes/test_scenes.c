@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const FAMILY = "scenes";
@@ -20,13 +19,12 @@ static void check_scene(const hooke_system *system, const char *name, const doub
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, usual(method), &outcome);
     const double error = extreme_error(&outcome, expected ? expected : outcome.q0, 1.0);
     extreme_demand(FAMILY, name, method, extreme_not_right(&outcome, error, 0.0, order1), &outcome);
     assert_int_equal(outcome.frames, 201);
     extreme_record(FAMILY, name, method, &outcome, error);
-    extreme_release(&outcome);
   }
 }
 
@@ -34,8 +32,7 @@ static void check_scene(const hooke_system *system, const char *name, const doub
 
 /* A square that spins about its centre at omega while it flies: each side is stretched so that it turns as a
  * rigid body. */
-static void test_free_floating(void **unused) {
-  (void)unused;
+static void test_free_floating(no_state) {
   const double omega = 1.5, pull = 3.0, stiffness = 40.0, mass = 2.0, t = 2.0;
   const double flight[] = {0.3, -0.2, 0.1};
   /* a diagonal of length 2 pulls each corner inwards with m omega^2 */
@@ -52,7 +49,7 @@ static void test_free_floating(void **unused) {
     }
   }
   const int64_t ends[] = {0, 2, 1, 3};
-  hooke_system *system = small_system(4, q, v, mass, 0);
+  owned_system *system = small_system(4, q, v, mass, 0);
   small_springs(system, 2, ends, (struct springs){.stiffness = stiffness, .rest_length = rest});
   check_ok(hooke_system_commit(system));
   check_scene(system, "free floating", expected, 0.06);
@@ -61,30 +58,26 @@ static void test_free_floating(void **unused) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, usual(method), &outcome);
     hooke_system_momentum(system, outcome.v, after);
     for (int a = 0; a < 3; a++)
       check_close(after[a], before[a], 1e-12);
-    extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- all pinned ---- */
 
-static void test_all_pinned(void **unused) {
-  (void)unused;
+static void test_all_pinned(no_state) {
   const double q[] = {0, 0, 0, 3, 0, 0, 0, 4, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1, 1, 2}, particles[] = {0, 1, 2};
-  hooke_system *system = small_system(3, q, NULL, 1.0, 0);
+  owned_system *system = small_system(3, q, NULL, 1.0, 0);
   small_springs(system, 2, ends, (struct springs){.stiffness = 1e6, .rest_length = 1.0, .damping = 1.0});
   check_ok(hooke_system_pin(system, 3, particles));
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_commit(system));
   check_scene(system, "all pinned", NULL, 0.0);
-  hooke_system_destroy(system);
 }
 
 /* ---- disconnected ---- */
@@ -98,9 +91,8 @@ static hooke_system *pieces(int32_t stiff, int32_t soft, int32_t flier) {
   const int64_t first_of[] = {0, 2, 4}, count_of[] = {2, 2, 1};
   const double stiffness[] = {1e4, 1.0};
   const int32_t wanted[] = {stiff, soft, flier};
-  hooke_system *system = NULL;
   const double mass = 1.0;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   for (int k = 0; k < 3; k++) {
     if (!wanted[k]) continue;
     int64_t first;
@@ -115,27 +107,25 @@ static hooke_system *pieces(int32_t stiff, int32_t soft, int32_t flier) {
   return system;
 }
 
-static void test_disconnected(void **unused) {
-  (void)unused;
+static void test_disconnected(no_state) {
   hooke_system *all = pieces(1, 1, 1), *alone[] = {pieces(1, 0, 0), pieces(0, 1, 0), pieces(0, 0, 1)};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
     struct extreme_run run = usual(method);
     run.step = 1e-3;
-    struct extreme_outcome together;
+    owned_outcome together;
     double apart[15];
     int64_t at = 0;
     int32_t worst = HOOKE_OK;
     for (int k = 0; k < 3; k++) {
-      struct extreme_outcome outcome;
+      owned_outcome outcome;
       extreme_run(alone[k], run, &outcome);
       const char *complaint = extreme_unsound(&outcome);
       extreme_demand(FAMILY, "disconnected, alone", method, complaint, &outcome);
       if (outcome.status != HOOKE_OK) worst = outcome.status;
       memcpy(apart + at, outcome.q, (size_t)outcome.size * sizeof(double));
       at += outcome.size;
-      extreme_release(&outcome);
     }
     extreme_run(all, run, &together);
     if (worst != HOOKE_OK) { /* each piece alone moves as in the scene */
@@ -148,7 +138,6 @@ static void test_disconnected(void **unused) {
                      extreme_not_right(&together, error, 0.0, solved ? 1e-6 : 0.0), &together);
       extreme_record(FAMILY, "disconnected, against alone", method, &together, error);
     }
-    extreme_release(&together);
   }
   hooke_system_destroy(all);
   for (int k = 0; k < 3; k++)
@@ -157,22 +146,18 @@ static void test_disconnected(void **unused) {
 
 /* ---- empty, and one particle ---- */
 
-static void test_empty(void **unused) {
-  (void)unused;
+static void test_empty(no_state) {
   const double gravity[] = {0, -10, 0};
   for (int weight = 0; weight <= 1; weight++) {
-    hooke_system *system = NULL;
-    check_ok(hooke_system_create(&system));
+    owned_system *system = new_system();
     if (weight) check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_commit(system));
     check_scene(system, weight ? "empty, with gravity" : "empty", NULL, 0.0);
     assert_true(hooke_system_energy(system, "total", NULL, NULL) == 0.0);
-    hooke_system_destroy(system);
   }
 }
 
-static void test_single(void **unused) {
-  (void)unused;
+static void test_single(no_state) {
   const double q[] = {1, 2, 3}, v[] = {0.5, 0, -1}, fall[] = {0, -10, 0};
   const double flown[] = {1 + 0.5 * 2, 2, 3 - 1.0 * 2},
                fallen[] = {1 + 0.5 * 2, 2 - 10.0 * 2 * 2 / 2, 3 - 1.0 * 2};
@@ -191,8 +176,7 @@ static void test_single(void **unused) {
 
 /* A chain at its rest lengths but for rounding: 0.1 k - 0.1 (k - 1) is not 0.1. Nothing happens: the energy
  * of rounding must not count as divergence. */
-static void test_at_rest(void **unused) {
-  (void)unused;
+static void test_at_rest(no_state) {
   enum { COUNT = 20 };
   double q[3 * COUNT] = {0};
   int64_t ends[2 * (COUNT - 1)];
@@ -202,14 +186,14 @@ static void test_at_rest(void **unused) {
     ends[2 * k] = k;
     ends[2 * k + 1] = k + 1;
   }
-  hooke_system *system = small_system(COUNT, q, NULL, 0.01, 1);
+  owned_system *system = small_system(COUNT, q, NULL, 0.01, 1);
   small_springs(system, COUNT - 1, ends, (struct springs){.stiffness = 50.0, .rest_length = 0.1});
   check_ok(hooke_system_commit(system));
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (hooke_method_is_built(method) != 1) continue;
     const struct extreme_run run = {.method = method, .step = 1e-3, .steps = 2000, .frame_steps = 20};
-    struct extreme_outcome outcome;
+    owned_outcome outcome;
     extreme_run(system, run, &outcome);
     const double error = extreme_error(&outcome, outcome.q0, 1.0);
     /* in Heun's method, of 2000 steps with omega h = 0.45, rounding grows by the factor exp(10) */
@@ -219,9 +203,7 @@ static void test_at_rest(void **unused) {
       complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
     extreme_demand(FAMILY, "at rest but for rounding", method, complaint, &outcome);
     extreme_record(FAMILY, "at rest but for rounding", method, &outcome, error);
-    extreme_release(&outcome);
   }
-  hooke_system_destroy(system);
 }
 
 int main(int argc, char **argv) {

@@ -1,9 +1,9 @@
 /* Invalid steps, steps too small to change anything, and steps that overflow. */
 #include "check.h"
 #include "extreme.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdio.h>
 
 /* ---- refused when set ---- */
 
@@ -21,11 +21,9 @@ static const struct {
     {"1e-999 as text", "1e-999", NAN},
 };
 
-static void test_refused(void **unused) {
-  (void)unused;
+static void test_refused(no_state) {
   const char *options[] = {"step", "duration", "every"};
-  hooke_options *run = NULL;
-  check_ok(hooke_options_create("run", &run));
+  owned_options *run = new_options("run");
   for (size_t k = 0; k < sizeof refused / sizeof refused[0]; k++) {
     for (int o = 0; o < 3; o++) {
       check_status(hooke_options_set_number(run, options[o], refused[k].number), HOOKE_BAD_VALUE);
@@ -39,7 +37,6 @@ static void test_refused(void **unused) {
     for (int64_t m = 0; m < hooke_method_count(); m++)
       extreme_note("steps", refused[k].name, hooke_method_name(m), "bad value");
   }
-  hooke_options_destroy(run);
 }
 
 /* ---- accepted ---- */
@@ -56,8 +53,7 @@ static struct extreme_oscillator oscillator(const char *name, double omega, doub
 }
 
 /* No digit of any position changes, and none has to. */
-static void test_subnormal(void **unused) {
-  (void)unused;
+static void test_subnormal(no_state) {
   struct extreme_oscillator smallest = oscillator("4.9e-324 s", 1.0, 4.9e-324);
   struct extreme_oscillator small = oscillator("1e-310 s", 1.0, 1e-310);
   smallest.adaptive_status = small.adaptive_status = HOOKE_SOLVER_FAILED;
@@ -66,16 +62,14 @@ static void test_subnormal(void **unused) {
 }
 
 /* Steps below the last digit of the time: positions do not depend on it, error control does. */
-static void test_below_the_digits_of_time(void **unused) {
-  (void)unused;
+static void test_below_the_digits_of_time(no_state) {
   struct extreme_oscillator late = oscillator("1e-10 s at t = 1e9 s", 5e8, 1e-10);
   late.start = 1e9;
   late.adaptive_status = HOOKE_BAD_VALUE;
   extreme_oscillate(&late);
 }
 
-static void test_overflow(void **unused) {
-  (void)unused;
+static void test_overflow(no_state) {
   struct extreme_oscillator large = oscillator("1e100 s", 1.0, 1e100);
   struct extreme_oscillator larger = oscillator("1e200 s", 1.0, 1e200);
   struct extreme_oscillator largest = oscillator("1e298 s", 1.0, 1e298);

@@ -4,8 +4,7 @@
 
 #include <stdio.h>
 
-static void test_stiffness(void **unused) {
-  (void)unused;
+static void test_stiffness(no_state) {
   const double stiffness[] = {1e-12, 1e-6, 1.0, 1e6, 1e15};
   const char *laws[] = {"length", "strain"};
   for (int law = 0; law < 2; law++) {
