@@ -2,6 +2,7 @@
 #include "io/scene/scene_json.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
 #include "io/scene/scene_file.h"
@@ -26,6 +27,13 @@ static int32_t read_text(const char *object, const char *key, const char **text)
 
 typedef int32_t add_one(struct hk_scene_reader *reader, const char *object, const struct hk_scene_list *list);
 
+static int32_t add_object(struct hk_scene_reader *reader, const char *object,
+                          const struct hk_scene_list *list, add_one *add) {
+  int32_t status = hk_scene_require(object, '{', NULL, "an object { ... }");
+  if (status == HOOKE_OK) status = add(reader, object, list);
+  return hk_scene_note(reader, status);
+}
+
 /* Calls `add` for every object of an optional array. */
 static int32_t for_each(struct hk_scene_reader *reader, const char *root, const char *key,
                         const struct hk_scene_list *list, add_one *add) {
@@ -36,9 +44,7 @@ static int32_t for_each(struct hk_scene_reader *reader, const char *root, const 
   if (status != HOOKE_OK) return hk_scene_note(reader, status);
   for (const char *at = array ? hk_json_first(array) : NULL; at; at = hk_json_next(at), k++) {
     snprintf(reader->within, sizeof reader->within, "%s[%lld]", key, (long long)k);
-    status = hk_scene_require(at, '{', NULL, "an object { ... }");
-    if (status == HOOKE_OK) status = add(reader, at, list);
-    status = hk_scene_note(reader, status);
+    status = add_object(reader, at, list, add);
     if (status != HOOKE_OK) return status;
   }
   reader->within[0] = '\0';
@@ -59,36 +65,24 @@ static int32_t pin(hooke_system *system, const hooke_options *options) {
   return status;
 }
 
-static int32_t add_particles(struct hk_scene_reader *reader, const char *particles, hooke_options *options) {
-  const hooke_system *system = reader->scene->system;
-  const double none = 1.0; /* where masses do nothing, and none are given */
-  const int32_t given = hk_json_get(particles, "mass") != NULL,
-                idle = system->overdamped && !system->has_gravity;
-  int32_t status = idle && !given ? hooke_options_set_numbers(options, "mass", 1, &none) : HOOKE_OK;
-  if (status == HOOKE_OK) status = hk_scene_read_options(reader, particles, NULL, options);
-  if (status) return status;
-  int64_t n = hooke_options_number_count(options, "position") / 3;
+static int32_t add_particles(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                             const hooke_options *options) {
+  (void)name, (void)count, (void)particles;
+  const int64_t n = hooke_options_number_count(options, "position") / 3,
+                velocities = hooke_options_number_count(options, "velocity") / 3;
   const double *velocity = hooke_options_numbers(options, "velocity");
-  int64_t velocities = hooke_options_number_count(options, "velocity") / 3;
   if (velocity && system->overdamped)
     return hk_fail(HOOKE_BAD_VALUE, "velocity",
                    "is not allowed; in an overdamped scene velocities are force over drag");
   if (velocity && velocities != n)
     return hk_fail(HOOKE_BAD_VALUE, "velocity", "%lld rows given; allowed: %lld, one for each position",
                    (long long)velocities, (long long)n);
-  status = hooke_system_add_particles(reader->scene->system, n, hooke_options_numbers(options, "position"),
-                                      velocity, given ? hooke_options_number_count(options, "mass") : 0,
-                                      hooke_options_numbers(options, "mass"), NULL);
-  return status ? status : pin(reader->scene->system, options);
-}
-
-int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles) {
-  hooke_options *options = NULL;
-  strcpy(reader->within, "particles");
-  int32_t status = hk_scene_require(particles, '{', NULL, "an object { ... }");
-  if (status == HOOKE_OK) status = hooke_options_create("particles", &options);
-  if (status == HOOKE_OK) status = add_particles(reader, particles, options);
-  hooke_options_destroy(options);
+  const struct hk_system_mark mark = hk_system_mark(system);
+  int32_t status = hooke_system_add_particles(system, n, hooke_options_numbers(options, "position"), velocity,
+                                              hooke_options_number_count(options, "mass"),
+                                              hooke_options_numbers(options, "mass"), NULL);
+  if (status == HOOKE_OK) status = pin(system, options);
+  if (status != HOOKE_OK) hk_system_roll_back(system, mark);
   return status;
 }
 
@@ -203,7 +197,8 @@ static int32_t add_member(struct hk_scene_reader *reader, const char *object,
   int32_t status = hooke_options_create(list->key, &options);
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, object, list->others, options);
   if (status == HOOKE_OK && strstr(list->others, " name ")) status = read_text(object, "name", &name);
-  if (status == HOOKE_OK) status = read_particles(reader, object, list, &particles, &count);
+  if (status == HOOKE_OK && list->particles)
+    status = read_particles(reader, object, list, &particles, &count);
   if (status == HOOKE_OK)
     status = list->add(reader->scene->system, name, list->columns > 0 ? count / list->columns : count,
                        particles, options);
@@ -212,11 +207,30 @@ static int32_t add_member(struct hk_scene_reader *reader, const char *object,
   return status;
 }
 
-int32_t hk_scene_add_lists(struct hk_scene_reader *reader, const char *root) {
-  int32_t status = HOOKE_OK;
-  for (const struct hk_scene_list *list = hk_scene_lists; list->key && status == HOOKE_OK; list++)
-    status = for_each(reader, root, list->key, list, add_member);
-  return status;
+int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *root,
+                          const struct hk_scene_list *list) {
+  if (list->particles) return for_each(reader, root, list->key, list, add_member);
+  strcpy(reader->within, list->key);
+  const char *object = hk_json_get(root, list->key);
+  return object ? add_object(reader, object, list, add_member) : HOOKE_OK;
+}
+
+int32_t hooke_system_add_members(hooke_system *system, const char *key, const char *name, int64_t count,
+                                 const int64_t *particles, const hooke_options *options) {
+  const struct hk_scene_list *list = hk_scene_lists;
+  while (list->key && strcmp(list->key, key) != 0)
+    list++;
+  if (list->key == NULL)
+    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven", "key", "key", key);
+  char maker[64];
+  hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
+  int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
+  if (status == HOOKE_OK) status = hk_options_check_required(options);
+  const int64_t each = list->columns > 0 ? list->columns : 1;
+  if (status == HOOKE_OK && (count % each != 0 || (count != 0 && !list->particles)))
+    status = hk_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed for %s; allowed: %s", (long long)count,
+                     key, list->particles ? list->allowed : "0");
+  return status == HOOKE_OK ? list->add(system, name, count / each, particles, options) : status;
 }
 
 static int32_t add_bending(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
@@ -272,6 +286,7 @@ static int32_t add_drive(hooke_system *system, const char *name, int64_t count, 
 
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
+    {"particles", "", NULL, 0, NULL, NULL, add_particles},
     {"springs", " name between ", "between", 2, "stiffness", "an array of pairs of particles",
      hooke_system_add_springs},
     {"bending", " name triples ", "triples", 3, "coefficient", "an array of triples of particles",

@@ -39,7 +39,6 @@ static const struct hk_option_row particle_rows[] = {
      .high = 1e300,
      .above_low = 1,
      .min_count = 1,
-     .required = 1,
      .doc = "one number, or one a particle; without gravity an overdamped scene needs none"},
     {.name = "pinned",
      .type = HOOKE_OPTION_NUMBERS,

@@ -220,7 +220,7 @@ static void add_lists(struct writer *to) {
       add_groups(to, list);
     else if (strcmp(list->key, "bodies") == 0)
       add_bodies(to, list);
-    else
+    else if (strcmp(list->key, "driven") == 0)
       add_drives(to, list);
     if (to->open) hk_text_close(&to->json, ']');
   }

@@ -163,7 +163,9 @@ class Options(Owner, MutableMapping[str, Any]):
             words = ",".join(item if isinstance(item, str) else repr(as_number(name, item)) for item in value)
             lib.hooke_options_set_text(self._handle, key, words.encode())
         else:
-            numbers = doubles(value, name).reshape(-1)
+            numbers, columns = doubles(value, name), name in self._rows and self._rows[name].columns
+            if columns and numbers.ndim > 1 and numbers.shape[-1] != columns:
+                doubles(numbers, name, (numbers.size // columns, columns))  # says what is allowed
             lib.hooke_options_set_numbers(self._handle, key, numbers.size, double_pointer(numbers))
 
     def __delitem__(self, name: str) -> None:
