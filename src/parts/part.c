@@ -18,20 +18,13 @@ static const double FLAT = 1e-12; /* of unit edges: area, volume */
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hk_option_row family_rows[] = {
-    {.name = "stiffness",
-     HOOKE_OPTION_NOT_NEGATIVE("N"),
-     .required = 1,
-     .example = "50",
-     .doc = "force at double length, of the strain law"},
-    {.name = "damping", HOOKE_OPTION_NOT_NEGATIVE("N s"), .fallback = "0", .doc = "damping along the spring"},
-    {.name = "damping_ratio",
-     HOOKE_OPTION_NOT_NEGATIVE(NULL),
-     .doc = "damping over the critical one of two inner particles on the spring, instead of damping"},
-    {.name = "rest_scale", HOOKE_OPTION_POSITIVE(NULL), .fallback = "1", .doc = "factor on the rest length"},
-    {.name = "compression",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "true",
-     .doc = "false: the springs only pull"},
+    HOOKE_OPTION("stiffness", HOOKE_OPTION_NOT_NEGATIVE("N"), NULL,
+                 "force at double length, of the strain law", .required = 1, .example = "50"),
+    HOOKE_OPTION("damping", HOOKE_OPTION_NOT_NEGATIVE("N s"), "0", "damping along the spring"),
+    HOOKE_OPTION("damping_ratio", HOOKE_OPTION_NOT_NEGATIVE(NULL), NULL,
+                 "damping over the critical one of two inner particles on the spring, instead of damping"),
+    HOOKE_OPTION("rest_scale", HOOKE_OPTION_POSITIVE(NULL), "1", "factor on the rest length"),
+    HOOKE_OPTION("compression", .type = HOOKE_OPTION_FLAG, "true", "false: the springs only pull"),
 };
 
 const struct hk_option_table hk_part_family = {"springs of a part", HOOKE_OPTION_ROWS(family_rows)};

@@ -41,18 +41,27 @@ struct hk_option_table {
   int32_t row_count;
 };
 
-/* What rows often are: a number >= 0 or > 0, a whole number, a vector, numbers >= 0
- * that are one or one for each, a flag that is not set at first. */
-#define HOOKE_OPTION_NOT_NEGATIVE(units)                                                                     \
-  .type = HOOKE_OPTION_NUMBER, .unit = (units), .low = 0.0, .high = 1e300
-#define HOOKE_OPTION_POSITIVE(units) HOOKE_OPTION_NOT_NEGATIVE(units), .above_low = 1
-#define HOOKE_OPTION_WHOLE(least, most)                                                                      \
-  .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most), .whole = 1
-#define HOOKE_OPTION_VECTOR(units)                                                                           \
-  .type = HOOKE_OPTION_NUMBERS, .unit = (units), .min_count = 3, .max_count = 3
-#define HOOKE_OPTION_EACH(units)                                                                             \
-  .type = HOOKE_OPTION_NUMBERS, .unit = (units), .low = 0.0, .high = 1e300, .min_count = 1
-#define HOOKE_OPTION_UNSET .type = HOOKE_OPTION_FLAG, .fallback = "false"
+/* A row: its key, what it is, its default as text (NULL: none) and one line of text, then what few rows have. */
+#define HOOKE_OPTION(key, kind, otherwise, ...)                                                              \
+  { .name = (key), kind, .fallback = (otherwise), .doc = __VA_ARGS__ }
+/* What rows often are: a number >= 0, > 0 or between two others, a whole number, several of them, a vector, rows
+ * of x y z, numbers that are one or one for each, one word of several, a flag that is not set at first. */
+#define HOOKE_OPTION_BETWEEN(least, most) .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most)
+#define HOOKE_OPTION_NOT_NEGATIVE(units)  HOOKE_OPTION_BETWEEN(0.0, 1e300), .unit = (units)
+#define HOOKE_OPTION_UP_TO(units, most)   HOOKE_OPTION_BETWEEN(0.0, most), .unit = (units), .above_low = 1
+#define HOOKE_OPTION_POSITIVE(units)      HOOKE_OPTION_UP_TO(units, 1e300)
+#define HOOKE_OPTION_WHOLE(least, most)   HOOKE_OPTION_BETWEEN(least, most), .whole = 1
+#define HOOKE_OPTION_COUNTED(fewest, largest)                                                                \
+  .type = HOOKE_OPTION_NUMBERS, .min_count = (fewest), .max_count = (largest)
+#define HOOKE_OPTION_WHOLES(least, most, fewest, largest)                                                    \
+  HOOKE_OPTION_COUNTED(fewest, largest), .low = (least), .high = (most), .whole = 1
+#define HOOKE_OPTION_VECTOR(units) HOOKE_OPTION_COUNTED(3, 3), .unit = (units)
+#define HOOKE_OPTION_VECTORS(units, fewest, largest)                                                         \
+  HOOKE_OPTION_COUNTED(3 * (fewest), 3 * (largest)), .unit = (units), .columns = 3
+#define HOOKE_OPTION_EACH(units)          HOOKE_OPTION_COUNTED(1, 0), .unit = (units), .high = 1e300
+#define HOOKE_OPTION_EACH_POSITIVE(units) HOOKE_OPTION_EACH(units), .above_low = 1
+#define HOOKE_OPTION_ONE_OF(choices)      .type = HOOKE_OPTION_CHOICE, .words = (choices)
+#define HOOKE_OPTION_UNSET                .type = HOOKE_OPTION_FLAG, .fallback = "false"
 
 #define HOOKE_OPTION_ROWS(rows) (rows), (int32_t)(sizeof(rows) / sizeof((rows)[0]))
 

@@ -16,12 +16,11 @@
 #include <string.h>
 
 static const struct hk_option_row source_rows[] = {
-    {.name = "file", .type = HOOKE_OPTION_TEXT, .required = 1, .doc = "HDF5 file, relative to the scene"},
-    {.name = "dataset", .type = HOOKE_OPTION_TEXT, .required = 1, .doc = "path of the data set in the file"},
-    {.name = "frame",
-     .type = HOOKE_OPTION_NUMBER,
-     .whole = 1,
-     .doc = "which frame of a trajectory; -1 is the last"},
+    HOOKE_OPTION("file", .type = HOOKE_OPTION_TEXT, NULL, "HDF5 file, relative to the scene", .required = 1),
+    HOOKE_OPTION("dataset", .type = HOOKE_OPTION_TEXT, NULL, "path of the data set in the file",
+                 .required = 1),
+    HOOKE_OPTION("frame", .type = HOOKE_OPTION_NUMBER, NULL, "which frame of a trajectory; -1 is the last",
+                 .whole = 1),
 };
 
 static const struct hk_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
