@@ -39,10 +39,8 @@ static const struct hk_option_table table = {"mesh", HOOKE_OPTION_ROWS(rows)};
 
 int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                        int64_t triangle_count, const int64_t *triangles) {
-  if (options == NULL || hk_options_table(options) != &table) {
-    return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "the options are not those of a mesh; make them with hooke_options_create(\"mesh\", ...)");
-  }
+  int32_t status = hk_options_require(options, &table, "options", "hooke_options_create(\"mesh\", ...)");
+  if (status != HOOKE_OK) return status;
   if (vertex_count < 0 || triangle_count < 0 || vertex_count > INT32_MAX || triangle_count > INT32_MAX ||
       !vertices || !triangles) {
     return hk_fail(
@@ -54,7 +52,7 @@ int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const doubl
   if (corner == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < 3 * triangle_count; k++)
     corner[k] = (double)triangles[k];
-  int32_t status = hooke_options_set_numbers(options, "vertices", 3 * vertex_count, vertices);
+  status = hooke_options_set_numbers(options, "vertices", 3 * vertex_count, vertices);
   if (status == HOOKE_OK)
     status = hooke_options_set_numbers(options, "triangles", 3 * triangle_count, corner);
   hk_free(corner);

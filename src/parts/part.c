@@ -143,9 +143,7 @@ static int32_t material(const struct hk_part *part, const char *family, int by_r
   static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
   int32_t status = hk_options_create(&hk_spring_options, options);
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
-    char dotted[64];
-    snprintf(dotted, sizeof dotted, "%s.%s", family, keys[k]);
-    status = hooke_options_set_number(*options, keys[k], hooke_options_number(part->options, dotted));
+    status = hooke_options_set_number(*options, keys[k], hk_part_material(part, family, keys[k]));
   }
   if (status == HOOKE_OK && by_ratio) status = set_damping(part, family, count, ends, rest_length, *options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(*options, "rest_length", count, rest_length);
@@ -156,12 +154,6 @@ char *hk_part_group_name(const struct hk_part *part, const char *family) {
   char *name = hk_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
   if (name) sprintf(name, "%s.%s", part->name, family);
   return name;
-}
-
-static int is_given(const struct hk_part *part, const char *family, const char *key) {
-  char dotted[64];
-  snprintf(dotted, sizeof dotted, "%s.%s", family, key);
-  return hooke_options_is_set(part->options, dotted);
 }
 
 /* Number of rest lengths (and dampings) needed: one if all are equal to the bit. */
@@ -198,7 +190,8 @@ static int32_t check_rest_length(const char *family, double length) {
 }
 
 static int32_t check_damping(const struct hk_part *part, const char *family) {
-  if (!is_given(part, family, "damping_ratio") || !is_given(part, family, "damping")) return HOOKE_OK;
+  if (!hk_part_is_given(part, family, "damping_ratio") || !hk_part_is_given(part, family, "damping"))
+    return HOOKE_OK;
   hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
           "damping and damping_ratio are both given; a family has one of them");
   return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
@@ -211,7 +204,7 @@ int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t coun
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     status = check_rest_length(family, rest_length[k]);
   if (status != HOOKE_OK || count == 0) return status;
-  status = add_group(part, family, is_given(part, family, "damping_ratio"), count, ends, rest_length);
+  status = add_group(part, family, hk_part_is_given(part, family, "damping_ratio"), count, ends, rest_length);
   return status == HOOKE_OK ? status : hk_fail_within(status, "%s", family);
 }
 
@@ -233,7 +226,7 @@ int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t str
   if (ends && rest_length) {
     join(part, stride, strip_count, strip, ends, rest_length);
     status = hk_part_add_pairs(part, family, count, ends, rest_length);
-    if (status == HOOKE_OK && is_given(part, family, "damping_ratio")) {
+    if (status == HOOKE_OK && hk_part_is_given(part, family, "damping_ratio")) {
       status = hk_part_derive_springs(part, family, strip_count, strip);
     }
   }
@@ -297,13 +290,10 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
                               const hooke_options *options, int64_t *first, int64_t *count) {
   const struct hooke_part_kind *found = find_kind(kind);
   if (found == NULL) return HOOKE_BAD_VALUE;
-  if (options == NULL || hk_options_table(options) != found->table) {
-    return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "the options are not those of a %s; make them with "
-                   "hooke_options_create(\"%s\", ...)",
-                   kind, kind);
-  }
-  int32_t status = hk_system_require_open(system);
+  char maker[64];
+  hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", kind);
+  int32_t status = hk_options_require(options, found->table, "options", maker);
+  if (status == HOOKE_OK) status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
 
   const struct hk_system_mark mark = hk_system_mark(system);

@@ -160,12 +160,6 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
   return status;
 }
 
-static int is_given(const struct hk_part *part, const char *family, const char *key) {
-  char dotted[64];
-  snprintf(dotted, sizeof dotted, "%s.%s", family, key);
-  return hooke_options_is_set(part->options, dotted);
-}
-
 /* Records the first two springs of the bend of a straight strand; all others equal one of these. */
 static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   static const char *const kappa[] = {"kappa on the axis", "kappa of extra particles"};
@@ -194,7 +188,8 @@ static int32_t add_bend(struct hk_part *part, const struct strand *strand) {
     rest_length[k] = distance(strand, k, 2);
   }
   if (status == HOOKE_OK) status = hk_part_add_pairs(part, "bend", count, ends, rest_length);
-  if (status == HOOKE_OK && is_given(part, "bend", "damping_ratio")) status = derive_bend(part, count);
+  if (status == HOOKE_OK && hk_part_is_given(part, "bend", "damping_ratio"))
+    status = derive_bend(part, count);
   hk_free(ends);
   hk_free(rest_length);
   return status;
@@ -232,8 +227,8 @@ static int32_t find_rest(const struct hk_part *part, const struct strand *strand
 /* Damping ratio of the shortest altitude, with half of the inner mass moving on either side. */
 static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t) {
   t->damping = hooke_options_number(part->options, "altitude.damping");
-  if (!is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
-  if (is_given(part, "altitude", "damping")) {
+  if (!hk_part_is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
+  if (hk_part_is_given(part, "altitude", "damping")) {
     return hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
                    "damping and damping_ratio are both given; a family has one of them");
   }

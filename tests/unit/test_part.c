@@ -350,7 +350,8 @@ static void bad_parts_are_refused(void **unused) {
   check_refused("cloth", options, HOOKE_BAD_VALUE,
                 "structural: its springs would have a rest length of inf m");
 
-  check_refused("rope", full_cloth(), HOOKE_BAD_VALUE, "not those of a rope");
+  check_refused("rope", full_cloth(), HOOKE_BAD_VALUE,
+                "options: are those of a cloth; make them with hooke_options_create(\"rope\", ...)");
   check_refused("sail", rope_options(1), HOOKE_BAD_VALUE,
                 "no kind of part called \"sail\"; allowed: rope, cloth, lattice, mesh, strand");
 }

@@ -219,10 +219,10 @@ int32_t hk_options_add_word(hooke_options *options, const char *name, const char
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
   size_t length = strlen(word);
   if (!slot->row->word_lists || !hk_option_has_word(slot->row->words, word, (int64_t)length)) {
-    char shown[HOOKE_OPTION_SHOWN], allowed[TEXT_SIZE];
+    char shown[HOOKE_OPTION_SHOWN], allowed[HOOKE_OPTION_ALLOWED];
     hk_option_show(word, (int64_t)length, shown);
-    hk_option_describe(slot->row, allowed, sizeof allowed);
-    return hk_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown, allowed);
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown,
+                   hk_option_allowed(slot->row, allowed));
   }
   size_t used = slot->value.words ? strlen(slot->value.words) : 0;
   char *words = hk_new((int64_t)(used + length + 2), 1);
@@ -297,11 +297,9 @@ int32_t hk_options_check_required(const hooke_options *options) {
     const struct slot *slot = &options->slot[k];
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
     if (slot->family >= 0 && !options->slot[slot->family].is_set) continue;
-    const char *unit = slot->row->unit ? slot->row->unit : "";
-    char allowed[TEXT_SIZE];
-    hk_option_describe(slot->row, allowed, sizeof allowed);
-    return hk_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s%s%s%s", allowed,
-                   unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+    char allowed[HOOKE_OPTION_ALLOWED];
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s",
+                   hk_option_allowed(slot->row, allowed));
   }
   return HOOKE_OK;
 }

@@ -98,6 +98,9 @@ int32_t hk_option_has_word(const char *words, const char *word, int64_t length);
 
 /* Allowed values of a row, for messages: "a number > 0", "3 numbers". */
 void hk_option_describe(const struct hk_option_row *row, char *text, int64_t size);
+/* The same with the unit, "a number > 0 [s]"; returns `text`. */
+enum { HOOKE_OPTION_ALLOWED = 512 };
+const char *hk_option_allowed(const struct hk_option_row *row, char text[HOOKE_OPTION_ALLOWED]);
 
 /* A caller's text made safe for a message: shortened, without control characters, HOOKE_OPTION_SHOWN bytes at
  * most. */

@@ -123,6 +123,12 @@ void hk_option_describe(const struct hk_option_row *row, char *text, int64_t siz
   }
 }
 
+const char *hk_option_allowed(const struct hk_option_row *row, char text[HOOKE_OPTION_ALLOWED]) {
+  hk_option_describe(row, text, HOOKE_OPTION_ALLOWED);
+  if (row->unit && row->unit[0]) hk_append(text, HOOKE_OPTION_ALLOWED, " [%s]", row->unit);
+  return text;
+}
+
 /* Edit distance: number of single-character changes that turn one name into the other. */
 static int32_t distance(const char *a, const char *b) {
   int32_t row[NAME_SIZE + 1];

@@ -81,9 +81,7 @@ int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit,
 }
 
 int32_t hooke_mesh_read(const char *path, hooke_options *options) {
-  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, "options", "are missing; those of a mesh are needed");
-  if (hk_options_find(hk_options_table(options), "triangles") == NULL)
-    return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "the options are not those of a mesh; make them with hooke_options_create(\"mesh\", ...)");
-  return hk_mesh_read_as(path, path, 0.0, options);
+  const int32_t status =
+      hk_options_require(options, hk_options_named("mesh"), "options", "hooke_options_create(\"mesh\", ...)");
+  return status != HOOKE_OK ? status : hk_mesh_read_as(path, path, 0.0, options);
 }

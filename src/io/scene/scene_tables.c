@@ -71,13 +71,9 @@ const struct hk_option_table *hk_scene_table(int64_t k) {
 }
 
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {
-  if (options == NULL || hk_options_table(options) != &scene_table) {
-    return hk_fail(
-        HOOKE_BAD_VALUE, NULL,
-        "the options are not those of a scene; make them with hooke_options_create(\"scene\", ...)");
-  }
-  int32_t status = HOOKE_OK;
-  if (hooke_options_is_set(options, "gravity"))
+  int32_t status =
+      hk_options_require(options, &scene_table, "options", "hooke_options_create(\"scene\", ...)");
+  if (status == HOOKE_OK && hooke_options_is_set(options, "gravity"))
     status = hooke_system_set_gravity(system, hooke_options_numbers(options, "gravity"));
   if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))
     status = hooke_system_set_drag(system, hooke_options_number(options, "drag"));
