@@ -79,6 +79,13 @@ def members(rows, family):
     return [row._replace(name=row.name.partition(".")[2]) for row in rows if row.name.startswith(family + ".")]
 
 
+def way(rows, word):
+    """What holds where this word of the choice in the first row is given."""
+    refused = {row.name: False for row in rows if row.only not in ("", word)}
+    return {"if": {"properties": {rows[0].name: {"const": word}}},
+            "then": {"required": [row.name for row in rows if row.required and row.only == word], "properties": refused}}
+
+
 class Tables:
     """Objects of the schema from tables of options, each with its part of the template."""
 
@@ -99,9 +106,10 @@ class Tables:
                 schema = {**schema, "default": default(row)} if row.default else schema
                 properties[row.name] = {**schema, "description": row.doc + (f" [{row.unit}]" if row.unit else "")}
         required = [*(["kind"] if own else []), *template.get("required", []),
-                    *(row.name for row in rows if row.required and "." not in row.name)]
+                    *(row.name for row in rows if row.required and "." not in row.name and not row.only)]
         one = {"not": {"required": ["mass", "density"]}} if "density" in properties else {}
-        return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one,
+        ways = {"allOf": [way(rows, word) for word in rows[0].words]} if any(row.only for row in rows) else {}
+        return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one, **ways,
                 **{key: words for key, words in template.items() if key not in ("required", "properties")},
                 "properties": properties}
 
@@ -119,15 +127,14 @@ def schema():
     rows = {kind: hooke.Options.for_part(kind).rows for kind in kinds}
     tables.family = tables.table(members(rows["rope"], "stretch"), definitions["family"])
     parts = {kind: tables.part(kind, rows[kind]) for kind in kinds}
-    springs = tables.table(hooke.Options.for_springs().rows, definitions["springs"])
-    bending = tables.table(hooke.Options.for_scene("bending").rows, definitions["bending"])
-    anchors = tables.table(hooke.Options.for_anchors().rows, definitions["anchors"])
-    run = tables.table(hooke.Options.for_run().rows, definitions["run"])
+    objects = {name: tables.table(hooke.options_of(name).rows, definitions[name])
+               for name in ("particles", "springs", "bending", "anchors", "bodies", "driven", "run")}
+    keys, version = tables.table(hooke.options_of("scene").rows, {})["properties"], template["properties"].pop("hooke")
+    template["properties"] = {"hooke": version, **keys, **template["properties"]}
     template["properties"]["parts"]["items"] = {
         "type": "object", "required": ["kind"], "properties": {"kind": {"enum": kinds}},
         "allOf": [{"if": {"properties": {"kind": {"const": kind}}}, "then": named(kind)} for kind in kinds]}
-    template["$defs"] = {**definitions, "springs": springs, "bending": bending, "anchors": anchors,
-                         "family": tables.family, **parts, "run": run}
+    template["$defs"] = {**definitions, **objects, "family": tables.family, **parts}
     return template
 
 

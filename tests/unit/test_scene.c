@@ -566,7 +566,8 @@ static void drives_take_the_keys_of_their_motion(void **state) {
          " 'position': [[0,0,0],[0,0,0]]}]}",
          "t.json:2:59: driven[0].phase: belongs to motion 'harmonic'; allowed with 'table': time, position");
   refuse("{'hooke': 1, " TWO ",\n'driven': [{'particles': [0], 'motion': 'harmonic', 'amplitude': [0,0,1]}]}",
-         "t.json:2:12: driven[0].frequency: is required with motion 'harmonic' but missing");
+         "t.json:2:12: driven[0].frequency: is required with motion 'harmonic' but missing; allowed: a "
+         "number >= 0 [Hz]");
   refuse("{'hooke': 1, " TWO
          ",\n'driven': [{'particles': [0], 'motion': 'table', 'time': [0,1], 'position': [[0,0,0]]}]}",
          "t.json:2:77: driven[0].position: 1 row given; allowed: 2 or more rows of 3 numbers each [m]");

@@ -30,6 +30,7 @@ struct hk_option_row {
   const char *words; /* separated by blanks: the words allowed instead of numbers, or the choices */
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;
+  const char *only; /* of the table's first row, a choice: the word that it belongs to */
   const struct hk_option_table *family;
   const char *doc;
   const char *example; /* as text: an example value */
@@ -90,7 +91,8 @@ int32_t hk_options_has_family(const hooke_options *options, const char *name);
 /* Adds a word to the option's list of words (for a row with word_lists), keeping its numbers. */
 int32_t hk_options_add_word(hooke_options *options, const char *name, const char *word);
 
-/* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value. */
+/* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value, or one is set that belongs
+ * to another choice. */
 int32_t hk_options_check_required(const hooke_options *options);
 
 /* 1 if `word` is one of `words`, separated by blanks (NULL: none). */

@@ -246,35 +246,13 @@ static int32_t add_body(hooke_system *system, const char *name, int64_t count, c
                                hooke_options_number(options, "project") != 0.0);
 }
 
-/* ---- drives ---- */
-
-/* Refuses the keys of another motion, and requires those of this one but the phase. */
-static int32_t check_drive(const hooke_options *options) {
-  static const char *const keys[] = {"amplitude", "frequency", "phase", "time", "position"};
-  const char *motion = hooke_options_text(options, "motion");
-  const int32_t table = strcmp(motion, "table") == 0;
-  for (int32_t k = 0; k < 5; k++) {
-    const int32_t set = hooke_options_is_set(options, keys[k]), belongs = (k >= 3) == table;
-    if (set && !belongs)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k], "belongs to motion \"%s\"; allowed with \"%s\": %s",
-                     table ? "harmonic" : "table", motion,
-                     table ? "time, position" : "amplitude, frequency, phase");
-    if (!set && belongs && strcmp(keys[k], "phase") != 0)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k], "is required with motion \"%s\" but missing", motion);
-  }
-  return HOOKE_OK;
-}
-
 static int32_t add_drive(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                          const hooke_options *options) {
   (void)name;
-  const int32_t status = check_drive(options);
-  if (status != HOOKE_OK) return status;
-  if (strcmp(hooke_options_text(options, "motion"), "harmonic") == 0) {
-    const double phase = hooke_options_is_set(options, "phase") ? hooke_options_number(options, "phase") : 0;
+  if (strcmp(hooke_options_text(options, "motion"), "harmonic") == 0)
     return hooke_system_drive_harmonic(system, count, particles, hooke_options_numbers(options, "amplitude"),
-                                       hooke_options_number(options, "frequency"), phase);
-  }
+                                       hooke_options_number(options, "frequency"),
+                                       hooke_options_number(options, "phase"));
   int64_t samples = hooke_options_number_count(options, "time");
   int64_t rows = hooke_options_number_count(options, "position") / 3;
   if (rows != samples)

@@ -27,7 +27,7 @@ class Row(NamedTuple):
     is a value for a first try. `low` and `high` are bounds of every number, inclusive unless `above_low`; `required`
     of a member of a family applies if the family is given; `min_count` and `max_count` bound the count of "numbers",
     in rows of `columns`; with `word_lists` words and numbers may be mixed; `units` are those that a text may name
-    instead of `unit`.
+    instead of `unit`; `only` is the word of the first option, a choice, with which it may be given.
     """
 
     name: str
@@ -49,6 +49,7 @@ class Row(NamedTuple):
     max_count: int | None
     columns: int | None
     word_lists: bool
+    only: str
 
 
 def _of_table(what: str, doc: str) -> classmethod[Options, [], Options]:
