@@ -204,7 +204,7 @@ def test_a_mesh_keeps_the_vertices_of_its_file(tmp_path):
     with pytest.raises(hooke.BadValue, match="mesh: .*cannot be opened"):
         hooke.Scene().mesh(file=path, **shape)
     path.write_text("v 0 0 0\n")
-    with pytest.raises(hooke.BadValue, match="file: is not allowed together with vertices"):
+    with pytest.raises(hooke.BadValue, match="mesh.vertices: belongs to a mesh without a file"):
         hooke.Scene().mesh(file=path, vertices=vertices, **shape)
 
 

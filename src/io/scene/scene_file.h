@@ -16,7 +16,7 @@ extern const struct hk_scene_list {
   const char *key;       /* also the name of their options */
   const char *others;    /* keys beside those of the options, each between blanks */
   const char *particles; /* key of those that a member has; NULL: one object, which adds particles */
-  int32_t columns;       /* of a row of particles; 0: one */
+  int32_t columns;       /* of a row of particles */
   const char *strength;  /* key of the first number of a member, if they are groups of a force */
   const char *allowed;
   int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,

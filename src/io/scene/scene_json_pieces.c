@@ -160,14 +160,10 @@ int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root) {
 
 static int32_t list_part(const struct hk_scene_reader *reader, const char *value, int64_t **particles,
                          int64_t *count) {
+  const struct hk_part_record *part;
   int32_t status = hk_scene_require(value, '"', "part", "a text");
+  if (status == HOOKE_OK) status = hk_scene_require_part(reader, "part", hk_json_text(value), &part);
   if (status != HOOKE_OK) return status;
-  const struct hk_part_record *part = hk_scene_find_part(reader, hk_json_text(value));
-  if (part == NULL) {
-    char shown[HOOKE_OPTION_SHOWN];
-    hk_option_show(hk_json_text(value), (int64_t)strlen(hk_json_text(value)), shown);
-    return hk_fail(HOOKE_BAD_VALUE, "part", "there is no part \"%s\"; allowed: the name of a part", shown);
-  }
   *particles = hk_new(part->count, sizeof **particles);
   if (*particles == NULL) return HOOKE_NO_MEMORY;
   *count = part->count;
@@ -200,8 +196,7 @@ static int32_t add_member(struct hk_scene_reader *reader, const char *object,
   if (status == HOOKE_OK && list->particles)
     status = read_particles(reader, object, list, &particles, &count);
   if (status == HOOKE_OK)
-    status = list->add(reader->scene->system, name, list->columns > 0 ? count / list->columns : count,
-                       particles, options);
+    status = hooke_system_add_members(reader->scene->system, list->key, name, count, particles, options);
   hk_free(particles);
   hooke_options_destroy(options);
   return status;
@@ -226,11 +221,10 @@ int32_t hooke_system_add_members(hooke_system *system, const char *key, const ch
   hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
   int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
   if (status == HOOKE_OK) status = hk_options_check_required(options);
-  const int64_t each = list->columns > 0 ? list->columns : 1;
-  if (status == HOOKE_OK && (count % each != 0 || (count != 0 && !list->particles)))
+  if (status == HOOKE_OK && (count % list->columns != 0 || (count != 0 && !list->particles)))
     status = hk_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed for %s; allowed: %s", (long long)count,
                      key, list->particles ? list->allowed : "0");
-  return status == HOOKE_OK ? list->add(system, name, count / each, particles, options) : status;
+  return status == HOOKE_OK ? list->add(system, name, count / list->columns, particles, options) : status;
 }
 
 static int32_t add_bending(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
@@ -264,14 +258,14 @@ static int32_t add_drive(hooke_system *system, const char *name, int64_t count, 
 
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
-    {"particles", "", NULL, 0, NULL, NULL, add_particles},
+    {"particles", "", NULL, 1, NULL, NULL, add_particles},
     {"springs", " name between ", "between", 2, "stiffness", "an array of pairs of particles",
      hooke_system_add_springs},
     {"bending", " name triples ", "triples", 3, "coefficient", "an array of triples of particles",
      add_bending},
-    {"anchors", " name particles ", "particles", 0, "stiffness", "an array of particles",
+    {"anchors", " name particles ", "particles", 1, "stiffness", "an array of particles",
      hooke_system_add_anchors},
-    {"bodies", " name particles part ", "particles", 0, NULL, "particles, or the name of a part", add_body},
-    {"driven", " particles ", "particles", 0, NULL, "an array of particles", add_drive},
+    {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body},
+    {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive},
     {NULL, NULL, NULL, 0, NULL, NULL, NULL},
 };

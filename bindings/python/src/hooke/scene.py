@@ -194,7 +194,7 @@ class Scene(Parts, Problem):
                 raise BadValue("particles: allowed: particles, or the name of a part")
             if part is not None:
                 particles = list(self._in_part(part, "part"))
-        return self._group("bodies", "particles", dict(name=name, particles=particles, project=project or None))
+        return self._group("bodies", "particles", {"name": name, "particles": particles, "project": project or None})
 
     def driven(
         self,
@@ -242,8 +242,6 @@ class Scene(Parts, Problem):
                 raise BadValue(f'name: "{called}" is the name of another part; allowed: a name of its own')
             options = Options.for_part(kind).set(**keys)
             if file is not None:
-                if "vertices" in keys or "triangles" in keys:
-                    raise BadValue("file: is not allowed together with vertices and triangles")
                 read_mesh(file, options)
                 read: dict[str, Any] = {key: options[key] for key in ("vertices", "triangles")}
                 keys.update((key, numbers.reshape(-1, 3)) for key, numbers in read.items())

@@ -82,8 +82,6 @@ class System(Queries):
         if velocity is not None:
             velocity = doubles(velocity, "velocity", (count, 3), (3 * count,))
         mass = doubles(mass, "mass").reshape(-1)
-        if mass.size > 1:
-            mass = doubles(mass, "mass", (count,), (1,))
         first = ctypes.c_int64()
         lib.hooke_system_add_particles(
             self._handle,
