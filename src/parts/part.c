@@ -251,13 +251,11 @@ static int32_t pin_numbers(const struct hk_part *part) {
 }
 
 static int32_t pin_words(const struct hooke_part_kind *kind, const struct hk_part *part) {
-  const char *text = hooke_options_text(part->options, "pinned");
-  while (*(text += strspn(text, " "))) {
-    const size_t length = strcspn(text, " ");
+  const char *rest = hooke_options_text(part->options, "pinned");
+  int64_t length, offset;
+  for (const char *at; (at = hk_option_next_word(&rest, &length));) {
     char word[32];
-    snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), text);
-    text += length;
-    int64_t offset;
+    snprintf(word, sizeof word, "%.*s", (int)length, at);
     for (int64_t k = 0; (offset = kind->named(part, word, k)) >= 0; k++) {
       const int64_t particle = part->first + offset;
       int32_t status = hooke_system_pin(part->system, 1, &particle);

@@ -95,6 +95,8 @@ int32_t hk_options_add_word(hooke_options *options, const char *name, const char
  * to another choice. */
 int32_t hk_options_check_required(const hooke_options *options);
 
+/* Next word of a list separated by blanks, which is advanced; NULL at the end. */
+const char *hk_option_next_word(const char **rest, int64_t *length);
 /* 1 if `word` is one of `words`, separated by blanks (NULL: none). */
 int32_t hk_option_has_word(const char *words, const char *word, int64_t length);
 
