@@ -21,23 +21,14 @@ def number(value):
     return int(value) if float(value).is_integer() else float(value)
 
 
-def with_unit(schema):
-    """Of a number, which may also be a string with a unit; bounds hold for numbers, the pattern for strings."""
-    if isinstance(schema, list):
-        return [with_unit(item) for item in schema]
-    if not isinstance(schema, dict):
-        return schema
-    inside = {key: with_unit(item) for key, item in schema.items()}
-    return {**inside, "type": ["number", "string"], "pattern": QUANTITY} if schema.get("type") == "number" else inside
-
-
 def scalar(row):
+    """Bounds hold for numbers; the pattern is that of strings, where a number may have a unit."""
     schema = {"type": "integer" if row.whole else "number"}
     if row.low is not None and row.low > -LARGEST:
         schema["exclusiveMinimum" if row.above_low else "minimum"] = number(row.low)
     if row.high is not None and row.high < LARGEST:
         schema["maximum"] = number(row.high)
-    return with_unit(schema) if row.units else schema
+    return {**schema, "type": ["number", "string"], "pattern": QUANTITY} if row.units else schema
 
 
 def array(items, least, most):
@@ -47,16 +38,14 @@ def array(items, least, most):
 
 def numbers(row):
     """An array, or one in a file; or the other values that the table accepts."""
-    if (row.min_count, row.max_count, row.columns) == (1, None, None) and row.units:
-        ways = [named("positive numbers" if row.above_low else "numbers from 0")]
-    else:
-        items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
-        rows = array(items, row.columns, row.columns) if row.columns else items
-        width = row.columns or 1
-        ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
+    items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
+    rows, width = array(items, row.columns, row.columns) if row.columns else items, row.columns or 1
+    ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
+    if (row.min_count, row.max_count, row.columns) == (1, None, None):
+        ways.insert(0, scalar(row))
     if row.words:
         ways.insert(0, {"enum": row.words})
-    return ways[0] if len(ways) == 1 else {"oneOf": ways}
+    return {"oneOf": ways}
 
 
 def value(row, methods):
@@ -121,7 +110,7 @@ class Tables:
 def schema():
     import hooke
 
-    template = with_unit(json.loads(TEMPLATE.read_text(encoding="utf-8")))
+    template = json.loads(TEMPLATE.read_text(encoding="utf-8"))
     definitions, kinds = template["$defs"], hooke.part_kinds()
     tables = Tables(template, [method.name for method in hooke.methods()])
     rows = {kind: hooke.Options.for_part(kind).rows for kind in kinds}
