@@ -232,20 +232,6 @@ static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   return strcmp(word, "bottom") == 0 ? k : part->count - layer + k;
 }
 
-static int32_t cells(const hooke_options *options, int64_t cells[3]) {
-  const double *size = hooke_options_numbers(options, "size");
-  for (int a = 0; a < 3; a++)
-    cells[a] = (int64_t)size[a] - 1;
-  return 3;
-}
-
-static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
-  const double size[3] = {(double)cells[0] + 1.0, (double)cells[1] + 1.0, (double)cells[2] + 1.0};
-  return hooke_options_set_numbers(options, "size", 3, size);
-}
-
-static const struct hk_part_grid grid = {cells, set_cells};
-
 const struct hooke_part_kind hk_part_lattice = {
-    &table, build, named, &grid,
+    &table, build, named, &hk_part_sized,
     "a grid of particles over three edges, with springs along it, across its cells and two apart"};

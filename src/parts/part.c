@@ -59,6 +59,23 @@ const struct hk_option_table *hk_part_table(int64_t k) {
   return k < KIND_COUNT ? kinds[k]->table : NULL;
 }
 
+static int32_t cells(const hooke_options *options, int64_t cells[3]) {
+  const int32_t axes = (int32_t)hooke_options_number_count(options, "size");
+  for (int32_t a = 0; a < axes; a++)
+    cells[a] = (int64_t)hooke_options_numbers(options, "size")[a] - 1;
+  return axes;
+}
+
+static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
+  const int64_t axes = hooke_options_number_count(options, "size");
+  double size[3];
+  for (int64_t a = 0; a < axes; a++)
+    size[a] = (double)cells[a] + 1.0;
+  return hooke_options_set_numbers(options, "size", axes, size);
+}
+
+const struct hk_part_grid hk_part_sized = {cells, set_cells};
+
 double hk_part_length(const double *vector) {
   return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
 }

@@ -27,6 +27,9 @@ struct hooke_part_kind {
   const char *summary;             /* one line */
 };
 
+/* A grid of the option `size`, in particles. */
+extern const struct hk_part_grid hk_part_sized;
+
 extern const struct hooke_part_kind hk_part_rope;
 extern const struct hooke_part_kind hk_part_cloth;
 extern const struct hooke_part_kind hk_part_lattice;
