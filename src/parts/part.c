@@ -334,3 +334,12 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
   if (count) *count = part.count;
   return HOOKE_OK;
 }
+
+int64_t hooke_system_part_count(const hooke_system *system, const char *part, const char *what) {
+  for (int64_t k = 0; k < system->part_count; k++) {
+    if (strcmp(system->part[k].name, part) != 0) continue;
+    if (strcmp(what, "particles") == 0) return system->part[k].count;
+    return strcmp(what, "before") == 0 ? system->part[k].first : -1;
+  }
+  return -1;
+}

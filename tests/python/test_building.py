@@ -225,6 +225,13 @@ def test_parts_that_were_read_have_their_names():
         scene.springs(between=[[0, ("c", 1)]], stiffness=1)
 
 
+def test_parts_of_files_that_were_read_have_their_names():
+    scene = hooke.Scene.load(ROOT / "examples/scenes/mesh.json")
+    name = json.loads(scene.text)["parts"][0].get("name", "mesh0")
+    scene.springs("tie", between=[[(name, 0), (name, 2)]], stiffness=1)
+    assert scene.system.groups[0] == ("tie", 1)
+
+
 def test_the_scene_keeps_what_it_was_given():
     """The caller's arrays may change afterwards."""
     q, ends, stiffness = np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 1]]), np.array([5.0])

@@ -53,7 +53,6 @@ class Scene(Parts, Problem):
         self._system = System()
         self._run = Options.for_run()
         self._title = title
-        self._parts: dict[str, range] = {}  # of the known ones
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] = {"hooke": 1}
         own = Options.for_scene().set(title=title or None, dynamics=dynamics, drag=drag)
@@ -73,7 +72,6 @@ class Scene(Parts, Problem):
         scene._run = Options(Handle(lib.hooke_scene_run_options(handle), None, handle))
         scene._title = text(lib.hooke_scene_text(handle, b"title"))
         scene._text = text(lib.hooke_scene_text(handle, b"text"))
-        scene._parts = {}
         return scene
 
     @classmethod
@@ -245,7 +243,7 @@ class Scene(Parts, Problem):
                 read_mesh(file, options)
                 read: dict[str, Any] = {key: options[key] for key in ("vertices", "triangles")}
                 keys.update((key, numbers.reshape(-1, 3)) for key, numbers in read.items())
-            self._parts[called] = self._system._add_part(kind, called, options)
+            self._system._add_part(kind, called, options)
         return self._note("parts", {"kind": kind, **({"name": name} if name else {}), **keys})
 
     # using
@@ -322,33 +320,18 @@ class Scene(Parts, Problem):
         return [self._resolved(particle, f"{name}[{place}]") for place, particle in enumerate(particles)]
 
     def _in_part(self, part: str, name: str) -> range:
-        names = self._part_names()
-        if part not in names:
-            known = ", ".join(f'"{other}"' for other in names) or "there are none"
+        handle, key = self._system._handle, part.encode()
+        before, count = (int(lib.hooke_system_part_count(handle, key, what)) for what in (b"before", b"particles"))
+        if count < 0:
+            known = ", ".join(f'"{other}"' for other in self._part_names()) or "there are none"
             raise BadValue(f'{name}: there is no part called "{part}"; allowed: {known}')
-        if part not in self._parts:
-            self._find_parts(names)
-        return self._parts[part]
+        return range(before, before + count)
 
     def _number_in_part(self, part: str, number: Any, name: str) -> int:
         particles = self._in_part(part, name)
         if not isinstance(number, (int, np.integer)) or not 0 <= number < len(particles):
             raise BadValue(f'{name}: "{part}" has no particle {number}; allowed: 0 to {len(particles) - 1}')
         return particles[int(number)]
-
-    def _find_parts(self, names: list[str]) -> None:
-        """The particles of parts in a loaded scene: each part is as large as the same one in a system of its own."""
-        ranges: dict[str, range] = {}
-        last = self._system.particle_count
-        for name, part in reversed(list(zip(names, self._opened()["parts"]))):
-            options = Options.for_part(part["kind"])
-            for key, value in part.items():
-                if key not in ("kind", "name", "pinned"):
-                    options[key] = value
-            count = len(System()._add_part(part["kind"], name, options))
-            ranges[name] = range(last - count, last)
-            last -= count
-        self._parts = ranges
 
 
 def limits_of(memory: float | None, outside: bool) -> Handle:
