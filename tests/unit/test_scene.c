@@ -436,6 +436,8 @@ static void members_are_added_by_key(void **state) {
   check_ok(hooke_system_create(&system));
   check_ok(hooke_options_create("particles", &particles));
   check_ok(hooke_options_set_numbers(particles, "position", 6, place));
+  check_status(hooke_system_add_members(system, "particles", NULL, 0, NULL, particles), HOOKE_BAD_VALUE);
+  check_message("mass: is required but missing; allowed: one or more numbers > 0 [kg]");
   check_ok(hooke_options_set_number(particles, "mass", 2));
   check_ok(hooke_options_set_number(particles, "pinned", 2));
   check_status(hooke_system_add_members(system, "particles", NULL, 0, NULL, particles), HOOKE_BAD_VALUE);

@@ -77,6 +77,8 @@ static int32_t add_particles(hooke_system *system, const char *name, int64_t cou
   if (velocity && velocities != n)
     return hk_fail(HOOKE_BAD_VALUE, "velocity", "%lld rows given; allowed: %lld, one for each position",
                    (long long)velocities, (long long)n);
+  if (!hooke_options_is_set(options, "mass") && (system->has_gravity || !system->overdamped))
+    return hk_fail(HOOKE_BAD_VALUE, "mass", "is required but missing; allowed: one or more numbers > 0 [kg]");
   const struct hk_system_mark mark = hk_system_mark(system);
   int32_t status = hooke_system_add_particles(system, n, hooke_options_numbers(options, "position"), velocity,
                                               hooke_options_number_count(options, "mass"),
