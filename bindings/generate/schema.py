@@ -21,23 +21,14 @@ def number(value):
     return int(value) if float(value).is_integer() else float(value)
 
 
-def with_unit(schema):
-    """Of a number, which may also be a string with a unit; bounds hold for numbers, the pattern for strings."""
-    if isinstance(schema, list):
-        return [with_unit(item) for item in schema]
-    if not isinstance(schema, dict):
-        return schema
-    inside = {key: with_unit(item) for key, item in schema.items()}
-    return {**inside, "type": ["number", "string"], "pattern": QUANTITY} if schema.get("type") == "number" else inside
-
-
 def scalar(row):
+    """Bounds hold for numbers; the pattern is that of strings, where a number may have a unit."""
     schema = {"type": "integer" if row.whole else "number"}
     if row.low is not None and row.low > -LARGEST:
         schema["exclusiveMinimum" if row.above_low else "minimum"] = number(row.low)
     if row.high is not None and row.high < LARGEST:
         schema["maximum"] = number(row.high)
-    return with_unit(schema) if row.units else schema
+    return {**schema, "type": ["number", "string"], "pattern": QUANTITY} if row.units else schema
 
 
 def array(items, least, most):
@@ -47,16 +38,14 @@ def array(items, least, most):
 
 def numbers(row):
     """An array, or one in a file; or the other values that the table accepts."""
-    if (row.min_count, row.max_count, row.columns) == (1, None, None) and row.units:
-        ways = [named("positive numbers" if row.above_low else "numbers from 0")]
-    else:
-        items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
-        rows = array(items, row.columns, row.columns) if row.columns else items
-        width = row.columns or 1
-        ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
+    items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
+    rows, width = array(items, row.columns, row.columns) if row.columns else items, row.columns or 1
+    ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
+    if (row.min_count, row.max_count, row.columns) == (1, None, None):
+        ways.insert(0, scalar(row))
     if row.words:
         ways.insert(0, {"enum": row.words})
-    return ways[0] if len(ways) == 1 else {"oneOf": ways}
+    return {"oneOf": ways}
 
 
 def value(row, methods):
@@ -79,6 +68,13 @@ def members(rows, family):
     return [row._replace(name=row.name.partition(".")[2]) for row in rows if row.name.startswith(family + ".")]
 
 
+def way(rows, word):
+    """What holds where this word of the choice in the first row is given."""
+    refused = {row.name: False for row in rows if row.only not in ("", word)}
+    return {"if": {"properties": {rows[0].name: {"const": word}}},
+            "then": {"required": [row.name for row in rows if row.required and row.only == word], "properties": refused}}
+
+
 class Tables:
     """Objects of the schema from tables of options, each with its part of the template."""
 
@@ -99,9 +95,10 @@ class Tables:
                 schema = {**schema, "default": default(row)} if row.default else schema
                 properties[row.name] = {**schema, "description": row.doc + (f" [{row.unit}]" if row.unit else "")}
         required = [*(["kind"] if own else []), *template.get("required", []),
-                    *(row.name for row in rows if row.required and "." not in row.name)]
+                    *(row.name for row in rows if row.required and "." not in row.name and not row.only)]
         one = {"not": {"required": ["mass", "density"]}} if "density" in properties else {}
-        return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one,
+        ways = {"allOf": [way(rows, word) for word in rows[0].words]} if any(row.only for row in rows) else {}
+        return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one, **ways,
                 **{key: words for key, words in template.items() if key not in ("required", "properties")},
                 "properties": properties}
 
@@ -113,21 +110,20 @@ class Tables:
 def schema():
     import hooke
 
-    template = with_unit(json.loads(TEMPLATE.read_text(encoding="utf-8")))
+    template = json.loads(TEMPLATE.read_text(encoding="utf-8"))
     definitions, kinds = template["$defs"], hooke.part_kinds()
     tables = Tables(template, [method.name for method in hooke.methods()])
     rows = {kind: hooke.Options.for_part(kind).rows for kind in kinds}
     tables.family = tables.table(members(rows["rope"], "stretch"), definitions["family"])
     parts = {kind: tables.part(kind, rows[kind]) for kind in kinds}
-    springs = tables.table(hooke.Options.for_springs().rows, definitions["springs"])
-    bending = tables.table(hooke.Options.for_scene("bending").rows, definitions["bending"])
-    anchors = tables.table(hooke.Options.for_anchors().rows, definitions["anchors"])
-    run = tables.table(hooke.Options.for_run().rows, definitions["run"])
+    objects = {name: tables.table(hooke.options_of(name).rows, definitions[name])
+               for name in ("particles", "springs", "bending", "anchors", "bodies", "driven", "run")}
+    keys, version = tables.table(hooke.options_of("scene").rows, {})["properties"], template["properties"].pop("hooke")
+    template["properties"] = {"hooke": version, **keys, **template["properties"]}
     template["properties"]["parts"]["items"] = {
         "type": "object", "required": ["kind"], "properties": {"kind": {"enum": kinds}},
         "allOf": [{"if": {"properties": {"kind": {"const": kind}}}, "then": named(kind)} for kind in kinds]}
-    template["$defs"] = {**definitions, "springs": springs, "bending": bending, "anchors": anchors,
-                         "family": tables.family, **parts, "run": run}
+    template["$defs"] = {**definitions, **objects, "family": tables.family, **parts}
     return template
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,12 +32,13 @@ def table(rows: list[list[str]]) -> str:
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows])
 
 
-def option_rows(rows: Any, required: list[str], families: set[str] = frozenset()) -> list[list[str]]:
+def option_rows(rows: Any, families: set[str] = frozenset()) -> list[list[str]]:
     found = []
     for row in rows:
-        default = "required" if row.name in required else f"`{row.default}`" if row.default else ""
+        default = "required" if row.required else f"`{row.default}`" if row.default else ""
         allowed = "[a family of springs](#families-of-springs)" if row.name in families else row.allowed
-        found.append([f"`{row.name}`", cell(row.doc), cell(allowed or row.type), cell(row.unit), default])
+        words = f"{row.doc}; with {rows[0].name} `{row.only}`" if row.only else row.doc
+        found.append([f"`{row.name}`", cell(words), cell(allowed or row.type), cell(row.unit), default])
     return found
 
 
@@ -44,9 +46,7 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
     """The values that a piece of the schema allows, in a few words."""
     if "$ref" in schema:
         name = schema["$ref"].removeprefix("#/$defs/")
-        named = {"vector": "3 numbers", "vectors": "rows of 3 numbers", "dataset": "", "index": "the number of a particle",
-                 "particle": "a number, or [\"part\", number]",
-                 "positive numbers": "one or more numbers > 0", "numbers from 0": "one or more numbers >= 0"}
+        named = {"dataset": "", "index": "the number of a particle", "particle": "a number, or [\"part\", number]"}
         return named[name] if name in named else allowed(definitions[name], definitions)
     if "oneOf" in schema:
         return " or ".join(filter(None, (allowed(one, definitions) for one in schema["oneOf"])))
@@ -67,28 +67,19 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
 BELOW = ("particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "run")
 
 
-def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: list[str] | None = None,
-                below: tuple[str, ...] = ()) -> list[list[str]]:
+def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: Sequence[str],
+                below: Sequence[str] = ()) -> list[list[str]]:
     required = schema.get("required", [])
     found = []
-    for name in names or schema["properties"]:
+    for name in names:
         one = schema["properties"][name]
         words = one.get("description") or definitions.get(one.get("$ref", "")[8:], {}).get("description", "")
-        words, default = taken(words, r"[;,]? *default: (.+)$")
-        words, unit = taken(words, r"[,;]? *(?:in )?\[(\S[^\]\"]*)\](?=,|$)")
-        default = "required" if name in required else default or (f"`{one['default']}`" if "default" in one else "")
         what = f"[below](#{name})" if name in below else cell(allowed(one, definitions))
-        found.append([f"`{name}`", cell(words), what, cell(unit), default])
+        found.append([f"`{name}`", cell(words), what, "", "required" if name in required else ""])
     return found
 
 
-def taken(words: str, pattern: str) -> tuple[str, str]:
-    """The words without the match of the pattern, and the match."""
-    match = re.search(pattern, words)
-    return ((words[: match.start()] + words[match.end() :]).lstrip(", "), match[1]) if match else (words, "")
-
-
-def parts(schema: dict[str, Any]) -> list[str]:
+def parts() -> list[str]:
     import hooke
 
     pieces, members = [], {}  # of families of springs, whose names depend on the part
@@ -102,10 +93,9 @@ def parts(schema: dict[str, Any]) -> list[str]:
                 members.setdefault(member, row._replace(name=member))
         first = ["`kind`", f'`"{kind}"`', f'"{kind}"', "", "required"]
         name = ["`name`", "of the part, and the first word of the names of its groups", "a text", "", "its kind and number"]
-        required = schema["$defs"].get(kind, {}).get("required", [])
-        pieces += [f"### {kind}", table([first, name, *option_rows(own, required, families)])]
+        pieces += [f"### {kind}", table([first, name, *option_rows(own, families)])]
     return [*pieces, "### Families of springs", "Of every part, each under its own name. A family that is absent has no "
-            "springs.", table(option_rows(members.values(), schema["$defs"]["family"]["required"]))]
+            "springs.", table(option_rows(members.values()))]
 
 
 def page(root: Path) -> str:
@@ -113,38 +103,16 @@ def page(root: Path) -> str:
 
     schema = json.loads((root / "examples/scene.schema.json").read_text("utf-8"))
     definitions = schema["$defs"]
-    springs = schema_rows(definitions["springs"], definitions, ["name", "between"])
-    pieces = [
-        INTRO,
-        "## Keys",
-        table(schema_rows(schema, definitions, below=BELOW)),
-        "## particles",
-        table(schema_rows(definitions["particles"], definitions)),
-        "## springs",
-        table(springs + option_rows(hooke.Options.for_springs().rows, definitions["springs"]["required"])),
-        "## bending",
-        table(schema_rows(definitions["bending"], definitions, ["name", "triples"])
-              + option_rows(hooke.Options.for_scene("bending").rows, definitions["bending"]["required"])),
-        "## anchors",
-        table(schema_rows(definitions["anchors"], definitions, ["name", "particles"])
-              + option_rows(hooke.Options.for_anchors().rows, definitions["anchors"]["required"])),
-        "## parts",
-        *parts(schema),
-        "## bodies",
-        table(schema_rows(definitions["bodies"], definitions)),
-        "## driven",
-        *driven(definitions),
-        "## run",
-        "Defaults for the command line and for Python, which override them.",
-        table(option_rows(hooke.Options.for_run().rows, [])),
-    ]
+    keys = schema_rows(schema, definitions, ["hooke"]) + option_rows(hooke.options_of("scene").rows)
+    pieces = [INTRO, "## Keys", table(keys + schema_rows(schema, definitions, BELOW, BELOW))]
+    for name in BELOW:
+        pieces.append(f"## {name}")
+        if name == "run":
+            pieces.append("Defaults for the command line and for Python, which override them.")
+        if name == "parts":
+            pieces += parts()
+            continue
+        rows = hooke.options_of(name).rows
+        own = [key for key in definitions[name]["properties"] if key not in {row.name for row in rows}]
+        pieces.append(table(schema_rows(definitions[name], definitions, own) + option_rows(rows)))
     return "\n\n".join(pieces) + "\n"
-
-
-def driven(definitions: dict[str, Any]) -> list[str]:
-    shared, pieces = definitions["driven"], []
-    for one in shared["oneOf"]:
-        properties = {key: shared["properties"][key] if value is True else value for key, value in one["properties"].items()}
-        rows = schema_rows({"properties": properties, "required": shared["required"] + one["required"]}, definitions)
-        pieces += [f"### {one['properties']['motion']['const']}", table(rows)]
-    return pieces

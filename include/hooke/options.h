@@ -68,6 +68,7 @@ HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
  *   "allowed"  in words: "a number >= 0"
  *   "words"    the choices, or the words accepted in place of numbers, separated by blanks
  *   "family"   the family of the row
+ *   "only"     the word of the table's first row, a choice, with which it may be given
  *   "units"    the units that a text may name, separated by commas: "s, ms, us, ns, min, h"
  *   "example"  a value for a first try, in the syntax of hooke_options_set_text() */
 HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
@@ -75,7 +76,8 @@ HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t ro
 /* A property of row `row` as a number, NaN where it has none.
  *   "low", "high"           bounds of every number, inclusive unless "above_low" is 1
  *   "above_low", "whole"    1 if low is not allowed; if only whole numbers are
- *   "required"              1 if it has to be given; for a member of a family, where the family is given
+ *   "required"              1 if it has to be given; for a member of a family, where the family is given, and with
+ *                           "only", where that is chosen
  *   "min_count", "max_count" of the type "numbers"; NaN: any count
  *   "columns"               numbers come in rows of this many in a scene
  *   "word_lists"            1 if several words and numbers may be mixed */

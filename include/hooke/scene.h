@@ -38,6 +38,14 @@ HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
  * commit. */
 HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);
 
+/* Adds what a scene has under `key`, with options of that name: a group of "springs", "bending" or "anchors",
+ * one of "bodies", or "driven" particles, each with `count` numbers of particles, those of one spring or triple
+ * after the other; or "particles" with all that they have, and a count of 0. `name` may be NULL.
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY; the system is then as it was. */
+HOOKE_API int32_t hooke_system_add_members(hooke_system *system, const char *key, const char *name,
+                                           int64_t count, const int64_t *particles,
+                                           const hooke_options *options);
+
 /* Writes a committed system as a scene file: parts and spring groups by their options, the rest number by
  * number. Loading it gives the same system to the bit. Particles of parts come after the others in it.
  * `title` and `run` (options of a run) may be NULL. An older file is replaced when the new one is complete.

@@ -10,26 +10,12 @@
 
 static const struct hk_option_row rows[] = {
     HOOKE_PART_ORIGIN,
-    {.name = "edges",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 6,
-     .max_count = 6,
-     .columns = 3,
-     .required = 1,
-     .example = "1,0,0,0,0,1",
-     .doc = "the two edges from the origin, u and v, as vectors"},
-    {.name = "size",
-     .type = HOOKE_OPTION_NUMBERS,
-     .low = 2,
-     .high = INT32_MAX,
-     .whole = 1,
-     .min_count = 2,
-     .max_count = 2,
-     .required = 1,
-     .example = "16,16",
-     .doc = "particles along u and along v"},
-    HOOKE_PART_MASS,
+    HOOKE_OPTION("edges", HOOKE_OPTION_VECTORS("m", 2, 2), NULL,
+                 "the two edges from the origin, u and v, as vectors", .required = 1,
+                 .example = "1,0,0,0,0,1"),
+    HOOKE_OPTION("size", HOOKE_OPTION_WHOLES(2, INT32_MAX, 2, 2), NULL, "particles along u and along v",
+                 .required = 1, .example = "16,16"),
+    HOOKE_PART_MASS("equally"),
     HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED(
         "corners top top-corners",
@@ -143,21 +129,7 @@ static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   return k < (strcmp(word, "top-corners") == 0 ? 2 : 4) ? corner[k] : -1;
 }
 
-static int32_t cells(const hooke_options *options, int64_t cells[3]) {
-  const double *size = hooke_options_numbers(options, "size");
-  for (int a = 0; a < 2; a++)
-    cells[a] = (int64_t)size[a] - 1;
-  return 2;
-}
-
-static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
-  const double size[2] = {(double)cells[0] + 1.0, (double)cells[1] + 1.0};
-  return hooke_options_set_numbers(options, "size", 2, size);
-}
-
-static const struct hk_part_grid grid = {cells, set_cells};
-
 const struct hooke_part_kind hk_part_cloth = {
-    &table, build, named, &grid,
+    &table, build, named, &hk_part_sized,
     "a grid of particles over two edges, with springs along it, across its cells and "
     "two apart"};

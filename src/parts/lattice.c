@@ -11,26 +11,12 @@
 
 static const struct hk_option_row rows[] = {
     HOOKE_PART_ORIGIN,
-    {.name = "edges",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 9,
-     .max_count = 9,
-     .columns = 3,
-     .required = 1,
-     .example = "1,0,0,0,1,0,0,0,1",
-     .doc = "the three edges from the origin, x, y and z, as vectors"},
-    {.name = "size",
-     .type = HOOKE_OPTION_NUMBERS,
-     .low = 2,
-     .high = INT32_MAX,
-     .whole = 1,
-     .min_count = 3,
-     .max_count = 3,
-     .required = 1,
-     .example = "5,5,5",
-     .doc = "particles along x, along y and along z"},
-    HOOKE_PART_MASS,
+    HOOKE_OPTION("edges", HOOKE_OPTION_VECTORS("m", 3, 3), NULL,
+                 "the three edges from the origin, x, y and z, as vectors", .required = 1,
+                 .example = "1,0,0,0,1,0,0,0,1"),
+    HOOKE_OPTION("size", HOOKE_OPTION_WHOLES(2, INT32_MAX, 3, 3), NULL,
+                 "particles along x, along y and along z", .required = 1, .example = "5,5,5"),
+    HOOKE_PART_MASS("equally"),
     HOOKE_PART_DENSITY("kg/m^3", "mass over volume, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED(
         "bottom top",
@@ -246,20 +232,6 @@ static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   return strcmp(word, "bottom") == 0 ? k : part->count - layer + k;
 }
 
-static int32_t cells(const hooke_options *options, int64_t cells[3]) {
-  const double *size = hooke_options_numbers(options, "size");
-  for (int a = 0; a < 3; a++)
-    cells[a] = (int64_t)size[a] - 1;
-  return 3;
-}
-
-static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
-  const double size[3] = {(double)cells[0] + 1.0, (double)cells[1] + 1.0, (double)cells[2] + 1.0};
-  return hooke_options_set_numbers(options, "size", 3, size);
-}
-
-static const struct hk_part_grid grid = {cells, set_cells};
-
 const struct hooke_part_kind hk_part_lattice = {
-    &table, build, named, &grid,
+    &table, build, named, &hk_part_sized,
     "a grid of particles over three edges, with springs along it, across its cells and two apart"};

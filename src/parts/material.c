@@ -9,10 +9,16 @@
 #include <stdio.h>
 #include <string.h>
 
-static double option_of(const struct hk_part *part, const char *family, const char *key) {
+double hk_part_material(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
   snprintf(dotted, sizeof dotted, "%s.%s", family, key);
   return hooke_options_number(part->options, dotted);
+}
+
+int32_t hk_part_is_given(const struct hk_part *part, const char *family, const char *key) {
+  char dotted[64];
+  snprintf(dotted, sizeof dotted, "%s.%s", family, key);
+  return hooke_options_is_set(part->options, dotted);
 }
 
 static int32_t derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
@@ -111,9 +117,9 @@ double hk_critical_damping(double kappa, double mass) {
 
 void hk_part_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
                      const double *rest_length, double *damping) {
-  const double zeta = option_of(part, family, "damping_ratio");
-  const double stiffness = option_of(part, family, "stiffness");
-  const double scale = option_of(part, family, "rest_scale");
+  const double zeta = hk_part_material(part, family, "damping_ratio");
+  const double stiffness = hk_part_material(part, family, "stiffness");
+  const double scale = hk_part_material(part, family, "rest_scale");
   for (int64_t k = 0; k < count; k++) {
     const double length = rest_length[k] * scale, kappa = stiffness / length;
     damping[k] = zeta * hk_critical_damping(kappa, reduced_mass(part, ends + 2 * k)) * length;

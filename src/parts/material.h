@@ -5,6 +5,10 @@
 
 #include "parts/part.h"
 
+/* A number of a family of springs, such as its stiffness; 1 if it was given. */
+double hk_part_material(const struct hk_part *part, const char *family, const char *key);
+int32_t hk_part_is_given(const struct hk_part *part, const char *family, const char *key);
+
 /* Computes one mass, or `count`, for the `rows` x `columns` particles: an equal fraction of the option
  * `mass`, or the option `density` times the piece that each represents: `piece` [m or m^2], half of it at an
  * edge, a quarter at a corner; a rope (one row) has no edges but its ends. Sets the part's inner mass. The

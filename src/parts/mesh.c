@@ -11,50 +11,25 @@
 #include <stdio.h>
 
 static const struct hk_option_row transform_rows[] = {
-    {.name = "scale", HOOKE_OPTION_POSITIVE(NULL), .fallback = "1", .doc = "factor on the coordinates"},
-    {.name = "translate", HOOKE_OPTION_VECTOR("m"), .fallback = "0,0,0", .doc = "vector that is added then"},
+    HOOKE_OPTION("scale", HOOKE_OPTION_POSITIVE(NULL), "1", "factor on the coordinates"),
+    HOOKE_OPTION("translate", HOOKE_OPTION_VECTOR("m"), "0,0,0", "vector that is added then"),
 };
 
 static const struct hk_option_table transform = {"transform", HOOKE_OPTION_ROWS(transform_rows)};
 
 static const struct hk_option_row rows[] = {
-    {.name = "file",
-     .type = HOOKE_OPTION_TEXT,
-     .example = "mesh.obj",
-     .doc = "OBJ file, instead of vertices and triangles"},
-    {.name = "vertices",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 9,
-     .columns = 3,
-     .doc = "one row a vertex, before the transform"},
-    {.name = "triangles",
-     .type = HOOKE_OPTION_NUMBERS,
-     .low = 0,
-     .high = INT32_MAX,
-     .whole = 1,
-     .min_count = 3,
-     .columns = 3,
-     .doc = "three numbers of vertices each, from 0"},
-    {.name = "transform",
-     .type = HOOKE_OPTION_FAMILY,
-     .family = &transform,
-     .doc = "from the coordinates of the vertices to metres"},
-    {.name = "weld",
-     HOOKE_OPTION_NOT_NEGATIVE("m"),
-     .fallback = "0",
-     .doc = "distance up to which vertices are one particle; 0: those at the same place"},
-    {.name = "mass",
-     HOOKE_OPTION_POSITIVE("kg"),
-     .example = "1",
-     .doc = "total mass, shared by area; or density"},
+    HOOKE_OPTION("file", .type = HOOKE_OPTION_TEXT, NULL, "OBJ file, instead of vertices and triangles",
+                 .example = "mesh.obj"),
+    HOOKE_OPTION("vertices", HOOKE_OPTION_VECTORS("m", 3, 0), NULL, "one row a vertex, before the transform"),
+    HOOKE_OPTION("triangles", HOOKE_OPTION_WHOLES(0, INT32_MAX, 3, 0), NULL,
+                 "three numbers of vertices each, from 0", .columns = 3),
+    HOOKE_OPTION("transform", .type = HOOKE_OPTION_FAMILY, NULL,
+                 "from the coordinates of the vertices to metres", .family = &transform),
+    HOOKE_OPTION("weld", HOOKE_OPTION_NOT_NEGATIVE("m"), "0",
+                 "distance up to which vertices are one particle; 0: those at the same place"),
+    HOOKE_PART_MASS("by area"),
     HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass"),
-    {.name = "pinned",
-     .type = HOOKE_OPTION_NUMBERS,
-     .low = 0,
-     .high = INT32_MAX,
-     .whole = 1,
-     .doc = "numbers of particles held still"},
+    HOOKE_OPTION("pinned", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, 0), NULL, "numbers of particles held still"),
     HOOKE_PART_RIGID,
     HOOKE_PART_FAMILY("structural", "springs along the edges"),
     HOOKE_PART_FAMILY("bend", "springs between the vertices opposite to each other across an edge"),
@@ -64,10 +39,8 @@ static const struct hk_option_table table = {"mesh", HOOKE_OPTION_ROWS(rows)};
 
 int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                        int64_t triangle_count, const int64_t *triangles) {
-  if (options == NULL || hk_options_table(options) != &table) {
-    return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "the options are not those of a mesh; make them with hooke_options_create(\"mesh\", ...)");
-  }
+  int32_t status = hk_options_require(options, &table, "options", "hooke_options_create(\"mesh\", ...)");
+  if (status != HOOKE_OK) return status;
   if (vertex_count < 0 || triangle_count < 0 || vertex_count > INT32_MAX || triangle_count > INT32_MAX ||
       !vertices || !triangles) {
     return hk_fail(
@@ -79,7 +52,7 @@ int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const doubl
   if (corner == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < 3 * triangle_count; k++)
     corner[k] = (double)triangles[k];
-  int32_t status = hooke_options_set_numbers(options, "vertices", 3 * vertex_count, vertices);
+  status = hooke_options_set_numbers(options, "vertices", 3 * vertex_count, vertices);
   if (status == HOOKE_OK)
     status = hooke_options_set_numbers(options, "triangles", 3 * triangle_count, corner);
   hk_free(corner);

@@ -18,20 +18,13 @@ static const double FLAT = 1e-12; /* of unit edges: area, volume */
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hk_option_row family_rows[] = {
-    {.name = "stiffness",
-     HOOKE_OPTION_NOT_NEGATIVE("N"),
-     .required = 1,
-     .example = "50",
-     .doc = "force at double length, of the strain law"},
-    {.name = "damping", HOOKE_OPTION_NOT_NEGATIVE("N s"), .fallback = "0", .doc = "damping along the spring"},
-    {.name = "damping_ratio",
-     HOOKE_OPTION_NOT_NEGATIVE(NULL),
-     .doc = "damping over the critical one of two inner particles on the spring, instead of damping"},
-    {.name = "rest_scale", HOOKE_OPTION_POSITIVE(NULL), .fallback = "1", .doc = "factor on the rest length"},
-    {.name = "compression",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "true",
-     .doc = "false: the springs only pull"},
+    HOOKE_OPTION("stiffness", HOOKE_OPTION_NOT_NEGATIVE("N"), NULL,
+                 "force at double length, of the strain law", .required = 1, .example = "50"),
+    HOOKE_OPTION("damping", HOOKE_OPTION_NOT_NEGATIVE("N s"), "0", "damping along the spring"),
+    HOOKE_OPTION("damping_ratio", HOOKE_OPTION_NOT_NEGATIVE(NULL), NULL,
+                 "damping over the critical one of two inner particles on the spring, instead of damping"),
+    HOOKE_OPTION("rest_scale", HOOKE_OPTION_POSITIVE(NULL), "1", "factor on the rest length"),
+    HOOKE_OPTION("compression", .type = HOOKE_OPTION_FLAG, "true", "false: the springs only pull"),
 };
 
 const struct hk_option_table hk_part_family = {"springs of a part", HOOKE_OPTION_ROWS(family_rows)};
@@ -65,6 +58,23 @@ const struct hk_option_table *hk_part_find(const char *name) {
 const struct hk_option_table *hk_part_table(int64_t k) {
   return k < KIND_COUNT ? kinds[k]->table : NULL;
 }
+
+static int32_t cells(const hooke_options *options, int64_t cells[3]) {
+  const int32_t axes = (int32_t)hooke_options_number_count(options, "size");
+  for (int32_t a = 0; a < axes; a++)
+    cells[a] = (int64_t)hooke_options_numbers(options, "size")[a] - 1;
+  return axes;
+}
+
+static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
+  const int64_t axes = hooke_options_number_count(options, "size");
+  double size[3];
+  for (int64_t a = 0; a < axes; a++)
+    size[a] = (double)cells[a] + 1.0;
+  return hooke_options_set_numbers(options, "size", axes, size);
+}
+
+const struct hk_part_grid hk_part_sized = {cells, set_cells};
 
 double hk_part_length(const double *vector) {
   return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
@@ -150,19 +160,11 @@ static int32_t material(const struct hk_part *part, const char *family, int by_r
   static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
   int32_t status = hk_options_create(&hk_spring_options, options);
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
-    char dotted[64];
-    snprintf(dotted, sizeof dotted, "%s.%s", family, keys[k]);
-    status = hooke_options_set_number(*options, keys[k], hooke_options_number(part->options, dotted));
+    status = hooke_options_set_number(*options, keys[k], hk_part_material(part, family, keys[k]));
   }
   if (status == HOOKE_OK && by_ratio) status = set_damping(part, family, count, ends, rest_length, *options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(*options, "rest_length", count, rest_length);
   return status;
-}
-
-static int is_given(const struct hk_part *part, const char *family, const char *key) {
-  char dotted[64];
-  snprintf(dotted, sizeof dotted, "%s.%s", family, key);
-  return hooke_options_is_set(part->options, dotted);
 }
 
 /* Number of rest lengths (and dampings) needed: one if all are equal to the bit. */
@@ -199,7 +201,8 @@ static int32_t check_rest_length(const char *family, double length) {
 }
 
 static int32_t check_damping(const struct hk_part *part, const char *family) {
-  if (!is_given(part, family, "damping_ratio") || !is_given(part, family, "damping")) return HOOKE_OK;
+  if (!hk_part_is_given(part, family, "damping_ratio") || !hk_part_is_given(part, family, "damping"))
+    return HOOKE_OK;
   hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
           "damping and damping_ratio are both given; a family has one of them");
   return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
@@ -212,7 +215,7 @@ int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t coun
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     status = check_rest_length(family, rest_length[k]);
   if (status != HOOKE_OK || count == 0) return status;
-  status = add_group(part, family, is_given(part, family, "damping_ratio"), count, ends, rest_length);
+  status = add_group(part, family, hk_part_is_given(part, family, "damping_ratio"), count, ends, rest_length);
   return status == HOOKE_OK ? status : hk_fail_within(status, "%s", family);
 }
 
@@ -234,7 +237,7 @@ int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t str
   if (ends && rest_length) {
     join(part, stride, strip_count, strip, ends, rest_length);
     status = hk_part_add_pairs(part, family, count, ends, rest_length);
-    if (status == HOOKE_OK && is_given(part, family, "damping_ratio")) {
+    if (status == HOOKE_OK && hk_part_is_given(part, family, "damping_ratio")) {
       status = hk_part_derive_springs(part, family, strip_count, strip);
     }
   }
@@ -259,13 +262,11 @@ static int32_t pin_numbers(const struct hk_part *part) {
 }
 
 static int32_t pin_words(const struct hooke_part_kind *kind, const struct hk_part *part) {
-  const char *text = hooke_options_text(part->options, "pinned");
-  while (*(text += strspn(text, " "))) {
-    const size_t length = strcspn(text, " ");
+  const char *rest = hooke_options_text(part->options, "pinned");
+  int64_t length, offset;
+  for (const char *at; (at = hk_option_next_word(&rest, &length));) {
     char word[32];
-    snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), text);
-    text += length;
-    int64_t offset;
+    snprintf(word, sizeof word, "%.*s", (int)length, at);
     for (int64_t k = 0; (offset = kind->named(part, word, k)) >= 0; k++) {
       const int64_t particle = part->first + offset;
       int32_t status = hooke_system_pin(part->system, 1, &particle);
@@ -298,13 +299,10 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
                               const hooke_options *options, int64_t *first, int64_t *count) {
   const struct hooke_part_kind *found = find_kind(kind);
   if (found == NULL) return HOOKE_BAD_VALUE;
-  if (options == NULL || hk_options_table(options) != found->table) {
-    return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "the options are not those of a %s; make them with "
-                   "hooke_options_create(\"%s\", ...)",
-                   kind, kind);
-  }
-  int32_t status = hk_system_require_open(system);
+  char maker[64];
+  hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", kind);
+  int32_t status = hk_options_require(options, found->table, "options", maker);
+  if (status == HOOKE_OK) status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
 
   const struct hk_system_mark mark = hk_system_mark(system);
@@ -329,4 +327,13 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
   if (first) *first = part.first;
   if (count) *count = part.count;
   return HOOKE_OK;
+}
+
+int64_t hooke_system_part_count(const hooke_system *system, const char *part, const char *what) {
+  for (int64_t k = 0; k < system->part_count; k++) {
+    if (strcmp(system->part[k].name, part) != 0) continue;
+    if (strcmp(what, "particles") == 0) return system->part[k].count;
+    return strcmp(what, "before") == 0 ? system->part[k].first : -1;
+  }
+  return -1;
 }

@@ -27,6 +27,9 @@ struct hooke_part_kind {
   const char *summary;             /* one line */
 };
 
+/* A grid of the option `size`, in particles. */
+extern const struct hk_part_grid hk_part_sized;
+
 extern const struct hooke_part_kind hk_part_rope;
 extern const struct hooke_part_kind hk_part_cloth;
 extern const struct hooke_part_kind hk_part_lattice;
@@ -41,30 +44,21 @@ const struct hk_option_table *hk_part_find(const char *name);
 /* Rows shared by kinds: a point [m], the corner where a grid begins [m], the total mass or the density,
  * bending stiffness, constrained particles, whether it is one rigid body, a family of springs. */
 #define HOOKE_PART_POINT(key, such_as, text)                                                                 \
-  { .name = (key), HOOKE_OPTION_VECTOR("m"), .required = 1, .example = (such_as), .doc = (text) }
-#define HOOKE_PART_ORIGIN                                                                                    \
-  { .name = "origin", HOOKE_OPTION_VECTOR("m"), .fallback = "0,0,0", .doc = "corner where it begins" }
-#define HOOKE_PART_MASS                                                                                      \
-  {                                                                                                          \
-    .name = "mass", HOOKE_OPTION_POSITIVE("kg"), .example = "1",                                             \
-    .doc = "total mass, shared equally; or density"                                                          \
-  }
-#define HOOKE_PART_DENSITY(of, text)                                                                         \
-  { .name = "density", HOOKE_OPTION_POSITIVE(of), .doc = (text) }
-#define HOOKE_PART_BENDING(of, text)                                                                         \
-  { .name = "bending", HOOKE_OPTION_NOT_NEGATIVE(of), .fallback = "0", .doc = (text) }
+  HOOKE_OPTION(key, HOOKE_OPTION_VECTOR("m"), NULL, text, .required = 1, .example = (such_as))
+#define HOOKE_PART_ORIGIN HOOKE_OPTION("origin", HOOKE_OPTION_VECTOR("m"), "0,0,0", "corner where it begins")
+#define HOOKE_PART_MASS(shared)                                                                              \
+  HOOKE_OPTION("mass", HOOKE_OPTION_POSITIVE("kg"), NULL, "total mass, shared " shared "; or density",       \
+               .example = "1")
+#define HOOKE_PART_DENSITY(of, text) HOOKE_OPTION("density", HOOKE_OPTION_POSITIVE(of), NULL, text)
+#define HOOKE_PART_BENDING(of, text) HOOKE_OPTION("bending", HOOKE_OPTION_NOT_NEGATIVE(of), "0", text)
 #define HOOKE_PART_PINNED(names, text)                                                                       \
-  {                                                                                                          \
-    .name = "pinned", .type = HOOKE_OPTION_NUMBERS, .low = 0, .high = INT32_MAX, .whole = 1,                 \
-    .words = (names), .word_lists = 1, .doc = (text)                                                         \
-  }
+  HOOKE_OPTION("pinned", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, 0), NULL, text, .words = (names),              \
+               .word_lists = 1)
 #define HOOKE_PART_RIGID                                                                                     \
-  {                                                                                                          \
-    .name = "rigid", HOOKE_OPTION_UNSET,                                                                     \
-    .doc = "true: it moves as one rigid body, and springs inside it are dropped"                             \
-  }
+  HOOKE_OPTION("rigid", .type = HOOKE_OPTION_FLAG, "false",                                                  \
+               "true: it moves as one rigid body, and springs inside it are dropped")
 #define HOOKE_PART_FAMILY(key, text)                                                                         \
-  { .name = (key), .type = HOOKE_OPTION_FAMILY, .family = &hk_part_family, .doc = (text) }
+  HOOKE_OPTION(key, .type = HOOKE_OPTION_FAMILY, NULL, text, .family = &hk_part_family)
 
 /* Options of a family of springs, nested in the table of every kind. */
 extern const struct hk_option_table hk_part_family;

@@ -22,28 +22,18 @@
 static const struct hk_option_row rows[] = {
     HOOKE_PART_POINT("from", "0,0,0", "where its axis begins"),
     HOOKE_PART_POINT("to", "0,-1,0", "where its axis ends"),
-    {.name = "segments",
-     HOOKE_OPTION_WHOLE(1, INT32_MAX / 2 - 1),
-     .required = 1,
-     .example = "24",
-     .doc = "pieces of the axis; it has one particle more, and if it is straight one in each piece besides"},
-    {.name = "offset",
-     .type = HOOKE_OPTION_NUMBER,
-     .fallback = "0.5",
-     .low = 0,
-     .above_low = 1,
-     .high = 100,
-     .doc =
-         "of a straight strand: distance of the extra particles from the axis, over the length of a segment"},
-    {.name = "curl",
-     HOOKE_OPTION_POSITIVE("m"),
-     .doc = "radius of the helix that the particles lie on, instead of extra ones; with turns"},
-    {.name = "turns",
-     .type = HOOKE_OPTION_NUMBER,
-     .low = -1e9,
-     .high = 1e9,
-     .doc = "of the helix about its axis: > 0 as a right-handed screw, < 0 as a left-handed one"},
-    HOOKE_PART_MASS,
+    HOOKE_OPTION(
+        "segments", HOOKE_OPTION_WHOLE(1, INT32_MAX / 2 - 1), NULL,
+        "pieces of the axis; it has one particle more, and if it is straight one in each piece besides",
+        .required = 1, .example = "24"),
+    HOOKE_OPTION(
+        "offset", HOOKE_OPTION_UP_TO(NULL, 100), "0.5",
+        "of a straight strand: distance of the extra particles from the axis, over the length of a segment"),
+    HOOKE_OPTION("curl", HOOKE_OPTION_POSITIVE("m"), NULL,
+                 "radius of the helix that the particles lie on, instead of extra ones; with turns"),
+    HOOKE_OPTION("turns", HOOKE_OPTION_BETWEEN(-1e9, 1e9), NULL,
+                 "of the helix about its axis: > 0 as a right-handed screw, < 0 as a left-handed one"),
+    HOOKE_PART_MASS("equally"),
     HOOKE_PART_DENSITY("kg/m", "mass over length, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED("start end", "particles held still: numbers within the strand, or words"),
     HOOKE_PART_RIGID,
@@ -170,12 +160,6 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
   return status;
 }
 
-static int is_given(const struct hk_part *part, const char *family, const char *key) {
-  char dotted[64];
-  snprintf(dotted, sizeof dotted, "%s.%s", family, key);
-  return hooke_options_is_set(part->options, dotted);
-}
-
 /* Records the first two springs of the bend of a straight strand; all others equal one of these. */
 static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   static const char *const kappa[] = {"kappa on the axis", "kappa of extra particles"};
@@ -204,7 +188,8 @@ static int32_t add_bend(struct hk_part *part, const struct strand *strand) {
     rest_length[k] = distance(strand, k, 2);
   }
   if (status == HOOKE_OK) status = hk_part_add_pairs(part, "bend", count, ends, rest_length);
-  if (status == HOOKE_OK && is_given(part, "bend", "damping_ratio")) status = derive_bend(part, count);
+  if (status == HOOKE_OK && hk_part_is_given(part, "bend", "damping_ratio"))
+    status = derive_bend(part, count);
   hk_free(ends);
   hk_free(rest_length);
   return status;
@@ -242,8 +227,8 @@ static int32_t find_rest(const struct hk_part *part, const struct strand *strand
 /* Damping ratio of the shortest altitude, with half of the inner mass moving on either side. */
 static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t) {
   t->damping = hooke_options_number(part->options, "altitude.damping");
-  if (!is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
-  if (is_given(part, "altitude", "damping")) {
+  if (!hk_part_is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
+  if (hk_part_is_given(part, "altitude", "damping")) {
     return hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
                    "damping and damping_ratio are both given; a family has one of them");
   }

@@ -321,9 +321,9 @@ static void a_mesh_needs_its_numbers(no_state) {
   const struct mesh mesh = icosahedron();
   rope = new_options("rope");
   check_status(hooke_mesh_set(rope, 12, mesh.vertex, 20, mesh.triangle), HOOKE_BAD_VALUE);
-  check_message("not those of a mesh");
+  check_message("make them with hooke_options_create(\"mesh\", ...)");
   check_status(hooke_mesh_read("none.obj", rope), HOOKE_BAD_VALUE);
-  check_message("not those of a mesh");
+  check_message("make them with hooke_options_create(\"mesh\", ...)");
   options = new_options("mesh");
   check_status(hooke_mesh_set(options, 12, NULL, 20, mesh.triangle), HOOKE_BAD_VALUE);
   check_status(hooke_mesh_set(options, 12, mesh.vertex, -1, mesh.triangle), HOOKE_BAD_VALUE);

@@ -204,7 +204,7 @@ def test_a_mesh_keeps_the_vertices_of_its_file(tmp_path):
     with pytest.raises(hooke.BadValue, match="mesh: .*cannot be opened"):
         hooke.Scene().mesh(file=path, **shape)
     path.write_text("v 0 0 0\n")
-    with pytest.raises(hooke.BadValue, match="file: is not allowed together with vertices"):
+    with pytest.raises(hooke.BadValue, match="mesh.vertices: belongs to a mesh without a file"):
         hooke.Scene().mesh(file=path, vertices=vertices, **shape)
 
 
@@ -223,6 +223,13 @@ def test_parts_that_were_read_have_their_names():
     assert scene.system.spring_ends.tolist() == [[6, 0], [7, 15]]
     with pytest.raises(hooke.BadValue, match='no part called "c"; allowed: "a", "cloth1", "b"'):
         scene.springs(between=[[0, ("c", 1)]], stiffness=1)
+
+
+def test_parts_of_files_that_were_read_have_their_names():
+    scene = hooke.Scene.load(ROOT / "examples/scenes/mesh.json")
+    name = json.loads(scene.text)["parts"][0].get("name", "mesh0")
+    scene.springs("tie", between=[[(name, 0), (name, 2)]], stiffness=1)
+    assert scene.system.groups[0] == ("tie", 1)
 
 
 def test_the_scene_keeps_what_it_was_given():
@@ -256,8 +263,12 @@ ERRORS = [
     (lambda s: s.springs(between=[[0, ("line", 3)]], stiffness=1), '"line" has no particle 3; allowed: 0 to 2'),
     (lambda s: s.driven(0, frequency=2), 'driven[0].amplitude: is required with motion "harmonic" but missing'),
     (lambda s: s.driven(0, motion="round"), 'driven[0].motion: "round" is not allowed'),
-    (lambda s: s.driven(0, amplitude=(1, 0, 0), frequency=2, time=[1]), "driven[0].time: is not allowed with"),
-    (lambda s: s.driven(0, amplitude=(1, 0), frequency=2), "driven[0].amplitude: its shape is (2,), allowed is (3,)"),
+    (lambda s: s.driven(0, amplitude=(1, 0, 0), frequency=2, time=[0, 1]), 'driven[0].time: belongs to motion "table"; allowed with "harmonic": amplitude'),
+    (lambda s: s.driven(0, amplitude=(1, 0), frequency=2), "driven[0].amplitude: 2 numbers given; allowed: 3 numbers [m]"),
+    (
+        lambda s: s.driven(0, motion="table", time=[0, 1], position=[[1, 0], [0, 1], [1, 0]]),
+        "driven[0].position: its shape is (3, 2), allowed is (2, 3)",
+    ),
     (lambda s: s.driven(99, amplitude=(1, 0, 0), frequency=2), "driven[0].particles[0]: there is no particle 99"),
     (lambda s: s.run_defaults(duration=1, step=-1), "run.step: -1 is not allowed"),
     (lambda s: s.run_defaults(stepp=1), 'run: unknown option "stepp"'),

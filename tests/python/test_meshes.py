@@ -212,7 +212,7 @@ def test_faults_planted_in_a_file(tmp_path, change, words):
 
 
 def test_a_file_belongs_to_a_mesh(tmp_path):
-    with pytest.raises(hooke.BadValue, match="not those of a mesh"):
+    with pytest.raises(hooke.BadValue, match=r'make them with hooke_options_create\("mesh", ...\)'):
         hooke.System().add_part("rope", file=tmp_path / "a.obj")
     with pytest.raises(hooke.BadValue, match="a file, or vertices and triangles"):
         hooke.System().add_part("mesh", mass=1)

@@ -350,7 +350,8 @@ static void bad_parts_are_refused(void **unused) {
   check_refused("cloth", options, HOOKE_BAD_VALUE,
                 "structural: its springs would have a rest length of inf m");
 
-  check_refused("rope", full_cloth(), HOOKE_BAD_VALUE, "not those of a rope");
+  check_refused("rope", full_cloth(), HOOKE_BAD_VALUE,
+                "options: are those of a cloth; make them with hooke_options_create(\"rope\", ...)");
   check_refused("sail", rope_options(1), HOOKE_BAD_VALUE,
                 "no kind of part called \"sail\"; allowed: rope, cloth, lattice, mesh, strand");
 }
@@ -399,6 +400,26 @@ static void kinds_can_be_listed(void **unused) {
   assert_null(options);
 }
 
+static void particles_of_a_part_are_counted(void **state) {
+  (void)state;
+  hooke_system *system;
+  hooke_options *options = full_cloth();
+  int64_t first[2], count[2];
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_part(system, "cloth", "a", options, &first[0], &count[0]));
+  check_ok(hooke_system_add_part(system, "cloth", NULL, options, &first[1], &count[1]));
+  for (int k = 0; k < 2; k++) {
+    const char *part = k ? "cloth1" : "a";
+    assert_int_equal(hooke_system_part_count(system, part, "particles"), count[k]);
+    assert_int_equal(hooke_system_part_count(system, part, "before"), first[k]);
+  }
+  assert_true(first[1] == count[0] && count[1] > 1);
+  assert_int_equal(hooke_system_part_count(system, "cloth0", "particles"), -1);
+  assert_int_equal(hooke_system_part_count(system, "a", "springs"), -1);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_rope_is_a_line),
@@ -411,6 +432,7 @@ int main(void) {
       cmocka_unit_test(impossible_sizes_are_refused_before_anything_is_allocated),
       cmocka_unit_test(a_committed_system_takes_no_part),
       cmocka_unit_test(kinds_can_be_listed),
+      cmocka_unit_test(particles_of_a_part_are_counted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

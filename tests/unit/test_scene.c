@@ -416,6 +416,56 @@ static void driven_particles_move(void **state) {
   hooke_scene_destroy(scene);
 }
 
+/* ---- what a scene lists, added by its key ---- */
+
+static void check_refused(hooke_system *system, const char *key, const char *table, int64_t count,
+                          const char *message) {
+  const int64_t particles[3] = {0, 1, 0};
+  hooke_options *options;
+  check_ok(hooke_options_create(table, &options));
+  check_status(hooke_system_add_members(system, key, NULL, count, particles, options), HOOKE_BAD_VALUE);
+  check_message(message);
+  hooke_options_destroy(options);
+}
+
+static void members_are_added_by_key(void **state) {
+  (void)state;
+  const double place[6] = {0, 0, 0, 1, 0, 0};
+  hooke_system *system;
+  hooke_options *particles, *springs;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_options_create("particles", &particles));
+  check_ok(hooke_options_set_numbers(particles, "position", 6, place));
+  check_status(hooke_system_add_members(system, "particles", NULL, 0, NULL, particles), HOOKE_BAD_VALUE);
+  check_message("mass: is required but missing; allowed: one or more numbers > 0 [kg]");
+  check_ok(hooke_options_set_number(particles, "mass", 2));
+  check_ok(hooke_options_set_number(particles, "pinned", 2));
+  check_status(hooke_system_add_members(system, "particles", NULL, 0, NULL, particles), HOOKE_BAD_VALUE);
+  check_message("pinned[0]: there is no particle 2; allowed: 0 to 1");
+  assert_int_equal(hooke_system_particle_count(system), 0);
+  check_ok(hooke_options_set_number(particles, "pinned", 1));
+  check_ok(hooke_system_add_members(system, "particles", NULL, 0, NULL, particles));
+  check_ok(hooke_options_create("springs", &springs));
+  check_ok(hooke_options_set_number(springs, "stiffness", 3));
+  check_ok(hooke_system_add_members(system, "springs", "s", 2, (int64_t[]){0, 1}, springs));
+  assert_string_equal(hooke_system_group_name(system, "springs", 0), "s");
+  assert_int_equal(hooke_system_count(system, "springs"), 1);
+  check_refused(system, "sprigns", "springs", 2, "unknown key \"sprigns\"; did you mean \"springs\"?");
+  check_refused(system, "springs", "bending", 2, "options: are those of a bending; make them with");
+  check_refused(system, "springs", "springs", 2, "stiffness: is required but missing");
+  check_refused(system, "driven", "driven", 1, "motion: is required but missing");
+  check_refused(system, "bodies", "bodies", 0, "particles: 0 of them");
+  check_status(hooke_system_add_members(system, "springs", NULL, 3, (int64_t[]){0, 1, 0}, springs),
+               HOOKE_BAD_VALUE);
+  check_message("count: 3 is not allowed for springs; allowed: an array of pairs of particles");
+  check_status(hooke_system_add_members(system, "particles", NULL, 1, (int64_t[]){0}, particles),
+               HOOKE_BAD_VALUE);
+  check_message("count: 1 is not allowed for particles; allowed: 0");
+  hooke_options_destroy(springs);
+  hooke_options_destroy(particles);
+  hooke_system_destroy(system);
+}
+
 /* ---- invalid scenes: exact messages ---- */
 
 static void refuse(const char *quoted, const char *message) {
@@ -518,7 +568,8 @@ static void drives_take_the_keys_of_their_motion(void **state) {
          " 'position': [[0,0,0],[0,0,0]]}]}",
          "t.json:2:59: driven[0].phase: belongs to motion 'harmonic'; allowed with 'table': time, position");
   refuse("{'hooke': 1, " TWO ",\n'driven': [{'particles': [0], 'motion': 'harmonic', 'amplitude': [0,0,1]}]}",
-         "t.json:2:12: driven[0].frequency: is required with motion 'harmonic' but missing");
+         "t.json:2:12: driven[0].frequency: is required with motion 'harmonic' but missing; allowed: a "
+         "number >= 0 [Hz]");
   refuse("{'hooke': 1, " TWO
          ",\n'driven': [{'particles': [0], 'motion': 'table', 'time': [0,1], 'position': [[0,0,0]]}]}",
          "t.json:2:77: driven[0].position: 1 row given; allowed: 2 or more rows of 3 numbers each [m]");
@@ -642,6 +693,7 @@ int main(void) {
       cmocka_unit_test(what_is_not_named_is_not_computed),
       cmocka_unit_test(parts_follow_what_is_listed),
       cmocka_unit_test(driven_particles_move),
+      cmocka_unit_test(members_are_added_by_key),
       cmocka_unit_test(messages_give_file_line_column_and_path),
       cmocka_unit_test(indices_are_whole_numbers),
       cmocka_unit_test(parts_are_named_and_counted),

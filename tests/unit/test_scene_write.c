@@ -328,7 +328,7 @@ static void keys_of_a_scene_are_applied(void **state) {
   assert_true(system->drag == 0.25);
   check_ok(hooke_options_create("particles", &other));
   check_status(hooke_scene_options_apply(other, system), HOOKE_BAD_VALUE);
-  check_message("not those of a scene");
+  check_message("options: are those of a particles; make them with hooke_options_create(\"scene\", ...)");
   hooke_options_destroy(other);
   check_status(hooke_options_create("wheel", &other), HOOKE_BAD_VALUE);
   check_message("scene, particles, driven");

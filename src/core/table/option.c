@@ -2,6 +2,7 @@
 
 #include "core/handle.h"
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/table/option_value.h"
 #include "core/status.h"
 #include "core/table/unit.h"
@@ -219,10 +220,10 @@ int32_t hk_options_add_word(hooke_options *options, const char *name, const char
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
   size_t length = strlen(word);
   if (!slot->row->word_lists || !hk_option_has_word(slot->row->words, word, (int64_t)length)) {
-    char shown[HOOKE_OPTION_SHOWN], allowed[TEXT_SIZE];
+    char shown[HOOKE_OPTION_SHOWN], allowed[HOOKE_OPTION_ALLOWED];
     hk_option_show(word, (int64_t)length, shown);
-    hk_option_describe(slot->row, allowed, sizeof allowed);
-    return hk_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown, allowed);
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "\"%s\" is not allowed; allowed: %s", shown,
+                   hk_option_allowed(slot->row, allowed));
   }
   size_t used = slot->value.words ? strlen(slot->value.words) : 0;
   char *words = hk_new((int64_t)(used + length + 2), 1);
@@ -292,16 +293,32 @@ const char *hk_options_unit_given(const hooke_options *options, const char *name
   return value_of(options, name)->unit;
 }
 
+static int32_t refuse_elsewhere(const hooke_options *options, const struct slot *slot, const char *chosen) {
+  char list[TEXT_SIZE] = "";
+  for (int64_t k = 0; k < options->slot_count; k++) {
+    const struct hk_option_row *row = options->slot[k].row;
+    if (row->only && strcmp(row->only, chosen) == 0)
+      hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", row->name);
+  }
+  return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\"; allowed with \"%s\": %s",
+                 options->slot[0].name, slot->row->only, chosen, list);
+}
+
 int32_t hk_options_check_required(const hooke_options *options) {
+  const char *first = options->slot[0].name, *chosen = hooke_options_text(options, first);
   for (int64_t k = 0; k < options->slot_count; k++) {
     const struct slot *slot = &options->slot[k];
+    char with[NAME_SIZE] = "";
+    if (slot->row->only && strcmp(slot->row->only, chosen) != 0) {
+      if (slot->is_set) return refuse_elsewhere(options, slot, chosen);
+      continue;
+    }
+    if (slot->row->only) hk_print(with, sizeof with, " with %s \"%s\"", first, chosen);
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
     if (slot->family >= 0 && !options->slot[slot->family].is_set) continue;
-    const char *unit = slot->row->unit ? slot->row->unit : "";
-    char allowed[TEXT_SIZE];
-    hk_option_describe(slot->row, allowed, sizeof allowed);
-    return hk_fail(HOOKE_BAD_VALUE, slot->name, "is required but missing; allowed: %s%s%s%s", allowed,
-                   unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+    char allowed[HOOKE_OPTION_ALLOWED];
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "is required%s but missing; allowed: %s", with,
+                   hk_option_allowed(slot->row, allowed));
   }
   return HOOKE_OK;
 }
@@ -335,13 +352,10 @@ const char *hooke_options_row(const hooke_options *options, int64_t row, const c
   const struct {
     const char *name, *text;
   } known[] = {
-      {"name", slot->name},
-      {"type", type[of->type]},
-      {"unit", of->unit},
-      {"default", of->fallback},
-      {"doc", of->doc},
-      {"words", of->words},
-      {"family", slot->family >= 0 ? options->slot[slot->family].name : NULL},
+      {"name", slot->name},     {"type", type[of->type]},
+      {"unit", of->unit},       {"default", of->fallback},
+      {"doc", of->doc},         {"words", of->words},
+      {"only", of->only},       {"family", slot->family >= 0 ? options->slot[slot->family].name : NULL},
       {"example", of->example},
   };
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)

@@ -30,6 +30,7 @@ struct hk_option_row {
   const char *words; /* separated by blanks: the words allowed instead of numbers, or the choices */
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;
+  const char *only; /* of the table's first row, a choice: the word that it belongs to */
   const struct hk_option_table *family;
   const char *doc;
   const char *example; /* as text: an example value */
@@ -41,18 +42,27 @@ struct hk_option_table {
   int32_t row_count;
 };
 
-/* What rows often are: a number >= 0 or > 0, a whole number, a vector, numbers >= 0
- * that are one or one for each, a flag that is not set at first. */
-#define HOOKE_OPTION_NOT_NEGATIVE(units)                                                                     \
-  .type = HOOKE_OPTION_NUMBER, .unit = (units), .low = 0.0, .high = 1e300
-#define HOOKE_OPTION_POSITIVE(units) HOOKE_OPTION_NOT_NEGATIVE(units), .above_low = 1
-#define HOOKE_OPTION_WHOLE(least, most)                                                                      \
-  .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most), .whole = 1
-#define HOOKE_OPTION_VECTOR(units)                                                                           \
-  .type = HOOKE_OPTION_NUMBERS, .unit = (units), .min_count = 3, .max_count = 3
-#define HOOKE_OPTION_EACH(units)                                                                             \
-  .type = HOOKE_OPTION_NUMBERS, .unit = (units), .low = 0.0, .high = 1e300, .min_count = 1
-#define HOOKE_OPTION_UNSET .type = HOOKE_OPTION_FLAG, .fallback = "false"
+/* A row: its key, what it is, its default as text (NULL: none) and one line of text, then what few rows have. */
+#define HOOKE_OPTION(key, kind, otherwise, ...)                                                              \
+  { .name = (key), kind, .fallback = (otherwise), .doc = __VA_ARGS__ }
+/* What rows often are: a number >= 0, > 0 or between two others, a whole number, several of them, a vector, rows
+ * of x y z, numbers that are one or one for each, one word of several, a flag that is not set at first. */
+#define HOOKE_OPTION_BETWEEN(least, most) .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most)
+#define HOOKE_OPTION_NOT_NEGATIVE(units)  HOOKE_OPTION_BETWEEN(0.0, 1e300), .unit = (units)
+#define HOOKE_OPTION_UP_TO(units, most)   HOOKE_OPTION_BETWEEN(0.0, most), .unit = (units), .above_low = 1
+#define HOOKE_OPTION_POSITIVE(units)      HOOKE_OPTION_UP_TO(units, 1e300)
+#define HOOKE_OPTION_WHOLE(least, most)   HOOKE_OPTION_BETWEEN(least, most), .whole = 1
+#define HOOKE_OPTION_COUNTED(fewest, largest)                                                                \
+  .type = HOOKE_OPTION_NUMBERS, .min_count = (fewest), .max_count = (largest)
+#define HOOKE_OPTION_WHOLES(least, most, fewest, largest)                                                    \
+  HOOKE_OPTION_COUNTED(fewest, largest), .low = (least), .high = (most), .whole = 1
+#define HOOKE_OPTION_VECTOR(units) HOOKE_OPTION_COUNTED(3, 3), .unit = (units)
+#define HOOKE_OPTION_VECTORS(units, fewest, largest)                                                         \
+  HOOKE_OPTION_COUNTED(3 * (fewest), 3 * (largest)), .unit = (units), .columns = 3
+#define HOOKE_OPTION_EACH(units)          HOOKE_OPTION_COUNTED(1, 0), .unit = (units), .high = 1e300
+#define HOOKE_OPTION_EACH_POSITIVE(units) HOOKE_OPTION_EACH(units), .above_low = 1
+#define HOOKE_OPTION_ONE_OF(choices)      .type = HOOKE_OPTION_CHOICE, .words = (choices)
+#define HOOKE_OPTION_UNSET                .type = HOOKE_OPTION_FLAG, .fallback = "false"
 
 #define HOOKE_OPTION_ROWS(rows) (rows), (int32_t)(sizeof(rows) / sizeof((rows)[0]))
 
@@ -81,14 +91,20 @@ int32_t hk_options_has_family(const hooke_options *options, const char *name);
 /* Adds a word to the option's list of words (for a row with word_lists), keeping its numbers. */
 int32_t hk_options_add_word(hooke_options *options, const char *name, const char *word);
 
-/* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value. */
+/* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value, or one is set that belongs
+ * to another choice. */
 int32_t hk_options_check_required(const hooke_options *options);
 
+/* Next word of a list separated by blanks, which is advanced; NULL at the end. */
+const char *hk_option_next_word(const char **rest, int64_t *length);
 /* 1 if `word` is one of `words`, separated by blanks (NULL: none). */
 int32_t hk_option_has_word(const char *words, const char *word, int64_t length);
 
 /* Allowed values of a row, for messages: "a number > 0", "3 numbers". */
 void hk_option_describe(const struct hk_option_row *row, char *text, int64_t size);
+/* The same with the unit, "a number > 0 [s]"; returns `text`. */
+enum { HOOKE_OPTION_ALLOWED = 512 };
+const char *hk_option_allowed(const struct hk_option_row *row, char text[HOOKE_OPTION_ALLOWED]);
 
 /* A caller's text made safe for a message: shortened, without control characters, HOOKE_OPTION_SHOWN bytes at
  * most. */

@@ -11,8 +11,7 @@
 
 enum { NAME_SIZE = 48, LIST_SIZE = 640 };
 
-/* Next word of a list separated by blanks; NULL at the end. */
-static const char *next_word(const char **rest, int64_t *length) {
+const char *hk_option_next_word(const char **rest, int64_t *length) {
   const char *at = *rest ? *rest : "";
   while (*at == ' ')
     at++;
@@ -26,7 +25,7 @@ static const char *next_word(const char **rest, int64_t *length) {
 
 int32_t hk_option_has_word(const char *words, const char *word, int64_t length) {
   int64_t candidate_length = 0;
-  for (const char *candidate; (candidate = next_word(&words, &candidate_length));)
+  for (const char *candidate; (candidate = hk_option_next_word(&words, &candidate_length));)
     if (candidate_length == length && memcmp(candidate, word, (size_t)length) == 0) return 1;
   return 0;
 }
@@ -34,9 +33,9 @@ int32_t hk_option_has_word(const char *words, const char *word, int64_t length) 
 static void add_words(const char *words, const char *quote, char *text, int64_t size) {
   int64_t length = 0, following = 0;
   const char *rest = words;
-  const char *word = next_word(&rest, &length);
+  const char *word = hk_option_next_word(&rest, &length);
   for (int first = 1; word; first = 0) {
-    const char *next = next_word(&rest, &following);
+    const char *next = hk_option_next_word(&rest, &following);
     const char *joint = first ? "" : next ? ", " : " or ";
     hk_append(text, (size_t)size, "%s%s%.*s%s", joint, quote, (int)length, word, quote);
     word = next;
@@ -123,6 +122,12 @@ void hk_option_describe(const struct hk_option_row *row, char *text, int64_t siz
   }
 }
 
+const char *hk_option_allowed(const struct hk_option_row *row, char text[HOOKE_OPTION_ALLOWED]) {
+  hk_option_describe(row, text, HOOKE_OPTION_ALLOWED);
+  if (row->unit && row->unit[0]) hk_append(text, HOOKE_OPTION_ALLOWED, " [%s]", row->unit);
+  return text;
+}
+
 /* Edit distance: number of single-character changes that turn one name into the other. */
 static int32_t distance(const char *a, const char *b) {
   int32_t row[NAME_SIZE + 1];
@@ -164,7 +169,7 @@ int32_t hk_option_unknown(const struct hk_option_table *table, const char *other
   struct nearest nearest = {.distance = strlen(name) > 5 ? 4 : 3};
   int64_t length = 0;
   const char *joint = "";
-  for (const char *rest = others, *word; (word = next_word(&rest, &length)); joint = ", ") {
+  for (const char *rest = others, *word; (word = hk_option_next_word(&rest, &length)); joint = ", ") {
     hk_append(list, sizeof list, "%s%.*s", joint, (int)length, word);
     consider(&nearest, name, word, length);
   }

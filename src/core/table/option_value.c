@@ -40,17 +40,11 @@ const double *hk_option_value_numbers(const struct hk_option_value *value) {
   return value->many ? value->many : &value->one;
 }
 
-/* "one number >= 0 [N]" */
-static const char *allowed(const struct hk_option_row *row, char *text) {
-  hk_option_describe(row, text, ALLOWED_SIZE);
-  if (row->unit && row->unit[0]) hk_append(text, ALLOWED_SIZE, " [%s]", row->unit);
-  return text;
-}
-
 static int32_t refuse_text(const struct hk_option_row *row, const char *place, const char *text) {
-  char may[ALLOWED_SIZE], shown[HOOKE_OPTION_SHOWN];
+  char may[HOOKE_OPTION_ALLOWED], shown[HOOKE_OPTION_SHOWN];
   hk_option_show(text, (int64_t)strlen(text), shown);
-  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown, allowed(row, may));
+  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown,
+                 hk_option_allowed(row, may));
 }
 
 /* The place of number `index` of `count`: "position[3][0]", "mass[3]", or that of the option. */
@@ -74,10 +68,11 @@ static int32_t check_number(const struct hk_option_row *row, const char *place, 
   if (row->whole && (number != rint(number) || fabs(number) > largest_whole)) fits = 0;
   if (row->type == HOOKE_OPTION_FLAG && number != 0 && number != 1) fits = 0;
   if (fits) return HOOKE_OK;
-  char may[ALLOWED_SIZE], shown[HOOKE_NUMBER_SIZE], where[ALLOWED_SIZE];
+  char may[HOOKE_OPTION_ALLOWED], shown[HOOKE_NUMBER_SIZE], where[ALLOWED_SIZE];
   hk_number_print(number, shown);
   print_place(row, place, count, index, where);
-  return hk_fail(HOOKE_BAD_VALUE, where, "%s is not allowed; allowed: %s", shown, allowed(row, may));
+  return hk_fail(HOOKE_BAD_VALUE, where, "%s is not allowed; allowed: %s", shown,
+                 hk_option_allowed(row, may));
 }
 
 static int32_t check_count(const struct hk_option_row *row, const char *place, int64_t count) {
@@ -86,11 +81,11 @@ static int32_t check_count(const struct hk_option_row *row, const char *place, i
   int fits = count >= least && (most == 0 || count <= most);
   if (row->columns > 1 && count % row->columns != 0) fits = 0;
   if (fits) return HOOKE_OK;
-  char may[ALLOWED_SIZE];
+  char may[HOOKE_OPTION_ALLOWED];
   int rows = row->columns > 1 && count % row->columns == 0;
   long long given = rows ? count / row->columns : count;
   return hk_fail(HOOKE_BAD_VALUE, place, "%lld %s%s given; allowed: %s", given, rows ? "row" : "number",
-                 given == 1 ? "" : "s", allowed(row, may));
+                 given == 1 ? "" : "s", hk_option_allowed(row, may));
 }
 
 /* A whole number has a single zero. */
@@ -105,8 +100,9 @@ int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char
   memset(value, 0, sizeof *value);
   if (row->type == HOOKE_OPTION_CHOICE || row->type == HOOKE_OPTION_TEXT ||
       row->type == HOOKE_OPTION_FAMILY) {
-    char may[ALLOWED_SIZE];
-    return hk_fail(HOOKE_BAD_VALUE, place, "a number is not allowed; allowed: %s", allowed(row, may));
+    char may[HOOKE_OPTION_ALLOWED];
+    return hk_fail(HOOKE_BAD_VALUE, place, "a number is not allowed; allowed: %s",
+                   hk_option_allowed(row, may));
   }
   if (check_count(row, place, count)) return HOOKE_BAD_VALUE;
   for (int64_t k = 0; k < count; k++)
@@ -153,7 +149,7 @@ static enum hk_number_result parse_quantity(const char *bases, const char *text,
 
 int32_t hk_option_parse_number(const struct hk_option_row *row, const char *place, const char *text,
                                int64_t length, double *number, const char **base) {
-  char shown[HOOKE_OPTION_SHOWN], may[ALLOWED_SIZE];
+  char shown[HOOKE_OPTION_SHOWN], may[HOOKE_OPTION_ALLOWED];
   const char *wrong;
   const struct hk_unit *unit;
   enum hk_number_result result = parse_quantity(row->unit, text, length, number, &wrong, &unit);
@@ -170,14 +166,15 @@ int32_t hk_option_parse_number(const struct hk_option_row *row, const char *plac
     return HOOKE_NO_MEMORY;
   case HOOKE_NUMBER_TOO_LARGE:
     return hk_fail(HOOKE_BAD_VALUE, place, "%s is beyond the largest number, 1.8e308; allowed: %s", shown,
-                   allowed(row, may));
+                   hk_option_allowed(row, may));
   case HOOKE_NUMBER_TOO_SMALL:
     return hk_fail(HOOKE_BAD_VALUE, place, "%s is so small that it would become 0; allowed: %s", shown,
-                   allowed(row, may));
+                   hk_option_allowed(row, may));
   case HOOKE_NUMBER_JUNK:
     break;
   }
-  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown, allowed(row, may));
+  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown,
+                 hk_option_allowed(row, may));
 }
 
 static int is_blank(char c) {

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-int32_t hk_mesh_check_alone(const hooke_options *options) {
+static int32_t check_alone(const hooke_options *options) {
   static const char *const others[] = {"vertices", "triangles"};
   for (int k = 0; k < 2; k++) {
     if (hooke_options_is_set(options, others[k]))
@@ -61,7 +61,7 @@ static int32_t finish(int32_t status, int64_t line, const char *name, hooke_opti
 int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
                       hooke_options *options) {
   int64_t line = 0;
-  int32_t status = hk_mesh_check_alone(options);
+  int32_t status = check_alone(options);
   if (status != HOOKE_OK) return status;
   status = hk_memory_require(memory_limit, hk_obj_bytes(text, length), "the mesh");
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);
@@ -71,7 +71,7 @@ int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double
 int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit, hooke_options *options) {
   char *text = NULL;
   int64_t length = 0;
-  int32_t status = hk_mesh_check_alone(options);
+  int32_t status = check_alone(options);
   if (status != HOOKE_OK) return status;
   status = hk_scene_read_file(path, NULL, &text, &length);
   status = status == HOOKE_OK ? hk_mesh_parse(text, length, name, memory_limit, options)
@@ -81,9 +81,7 @@ int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit,
 }
 
 int32_t hooke_mesh_read(const char *path, hooke_options *options) {
-  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, "options", "are missing; those of a mesh are needed");
-  if (hk_options_find(hk_options_table(options), "triangles") == NULL)
-    return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "the options are not those of a mesh; make them with hooke_options_create(\"mesh\", ...)");
-  return hk_mesh_read_as(path, path, 0.0, options);
+  const int32_t status =
+      hk_options_require(options, hk_options_named("mesh"), "options", "hooke_options_create(\"mesh\", ...)");
+  return status != HOOKE_OK ? status : hk_mesh_read_as(path, path, 0.0, options);
 }

@@ -31,15 +31,20 @@ static const struct hk_option_table *table_at(int64_t k, const char **name) {
   return *name ? hk_measurement_options(*name) : NULL;
 }
 
-int32_t hooke_options_create(const char *name, hooke_options **options) {
+const struct hk_option_table *hk_options_named(const char *name) {
   char names[512] = "";
   const struct hk_option_table *table;
   const char *found;
-  *options = NULL;
   for (int64_t k = 0; (table = table_at(k, &found)); k++) {
-    if (strcmp(found, name) == 0) return hk_options_create(table, options);
+    if (strcmp(found, name) == 0) return table;
     hk_append(names, sizeof names, "%s%s", names[0] ? ", " : "", found);
   }
-  return hk_fail(HOOKE_BAD_VALUE, "name", "there are no options for \"%.64s\"; there are those for %s", name,
-                 names);
+  hk_fail(HOOKE_BAD_VALUE, "name", "there are no options for \"%.64s\"; there are those for %s", name, names);
+  return NULL;
+}
+
+int32_t hooke_options_create(const char *name, hooke_options **options) {
+  const struct hk_option_table *table = hk_options_named(name);
+  *options = NULL;
+  return table ? hk_options_create(table, options) : HOOKE_BAD_VALUE;
 }

@@ -7,14 +7,17 @@
 
 /* The tables "scene", "particles", "driven" and "limits": number `k`, NULL past the last. */
 const struct hk_option_table *hk_scene_table(int64_t k);
+/* The table of a name of hooke_options_create(); NULL, with HOOKE_BAD_VALUE recorded, if there is none. */
+const struct hk_option_table *hk_options_named(const char *name);
 
-/* The arrays of a scene whose objects have particles, in the order of reading; the last has no key. */
+/* The particles of a scene, and the arrays whose objects have particles, in the order of reading; the last has
+ * no key. */
 extern const struct hk_scene_list {
-  const char *key;    /* also the name of their options */
-  const char *others; /* keys beside those of the options, each between blanks */
-  const char *particles;
-  int32_t columns;      /* of a row of particles; 0: one */
-  const char *strength; /* key of the first number of a member, if they are groups of a force */
+  const char *key;       /* also the name of their options */
+  const char *others;    /* keys beside those of the options, each between blanks */
+  const char *particles; /* key of those that a member has; NULL: one object, which adds particles */
+  int32_t columns;       /* of a row of particles */
+  const char *strength;  /* key of the first number of a member, if they are groups of a force */
   const char *allowed;
   int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                  const hooke_options *options);

@@ -57,16 +57,19 @@ static int32_t read_run(struct hk_scene_reader *reader, const char *run) {
 
 /* Particles first, then parts, so that the others can refer to them, which are read only if both are right. */
 static int32_t add_pieces(struct hk_scene_reader *reader, const char *root) {
+  const struct hk_scene_list *list = hk_scene_lists;
   const char *particles = hk_json_get(root, "particles");
   if (reader->faults > 0 && particles && !hk_json_get(particles, "mass"))
     return HOOKE_OK; /* a right `dynamics` may do without */
-  int32_t status = particles ? hk_scene_note(reader, hk_scene_add_particles(reader, particles)) : HOOKE_OK;
+  int32_t status = hk_scene_add_list(reader, root, list++);
   if (status == HOOKE_OK) status = hk_scene_add_parts(reader, root);
   reader->within[0] = '\0';
   if (status != HOOKE_OK || reader->faults > 0) return status;
   if (hooke_system_particle_count(reader->scene->system) == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
-  return hk_scene_add_lists(reader, root);
+  for (; list->key && status == HOOKE_OK; list++)
+    status = hk_scene_add_list(reader, root, list);
+  return status;
 }
 
 static int32_t read_scene(struct hk_scene_reader *reader, const char *root) {

@@ -61,8 +61,9 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count,
                               const char **unit);
 
-/* The part of a name; NULL if there is none. */
-const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *reader, const char *name);
+/* The part of a name. HOOKE_BAD_VALUE. */
+int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *place, const char *name,
+                              const struct hk_part_record **part);
 
 /* The particles of a list, each a number or ["part", index], which the caller frees. */
 int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value,
@@ -70,9 +71,7 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *valu
 
 /* ---- scene_json_pieces.c: add to the system what is under keys of the scene ---- */
 
-int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles);
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root);
-/* All of hk_scene_lists. */
-int32_t hk_scene_add_lists(struct hk_scene_reader *reader, const char *root);
+int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *root, const struct hk_scene_list *list);
 
 #endif

@@ -16,12 +16,11 @@
 #include <string.h>
 
 static const struct hk_option_row source_rows[] = {
-    {.name = "file", .type = HOOKE_OPTION_TEXT, .required = 1, .doc = "HDF5 file, relative to the scene"},
-    {.name = "dataset", .type = HOOKE_OPTION_TEXT, .required = 1, .doc = "path of the data set in the file"},
-    {.name = "frame",
-     .type = HOOKE_OPTION_NUMBER,
-     .whole = 1,
-     .doc = "which frame of a trajectory; -1 is the last"},
+    HOOKE_OPTION("file", .type = HOOKE_OPTION_TEXT, NULL, "HDF5 file, relative to the scene", .required = 1),
+    HOOKE_OPTION("dataset", .type = HOOKE_OPTION_TEXT, NULL, "path of the data set in the file",
+                 .required = 1),
+    HOOKE_OPTION("frame", .type = HOOKE_OPTION_NUMBER, NULL, "which frame of a trajectory; -1 is the last",
+                 .whole = 1),
 };
 
 static const struct hk_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
@@ -130,28 +129,31 @@ static int compare_name(const void *name, const void *part) {
   return strcmp(name, (*(const struct hk_part_record *const *)part)->name);
 }
 
-const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *reader, const char *name) {
-  const struct hk_part_record *const *found = bsearch(
-      name, reader->part, (size_t)reader->scene->system->part_count, sizeof *reader->part, compare_name);
-  return found ? *found : NULL;
+int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *place, const char *name,
+                              const struct hk_part_record **part) {
+  const hooke_system *system = reader->scene->system;
+  const struct hk_part_record *const *found =
+      bsearch(name, reader->part, (size_t)system->part_count, sizeof *reader->part, compare_name);
+  char names[256], shown[HOOKE_OPTION_SHOWN];
+  *part = found ? *found : NULL;
+  if (found) return HOOKE_OK;
+  hk_option_show(name, (int64_t)strlen(name), shown);
+  list_parts(system, names, sizeof names);
+  return hk_fail(HOOKE_BAD_VALUE, place, "there is no part \"%s\"; allowed: %s", shown,
+                 names[0] ? names : "none, as this scene has no parts");
 }
 
 static int32_t find_in_part(const struct hk_scene_reader *reader, const char *name, int64_t index,
                             double *particle) {
-  char names[256], shown[HOOKE_OPTION_SHOWN];
+  char missing[128], shown[HOOKE_OPTION_SHOWN];
+  const struct hk_part_record *part;
+  const int32_t status = hk_scene_require_part(reader, "[0]", name, &part);
+  if (status != HOOKE_OK) return status;
+  *particle = (double)(part->first + index);
+  if (index >= 0 && index < part->count) return HOOKE_OK;
   hk_option_show(name, (int64_t)strlen(name), shown);
-  const struct hk_part_record *part = hk_scene_find_part(reader, name);
-  if (part && index >= 0 && index < part->count) {
-    *particle = (double)(part->first + index);
-    return HOOKE_OK;
-  }
-  if (part) {
-    snprintf(names, sizeof names, "part \"%s\" has no particle", shown);
-    return hk_fail_index("[1]", names, (double)index, part->count);
-  }
-  list_parts(reader->scene->system, names, sizeof names);
-  return hk_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
-                 names[0] ? names : "none, as this scene has no parts");
+  snprintf(missing, sizeof missing, "part \"%s\" has no particle", shown);
+  return hk_fail_index("[1]", missing, (double)index, part->count);
 }
 
 static int32_t read_particle(const struct hk_scene_reader *reader, const char *value, double *particle) {

@@ -2,6 +2,7 @@
 #include "io/scene/scene_json.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
 #include "io/scene/scene_file.h"
@@ -26,6 +27,13 @@ static int32_t read_text(const char *object, const char *key, const char **text)
 
 typedef int32_t add_one(struct hk_scene_reader *reader, const char *object, const struct hk_scene_list *list);
 
+static int32_t add_object(struct hk_scene_reader *reader, const char *object,
+                          const struct hk_scene_list *list, add_one *add) {
+  int32_t status = hk_scene_require(object, '{', NULL, "an object { ... }");
+  if (status == HOOKE_OK) status = add(reader, object, list);
+  return hk_scene_note(reader, status);
+}
+
 /* Calls `add` for every object of an optional array. */
 static int32_t for_each(struct hk_scene_reader *reader, const char *root, const char *key,
                         const struct hk_scene_list *list, add_one *add) {
@@ -36,9 +44,7 @@ static int32_t for_each(struct hk_scene_reader *reader, const char *root, const 
   if (status != HOOKE_OK) return hk_scene_note(reader, status);
   for (const char *at = array ? hk_json_first(array) : NULL; at; at = hk_json_next(at), k++) {
     snprintf(reader->within, sizeof reader->within, "%s[%lld]", key, (long long)k);
-    status = hk_scene_require(at, '{', NULL, "an object { ... }");
-    if (status == HOOKE_OK) status = add(reader, at, list);
-    status = hk_scene_note(reader, status);
+    status = add_object(reader, at, list, add);
     if (status != HOOKE_OK) return status;
   }
   reader->within[0] = '\0';
@@ -59,36 +65,26 @@ static int32_t pin(hooke_system *system, const hooke_options *options) {
   return status;
 }
 
-static int32_t add_particles(struct hk_scene_reader *reader, const char *particles, hooke_options *options) {
-  const hooke_system *system = reader->scene->system;
-  const double none = 1.0; /* where masses do nothing, and none are given */
-  const int32_t given = hk_json_get(particles, "mass") != NULL,
-                idle = system->overdamped && !system->has_gravity;
-  int32_t status = idle && !given ? hooke_options_set_numbers(options, "mass", 1, &none) : HOOKE_OK;
-  if (status == HOOKE_OK) status = hk_scene_read_options(reader, particles, NULL, options);
-  if (status) return status;
-  int64_t n = hooke_options_number_count(options, "position") / 3;
+static int32_t add_particles(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                             const hooke_options *options) {
+  (void)name, (void)count, (void)particles;
+  const int64_t n = hooke_options_number_count(options, "position") / 3,
+                velocities = hooke_options_number_count(options, "velocity") / 3;
   const double *velocity = hooke_options_numbers(options, "velocity");
-  int64_t velocities = hooke_options_number_count(options, "velocity") / 3;
   if (velocity && system->overdamped)
     return hk_fail(HOOKE_BAD_VALUE, "velocity",
                    "is not allowed; in an overdamped scene velocities are force over drag");
   if (velocity && velocities != n)
     return hk_fail(HOOKE_BAD_VALUE, "velocity", "%lld rows given; allowed: %lld, one for each position",
                    (long long)velocities, (long long)n);
-  status = hooke_system_add_particles(reader->scene->system, n, hooke_options_numbers(options, "position"),
-                                      velocity, given ? hooke_options_number_count(options, "mass") : 0,
-                                      hooke_options_numbers(options, "mass"), NULL);
-  return status ? status : pin(reader->scene->system, options);
-}
-
-int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles) {
-  hooke_options *options = NULL;
-  strcpy(reader->within, "particles");
-  int32_t status = hk_scene_require(particles, '{', NULL, "an object { ... }");
-  if (status == HOOKE_OK) status = hooke_options_create("particles", &options);
-  if (status == HOOKE_OK) status = add_particles(reader, particles, options);
-  hooke_options_destroy(options);
+  if (!hooke_options_is_set(options, "mass") && (system->has_gravity || !system->overdamped))
+    return hk_fail(HOOKE_BAD_VALUE, "mass", "is required but missing; allowed: one or more numbers > 0 [kg]");
+  const struct hk_system_mark mark = hk_system_mark(system);
+  int32_t status = hooke_system_add_particles(system, n, hooke_options_numbers(options, "position"), velocity,
+                                              hooke_options_number_count(options, "mass"),
+                                              hooke_options_numbers(options, "mass"), NULL);
+  if (status == HOOKE_OK) status = pin(system, options);
+  if (status != HOOKE_OK) hk_system_roll_back(system, mark);
   return status;
 }
 
@@ -99,8 +95,7 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
   const char *file = hooke_options_text(options, "file");
   char *path = NULL;
-  int32_t status = hk_mesh_check_alone(options);
-  if (status == HOOKE_OK) status = hk_scene_reader_file(reader, file, &path);
+  int32_t status = hk_scene_reader_file(reader, file, &path);
   if (status == HOOKE_OK) status = hk_mesh_read_as(path, file, reader->scene->memory_limit, options);
   hk_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
@@ -166,14 +161,10 @@ int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root) {
 
 static int32_t list_part(const struct hk_scene_reader *reader, const char *value, int64_t **particles,
                          int64_t *count) {
+  const struct hk_part_record *part;
   int32_t status = hk_scene_require(value, '"', "part", "a text");
+  if (status == HOOKE_OK) status = hk_scene_require_part(reader, "part", hk_json_text(value), &part);
   if (status != HOOKE_OK) return status;
-  const struct hk_part_record *part = hk_scene_find_part(reader, hk_json_text(value));
-  if (part == NULL) {
-    char shown[HOOKE_OPTION_SHOWN];
-    hk_option_show(hk_json_text(value), (int64_t)strlen(hk_json_text(value)), shown);
-    return hk_fail(HOOKE_BAD_VALUE, "part", "there is no part \"%s\"; allowed: the name of a part", shown);
-  }
   *particles = hk_new(part->count, sizeof **particles);
   if (*particles == NULL) return HOOKE_NO_MEMORY;
   *count = part->count;
@@ -203,20 +194,38 @@ static int32_t add_member(struct hk_scene_reader *reader, const char *object,
   int32_t status = hooke_options_create(list->key, &options);
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, object, list->others, options);
   if (status == HOOKE_OK && strstr(list->others, " name ")) status = read_text(object, "name", &name);
-  if (status == HOOKE_OK) status = read_particles(reader, object, list, &particles, &count);
+  if (status == HOOKE_OK && list->particles)
+    status = read_particles(reader, object, list, &particles, &count);
   if (status == HOOKE_OK)
-    status = list->add(reader->scene->system, name, list->columns > 0 ? count / list->columns : count,
-                       particles, options);
+    status = hooke_system_add_members(reader->scene->system, list->key, name, count, particles, options);
   hk_free(particles);
   hooke_options_destroy(options);
   return status;
 }
 
-int32_t hk_scene_add_lists(struct hk_scene_reader *reader, const char *root) {
-  int32_t status = HOOKE_OK;
-  for (const struct hk_scene_list *list = hk_scene_lists; list->key && status == HOOKE_OK; list++)
-    status = for_each(reader, root, list->key, list, add_member);
-  return status;
+int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *root,
+                          const struct hk_scene_list *list) {
+  if (list->particles) return for_each(reader, root, list->key, list, add_member);
+  strcpy(reader->within, list->key);
+  const char *object = hk_json_get(root, list->key);
+  return object ? add_object(reader, object, list, add_member) : HOOKE_OK;
+}
+
+int32_t hooke_system_add_members(hooke_system *system, const char *key, const char *name, int64_t count,
+                                 const int64_t *particles, const hooke_options *options) {
+  const struct hk_scene_list *list = hk_scene_lists;
+  while (list->key && strcmp(list->key, key) != 0)
+    list++;
+  if (list->key == NULL)
+    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven", "key", "key", key);
+  char maker[64];
+  hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
+  int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
+  if (status == HOOKE_OK) status = hk_options_check_required(options);
+  if (status == HOOKE_OK && (count % list->columns != 0 || (count != 0 && !list->particles)))
+    status = hk_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed for %s; allowed: %s", (long long)count,
+                     key, list->particles ? list->allowed : "0");
+  return status == HOOKE_OK ? list->add(system, name, count / list->columns, particles, options) : status;
 }
 
 static int32_t add_bending(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
@@ -232,35 +241,13 @@ static int32_t add_body(hooke_system *system, const char *name, int64_t count, c
                                hooke_options_number(options, "project") != 0.0);
 }
 
-/* ---- drives ---- */
-
-/* Refuses the keys of another motion, and requires those of this one but the phase. */
-static int32_t check_drive(const hooke_options *options) {
-  static const char *const keys[] = {"amplitude", "frequency", "phase", "time", "position"};
-  const char *motion = hooke_options_text(options, "motion");
-  const int32_t table = strcmp(motion, "table") == 0;
-  for (int32_t k = 0; k < 5; k++) {
-    const int32_t set = hooke_options_is_set(options, keys[k]), belongs = (k >= 3) == table;
-    if (set && !belongs)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k], "belongs to motion \"%s\"; allowed with \"%s\": %s",
-                     table ? "harmonic" : "table", motion,
-                     table ? "time, position" : "amplitude, frequency, phase");
-    if (!set && belongs && strcmp(keys[k], "phase") != 0)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k], "is required with motion \"%s\" but missing", motion);
-  }
-  return HOOKE_OK;
-}
-
 static int32_t add_drive(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                          const hooke_options *options) {
   (void)name;
-  const int32_t status = check_drive(options);
-  if (status != HOOKE_OK) return status;
-  if (strcmp(hooke_options_text(options, "motion"), "harmonic") == 0) {
-    const double phase = hooke_options_is_set(options, "phase") ? hooke_options_number(options, "phase") : 0;
+  if (strcmp(hooke_options_text(options, "motion"), "harmonic") == 0)
     return hooke_system_drive_harmonic(system, count, particles, hooke_options_numbers(options, "amplitude"),
-                                       hooke_options_number(options, "frequency"), phase);
-  }
+                                       hooke_options_number(options, "frequency"),
+                                       hooke_options_number(options, "phase"));
   int64_t samples = hooke_options_number_count(options, "time");
   int64_t rows = hooke_options_number_count(options, "position") / 3;
   if (rows != samples)
@@ -272,13 +259,14 @@ static int32_t add_drive(hooke_system *system, const char *name, int64_t count, 
 
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
+    {"particles", "", NULL, 1, NULL, NULL, add_particles},
     {"springs", " name between ", "between", 2, "stiffness", "an array of pairs of particles",
      hooke_system_add_springs},
     {"bending", " name triples ", "triples", 3, "coefficient", "an array of triples of particles",
      add_bending},
-    {"anchors", " name particles ", "particles", 0, "stiffness", "an array of particles",
+    {"anchors", " name particles ", "particles", 1, "stiffness", "an array of particles",
      hooke_system_add_anchors},
-    {"bodies", " name particles part ", "particles", 0, NULL, "particles, or the name of a part", add_body},
-    {"driven", " particles ", "particles", 0, NULL, "an array of particles", add_drive},
+    {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body},
+    {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive},
     {NULL, NULL, NULL, 0, NULL, NULL, NULL},
 };

@@ -32,11 +32,8 @@ int32_t hk_scene_refuse(const char *value, const char *place, const char *allowe
 }
 
 int32_t hk_scene_refuse_for_row(const char *value, const char *place, const struct hk_option_row *row) {
-  char allowed[TEXT_SIZE], with_unit[TEXT_SIZE + NAME_SIZE];
-  hk_option_describe(row, allowed, sizeof allowed);
-  const char *unit = row->unit ? row->unit : "";
-  snprintf(with_unit, sizeof with_unit, "%s%s%s%s", allowed, unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
-  return hk_scene_refuse(value, place, with_unit);
+  char allowed[HOOKE_OPTION_ALLOWED];
+  return hk_scene_refuse(value, place, hk_option_allowed(row, allowed));
 }
 
 int32_t hk_scene_require(const char *value, char first, const char *place, const char *allowed) {

@@ -7,101 +7,64 @@
 #include <string.h>
 
 static const struct hk_option_row scene_rows[] = {
-    {.name = "title", .type = HOOKE_OPTION_TEXT, .doc = "free text"},
-    {.name = "gravity", HOOKE_OPTION_VECTOR("m/s^2"), .doc = "acceleration of every free particle"},
-    {.name = "drag", HOOKE_OPTION_NOT_NEGATIVE("N s/m"), .doc = "ether drag f = -c v on every free particle"},
-    {.name = "dynamics",
-     .type = HOOKE_OPTION_CHOICE,
-     .words = "inertial overdamped",
-     .fallback = "inertial",
-     .doc = "overdamped: drag v = f, without inertia"},
+    HOOKE_OPTION("title", .type = HOOKE_OPTION_TEXT, NULL, "free text"),
+    HOOKE_OPTION("gravity", HOOKE_OPTION_VECTOR("m/s^2"), NULL, "acceleration of every free particle"),
+    HOOKE_OPTION("drag", HOOKE_OPTION_NOT_NEGATIVE("N s/m"), NULL,
+                 "ether drag f = -c v on every free particle"),
+    HOOKE_OPTION("dynamics", HOOKE_OPTION_ONE_OF("inertial overdamped"), "inertial",
+                 "overdamped: drag v = f, without inertia"),
 };
 
 static const struct hk_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
 
 static const struct hk_option_row particle_rows[] = {
-    {.name = "position",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 3,
-     .columns = 3,
-     .required = 1,
-     .doc = "one row a particle"},
-    {.name = "velocity",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m/s",
-     .min_count = 3,
-     .columns = 3,
-     .doc = "one row a particle; without it all are at rest"},
-    {.name = "mass",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "kg",
-     .high = 1e300,
-     .above_low = 1,
-     .min_count = 1,
-     .required = 1,
-     .doc = "one number, or one a particle; without gravity an overdamped scene needs none"},
-    {.name = "pinned",
-     .type = HOOKE_OPTION_NUMBERS,
-     .whole = 1,
-     .high = 2147483647,
-     .doc = "numbers of particles that are held still"},
+    HOOKE_OPTION("position", HOOKE_OPTION_VECTORS("m", 1, 0), NULL, "one row a particle", .required = 1),
+    HOOKE_OPTION("velocity", HOOKE_OPTION_VECTORS("m/s", 1, 0), NULL,
+                 "one row a particle; without it all are at rest"),
+    HOOKE_OPTION("mass", HOOKE_OPTION_EACH_POSITIVE("kg"), NULL,
+                 "one number, or one a particle; without gravity an overdamped scene needs none"),
+    HOOKE_OPTION("pinned", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, 0), NULL,
+                 "numbers of particles that are held still"),
 };
 
 static const struct hk_option_table particle_table = {"particles", HOOKE_OPTION_ROWS(particle_rows)};
 
 static const struct hk_option_row drive_rows[] = {
-    {.name = "motion",
-     .type = HOOKE_OPTION_CHOICE,
-     .words = "harmonic table",
-     .required = 1,
-     .doc = "kind of motion"},
-    {.name = "amplitude", HOOKE_OPTION_VECTOR("m"), .doc = "harmonic: largest displacement"},
-    {.name = "frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), .doc = "harmonic: oscillations a second"},
-    {.name = "phase", .type = HOOKE_OPTION_NUMBER, .unit = "rad", .doc = "harmonic: angle at time 0"},
-    {.name = "time",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "s",
-     .min_count = 2,
-     .doc = "table: ascending times"},
-    {.name = "position",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 6,
-     .columns = 3,
-     .doc = "table: displacement at each time"},
+    HOOKE_OPTION("motion", HOOKE_OPTION_ONE_OF("harmonic table"), NULL, "kind of motion", .required = 1),
+    HOOKE_OPTION("amplitude", HOOKE_OPTION_VECTOR("m"), NULL, "largest displacement along each axis",
+                 .required = 1, .only = "harmonic"),
+    HOOKE_OPTION("frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), NULL, "oscillations a second", .required = 1,
+                 .only = "harmonic"),
+    HOOKE_OPTION("phase", .type = HOOKE_OPTION_NUMBER, "0", "angle at time 0", .unit = "rad",
+                 .only = "harmonic"),
+    HOOKE_OPTION("time", HOOKE_OPTION_COUNTED(2, 0), NULL, "ascending times", .unit = "s", .required = 1,
+                 .only = "table"),
+    HOOKE_OPTION("position", HOOKE_OPTION_VECTORS("m", 2, 0), NULL, "displacement at each time",
+                 .required = 1, .only = "table"),
 };
 
 static const struct hk_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(drive_rows)};
 
 static const struct hk_option_row body_rows[] = {
-    {.name = "project",
-     HOOKE_OPTION_UNSET,
-     .doc = "true: velocities become those of the nearest rigid motion"},
+    HOOKE_OPTION("project", .type = HOOKE_OPTION_FLAG, "false",
+                 "true: velocities become those of the nearest rigid motion"),
 };
 
 static const struct hk_option_table body_table = {"bodies", HOOKE_OPTION_ROWS(body_rows)};
 
 static const struct hk_option_row bending_rows[] = {
-    {.name = "coefficient",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "N/m",
-     .low = 0.0,
-     .high = 1e300,
-     .min_count = 1,
-     .required = 1,
-     .doc = "c of the energy c/2 |q_a - 2 q_b + q_c|^2, one number or one for each triple"},
+    HOOKE_OPTION("coefficient", HOOKE_OPTION_EACH("N/m"), NULL,
+                 "c of the energy c/2 |q_a - 2 q_b + q_c|^2, one number or one for each triple",
+                 .required = 1),
 };
 
 static const struct hk_option_table bending_table = {"bending", HOOKE_OPTION_ROWS(bending_rows)};
 
 static const struct hk_option_row limit_rows[] = {
-    {.name = "memory",
-     HOOKE_OPTION_POSITIVE("GB"),
-     .doc = "memory that the scene may need; what the machine has if not given"},
-    {.name = "outside",
-     HOOKE_OPTION_UNSET,
-     .doc = "the scene may name files anywhere, and not in its folder alone"},
+    HOOKE_OPTION("memory", HOOKE_OPTION_POSITIVE("GB"), NULL,
+                 "memory that the scene may need; what the machine has if not given"),
+    HOOKE_OPTION("outside", .type = HOOKE_OPTION_FLAG, "false",
+                 "the scene may name files anywhere, and not in its folder alone"),
 };
 
 static const struct hk_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};
@@ -113,13 +76,9 @@ const struct hk_option_table *hk_scene_table(int64_t k) {
 }
 
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {
-  if (options == NULL || hk_options_table(options) != &scene_table) {
-    return hk_fail(
-        HOOKE_BAD_VALUE, NULL,
-        "the options are not those of a scene; make them with hooke_options_create(\"scene\", ...)");
-  }
-  int32_t status = HOOKE_OK;
-  if (hooke_options_is_set(options, "gravity"))
+  int32_t status =
+      hk_options_require(options, &scene_table, "options", "hooke_options_create(\"scene\", ...)");
+  if (status == HOOKE_OK && hooke_options_is_set(options, "gravity"))
     status = hooke_system_set_gravity(system, hooke_options_numbers(options, "gravity"));
   if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))
     status = hooke_system_set_drag(system, hooke_options_number(options, "drag"));

@@ -25,12 +25,11 @@ static void add_list(struct hk_text *text, const struct hk_option_row *row, cons
     return;
   }
   hk_text_open(text, row->name, '[');
-  while (*(words += strspn(words, " "))) {
+  int64_t length;
+  for (const char *at; (at = hk_option_next_word(&words, &length));) {
     char word[32];
-    const size_t length = strcspn(words, " ");
-    snprintf(word, sizeof word, "%.*s", (int)length, words);
+    snprintf(word, sizeof word, "%.*s", (int)length, at);
     hk_text_word(text, NULL, word);
-    words += length;
   }
   for (int64_t k = 0; k < count; k++)
     hk_text_number(text, NULL, number[k]);

@@ -136,10 +136,10 @@ static void open_member(struct writer *to, const struct hk_scene_list *list, con
   if (name && name[0]) hk_text_word(text, "name", name);
   hk_text_open(text, list->particles, '[');
   for (int64_t k = 0; k < count; k++) {
-    if (list->columns) hk_text_open(text, NULL, '[');
-    for (int32_t e = 0; e == 0 || e < list->columns; e++)
+    if (list->columns > 1) hk_text_open(text, NULL, '[');
+    for (int32_t e = 0; e < list->columns; e++)
       hk_text_number(text, NULL, (double)to->number[particle[e][k]]);
-    if (list->columns) hk_text_close(text, ']');
+    if (list->columns > 1) hk_text_close(text, ']');
   }
   hk_text_close(text, ']');
 }
@@ -220,7 +220,7 @@ static void add_lists(struct writer *to) {
       add_groups(to, list);
     else if (strcmp(list->key, "bodies") == 0)
       add_bodies(to, list);
-    else
+    else if (strcmp(list->key, "driven") == 0)
       add_drives(to, list);
     if (to->open) hk_text_close(&to->json, ']');
   }

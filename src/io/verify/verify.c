@@ -20,25 +20,14 @@ enum { MOST_REFINED = 4 };
 static const double RESOLVED = 0.25, ESTIMATES = 4.0;
 
 static const struct hk_option_row rows[] = {
-    {.name = "slice",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "s",
-     .min_count = 2,
-     .max_count = 2,
-     .example = "0.1,0.2",
-     .doc = "what to run again, from and to; error-controlled methods are run from the start"},
-    {.name = "all", HOOKE_OPTION_UNSET, .doc = "run all of it again"},
-    {.name = "budget",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "s",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e9,
-     .fallback = "1",
-     .doc = "time to spend where neither is given: on a slice from the middle"},
-    {.name = "bits",
-     HOOKE_OPTION_UNSET,
-     .doc = "compare the bits alone, without balance of energy and estimate of the error"},
+    HOOKE_OPTION("slice", HOOKE_OPTION_COUNTED(2, 2), NULL,
+                 "what to run again, from and to; error-controlled methods are run from the start",
+                 .unit = "s", .example = "0.1,0.2"),
+    HOOKE_OPTION("all", .type = HOOKE_OPTION_FLAG, "false", "run all of it again"),
+    HOOKE_OPTION("budget", HOOKE_OPTION_UP_TO("s", 1e9), "1",
+                 "time to spend where neither is given: on a slice from the middle"),
+    HOOKE_OPTION("bits", .type = HOOKE_OPTION_FLAG, "false",
+                 "compare the bits alone, without balance of energy and estimate of the error"),
 };
 
 static const struct hk_option_table table = {"verification", HOOKE_OPTION_ROWS(rows)};

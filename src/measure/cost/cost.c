@@ -18,16 +18,12 @@ static const double TIMING_SHARE = 0.5; /* of the budget; the rest is for scenes
 static const double SOME_STEP = 1e-3;   /* [s], by default */
 
 static const struct hk_option_row cost_rows[] = {
-    {.name = "predict", HOOKE_OPTION_UNSET, .doc = "leave out the timing"},
-    {.name = "budget",
-     HOOKE_OPTION_POSITIVE("s"),
-     .fallback = "2",
-     .doc = "time after which no further ingredient is looked at; half of it is for the timing, at most 0.2 "
-            "s an ingredient"},
-    {.name = "groups",
-     HOOKE_OPTION_WHOLE(0.0, 2147483647.0),
-     .fallback = "64",
-     .doc = "how many groups are looked at at most, the largest; each takes as long as the whole scene"},
+    HOOKE_OPTION("predict", .type = HOOKE_OPTION_FLAG, "false", "leave out the timing"),
+    HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), "2",
+                 "time after which no further ingredient is looked at; half of it is for the timing, at most "
+                 "0.2 s an ingredient"),
+    HOOKE_OPTION("groups", HOOKE_OPTION_WHOLE(0.0, 2147483647.0), "64",
+                 "how many groups are looked at at most, the largest; each takes as long as the whole scene"),
 };
 
 static const struct hk_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};

@@ -24,12 +24,10 @@ static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
 static const double SHORT = 2.0, MOST_RUNS = 10.0; /* most work of a refined run [s], or times the first */
 
 static const struct hk_option_row rows[] = {
-    {.name = "want",
-     HOOKE_OPTION_POSITIVE("m"),
-     .doc = "error that no free particle may exceed at any frame; only estimates if not given"},
-    {.name = "callbacks",
-     HOOKE_OPTION_UNSET,
-     .doc = "repeats runs for the estimate even if they call callbacks of forces or drives"},
+    HOOKE_OPTION("want", HOOKE_OPTION_POSITIVE("m"), NULL,
+                 "error that no free particle may exceed at any frame; only estimates if not given"),
+    HOOKE_OPTION("callbacks", .type = HOOKE_OPTION_FLAG, "false",
+                 "repeats runs for the estimate even if they call callbacks of forces or drives"),
 };
 
 static const struct hk_option_table options = {"estimate", HOOKE_OPTION_ROWS(rows)};

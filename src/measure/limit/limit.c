@@ -17,26 +17,17 @@
 static const double PREDICTING = 0.05;
 
 static const struct hk_option_row limit_rows[] = {
-    {.name = "methods",
-     .type = HOOKE_OPTION_TEXT,
-     .doc = "methods, separated by commas; every fixed-step one if not given"},
-    {.name = "predict", HOOKE_OPTION_UNSET, .doc = "leave out the measuring"},
-    {.name = "nonlinear",
-     HOOKE_OPTION_UNSET,
-     .doc = "measure on the scene itself over the duration of the run, instead of on the linearised scene"},
-    {.name = "along",
-     HOOKE_OPTION_UNSET,
-     .doc = "at every frame of the run: the smallest limit met and when, predicted alone"},
-    {.name = "accuracy",
-     .type = HOOKE_OPTION_NUMBER,
-     .low = 1e-9,
-     .high = 0.1,
-     .fallback = "1e-3",
-     .doc = "relative accuracy of predictions and measurements"},
-    {.name = "budget",
-     HOOKE_OPTION_POSITIVE("s"),
-     .fallback = "60",
-     .doc = "time that the measuring may take"},
+    HOOKE_OPTION("methods", .type = HOOKE_OPTION_TEXT, NULL,
+                 "methods, separated by commas; every fixed-step one if not given"),
+    HOOKE_OPTION("predict", .type = HOOKE_OPTION_FLAG, "false", "leave out the measuring"),
+    HOOKE_OPTION(
+        "nonlinear", .type = HOOKE_OPTION_FLAG, "false",
+        "measure on the scene itself over the duration of the run, instead of on the linearised scene"),
+    HOOKE_OPTION("along", .type = HOOKE_OPTION_FLAG, "false",
+                 "at every frame of the run: the smallest limit met and when, predicted alone"),
+    HOOKE_OPTION("accuracy", HOOKE_OPTION_BETWEEN(1e-9, 0.1), "1e-3",
+                 "relative accuracy of predictions and measurements"),
+    HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), "60", "time that the measuring may take"),
 };
 
 static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(limit_rows)};

@@ -22,52 +22,33 @@ static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed s
 static const double ENSEMBLE_SHARE = 0.3;
 
 static const struct hk_option_row study_rows[] = {
-    {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
-    {.name = "points",
-     HOOKE_OPTION_WHOLE(6, 40),
-     .fallback = "6",
-     .doc = "steps or tolerances for each method"},
-    {.name = "steps",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "s",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e300,
-     .min_count = 1,
-     .doc =
-         "steps of the fixed-step methods, coarse to fine; from the safe step down by halves if not given"},
-    {.name = "tolerances",
-     .type = HOOKE_OPTION_NUMBERS,
-     .low = 1e-14,
-     .high = 0.1,
-     .min_count = 1,
-     .doc = "rtol of the error-controlled methods, coarse to fine; from 1e-3 down by tenths if not given"},
-    {.name = "want",
-     HOOKE_OPTION_POSITIVE("m"),
-     .doc = "error that one can live with, the largest distance of any free particle, for a recommendation"},
-    {.name = "budget",
-     HOOKE_OPTION_POSITIVE("s"),
-     .doc = "time that the study may take; no limit if not given"},
-    {.name = "watch",
-     .type = HOOKE_OPTION_TEXT,
-     .example = "0.y,energy",
-     .doc = "quantities whose error is told too: 57.y (a particle), part:0.y, group:3.length, .strain or "
-            ".tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas"},
-    {.name = "ensemble",
-     HOOKE_OPTION_WHOLE(0.0, 1e6),
-     .fallback = "0",
-     .doc =
-         "displaced starts of which each method's means and spreads are told where the motion is too chaotic "
-         "to be judged; 0: none"},
-    {.name = "seed",
-     HOOKE_OPTION_WHOLE(0.0, 9007199254740992.0),
-     .fallback = "1",
-     .doc = "of the noise of those starts"},
-    {.name = "once",
-     HOOKE_OPTION_UNSET,
-     .doc =
-         "a first look: each method once, with the step and the tolerances of the run, in place of ladders; "
-         "the reference ends where its integrators part, and an HDF5 file has the motions, too"},
+    HOOKE_OPTION("methods", .type = HOOKE_OPTION_TEXT, NULL,
+                 "methods, separated by commas; all if not given"),
+    HOOKE_OPTION("points", HOOKE_OPTION_WHOLE(6, 40), "6", "steps or tolerances for each method"),
+    HOOKE_OPTION(
+        "steps", HOOKE_OPTION_EACH_POSITIVE("s"), NULL,
+        "steps of the fixed-step methods, coarse to fine; from the safe step down by halves if not given"),
+    HOOKE_OPTION(
+        "tolerances", .type = HOOKE_OPTION_NUMBERS, NULL,
+        "rtol of the error-controlled methods, coarse to fine; from 1e-3 down by tenths if not given",
+        .low = 1e-14, .high = 0.1, .min_count = 1),
+    HOOKE_OPTION(
+        "want", HOOKE_OPTION_POSITIVE("m"), NULL,
+        "error that one can live with, the largest distance of any free particle, for a recommendation"),
+    HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
+                 "time that the study may take; no limit if not given"),
+    HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
+                 "quantities whose error is told too: 57.y (a particle), part:0.y, group:3.length, .strain "
+                 "or .tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas",
+                 .example = "0.y,energy"),
+    HOOKE_OPTION("ensemble", HOOKE_OPTION_WHOLE(0.0, 1e6), "0",
+                 "displaced starts of which each method's means and spreads are told where the motion is too "
+                 "chaotic to be judged; 0: none"),
+    HOOKE_OPTION("seed", HOOKE_OPTION_WHOLE(0.0, 9007199254740992.0), "1", "of the noise of those starts"),
+    HOOKE_OPTION(
+        "once", HOOKE_OPTION_UNSET, NULL,
+        "a first look: each method once, with the step and the tolerances of the run, in place of ladders; "
+        "the reference ends where its integrators part, and an HDF5 file has the motions, too"),
 };
 
 static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};

@@ -20,10 +20,9 @@ static const double PUNCTUAL = 0.85;
 static const double LEAST_SECONDS = 2.0, LEAST_BYTES = 16e6, SHARE_OF_MEMORY = 0.4;
 
 static const struct hk_option_row why_rows[] = {
-    {.name = "budget",
-     HOOKE_OPTION_POSITIVE("s"),
-     .doc = "wall time that the explanation may take; if not given, as much counted work as the run took, "
-            "or 2 s if that is more, which is the same however busy the machine is"},
+    HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
+                 "wall time that the explanation may take; if not given, as much counted work as the run "
+                 "took, or 2 s if that is more, which is the same however busy the machine is"),
 };
 
 static const struct hk_option_table why_table = {"why", HOOKE_OPTION_ROWS(why_rows)};

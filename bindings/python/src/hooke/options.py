@@ -27,7 +27,7 @@ class Row(NamedTuple):
     is a value for a first try. `low` and `high` are bounds of every number, inclusive unless `above_low`; `required`
     of a member of a family applies if the family is given; `min_count` and `max_count` bound the count of "numbers",
     in rows of `columns`; with `word_lists` words and numbers may be mixed; `units` are those that a text may name
-    instead of `unit`.
+    instead of `unit`; `only` is the word of the first option, a choice, with which it may be given.
     """
 
     name: str
@@ -49,6 +49,7 @@ class Row(NamedTuple):
     max_count: int | None
     columns: int | None
     word_lists: bool
+    only: str
 
 
 def _of_table(what: str, doc: str) -> classmethod[Options, [], Options]:
@@ -162,7 +163,9 @@ class Options(Owner, MutableMapping[str, Any]):
             words = ",".join(item if isinstance(item, str) else repr(as_number(name, item)) for item in value)
             lib.hooke_options_set_text(self._handle, key, words.encode())
         else:
-            numbers = doubles(value, name).reshape(-1)
+            numbers, columns = doubles(value, name), name in self._rows and self._rows[name].columns
+            if columns and numbers.ndim > 1 and numbers.shape[-1] != columns:
+                doubles(numbers, name, (numbers.size // columns, columns))  # says what is allowed
             lib.hooke_options_set_numbers(self._handle, key, numbers.size, double_pointer(numbers))
 
     def __delitem__(self, name: str) -> None:

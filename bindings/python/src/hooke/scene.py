@@ -15,8 +15,8 @@ from ._place import placed
 from ._problem import Problem
 from ._prototypes import SCENE
 from ._status import BadCall, BadValue
-from ._types import FloatArray, IntArray, Numbers, Particle, Path
-from .options import Options, as_number, option_name
+from ._types import IntArray, Numbers, Particle, Path
+from .options import Options, option_name
 from .parts import Parts
 from .system import System, read_mesh, write_scene
 
@@ -53,7 +53,6 @@ class Scene(Parts, Problem):
         self._system = System()
         self._run = Options.for_run()
         self._title = title
-        self._parts: dict[str, range] = {}  # of the known ones
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] = {"hooke": 1}
         own = Options.for_scene().set(title=title or None, dynamics=dynamics, drag=drag)
@@ -73,7 +72,6 @@ class Scene(Parts, Problem):
         scene._run = Options(Handle(lib.hooke_scene_run_options(handle), None, handle))
         scene._title = text(lib.hooke_scene_text(handle, b"title"))
         scene._text = text(lib.hooke_scene_text(handle, b"text"))
-        scene._parts = {}
         return scene
 
     @classmethod
@@ -118,20 +116,16 @@ class Scene(Parts, Problem):
         with placed("particles"):
             self._require_no_particles()
             q = np.atleast_2d(doubles(position, "position"))
-            count = len(q)
-            piece: dict[str, Any] = {"position": doubles(q, "position", (count, 3)).copy()}
+            piece: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
             if velocity is not None:
-                piece["velocity"] = rows(velocity, "velocity", count).reshape(count, 3).copy()
-            held = None if pinned is None else np.unique(_in_range(indices(pinned, "pinned"), "pinned", count))
-            if held is not None and "velocity" in piece:
-                _require_rest(piece["velocity"], held)
+                piece["velocity"] = rows(velocity, "velocity", len(q)).reshape(-1, 3).copy()
             kilograms = doubles(mass, "mass").reshape(-1)
             if kilograms.size:
                 piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
-            self._system.add_particles(piece["position"], piece.get("velocity"), mass=kilograms)
-            if held is not None and held.size:
-                self._system.pin(held)
-                piece["pinned"] = held
+            if pinned is not None and np.size(pinned):
+                piece["pinned"] = indices(pinned, "pinned").reshape(-1).copy()
+                _require_rest(piece)
+            self._system._add("particles", None, "particles", (), piece)
         self._changed()["particles"] = piece
         return self
 
@@ -155,15 +149,7 @@ class Scene(Parts, Problem):
         `rest_scale` is a factor on the rest length; with ``compression=False`` the springs only pull. Returns the
         scene.
         """
-        given = {
-            "law": law,
-            "stiffness": stiffness,
-            "damping": damping,
-            "rest_length": rest_length,
-            "rest_scale": rest_scale,
-            "compression": compression,
-        }
-        return self._group("springs", self._system.add_springs, name, "between", between, given)
+        return self._group("springs", "between", locals())
 
     def bending(
         self,
@@ -174,9 +160,7 @@ class Scene(Parts, Problem):
     ) -> Scene:
         """Adds bending on `triples` a, b, c (m, 3) of existing particles: the energy c/2 |q_a - 2 q_b + q_c|^2 with the
         `coefficient` c [N/m], one number or (m,). Returns the scene."""
-        return self._group(
-            "bending", self._system.add_bending, name, "triples", triples, {"coefficient": coefficient}
-        )
+        return self._group("bending", "triples", locals())
 
     def anchors(
         self,
@@ -191,8 +175,7 @@ class Scene(Parts, Problem):
         """Adds a group of springs from existing `particles` (m,) to fixed `points` (m, 3) [m], or "initial"
         (default), the initial positions of the particles; `stiffness` [N/m], `damping` [N s/m] and `rest_length` [m],
         0 if None: each one number or (m,). Returns the scene."""
-        given = {"points": points, "stiffness": stiffness, "damping": damping, "rest_length": rest_length}
-        return self._group("anchors", self._system.add_anchors, name, "particles", particles, given)
+        return self._group("anchors", "particles", locals())
 
     def bodies(
         self,
@@ -207,8 +190,9 @@ class Scene(Parts, Problem):
         with placed(f"bodies[{self._count('bodies')}]"):
             if (particles is None) == (part is None):
                 raise BadValue("particles: allowed: particles, or the name of a part")
-            which = particles if part is None else list(self._in_part(part, "part"))
-        return self._group("bodies", self._system.add_body, name, "particles", which, {"project": project or None})
+            if part is not None:
+                particles = list(self._in_part(part, "part"))
+        return self._group("bodies", "particles", {"name": name, "particles": particles, "project": project or None})
 
     def driven(
         self,
@@ -227,17 +211,7 @@ class Scene(Parts, Problem):
         [Hz], `phase` [rad], 0 if None; with "table" along a smooth curve through `position` (k, 3) [m], displacements
         at ascending `time` (k,) [s]. Returns the scene.
         """
-        given = {"amplitude": amplitude, "frequency": frequency, "phase": phase, "time": time, "position": position}
-
-        def drive(_: None, numbers: IntArray, motion: str, **keys: Any) -> None:
-            _check_motion(motion, keys)
-            if motion == "table":
-                self._system.drive_table(numbers, keys["time"], keys["position"])
-            else:
-                turns, angle = (as_number(key, keys.get(key, 0.0)) for key in ("frequency", "phase"))
-                self._system.drive_harmonic(numbers, keys["amplitude"], turns, angle)
-
-        return self._group("driven", drive, None, "particles", particles, {"motion": motion, **given})
+        return self._group("driven", "particles", locals())
 
     def run_defaults(self, **options: Any) -> Scene:
         """Sets default options of runs of the scene: method, step [s], duration [s], every [s], ..., as
@@ -248,23 +222,17 @@ class Scene(Parts, Problem):
         self._changed()
         return self
 
-    def _group(
-        self, kind: str, add: Callable[..., Any], name: str | None, what: str, members: Any, given: dict[str, Any]
-    ) -> Scene:
-        """Adds a group to the system, and to the document as it was given; `members` are its key `what`."""
-        keys = {key: _kept(value) for key, value in given.items() if value is not None}
+    def _group(self, kind: str, what: str, given: dict[str, Any]) -> Scene:
+        """Adds a group to the system, and to the document as it was given; its particles are its key `what`."""
+        keys, name = _keys(given, "name", what), given.get("name")
         with placed(f"{kind}[{self._count(kind)}]"):
-            numbers = self._numbers(members, what)
+            numbers = self._numbers(given[what], what)
             numbers = numbers.reshape(-1) if what == "particles" else numbers
-            add(name, numbers, **keys)
+            self._system._add(kind, name, what, numbers, keys)
         return self._note(kind, {**({"name": name} if name else {}), what: numbers, **keys})
 
     def _part(self, kind: str, given: dict[str, Any]) -> Scene:
-        keys = {
-            option_name(key): _kept(value)
-            for key, value in given.items()
-            if key not in ("self", "name", "file") and value is not None
-        }
+        keys = _keys(given, "name", "file")
         name, file, names = given["name"], given.get("file"), self._part_names()
         with placed(kind):
             called = name or f"{kind}{len(names)}"
@@ -272,12 +240,10 @@ class Scene(Parts, Problem):
                 raise BadValue(f'name: "{called}" is the name of another part; allowed: a name of its own')
             options = Options.for_part(kind).set(**keys)
             if file is not None:
-                if "vertices" in keys or "triangles" in keys:
-                    raise BadValue("file: is not allowed together with vertices and triangles")
                 read_mesh(file, options)
                 read: dict[str, Any] = {key: options[key] for key in ("vertices", "triangles")}
                 keys.update((key, numbers.reshape(-1, 3)) for key, numbers in read.items())
-            self._parts[called] = self._system._add_part(kind, called, options)
+            self._system._add_part(kind, called, options)
         return self._note("parts", {"kind": kind, **({"name": name} if name else {}), **keys})
 
     # using
@@ -354,33 +320,18 @@ class Scene(Parts, Problem):
         return [self._resolved(particle, f"{name}[{place}]") for place, particle in enumerate(particles)]
 
     def _in_part(self, part: str, name: str) -> range:
-        names = self._part_names()
-        if part not in names:
-            known = ", ".join(f'"{other}"' for other in names) or "there are none"
+        handle, key = self._system._handle, part.encode()
+        before, count = (int(lib.hooke_system_part_count(handle, key, what)) for what in (b"before", b"particles"))
+        if count < 0:
+            known = ", ".join(f'"{other}"' for other in self._part_names()) or "there are none"
             raise BadValue(f'{name}: there is no part called "{part}"; allowed: {known}')
-        if part not in self._parts:
-            self._find_parts(names)
-        return self._parts[part]
+        return range(before, before + count)
 
     def _number_in_part(self, part: str, number: Any, name: str) -> int:
         particles = self._in_part(part, name)
         if not isinstance(number, (int, np.integer)) or not 0 <= number < len(particles):
-            raise BadValue(f'{name}: "{part}" has no particle {number}; {_numbers(len(particles))}')
+            raise BadValue(f'{name}: "{part}" has no particle {number}; allowed: 0 to {len(particles) - 1}')
         return particles[int(number)]
-
-    def _find_parts(self, names: list[str]) -> None:
-        """The particles of parts in a loaded scene: each part is as large as the same one in a system of its own."""
-        ranges: dict[str, range] = {}
-        last = self._system.particle_count
-        for name, part in reversed(list(zip(names, self._opened()["parts"]))):
-            options = Options.for_part(part["kind"])
-            for key, value in part.items():
-                if key not in ("kind", "name", "pinned"):
-                    options[key] = value
-            count = len(System()._add_part(part["kind"], name, options))
-            ranges[name] = range(last - count, last)
-            last -= count
-        self._parts = ranges
 
 
 def limits_of(memory: float | None, outside: bool) -> Handle:
@@ -393,47 +344,22 @@ def scene_text(scene: Scene | None) -> bytes | None:
     return None if scene is None else scene.text.encode()
 
 
-_MOTIONS = {
-    "harmonic": (("amplitude", "frequency"), ("phase",)),
-    "table": (("time", "position"), ()),
-}
-
-
-def _check_motion(motion: str, keys: dict[str, Any]) -> None:
-    if motion not in _MOTIONS:
-        raise BadValue(f'motion: "{motion}" is not allowed; allowed: "harmonic" or "table"')
-    required, optional = _MOTIONS[motion]
-    for key in required:
-        if key not in keys:
-            raise BadValue(f'{key}: is required with motion "{motion}" but missing')
-    for key in keys:
-        if key not in (*required, *optional):
-            raise BadValue(f'{key}: is not allowed with motion "{motion}"; allowed: {", ".join((*required, *optional))}')
-
-
-def _numbers(count: int) -> str:
-    return f"allowed: 0 to {count - 1}, as numbers begin at 0"
-
-
-def _in_range(particles: IntArray, name: str, count: int) -> IntArray:
-    particles = particles.reshape(-1)
-    wrong = np.flatnonzero((particles < 0) | (particles >= count))
-    if wrong.size:
-        first = int(wrong[0])
-        raise BadValue(f"{name}[{first}]: there is no particle {particles[first]}; {_numbers(count)}")
-    return particles
-
-
-def _require_rest(velocity: FloatArray, held: IntArray) -> None:
-    moving = held[velocity[held].any(axis=1)]
+def _require_rest(piece: dict[str, Any]) -> None:
+    """Commit would refuse it, too, and the scene could not be used."""
+    velocity = piece.get("velocity", np.zeros((0, 3)))
+    moving = np.flatnonzero(velocity.any(axis=1) & np.isin(np.arange(len(velocity)), piece["pinned"]))
     if moving.size:
         row = velocity[moving[0]].tolist()
         raise BadValue(f"velocity[{moving[0]}]: {row} is not allowed, the particle is pinned; allowed: 0")
 
 
-def _kept(value: Any) -> Any:
-    """The document's copy of a value, which the caller may change."""
-    return value.copy() if isinstance(value, np.ndarray) else value
+def _keys(given: dict[str, Any], *others: str) -> dict[str, Any]:
+    """The arguments of a method that are keys, without `others`, as copies of what the caller may change."""
+    return {
+        option_name(key): value.copy() if isinstance(value, np.ndarray) else value
+        for key, value in given.items()
+        if value is not None and key not in ("self", *others)
+    }
 
 
 def _dump(document: Mapping[str, Any]) -> str:

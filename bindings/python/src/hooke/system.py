@@ -15,7 +15,7 @@ from ._problem import Problem
 from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
 from ._status import BadValue
-from ._types import FloatArray
+from ._types import FloatArray, IntArray
 from .options import Options
 from .state import State
 
@@ -82,8 +82,6 @@ class System(Queries):
         if velocity is not None:
             velocity = doubles(velocity, "velocity", (count, 3), (3 * count,))
         mass = doubles(mass, "mass").reshape(-1)
-        if mass.size > 1:
-            mass = doubles(mass, "mass", (count,), (1,))
         first = ctypes.c_int64()
         lib.hooke_system_add_particles(
             self._handle,
@@ -105,35 +103,38 @@ class System(Queries):
         ``hooke.describe("springs")`` lists: ``law`` "strain" or "length"; ``stiffness`` [N] or, in the
         length law, [N/m]; ``damping`` [N s] or [N s/m]; ``rest_length`` "initial" or [m]; ``rest_scale``;
         ``compression``. Where several numbers are allowed it is one for all or (m,)."""
-        chosen = Options.for_springs().set(**options)
-        lib.hooke_system_add_springs(self._handle, *_group(name, between, "between", 2), chosen._handle)
+        self._add("springs", name, "between", between, options)
 
     def add_bending(self, name: str | None, triples: Any, coefficient: Any) -> None:
         """Adds bending on `triples` a, b, c of particles (m, 3): the energy c/2 |q_a - 2 q_b + q_c|^2 with the
         `coefficient` c [N/m], one number for all or (m,). A beam of stiffness B [N m^2] in pieces of length l
         has c = B/l^3."""
-        triples = _group(name, triples, "triples", 3)
-        coefficient = doubles(coefficient, "coefficient").reshape(-1)
-        lib.hooke_system_add_bending(self._handle, *triples, coefficient.size, double_pointer(coefficient))
+        self._add("bending", name, "triples", triples, {"coefficient": coefficient})
 
     def add_altitude(self, name: str | None, tetrahedra: Any, **options: Any) -> None:
         """Adds altitude springs on `tetrahedra` of particles (m, 4): the currently shortest altitude of each is a
         spring whose rest length is that altitude as added. Options are ``stiffness`` [N] and ``damping`` [N s], one
         for all or (m,), ``rest_scale`` and ``compression``."""
-        chosen = Options.for_altitude().set(**options)
-        lib.hooke_system_add_altitude(self._handle, *_group(name, tetrahedra, "tetrahedra", 4), chosen._handle)
+        numbers, chosen = _members("altitude", tetrahedra, "tetrahedra"), Options.for_altitude().set(**options)
+        group = _encoded(name), numbers.size // 4, index_pointer(numbers)
+        lib.hooke_system_add_altitude(self._handle, *group, chosen._handle)
 
     def add_anchors(self, name: str | None, particles: Any, **options: Any) -> None:
         """Adds anchors, springs from `particles` (m,) to fixed points, with the options that
         ``hooke.describe("anchors")`` lists: ``points`` (m, 3) [m], or "initial" for the initial positions of the
         particles; ``stiffness`` [N/m], ``damping`` [N s/m] and ``rest_length`` [m], one for all or (m,)."""
-        chosen = Options.for_anchors().set(**options)
-        lib.hooke_system_add_anchors(self._handle, _encoded(name), *_numbered(particles), chosen._handle)
+        self._add("anchors", name, "particles", particles, options)
 
     def add_body(self, name: str | None, particles: Any, *, project: bool = False) -> None:
         """Makes `particles` (m,) one rigid body; members of forces inside it are dropped at commit. Initial velocities
         have to be those of a rigid motion, or with `project` become those of the nearest one."""
-        lib.hooke_system_add_body(self._handle, _encoded(name), *_numbered(particles), int(project))
+        self._add("bodies", name, "particles", particles, {"project": project})
+
+    def _add(self, kind: str, name: str | None, what: str, members: Any, options: dict[str, Any]) -> None:
+        """Adds what a scene has under the key `kind`, whose particles are its key `what`."""
+        numbers, chosen = _members(kind, members, what), Options._of(kind).set(**options)
+        given = kind.encode(), _encoded(name), numbers.size, index_pointer(numbers)
+        lib.hooke_system_add_members(self._handle, *given, chosen._handle)
 
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
         """Adds a part, such as a "rope", a "cloth", a "lattice" or a "mesh", with the options that
@@ -267,9 +268,9 @@ def _numbered(particles: Any) -> tuple[int, Any]:
     return numbers.size, index_pointer(numbers)
 
 
-def _group(name: str | None, members: Any, what: str, width: int) -> tuple[bytes | None, int, Any]:
-    """Name, count and particles of a group, whose members have `width` particles each, as arguments."""
-    numbers = indices(members, what)
-    if numbers.size and (numbers.ndim != 2 or numbers.shape[1] != width):
+def _members(kind: str, members: Any, what: str) -> IntArray:
+    """The numbers of the particles of members, in rows of as many as one has."""
+    numbers, width = indices(members, what), lib.hooke_member_particles(kind.encode())
+    if width > 1 and numbers.size and (numbers.ndim != 2 or numbers.shape[1] != width):
         doubles(numbers, what, (numbers.size // width, width))  # says what is allowed
-    return _encoded(name), numbers.size // width, index_pointer(numbers)
+    return numbers

@@ -14,25 +14,14 @@
 #include <stddef.h>
 
 static const struct hk_option_row rows[] = {
-    {.name = "frames",
-     HOOKE_OPTION_WHOLE(2, 1e6),
-     .doc = "frames that the page has at most, evenly; as many as its size allows if not given"},
-    {.name = "springs",
-     HOOKE_OPTION_WHOLE(1, 1e7),
-     .fallback = "100000",
-     .doc = "springs that the page draws at most: of more, every second, third, ..."},
-    {.name = "size",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "MB",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 2000,
-     .fallback = "50",
-     .doc = "size of the page at most, which frames are left out for"},
-    {.name = "beyond",
-     HOOKE_OPTION_WHOLE(0, 1e9),
-     .fallback = "30",
-     .doc = "frames after the run diverged that are shown at most; of a scene, so many are run"},
+    HOOKE_OPTION("frames", HOOKE_OPTION_WHOLE(2, 1e6), NULL,
+                 "frames that the page has at most, evenly; as many as its size allows if not given"),
+    HOOKE_OPTION("springs", HOOKE_OPTION_WHOLE(1, 1e7), "100000",
+                 "springs that the page draws at most: of more, every second, third, ..."),
+    HOOKE_OPTION("size", HOOKE_OPTION_UP_TO("MB", 2000), "50",
+                 "size of the page at most, which frames are left out for"),
+    HOOKE_OPTION("beyond", HOOKE_OPTION_WHOLE(0, 1e9), "30",
+                 "frames after the run diverged that are shown at most; of a scene, so many are run"),
 };
 static const struct hk_option_table view_options = {"view", HOOKE_OPTION_ROWS(rows)};
 
