@@ -1,4 +1,5 @@
-"""The module of the Python package with the methods that add parts to a scene, one a kind, from the schema of scenes."""
+"""The module of the Python package with the methods that add parts, groups and drives to a scene, from the schema of
+scenes."""
 
 import json
 import keyword
@@ -6,14 +7,15 @@ import textwrap
 from pathlib import Path
 
 SCHEMA = Path(__file__).resolve().parents[2] / "examples/scene.schema.json"
-INTRO = '''"""Parts of a scene: pieces that are generated rather than listed, one method a kind; made from
-examples/scene.schema.json by bindings/generate/parts.py."""
+INTRO = '''"""Parts of a scene, one method a kind, and what it lists: groups and drives; made from examples/scene.schema.json by
+bindings/generate/parts.py."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, TypedDict, TypeVar, Union
 
-from ._types import Numbers, Path, Pins
+from ._types import IntArray, Numbers, Particle, Path, Pins
 
 Quantity = Union[float, str]  #: a number, or one with a unit: "200g"
 S = TypeVar("S", bound="Parts")
@@ -21,7 +23,7 @@ S = TypeVar("S", bound="Parts")
 CLASS = '''
 
 class Parts:
-    """The methods of a scene that add parts.
+    """The methods of a scene that add parts, groups and drives.
 
     Every part takes a `name` (the default is its kind and its number among the parts) and either `mass`, its total
     [kg], or `density`; an overdamped scene without gravity needs neither. `pinned` pins particles: numbers within the
@@ -32,12 +34,17 @@ class Parts:
 
     def _part(self: S, kind: str, given: dict[str, Any]) -> S:
         raise NotImplementedError
+
+    def _group(self: S, kind: str, what: str, given: dict[str, Any]) -> S:
+        raise NotImplementedError
 '''
 # What the keys of a part do not say.
 NOTES = {
     "cloth": "Particle (r, c) has the number ``r*nu + c`` within the cloth, whose `size` is (nu, nv).",
     "lattice": "Numbers within it run along x first, then y, then z.",
     "mesh": "The scene keeps the vertices of a file, not its name.",
+    "bending": "The energy of a triple a, b, c is c/2 |q_a - 2 q_b + q_c|^2.",
+    "driven": "By ``amplitude * sin(2 pi frequency t + phase)`` about where they are, or a smooth curve through `position`.",
     "strand": "A strand of hair, after Selle, Lentine and Fedkiw (2008).",
 }
 # Keys whose values are dicts, with the class of these, its description, and the kind and key that has it in the schema.
@@ -45,6 +52,13 @@ DICTS = {
     "Springs": ("A family of springs of a part.", "rope", "stretch"),
     "Transform": ("From the coordinates of a mesh to metres.", "mesh", "transform"),
 }
+# What methods add that is not "a <kind>".
+ADDED = {"springs": "a group of springs", "bending": "a group of triples that resist bending", "driven": "prescribed motion",
+         "anchors": "a group of springs from a particle to a fixed point"}
+# Keys with the particles of what a scene lists, each a number or ("part", number), and their types.
+LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "driven": "particles"}
+PARTICLES = {"between": "Sequence[Sequence[Particle]] | IntArray", "triples": "Sequence[Sequence[Particle]] | IntArray",
+             "particles": "Particle | Sequence[Particle] | IntArray"}
 TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str"}
 
 
@@ -53,11 +67,11 @@ def resolved(schema, definitions):
 
 
 def type_of(key, schema):
-    if key in ("pinned", "file"):
-        return {"pinned": "Pins", "file": "Path"}[key]
+    if key in ("pinned", "file", *PARTICLES):
+        return {"pinned": "Pins", "file": "Path", **PARTICLES}[key]
     if key == "transform" or schema.get("$ref", "").endswith("/family"):
         return "Springs" if key != "transform" else "Transform"
-    kind = schema.get("type", "array")
+    kind = schema.get("type", "string" if "enum" in schema else "array")
     return "Quantity" if isinstance(kind, list) else TYPES.get(kind, "Numbers")
 
 
@@ -92,16 +106,19 @@ def dictionary(name, definitions):
 
 
 def method(kind, schema):
-    """The method that adds a part of a kind."""
+    """The method that adds a part of a kind, or a member of a list."""
     keys = {key: inside for key, inside in schema["properties"].items() if key not in ("kind", "name")}
-    required = [key for key in keys if key in schema["required"]]
-    optional = [f"{argument(key)}: {type_of(key, keys[key])} | None = None" for key in keys if key not in required]
-    arguments = ["self: S", "name: str | None = None", "*", *(f"{argument(key)}: {type_of(key, keys[key])}" for key in required),
-                 *optional]
+    required = [f"{argument(key)}: {type_of(key, keys[key])}" for key in keys if key in schema["required"] and key != "motion"]
+    optional = [f"{argument(key)}: {type_of(key, keys[key])} | None = None" for key in keys if key not in schema["required"]]
+    if "motion" in keys:
+        arguments = ["self: S", *required, "*", 'motion: str = "harmonic"', *optional]
+    else:
+        arguments = ["self: S", "name: str | None = None", "*", *required, *optional]
     note = [f"        {NOTES[kind]}", ""] if kind in NOTES else []
+    call = f'_group("{kind}", "{LISTS[kind]}", locals())' if kind in LISTS else f'_part("{kind}", locals())'
     return ["", f"    def {kind}(", *(f"        {one}," for one in arguments), "    ) -> S:",
-            f'        """Adds a {kind} and returns the scene.', "", *note, *described(keys, "        "), '        """',
-            f'        return self._part("{kind}", locals())']
+            f'        """Adds {ADDED.get(kind, f"a {kind}")} and returns the scene.', "", *note, *described(keys, "        "),
+            '        """', f"        return self.{call}"]
 
 
 def module():
@@ -109,5 +126,5 @@ def module():
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
     definitions, kinds = schema["$defs"], schema["properties"]["parts"]["items"]["properties"]["kind"]["enum"]
     lines = [line for name in DICTS for line in dictionary(name, definitions)]
-    methods = [line for kind in kinds for line in method(kind, definitions[kind])]
+    methods = [line for kind in [*kinds, *LISTS] for line in method(kind, definitions[kind])]
     return INTRO + "\n".join(lines) + "\n" + CLASS + "\n".join(methods) + "\n"

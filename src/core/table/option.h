@@ -46,7 +46,7 @@ struct hk_option_table {
 #define HOOKE_OPTION(key, kind, otherwise, ...)                                                              \
   { .name = (key), kind, .fallback = (otherwise), .doc = __VA_ARGS__ }
 /* What rows often are: a number >= 0, > 0 or between two others, a whole number, several of them, a vector, rows
- * of x y z, numbers that are one or one for each, one word of several, a flag that is not set at first. */
+ * of x y z, numbers that are one or one for each, one word of several. */
 #define HOOKE_OPTION_BETWEEN(least, most) .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most)
 #define HOOKE_OPTION_NOT_NEGATIVE(units)  HOOKE_OPTION_BETWEEN(0.0, 1e300), .unit = (units)
 #define HOOKE_OPTION_UP_TO(units, most)   HOOKE_OPTION_BETWEEN(0.0, most), .unit = (units), .above_low = 1
@@ -62,7 +62,6 @@ struct hk_option_table {
 #define HOOKE_OPTION_EACH(units)          HOOKE_OPTION_COUNTED(1, 0), .unit = (units), .high = 1e300
 #define HOOKE_OPTION_EACH_POSITIVE(units) HOOKE_OPTION_EACH(units), .above_low = 1
 #define HOOKE_OPTION_ONE_OF(choices)      .type = HOOKE_OPTION_CHOICE, .words = (choices)
-#define HOOKE_OPTION_UNSET                .type = HOOKE_OPTION_FLAG, .fallback = "false"
 
 #define HOOKE_OPTION_ROWS(rows) (rows), (int32_t)(sizeof(rows) / sizeof((rows)[0]))
 

@@ -8,82 +8,48 @@
 #include <string.h>
 
 static const struct hk_option_row run_rows[] = {
-    {.name = "method",
-     .type = HOOKE_OPTION_TEXT,
-     .fallback = "symplectic-euler",
-     .doc = "method, see docs/notes/methods.md"},
-    {.name = "step", HOOKE_OPTION_POSITIVE("s"), .doc = "time step of a fixed-step method"},
-    {.name = "duration", HOOKE_OPTION_POSITIVE("s"), .doc = "time to run, a whole multiple of step"},
-    {.name = "every",
-     HOOKE_OPTION_POSITIVE("s"),
-     .doc = "time between frames, a whole multiple of step; about duration/100 if not given; the end is a "
-            "frame, too"},
-    {.name = "checkpoint",
-     HOOKE_OPTION_POSITIVE("s"),
-     .doc =
-         "time between checkpoints, from which a run can go on; error-controlled methods start anew at each"},
-    {.name = "newton",
-     .type = HOOKE_OPTION_CHOICE,
-     .words = "converged one-iteration",
-     .fallback = "converged",
-     .doc = "how backward-euler, tr-bdf2 and implicit-midpoint solve their equations: converged, or "
-            "one-iteration (linearised where they begin)"},
-    {.name = "newton_tolerance",
-     .type = HOOKE_OPTION_NUMBER,
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1.0,
-     .fallback = "0.02",
-     .doc = "error in the equations of a step of backward-euler, tr-bdf2 or implicit-midpoint at which their "
-            "iterations end, over the error that the step makes itself"},
-    {.name = "verlet_damping",
-     .type = HOOKE_OPTION_CHOICE,
-     .words = "auto explicit implicit",
-     .fallback = "auto",
-     .doc =
-         "how verlet takes the damping of springs: at the predicted velocity (explicit), by solving for it "
-         "(implicit), or explicitly where that is stable for certain (auto)"},
-    {.name = "rtol",
-     .type = HOOKE_OPTION_NUMBER,
-     .low = 1e-15,
-     .high = 0.1,
-     .fallback = "1e-6",
-     .doc = "relative tolerance of an error-controlled method"},
-    {.name = "atol",
-     HOOKE_OPTION_POSITIVE("m"),
-     .fallback = "1e-9",
-     .doc = "absolute tolerance of positions"},
-    {.name = "atol_velocity",
-     HOOKE_OPTION_POSITIVE("m/s"),
-     .doc = "absolute tolerance of velocities; the number of atol if not given"},
-    {.name = "max_order",
-     HOOKE_OPTION_WHOLE(1, 12),
-     .doc = "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use, or the order of "
-            "arkode-esdirk (3 to 5); if not given the highest, which cvode-bdf at rtol >= 1e-6 lowers to 2 "
-            "where stiff springs are weakly damped"},
-    {.name = "linear_solver",
-     .type = HOOKE_OPTION_CHOICE,
-     .words = "auto direct blocks gmres",
-     .fallback = "auto",
-     .doc =
-         "how implicit methods solve their linear equations: by iterations after a sparse factorisation "
-         "(direct) or one of 3x3 blocks (blocks); by blocks, or with cvode-bdf and arkode-esdirk as it pays "
-         "(auto); with these two also by plain gmres"},
-    {.name = "max_steps",
-     HOOKE_OPTION_WHOLE(1, 9e15),
-     .doc = "steps that an error-controlled method may take in one run; no limit if not given"},
-    {.name = "past_divergence",
-     HOOKE_OPTION_UNSET,
-     .doc = "with a fixed step: goes on after the run diverged, to show how it blows up, until numbers "
-            "overflow or "
-            "the duration is over; it counts as diverged all the same"},
-    {.name = "frames_after",
-     HOOKE_OPTION_WHOLE(0, 9e15),
-     .doc = "frames after the run diverged, at most; implies past_divergence"},
-    {.name = "threads",
-     HOOKE_OPTION_WHOLE(1, 1024),
-     .fallback = "1",
-     .doc = "most threads that may be used, as far as the scene is worth them; results do not depend on it"},
+    HOOKE_OPTION("method", .type = HOOKE_OPTION_TEXT, "symplectic-euler",
+                 "method, see docs/notes/methods.md"),
+    HOOKE_OPTION("step", HOOKE_OPTION_POSITIVE("s"), NULL, "time step of a fixed-step method"),
+    HOOKE_OPTION("duration", HOOKE_OPTION_POSITIVE("s"), NULL, "time to run, a whole multiple of step"),
+    HOOKE_OPTION("every", HOOKE_OPTION_POSITIVE("s"), NULL,
+                 "time between frames, a whole multiple of step; about duration/100 if not given; the end is "
+                 "a frame, too"),
+    HOOKE_OPTION(
+        "checkpoint", HOOKE_OPTION_POSITIVE("s"), NULL,
+        "time between checkpoints, from which a run can go on; error-controlled methods start anew at each"),
+    HOOKE_OPTION("newton", HOOKE_OPTION_ONE_OF("converged one-iteration"), "converged",
+                 "how backward-euler, tr-bdf2 and implicit-midpoint solve their equations: converged, or "
+                 "one-iteration (linearised where they begin)"),
+    HOOKE_OPTION("newton_tolerance", HOOKE_OPTION_UP_TO(NULL, 1.0), "0.02",
+                 "error in the equations of a step of backward-euler, tr-bdf2 or implicit-midpoint at which "
+                 "their iterations end, over the error that the step makes itself"),
+    HOOKE_OPTION("verlet_damping", HOOKE_OPTION_ONE_OF("auto explicit implicit"), "auto",
+                 "how verlet takes the damping of springs: at the predicted velocity (explicit), by solving "
+                 "for it (implicit), or explicitly where that is stable for certain (auto)"),
+    HOOKE_OPTION("rtol", HOOKE_OPTION_BETWEEN(1e-15, 0.1), "1e-6",
+                 "relative tolerance of an error-controlled method"),
+    HOOKE_OPTION("atol", HOOKE_OPTION_POSITIVE("m"), "1e-9", "absolute tolerance of positions"),
+    HOOKE_OPTION("atol_velocity", HOOKE_OPTION_POSITIVE("m/s"), NULL,
+                 "absolute tolerance of velocities; the number of atol if not given"),
+    HOOKE_OPTION("max_order", HOOKE_OPTION_WHOLE(1, 12), NULL,
+                 "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use, or the order of "
+                 "arkode-esdirk (3 to 5); if not given the highest, which cvode-bdf at rtol >= 1e-6 lowers "
+                 "to 2 where stiff springs are weakly damped"),
+    HOOKE_OPTION("linear_solver", HOOKE_OPTION_ONE_OF("auto direct blocks gmres"), "auto",
+                 "how implicit methods solve their linear equations: by iterations after a sparse "
+                 "factorisation (direct) or one of 3x3 blocks (blocks); by blocks, or with cvode-bdf and "
+                 "arkode-esdirk as it pays (auto); with these two also by plain gmres"),
+    HOOKE_OPTION("max_steps", HOOKE_OPTION_WHOLE(1, 9e15), NULL,
+                 "steps that an error-controlled method may take in one run; no limit if not given"),
+    HOOKE_OPTION("past_divergence", .type = HOOKE_OPTION_FLAG, "false",
+                 "with a fixed step: goes on after the run diverged, to show how it blows up, until numbers "
+                 "overflow or the duration is over; it counts as diverged all the same"),
+    HOOKE_OPTION("frames_after", HOOKE_OPTION_WHOLE(0, 9e15), NULL,
+                 "frames after the run diverged, at most; implies past_divergence"),
+    HOOKE_OPTION(
+        "threads", HOOKE_OPTION_WHOLE(1, 1024), "1",
+        "most threads that may be used, as far as the scene is worth them; results do not depend on it"),
 };
 
 const struct hk_option_table hk_run_options = {"run", HOOKE_OPTION_ROWS(run_rows)};

@@ -46,7 +46,7 @@ static const struct hk_option_row study_rows[] = {
                  "chaotic to be judged; 0: none"),
     HOOKE_OPTION("seed", HOOKE_OPTION_WHOLE(0.0, 9007199254740992.0), "1", "of the noise of those starts"),
     HOOKE_OPTION(
-        "once", HOOKE_OPTION_UNSET, NULL,
+        "once", .type = HOOKE_OPTION_FLAG, "false",
         "a first look: each method once, with the step and the tolerances of the run, in place of ladders; "
         "the reference ends where its integrators part, and an HDF5 file has the motions, too"),
 };

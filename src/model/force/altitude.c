@@ -10,22 +10,13 @@
 #include <string.h>
 
 static const struct hk_option_row rows[] = {
-    {.name = "stiffness",
-     HOOKE_OPTION_EACH("N"),
-     .required = 1,
-     .doc = "stiffness of the strain law, one number or one for each tetrahedron"},
-    {.name = "damping",
-     HOOKE_OPTION_EACH("N s"),
-     .fallback = "0",
-     .doc = "damping along the altitude, one number or one for each"},
-    {.name = "rest_scale",
-     HOOKE_OPTION_POSITIVE(NULL),
-     .fallback = "1",
-     .doc = "factor on the rest lengths, which are the altitudes as added"},
-    {.name = "compression",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "true",
-     .doc = "false: the springs only pull"},
+    HOOKE_OPTION("stiffness", HOOKE_OPTION_EACH("N"), NULL,
+                 "stiffness of the strain law, one number or one for each tetrahedron", .required = 1),
+    HOOKE_OPTION("damping", HOOKE_OPTION_EACH("N s"), "0",
+                 "damping along the altitude, one number or one for each"),
+    HOOKE_OPTION("rest_scale", HOOKE_OPTION_POSITIVE(NULL), "1",
+                 "factor on the rest lengths, which are the altitudes as added"),
+    HOOKE_OPTION("compression", .type = HOOKE_OPTION_FLAG, "true", "false: the springs only pull"),
 };
 
 const struct hk_option_table hk_altitude_options = {"altitude springs", HOOKE_OPTION_ROWS(rows)};

@@ -11,26 +11,15 @@
 #include <string.h>
 
 static const struct hk_option_row rows[] = {
-    {.name = "points",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 3,
-     .columns = 3,
-     .words = "initial",
-     .fallback = "initial",
-     .doc = "the point that each particle is tied to, three numbers for each; initial: where it was added"},
-    {.name = "stiffness",
-     HOOKE_OPTION_EACH("N/m"),
-     .required = 1,
-     .doc = "stiffness, one number or one for each anchor"},
-    {.name = "damping",
-     HOOKE_OPTION_EACH("N s/m"),
-     .fallback = "0",
-     .doc = "damping along the line to the point, one number or one for each"},
-    {.name = "rest_length",
-     HOOKE_OPTION_EACH("m"),
-     .fallback = "0",
-     .doc = "rest length, one number or one for each"},
+    HOOKE_OPTION(
+        "points", HOOKE_OPTION_VECTORS("m", 1, 0), "initial",
+        "the point that each particle is tied to, three numbers for each; initial: where it was added",
+        .words = "initial"),
+    HOOKE_OPTION("stiffness", HOOKE_OPTION_EACH("N/m"), NULL, "stiffness, one number or one for each anchor",
+                 .required = 1),
+    HOOKE_OPTION("damping", HOOKE_OPTION_EACH("N s/m"), "0",
+                 "damping along the line to the point, one number or one for each"),
+    HOOKE_OPTION("rest_length", HOOKE_OPTION_EACH("m"), "0", "rest length, one number or one for each"),
 };
 
 static const struct hk_option_table options_table = {"anchors", HOOKE_OPTION_ROWS(rows)};

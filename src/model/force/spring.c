@@ -9,29 +9,19 @@
 #include <string.h>
 
 static const struct hk_option_row spring_rows[] = {
-    {.name = "law",
-     .type = HOOKE_OPTION_CHOICE,
-     .words = "strain length",
-     .fallback = "strain",
-     .doc = "strain: force by relative stretch, the same at any resolution; length: by stretch in metres"},
-    {.name = "stiffness",
-     HOOKE_OPTION_EACH("N (strain law), N/m (length law)"),
-     .required = 1,
-     .doc = "stiffness, one number or one for each spring"},
-    {.name = "damping",
-     HOOKE_OPTION_EACH("N s (strain law), N s/m (length law)"),
-     .fallback = "0",
-     .doc = "damping along the spring, one number or one for each"},
-    {.name = "rest_length",
-     HOOKE_OPTION_EACH("m"),
-     .words = "initial",
-     .fallback = "initial",
-     .doc = "rest length, one number or one for each spring; > 0 with the strain law; initial: as added"},
-    {.name = "rest_scale", HOOKE_OPTION_POSITIVE(NULL), .fallback = "1", .doc = "factor on the rest length"},
-    {.name = "compression",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "true",
-     .doc = "false: the spring only pulls, like a cable"},
+    HOOKE_OPTION(
+        "law", HOOKE_OPTION_ONE_OF("strain length"), "strain",
+        "strain: force by relative stretch, the same at any resolution; length: by stretch in metres"),
+    HOOKE_OPTION("stiffness", HOOKE_OPTION_EACH("N (strain law), N/m (length law)"), NULL,
+                 "stiffness, one number or one for each spring", .required = 1),
+    HOOKE_OPTION("damping", HOOKE_OPTION_EACH("N s (strain law), N s/m (length law)"), "0",
+                 "damping along the spring, one number or one for each"),
+    HOOKE_OPTION("rest_length", HOOKE_OPTION_EACH("m"), "initial",
+                 "rest length, one number or one for each spring; > 0 with the strain law; initial: as added",
+                 .words = "initial"),
+    HOOKE_OPTION("rest_scale", HOOKE_OPTION_POSITIVE(NULL), "1", "factor on the rest length"),
+    HOOKE_OPTION("compression", .type = HOOKE_OPTION_FLAG, "true",
+                 "false: the spring only pulls, like a cable"),
 };
 
 const struct hk_option_table hk_spring_options = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};

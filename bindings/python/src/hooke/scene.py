@@ -129,54 +129,6 @@ class Scene(Parts, Problem):
         self._changed()["particles"] = piece
         return self
 
-    def springs(
-        self,
-        name: str | None = None,
-        *,
-        between: Sequence[Sequence[Particle]] | IntArray,
-        stiffness: Numbers,
-        law: str | None = None,
-        damping: Numbers | None = None,
-        rest_length: str | Numbers | None = None,
-        rest_scale: float | None = None,
-        compression: bool | None = None,
-    ) -> Scene:
-        """Adds a group of springs `between` existing pairs of particles (m, 2): numbers, or ``("part", number)``
-        within a part of that name.
-
-        `law` is "strain" (default) or "length"; `stiffness` [N], or [N/m] in the length law; `damping` [N s], or [N
-        s/m]; `rest_length` [m] or "initial" (default), the distance at the start: each one number or (m,).
-        `rest_scale` is a factor on the rest length; with ``compression=False`` the springs only pull. Returns the
-        scene.
-        """
-        return self._group("springs", "between", locals())
-
-    def bending(
-        self,
-        name: str | None = None,
-        *,
-        triples: Sequence[Sequence[Particle]] | IntArray,
-        coefficient: Numbers,
-    ) -> Scene:
-        """Adds bending on `triples` a, b, c (m, 3) of existing particles: the energy c/2 |q_a - 2 q_b + q_c|^2 with the
-        `coefficient` c [N/m], one number or (m,). Returns the scene."""
-        return self._group("bending", "triples", locals())
-
-    def anchors(
-        self,
-        name: str | None = None,
-        *,
-        particles: Particle | Sequence[Particle] | IntArray,
-        points: str | Numbers | None = None,
-        stiffness: Numbers,
-        damping: Numbers | None = None,
-        rest_length: Numbers | None = None,
-    ) -> Scene:
-        """Adds a group of springs from existing `particles` (m,) to fixed `points` (m, 3) [m], or "initial"
-        (default), the initial positions of the particles; `stiffness` [N/m], `damping` [N s/m] and `rest_length` [m],
-        0 if None: each one number or (m,). Returns the scene."""
-        return self._group("anchors", "particles", locals())
-
     def bodies(
         self,
         name: str | None = None,
@@ -193,25 +145,6 @@ class Scene(Parts, Problem):
             if part is not None:
                 particles = list(self._in_part(part, "part"))
         return self._group("bodies", "particles", {"name": name, "particles": particles, "project": project or None})
-
-    def driven(
-        self,
-        particles: Particle | Sequence[Particle] | IntArray,
-        *,
-        motion: str = "harmonic",
-        amplitude: Numbers | None = None,
-        frequency: float | None = None,
-        phase: float | None = None,
-        time: Numbers | None = None,
-        position: Numbers | None = None,
-    ) -> Scene:
-        """Prescribes the motion of existing `particles` about their initial positions.
-
-        With `motion` "harmonic" by ``amplitude * sin(2 pi frequency t + phase)``: `amplitude` (3,) [m], `frequency`
-        [Hz], `phase` [rad], 0 if None; with "table" along a smooth curve through `position` (k, 3) [m], displacements
-        at ascending `time` (k,) [s]. Returns the scene.
-        """
-        return self._group("driven", "particles", locals())
 
     def run_defaults(self, **options: Any) -> Scene:
         """Sets default options of runs of the scene: method, step [s], duration [s], every [s], ..., as
