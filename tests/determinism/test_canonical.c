@@ -56,8 +56,7 @@ static void compare_scene(struct random_scene_request request) {
 }
 
 /* Two scenes for each of the 256 combinations of features. */
-static void test_small_scenes(void **unused) {
-  (void)unused;
+TEST(test_small_scenes) {
   for (int32_t features = 0; features <= SCENE_EVERYTHING; features++) {
     for (uint64_t round = 0; round < 2; round++) {
       if (left_out(2 * features + (int64_t)round, 7)) continue;
@@ -73,8 +72,7 @@ static void test_small_scenes(void **unused) {
   }
 }
 
-static void test_large_scenes(void **unused) {
-  (void)unused;
+TEST(test_large_scenes) {
   const int32_t features[] = {0, SCENE_DAMPING | SCENE_GRAVITY,
                               SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
   const int64_t share = short_of_time() ? 3 : 1;
@@ -89,8 +87,7 @@ static void test_large_scenes(void **unused) {
   }
 }
 
-static void test_parts(void **unused) {
-  (void)unused;
+TEST(test_parts) {
   const int32_t size[] = {2, 3, 4, 5, 8, 9, 16, 17, 33, 64, 70};
   const int32_t sizes = (int32_t)(sizeof size / sizeof size[0]);
   for (int32_t k = 0; k < sizes; k++) {
@@ -111,8 +108,7 @@ static void test_parts(void **unused) {
 }
 
 /* With additional particles and springs, and alone, where its springs form strided batches. */
-static void test_lattices(void **unused) {
-  (void)unused;
+TEST(test_lattices) {
   static const int32_t size[][3] = {{2, 2, 2},  {3, 2, 4}, {2, 17, 4},  {5, 4, 3},
                                     {16, 3, 5}, {9, 8, 7}, {13, 12, 11}};
   for (uint64_t k = 0; k < sizeof size / sizeof size[0]; k++) {
@@ -127,8 +123,7 @@ static void test_lattices(void **unused) {
 }
 
 /* A scene listed spring by spring is summed like the same scene made of parts. */
-static void test_parts_are_springs(void **unused) {
-  (void)unused;
+TEST(test_parts_are_springs) {
   struct random_scene parts;
   random_scene_create((struct random_scene_request){.seed = 3,
                                                     .particles = 7,
@@ -169,8 +164,7 @@ static void test_parts_are_springs(void **unused) {
 }
 
 /* The comparison itself: one unit in the last place, and another order of the springs, must be detected. */
-static void test_planted_faults(void **unused) {
-  (void)unused;
+TEST(test_planted_faults) {
   struct random_scene scene;
   random_scene_create(
       (struct random_scene_request){
@@ -214,8 +208,7 @@ static void test_planted_faults(void **unused) {
 }
 
 /* Triples in another order must be detected. */
-static void test_planted_bending(void **unused) {
-  (void)unused;
+TEST(test_planted_bending) {
   struct random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 31, .particles = 200, .triples = 900}, &scene);
   struct canonical *c = &scene.canonical;
@@ -247,8 +240,7 @@ static void test_planted_bending(void **unused) {
 }
 
 /* Tetrahedra in another order, or with two corners exchanged, must be detected. */
-static void test_planted_altitude(void **unused) {
-  (void)unused;
+TEST(test_planted_altitude) {
   struct random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 41, .particles = 60, .tetrahedra = 400}, &scene);
   struct canonical *c = &scene.canonical;
@@ -295,8 +287,7 @@ static void test_planted_altitude(void **unused) {
 /* Steps that are solved for: a velocity off by 1e-7 of the largest change, or 1e-3 with Verlet, which solves
  * no better than its order needs, and a position off by a bit, or by 1e-10 m where it goes through those of
  * stages, have to show. */
-static void test_planted_defects(void **unused) {
-  (void)unused;
+TEST(test_planted_defects) {
   const char *methods[] = {"verlet", "backward-euler", "tr-bdf2", "implicit-midpoint"};
   const double start = 0.003, h = 0.0009765;
   struct random_scene scene;
@@ -338,8 +329,7 @@ static void test_planted_defects(void **unused) {
 }
 
 /* FNV-1a of known bytes: 0.0 is eight zero bytes, and the bytes of 1.0 end in f0 3f. */
-static void test_hash(void **unused) {
-  (void)unused;
+TEST(test_hash) {
   const double zero = 0.0, one = 1.0, minus_zero = -0.0;
   assert_true(hash_doubles(0, &zero, HASH_START) == HASH_START);
   uint64_t expected = HASH_START;
@@ -348,20 +338,4 @@ static void test_hash(void **unused) {
   assert_true(hash_doubles(1, &zero, HASH_START) == expected);
   assert_true(hash_doubles(1, &one, HASH_START) != expected);
   assert_int_equal(first_difference(1, &zero, &minus_zero), 0);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_hash),
-      cmocka_unit_test(test_planted_faults),
-      cmocka_unit_test(test_planted_bending),
-      cmocka_unit_test(test_planted_altitude),
-      cmocka_unit_test(test_planted_defects),
-      cmocka_unit_test(test_small_scenes),
-      cmocka_unit_test(test_large_scenes),
-      cmocka_unit_test(test_parts),
-      cmocka_unit_test(test_lattices),
-      cmocka_unit_test(test_parts_are_springs),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

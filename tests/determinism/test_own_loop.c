@@ -161,8 +161,7 @@ static void for_every_method(void (*check)(const hooke_system *, struct run)) {
   }
 }
 
-static void test_ways(void **unused) {
-  (void)unused;
+TEST(test_ways) {
   for_every_method(check_ways);
 }
 
@@ -234,14 +233,12 @@ static void check_particles(const hooke_system *system, struct run run) {
   loop_end(&loop);
 }
 
-static void test_particles(void **unused) {
-  (void)unused;
+TEST(test_particles) {
   for_every_method(check_particles);
 }
 
 /* A pinned particle is held where it is put, with zero velocity. */
-static void test_pinned(void **unused) {
-  (void)unused;
+TEST(test_pinned) {
   hooke_system *system = moving_system(&moving_scenes[0]);
   struct loop loop = loop_start(system, run_of("symplectic-euler", 1));
   const int64_t pinned = 1;
@@ -299,8 +296,7 @@ static void check_watched(const hooke_system *system, struct run run) {
   loop_end(&alone);
 }
 
-static void test_watched(void **unused) {
-  (void)unused;
+TEST(test_watched) {
   for_every_method(check_watched);
 }
 
@@ -311,8 +307,7 @@ static struct loop start_wild(const hooke_system *system, double step) {
 }
 
 /* Each call of a step checks for non-finite numbers, and leaves the state of the previous call. */
-static void test_steps_diverge(void **unused) {
-  (void)unused;
+TEST(test_steps_diverge) {
   hooke_system *system = small_oscillator(10.0);
   struct loop loop = start_wild(system, 10.0);
   hooke_state *before = start_state(system), *recent = start_state(system);
@@ -342,8 +337,7 @@ static void test_steps_diverge(void **unused) {
 }
 
 /* Without a state the check is made every 1000 steps, and when the state is requested. */
-static void test_motion_diverges(void **unused) {
-  (void)unused;
+TEST(test_motion_diverges) {
   hooke_system *system = small_oscillator(10.0);
   struct loop loop = start_wild(system, 0.01);
   hooke_state *start = start_state(system);
@@ -370,8 +364,7 @@ static void test_motion_diverges(void **unused) {
 }
 
 /* Moving particles may add any energy. */
-static void test_put_brings_energy(void **unused) {
-  (void)unused;
+TEST(test_put_brings_energy) {
   hooke_system *system = small_oscillator(10.0);
   const int64_t particle = 1;
   for (int put = 0; put < 2; put++) {
@@ -398,8 +391,7 @@ static void check_no_motion(struct loop *loop) {
   check_status(hooke_integrator_put(loop->integrator, 1, &particle, q, NULL), HOOKE_BAD_CALL);
 }
 
-static void test_misuse(void **unused) {
-  (void)unused;
+TEST(test_misuse) {
   hooke_system *system = moving_system(&moving_scenes[0]), *other = small_oscillator(1.0);
   struct loop loop = loop_start(system, run_of("verlet", 1));
   hooke_state *before = start_state(system), *small = start_state(other);
@@ -435,8 +427,7 @@ static int32_t turn(int64_t n, double t, const double *x, double *rate, void *ct
   return 0;
 }
 
-static void test_first_order(void **unused) {
-  (void)unused;
+TEST(test_first_order) {
   const char *const methods[] = {"forward-euler", "rk4", "cvode-adams"};
   for (int m = 0; m < 3; m++) {
     if (hooke_method_is_built(methods[m]) != 1) continue;
@@ -455,15 +446,4 @@ static void test_first_order(void **unused) {
     loop_end(&loop[0]);
     loop_end(&loop[1]);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_ways),          cmocka_unit_test(test_particles),
-      cmocka_unit_test(test_pinned),        cmocka_unit_test(test_watched),
-      cmocka_unit_test(test_steps_diverge), cmocka_unit_test(test_motion_diverges),
-      cmocka_unit_test(test_misuse),        cmocka_unit_test(test_put_brings_energy),
-      cmocka_unit_test(test_first_order),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

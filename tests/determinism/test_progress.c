@@ -68,8 +68,7 @@ static void run_alone(const hooke_system *system, struct run run, struct end *en
 }
 
 /* A solve of the cloth takes many products: stops occur within steps, too. */
-static void test_a_stopped_run_goes_on(void **unused) {
-  (void)unused;
+TEST(test_a_stopped_run_goes_on) {
   static struct end whole, pieces;
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
@@ -91,8 +90,7 @@ static void test_a_stopped_run_goes_on(void **unused) {
 }
 
 /* Between frames, in steps by hand, and with error control. */
-static void test_every_method_is_heard(void **unused) {
-  (void)unused;
+TEST(test_every_method_is_heard) {
   hooke_system *system = small_oscillator(1.0);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct listener listener = {.method = hooke_method_name(k), .stop_at = 3};
@@ -118,8 +116,7 @@ static void test_every_method_is_heard(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void test_seconds(void **unused) {
-  (void)unused;
+TEST(test_seconds) {
   hooke_system *system = small_oscillator(1.0);
   struct listener listener = {.method = "verlet"};
   hooke_integrator *integrator =
@@ -139,13 +136,4 @@ static void test_seconds(void **unused) {
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_a_stopped_run_goes_on),
-      cmocka_unit_test(test_every_method_is_heard),
-      cmocka_unit_test(test_seconds),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -218,16 +218,14 @@ static void check_scene(const struct moving_scene *scene, int64_t tries) {
   hooke_system_destroy(system);
 }
 
-static void resumed_runs_end_in_the_same_bits(void **state) {
-  (void)state;
+TEST(resumed_runs_end_in_the_same_bits) {
   for (int k = 0; k < MOVING_SCENES; k++) {
     if (!left_out(k, 3)) check_scene(&moving_scenes[k], getenv("HOOKE_LONG") ? 100 : 4);
   }
 }
 
 /* Alternately with two threads and with one. */
-static void threads_change_nothing(void **state) {
-  (void)state;
+TEST(threads_change_nothing) {
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
   const struct moving_scene *scene = &moving_scenes[MOVING_LARGE];
   struct random_source random = {17};
@@ -245,8 +243,7 @@ static void threads_change_nothing(void **state) {
 }
 
 /* In the same process, from the state where an observer stopped it, repeatedly. */
-static void fixed_steps_go_on_where_they_stopped(void **state) {
-  (void)state;
+TEST(fixed_steps_go_on_where_they_stopped) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
@@ -274,8 +271,7 @@ static void fixed_steps_go_on_where_they_stopped(void **state) {
 }
 
 /* Before, at and after the last whole multiple of `every`, and at the end, before its frame was shown. */
-static void the_last_short_interval_goes_on(void **state) {
-  (void)state;
+TEST(the_last_short_interval_goes_on) {
   static const int64_t stops[] = {STEPS - 5, STEPS - 4, STEPS - 3, STEPS - 1, STEPS};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -303,8 +299,7 @@ static void the_last_short_interval_goes_on(void **state) {
 }
 
 /* Loops of the caller's own: some steps, a checkpoint, the other half in another integrator. */
-static void single_steps_go_on_from_a_checkpoint(void **state) {
-  (void)state;
+TEST(single_steps_go_on_from_a_checkpoint) {
   char path[64];
   snprintf(path, sizeof path, "%s/hooke-steps-%ld", memory_folder(), (long)getpid());
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -350,8 +345,7 @@ static int32_t stop_once(int64_t step, const hooke_state *state, void *ctx) {
   return --*(int64_t *)ctx == 0;
 }
 
-static void first_order_problems_go_on(void **state) {
-  (void)state;
+TEST(first_order_problems_go_on) {
   static const char *const methods[] = {"forward-euler", "rk4",   "cvode-bdf",
                                         "cvode-adams",   "rk8pd", "arkode-esdirk"};
   char path[64];
@@ -386,8 +380,7 @@ static void first_order_problems_go_on(void **state) {
 
 /* Restarts are part of the method: without the option there are none, and with it an observer changes
  * nothing. */
-static void the_option_decides_and_nobody_else(void **state) {
-  (void)state;
+TEST(the_option_decides_and_nobody_else) {
   const struct moving_scene *scene = &moving_scenes[0];
   if (!hooke_method_is_built("cvode-adams")) return;
   hooke_system *system = moving_system(scene);
@@ -414,17 +407,4 @@ static void the_option_decides_and_nobody_else(void **state) {
   free(without);
   free(trace.row);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(resumed_runs_end_in_the_same_bits),
-      cmocka_unit_test(threads_change_nothing),
-      cmocka_unit_test(fixed_steps_go_on_where_they_stopped),
-      cmocka_unit_test(the_last_short_interval_goes_on),
-      cmocka_unit_test(single_steps_go_on_from_a_checkpoint),
-      cmocka_unit_test(first_order_problems_go_on),
-      cmocka_unit_test(the_option_decides_and_nobody_else),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

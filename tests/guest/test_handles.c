@@ -130,8 +130,7 @@ static int64_t call_all(enum badness how) {
   return calls;
 }
 
-static void test_every_function_refuses(void **unused) {
-  (void)unused;
+TEST(test_every_function_refuses) {
   bring_to_life();
   for (enum badness how = HOOKE_CHECK_HANDLES ? DESTROYED : ABSENT; how <= ABSENT; how++)
     assert_true(call_all(how) > 120);
@@ -140,8 +139,7 @@ static void test_every_function_refuses(void **unused) {
 
 /* Destroyed objects, each in a call of its own. */
 #if HOOKE_CHECK_HANDLES
-static void test_destroyed_is_refused(void **unused) {
-  (void)unused;
+TEST(test_destroyed_is_refused) {
   bring_to_life();
   const struct alive gone = alive;
   end_life();
@@ -167,15 +165,8 @@ static void test_destroyed_is_refused(void **unused) {
 
 #else
 
-static void test_destroyed_is_refused(void **unused) {
-  (void)unused;
+TEST(test_destroyed_is_refused) {
   skip(); /* this build does not check handles */
 }
 
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_function_refuses),
-                                     cmocka_unit_test(test_destroyed_is_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

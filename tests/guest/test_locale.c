@@ -254,8 +254,7 @@ static void check_same_output(const struct output *found, const struct output *e
                expected->text + from);
 }
 
-static void test_locale_of_the_process(void **unused) {
-  (void)unused;
+TEST(test_locale_of_the_process) {
   const struct output expected = everything();
   if (setlocale(LC_NUMERIC, name) == NULL) {
     free(expected.text);
@@ -271,8 +270,7 @@ static void test_locale_of_the_process(void **unused) {
   free(expected.text);
 }
 
-static void test_locale_of_the_thread(void **unused) {
-  (void)unused;
+TEST(test_locale_of_the_thread) {
   const locale_t comma = newlocale(LC_NUMERIC_MASK, name, (locale_t)0);
   if (comma == (locale_t)0) skip();
   const struct output expected = everything();
@@ -287,8 +285,4 @@ static void test_locale_of_the_thread(void **unused) {
   free(expected.text);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_locale_of_the_process),
-                                     cmocka_unit_test(test_locale_of_the_thread)};
-  return cmocka_run_group_tests(tests, make_locale, remove_locale);
-}
+AROUND_ALL(make_locale, remove_locale)

@@ -355,8 +355,7 @@ static void tour(void) {
 
 /* ---- in usual and unusual states ---- */
 
-static void test_as_usual(void **unused) {
-  (void)unused;
+TEST(test_as_usual) {
   tour();
 }
 
@@ -366,8 +365,7 @@ static void on_signal(int number) {
 
 /* Sets everything to non-default values. Results are not checked here: in another rounding mode they are the
  * caller's responsibility. */
-static void test_in_odd_surroundings(void **unused) {
-  (void)unused;
+TEST(test_in_odd_surroundings) {
   sigset_t mask, kept;
   sigemptyset(&mask);
   sigaddset(&mask, SIGUSR1);
@@ -394,8 +392,7 @@ static void test_in_odd_surroundings(void **unused) {
 }
 
 /* The first tour may make libraries open files that they keep; a second one adds none. */
-static void test_nothing_stays_open(void **unused) {
-  (void)unused;
+TEST(test_nothing_stays_open) {
   count_all(&start);
   if (start.files < 0) skip();
   tour();
@@ -403,13 +400,4 @@ static void test_nothing_stays_open(void **unused) {
   count_all(&end);
   assert_int_equal(end.files, start.files);
   assert_int_equal(end.threads, start.threads);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_as_usual),
-      cmocka_unit_test(test_nothing_stays_open),
-      cmocka_unit_test(test_in_odd_surroundings),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

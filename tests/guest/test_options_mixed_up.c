@@ -207,8 +207,7 @@ static const struct {
                  {"study_pick", "run", pick},
                  {"scene_of_system", "run", write_scene}};
 
-static void test_other_options_are_refused(void **unused) {
-  (void)unused;
+TEST(test_other_options_are_refused) {
   int64_t taken = 0, bad = 0;
   for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
     for (int t = 0; t < TABLES; t++) {
@@ -234,8 +233,7 @@ static void test_other_options_are_refused(void **unused) {
 }
 
 /* NULL options are the defaults if the header says so; otherwise they are refused. */
-static void test_missing_options_are_refused(void **unused) {
-  (void)unused;
+TEST(test_missing_options_are_refused) {
   static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",
                                                "cost_create",      "study_create", "scene_of_system",
                                                "comparison"};
@@ -250,10 +248,4 @@ static void test_missing_options_are_refused(void **unused) {
     if (may || status != HOOKE_BAD_VALUE || strstr(hooke_last_error(), word) == NULL)
       check_failed("%s without options: %d: %s", functions[f].name, (int)status, hooke_last_error());
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_other_options_are_refused),
-                                     cmocka_unit_test(test_missing_options_are_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,8 +83,7 @@ static void check_files(const struct objects *o) {
 #endif
 }
 
-static void outputs_are_null_after_a_failure(void **unused) {
-  (void)unused;
+TEST(outputs_are_null_after_a_failure) {
   struct objects o = {.system = small_oscillator(100.0)};
   const struct run run = {.method = "forward-euler", .step = 0.5, .duration = 5.0};
   check_ok(hooke_system_create(&o.open));
@@ -99,9 +98,4 @@ static void outputs_are_null_after_a_failure(void **unused) {
   hooke_options_destroy(o.wrong);
   hooke_system_destroy(o.open);
   hooke_system_destroy(o.system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(outputs_are_null_after_a_failure)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -168,8 +168,7 @@ static int64_t walk_apart(const struct function *f) {
   return told->calls;
 }
 
-static void test_every_function(void **unused) {
-  (void)unused;
+TEST(test_every_function) {
   const char *only = getenv("HOOKE_WALK_ONLY");
   int64_t calls = 0;
   pool_begin(&pool);
@@ -199,7 +198,4 @@ static int leave(void **unused) {
   return chdir("..") != 0 || system(command) != 0;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_function)};
-  return cmocka_run_group_tests(tests, enter, leave);
-}
+AROUND_ALL(enter, leave)

@@ -114,8 +114,7 @@ static const struct {
                {"implicit-midpoint", 3.6, 4.4},
                {"rk4", 3.6, 4.4}}; /* the trapezoidal rule is of second order */
 
-static void what_is_left_over_is_the_error_of_the_method(void **unused) {
-  (void)unused;
+TEST(what_is_left_over_is_the_error_of_the_method) {
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     for (int driven = 0; driven < 2; driven++) {
       double ratio;
@@ -135,8 +134,7 @@ static double none(const hooke_system *system, const double *q, const double *v)
   return 0.0;
 }
 
-static void wrong_heat_is_seen(void **unused) {
-  (void)unused;
+TEST(wrong_heat_is_seen) {
   double ratio;
   for (int driven = 0; driven < 2; driven++) {
     assert_false(holds("verlet", driven, a_fiftieth_too_much, &ratio));
@@ -147,8 +145,7 @@ static void wrong_heat_is_seen(void **unused) {
 }
 
 /* Missing work is detected, too. */
-static void wrong_work_is_seen(void **unused) {
-  (void)unused;
+TEST(wrong_work_is_seen) {
   hooke_system *system = damped_chain(1);
   struct watch coarse = {.system = system}, fine = coarse;
   double largest, bound;
@@ -163,13 +160,4 @@ static void wrong_work_is_seen(void **unused) {
                                 &largest, &bound));
   check_between(largest, bound, INFINITY);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_left_over_is_the_error_of_the_method),
-      cmocka_unit_test(wrong_heat_is_seen),
-      cmocka_unit_test(wrong_work_is_seen),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

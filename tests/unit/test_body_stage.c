@@ -48,8 +48,7 @@ static void find_right(struct hk_stage *stage, const double *v, double *right) {
 }
 
 /* The solution for the change of `right` is the change of the unknowns, far from where the stage begins. */
-static void matrix_is_the_derivative(void **unused) {
-  (void)unused;
+TEST(matrix_is_the_derivative) {
   const double small = 1e-6, still[3 * ALL] = {0.0};
   for (int pinned = 0; pinned < 2; pinned++) {
     hooke_system *system = two_bodies(pinned);
@@ -87,9 +86,4 @@ static void matrix_is_the_derivative(void **unused) {
     hooke_integrator_destroy(it);
     hooke_system_destroy(system);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_is_the_derivative)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -181,8 +181,7 @@ static void compare(uint64_t seed, struct features with, const char *method) {
   hooke_system_destroy(system);
 }
 
-static void steps_are_the_plain_loops(void **unused) {
-  (void)unused;
+TEST(steps_are_the_plain_loops) {
   for (int features = 0; features < 16; features++) {
     const struct features with = {features & 1, features >> 1 & 1, features >> 2 & 1, features >> 3};
     for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -192,9 +191,4 @@ static void steps_are_the_plain_loops(void **unused) {
         compare(10 * (uint64_t)features + seed, with, method);
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_the_plain_loops)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

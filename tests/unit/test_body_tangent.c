@@ -73,8 +73,7 @@ static void pushed(const hooke_system *system, const struct hk_body_tangent *t, 
   hk_body_tangents_release(&moved);
 }
 
-static void derivative_is_that_of_differences(void **unused) {
-  (void)unused;
+TEST(derivative_is_that_of_differences) {
   for (int pinned = 0; pinned <= 1; pinned++) {
     hooke_system *system = hung_body(pinned, 40.0);
     struct hk_body_tangents tangents;
@@ -110,8 +109,7 @@ static void derivative_is_that_of_differences(void **unused) {
 }
 
 /* Of springs that factors make stiffer as of springs that are. */
-static void stiffer_springs_turn_more(void **unused) {
-  (void)unused;
+TEST(stiffer_springs_turn_more) {
   const double twice[CORNERS] = {2.0, 2.0, 2.0, 2.0, 2.0};
   hooke_system *soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
   struct hk_rigid factors, found;
@@ -125,12 +123,4 @@ static void stiffer_springs_turn_more(void **unused) {
   hk_rigid_release(&found);
   hooke_system_destroy(soft);
   hooke_system_destroy(stiff);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(derivative_is_that_of_differences),
-      cmocka_unit_test(stiffer_springs_turn_more),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

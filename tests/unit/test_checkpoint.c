@@ -146,8 +146,7 @@ static void check_refused(const struct reader *reader, const char *run, const ch
 
 /* ---- tests ---- */
 
-static void every_byte_is_watched(void **state) {
-  (void)state;
+TEST(every_byte_is_watched) {
   const int all = getenv("HOOKE_LONG") != NULL;
   double numbers[NUMBERS];
   struct reader reader = reader_of(none, fixed);
@@ -169,8 +168,7 @@ static void every_byte_is_watched(void **state) {
   drop(&reader);
 }
 
-static void every_length_is_watched(void **state) {
-  (void)state;
+TEST(every_length_is_watched) {
   double numbers[NUMBERS];
   struct reader reader = reader_of(none, fixed);
   write_stopped(reader.system, fixed, STOP, numbers);
@@ -193,8 +191,7 @@ static void put_check_value(struct bytes *bytes) {
     bytes->at[bytes->count - 4 + k] = (unsigned char)(value >> 8 * k);
 }
 
-static void impossible_numbers_are_refused(void **state) {
-  (void)state;
+TEST(impossible_numbers_are_refused) {
   struct random_source random = {7};
   double numbers[NUMBERS];
   struct reader reader = reader_of(none, fixed);
@@ -221,8 +218,7 @@ static void impossible_numbers_are_refused(void **state) {
   drop(&reader);
 }
 
-static void other_problems_are_refused(void **state) {
-  (void)state;
+TEST(other_problems_are_refused) {
   struct change other[] = {none, none, none, none, none, none, none, none, none};
   other[0].mass = 1.1;
   other[1].stiffness = 21.0;
@@ -267,8 +263,7 @@ static void other_problems_are_refused(void **state) {
   drop(&reader);
 }
 
-static void the_one_before_stands_in(void **state) {
-  (void)state;
+TEST(the_one_before_stands_in) {
   double before[NUMBERS], newest[NUMBERS];
   struct reader reader = reader_of(none, fixed);
   remove(path);
@@ -307,8 +302,7 @@ static void the_one_before_stands_in(void **state) {
   drop(&reader);
 }
 
-static void only_a_place_of_the_run_is_written(void **state) {
-  (void)state;
+TEST(only_a_place_of_the_run_is_written) {
   const struct run adaptive = {.method = "cvode-adams", .duration = 0.2};
   struct reader reader = reader_of(none, fixed);
   remove(path);
@@ -338,8 +332,7 @@ static void only_a_place_of_the_run_is_written(void **state) {
 }
 
 /* The older file stays, and no other file is left. */
-static void a_failed_write_harms_nothing(void **state) {
-  (void)state;
+TEST(a_failed_write_harms_nothing) {
   double numbers[NUMBERS];
   struct reader writer = reader_of(none, fixed), reader = reader_of(none, fixed);
   write_stopped(writer.system, fixed, STOP, numbers);
@@ -367,8 +360,7 @@ static void *look_often(void *unused) {
 }
 
 /* The name always exists while one file replaces the other. */
-static void there_is_one_at_all_times(void **state) {
-  (void)state;
+TEST(there_is_one_at_all_times) {
   double numbers[NUMBERS];
   pthread_t watcher;
   struct reader writer = reader_of(none, fixed);
@@ -385,8 +377,7 @@ static void there_is_one_at_all_times(void **state) {
   drop(&writer);
 }
 
-static void a_pipe_is_not_waited_for(void **state) {
-  (void)state;
+TEST(a_pipe_is_not_waited_for) {
   struct reader reader = reader_of(none, fixed);
   remove(path);
   remove(previous);
@@ -395,13 +386,4 @@ static void a_pipe_is_not_waited_for(void **state) {
   drop(&reader);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_byte_is_watched),          cmocka_unit_test(every_length_is_watched),
-      cmocka_unit_test(impossible_numbers_are_refused), cmocka_unit_test(other_problems_are_refused),
-      cmocka_unit_test(the_one_before_stands_in),       cmocka_unit_test(only_a_place_of_the_run_is_written),
-      cmocka_unit_test(there_is_one_at_all_times),      cmocka_unit_test(a_failed_write_harms_nothing),
-      cmocka_unit_test(a_pipe_is_not_waited_for),
-  };
-  return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+AROUND_ALL(set_up, tear_down)

@@ -42,8 +42,7 @@ static double potential_at(struct hk_descent *descent, const hooke_integrator *i
   return found;
 }
 
-static void test_wrong_solution(void **unused) {
-  (void)unused;
+TEST(test_wrong_solution) {
   hooke_system *system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   hooke_state *state = start_state(system);
@@ -74,8 +73,7 @@ static int32_t plant(struct hk_stage *stage) {
 }
 
 /* A first solution on the other side: the stage ends at the right one. */
-static void test_planted(void **unused) {
-  (void)unused;
+TEST(test_planted) {
   hooke_system *system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   const double start[6] = {0.0, 0.0, 0.0, START, 0.0, 0.0}, still[6] = {0}, place[6] = {0.0, START};
@@ -87,17 +85,10 @@ static void test_planted(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void test_no_potential(void **unused) {
-  (void)unused;
+TEST(test_no_potential) {
   hooke_system *system = make_pair(1);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   assert_null(((struct hk_stage *)it->own)->descent.rows);
   hooke_integrator_destroy(it);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_wrong_solution), cmocka_unit_test(test_planted),
-                                     cmocka_unit_test(test_no_potential)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

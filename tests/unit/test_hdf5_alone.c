@@ -50,8 +50,7 @@ static void *open_often(void *arg) {
   return NULL;
 }
 
-static void test_files_at_once(void **unused) {
-  (void)unused;
+TEST(test_files_at_once) {
   struct reader reader[THREADS];
   hooke_system *system = small_oscillator(10.0);
   hooke_integrator *integrator =
@@ -87,14 +86,8 @@ static void test_files_at_once(void **unused) {
 
 #else
 
-static void test_files_at_once(void **unused) {
-  (void)unused;
+TEST(test_files_at_once) {
   skip();
 }
 
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_files_at_once)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

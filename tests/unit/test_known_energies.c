@@ -75,8 +75,7 @@ static struct watch watch_run(const hooke_system *system, const char *method, do
   return watch;
 }
 
-static void every_checked_frame_has_its_own(void **unused) {
-  (void)unused;
+TEST(every_checked_frame_has_its_own) {
   hooke_system *system = hanging_rope(0);
   const char *const methods[] = {"symplectic-euler", "rk4", "backward-euler"};
   for (int k = 0; k < 3; k++) {
@@ -89,8 +88,7 @@ static void every_checked_frame_has_its_own(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void frames_after_divergence_have_none(void **unused) {
-  (void)unused;
+TEST(frames_after_divergence_have_none) {
   hooke_system *system = hanging_rope(0);
   const struct watch watch = watch_run(system, "symplectic-euler", 0.02, HOOKE_DIVERGED);
   assert_in_range(watch.known, 1, FRAMES - 2);
@@ -98,18 +96,10 @@ static void frames_after_divergence_have_none(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void energy_from_outside_is_not_followed(void **unused) {
-  (void)unused;
+TEST(energy_from_outside_is_not_followed) {
   hooke_system *system = hanging_rope(1);
   const struct watch watch = watch_run(system, "symplectic-euler", 1e-3, HOOKE_OK);
   assert_int_equal(watch.frames, FRAMES);
   assert_int_equal(watch.known, 0);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_checked_frame_has_its_own),
-                                     cmocka_unit_test(frames_after_divergence_have_none),
-                                     cmocka_unit_test(energy_from_outside_is_not_followed)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,8 +56,7 @@ static double symplectic_euler(double zeta) {
   return 2.0 * (sqrt(1.0 + zeta * zeta) - zeta);
 }
 
-static void one_oscillator(void **unused) {
-  (void)unused;
+TEST(one_oscillator) {
   const double zeta[] = {0.1, 0.5, 1.0, 5.0}, omega = 30.0;
   const double rk4[] = {2.95085, 2.62254, 2.78529, 0.28137}; /* |R(h lambda)| = 1 */
   for (int k = 0; k < 4; k++) {
@@ -84,8 +83,7 @@ static void one_oscillator(void **unused) {
   }
 }
 
-static void undamped_oscillator(void **unused) {
-  (void)unused;
+TEST(undamped_oscillator) {
   const double stiffness = 49.0, damping = 0.0;
   hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
@@ -106,8 +104,7 @@ static void undamped_oscillator(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void far_from_the_origin(void **unused) {
-  (void)unused;
+TEST(far_from_the_origin) {
   const double stiffness = 49.0, damping = 1.0, far = 1048576.0;
   hooke_system *system = oscillators(1, &stiffness, &damping, far);
   const double zeta = 1.0 / 14.0;
@@ -118,8 +115,7 @@ static void far_from_the_origin(void **unused) {
 
 /* ---- a mode that was not predicted ---- */
 
-static void hidden_mode_is_found(void **unused) {
-  (void)unused;
+TEST(hidden_mode_is_found) {
   const double stiffness[2] = {49.0, 64.0}, damping[2] = {0.3, 0.3};
   hooke_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
@@ -143,8 +139,7 @@ static void hidden_mode_is_found(void **unused) {
 
 /* Springs between the same ends, in any order and among others, are one spring in the twin, of the same
  * force. */
-static void parallel_springs_are_one(void **unused) {
-  (void)unused;
+TEST(parallel_springs_are_one) {
   enum { MANY = 6 };
   const double place[9] = {0, 0, 0, 1, 0.25, 0, 0.5, 1, 0}, still[9] = {0.0},
                dq[9] = {0, 0, 0, 0.3, -0.2, 0.5, 0.1, 0.4, -0.3};
@@ -185,8 +180,7 @@ static void parallel_springs_are_one(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void frozen_system_rests(void **unused) {
-  (void)unused;
+TEST(frozen_system_rests) {
   /* a triangle under tension and compression, hung at its first corner, with a driven and a coincident
    * particle */
   const double position[15] = {0, 0, 0, 1, 0, 0, 0.3, 0.8, 0, 2, 0.1, 0.2, 2, 0.1, 0.2};
@@ -249,8 +243,7 @@ static void frozen_system_rests(void **unused) {
 }
 
 /* Drag alone: x'' = -c/m x'. */
-static void drag_alone(void **unused) {
-  (void)unused;
+TEST(drag_alone) {
   const double place[3] = {3.0, 0.0, 0.0};
   hooke_system *system = small_system(1, place, NULL, 2.0, 0);
   check_ok(hooke_system_set_drag(system, 5.0));
@@ -272,8 +265,7 @@ static int32_t refuse(double done, const char *what, void *ctx) {
   return 1;
 }
 
-static void what_is_refused(void **unused) {
-  (void)unused;
+TEST(what_is_refused) {
   const double stiffness = 49.0, damping = 1.0;
   hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
   struct hk_measured_limit out;
@@ -299,8 +291,7 @@ static void what_is_refused(void **unused) {
 
 /* Damped along a motion that has no direction yet: stiff and damped in all directions, which explicit damping
  * of symplectic Euler shows. */
-static void damping_of_a_spring_of_no_length(void **unused) {
-  (void)unused;
+TEST(damping_of_a_spring_of_no_length) {
   const double place[6] = {0.0};
   const int64_t ends[2] = {0, 1};
   hooke_system *system = small_system(2, place, NULL, 1.0, 1);
@@ -348,8 +339,7 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
   return status;
 }
 
-static void the_scene_itself(void **unused) {
-  (void)unused;
+TEST(the_scene_itself) {
   hooke_system *system = small_oscillator(OMEGA);
   struct hk_measured_limit out;
   /* with a = h omega energy swells by up to (1 + a/2)/(1 - a/2), which is 100 at a = 1.9604 */
@@ -376,8 +366,7 @@ static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
   return system;
 }
 
-static void scenes_that_no_step_helps(void **unused) {
-  (void)unused;
+TEST(scenes_that_no_step_helps) {
   struct hk_measured_limit out;
   struct spoiler not_a_number = {0.5, 0}, stop = {0.5, 1};
   hooke_system *diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
@@ -389,8 +378,7 @@ static void scenes_that_no_step_helps(void **unused) {
   hooke_system_destroy(diverges);
 }
 
-static void scenes_that_take_too_long(void **unused) {
-  (void)unused;
+TEST(scenes_that_take_too_long) {
   hooke_system *system = small_oscillator(OMEGA);
   struct hk_measured_limit out;
   check_ok(measure_scene(system, "verlet", LONG, 0.19, 0.0, NULL, &out));
@@ -425,8 +413,7 @@ static int32_t try_edge(void *ctx, double step, enum hk_trial_end *end) {
   return HOOKE_OK;
 }
 
-static void bracket_closes_from_both_sides(void **unused) {
-  (void)unused;
+TEST(bracket_closes_from_both_sides) {
   const double edges[] = {1e-5, 0.37, 0.9995, 1.0, 1.0005, 1.4, 2e4};
   for (int k = 0; k < 7; k++) {
     struct edge edge = {edges[k], 0};
@@ -451,8 +438,7 @@ static void bracket_closes_from_both_sides(void **unused) {
 /* ---- limiting springs ---- */
 
 /* Two oscillators and a mode in which both move: shares by hand. */
-static void shares_are_those_of_the_mode(void **unused) {
-  (void)unused;
+TEST(shares_are_those_of_the_mode) {
   const double stiffness[2] = {100.0, 400.0}, damping[2] = {3.0, 1.0};
   hooke_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
@@ -477,8 +463,7 @@ static void shares_are_those_of_the_mode(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void most_shares_are_kept_in_order(void **unused) {
-  (void)unused;
+TEST(most_shares_are_kept_in_order) {
   enum { COUNT = 150 };
   double stiffness[COUNT], damping[COUNT], mode[6 * COUNT];
   for (int k = 0; k < COUNT; k++) {
@@ -499,8 +484,7 @@ static void most_shares_are_kept_in_order(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void remedy_is_what_it_costs(void **unused) {
-  (void)unused;
+TEST(remedy_is_what_it_costs) {
   /* one of twelve is 100 times stiffer: alone it costs a factor 10 */
   enum { COUNT = 12 };
   double stiffness[COUNT], damping[COUNT] = {0.0}, mode[6 * COUNT] = {0.0};
@@ -528,8 +512,7 @@ static void remedy_is_what_it_costs(void **unused) {
                       "100 allows a step 10 times larger");
 }
 
-static void no_remedy_where_all_are_alike(void **unused) {
-  (void)unused;
+TEST(no_remedy_where_all_are_alike) {
   enum { COUNT = 12 };
   double stiffness[COUNT], damping[COUNT] = {0.0}, mode[6 * COUNT] = {0.0};
   for (int k = 0; k < COUNT; k++)
@@ -549,27 +532,4 @@ static void no_remedy_where_all_are_alike(void **unused) {
   assert_null(suggestion.kind);
   assert_true(isnan(suggestion.gain) && suggestion.count == 0);
   assert_non_null(strstr(suggestion.sentence, "group `other` has 100 %"));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_oscillator),
-      cmocka_unit_test(undamped_oscillator),
-      cmocka_unit_test(far_from_the_origin),
-      cmocka_unit_test(hidden_mode_is_found),
-      cmocka_unit_test(frozen_system_rests),
-      cmocka_unit_test(parallel_springs_are_one),
-      cmocka_unit_test(drag_alone),
-      cmocka_unit_test(what_is_refused),
-      cmocka_unit_test(damping_of_a_spring_of_no_length),
-      cmocka_unit_test(the_scene_itself),
-      cmocka_unit_test(scenes_that_no_step_helps),
-      cmocka_unit_test(scenes_that_take_too_long),
-      cmocka_unit_test(bracket_closes_from_both_sides),
-      cmocka_unit_test(shares_are_those_of_the_mode),
-      cmocka_unit_test(most_shares_are_kept_in_order),
-      cmocka_unit_test(remedy_is_what_it_costs),
-      cmocka_unit_test(no_remedy_where_all_are_alike),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,8 +63,7 @@ static void check_part(const char *kind, const char *family, int64_t a, int64_t 
   hooke_system_destroy(system);
 }
 
-static void parts_stop_at_the_edge_of_32_bits(void **unused) {
-  (void)unused;
+TEST(parts_stop_at_the_edge_of_32_bits) {
   check_part("rope", NULL, 2147483645, 0, 0, HOOKE_NO_MEMORY, "601 GB");
   check_part("rope", NULL, 2147483646, 0, 0, HOOKE_NO_MEMORY, "601 GB");
   check_part("rope", NULL, 2147483647, 0, 0, HOOKE_BAD_VALUE, "2147483648 particles");
@@ -85,8 +84,7 @@ static void parts_stop_at_the_edge_of_32_bits(void **unused) {
   check_part("strand", NULL, 1073741822, 0, 0, HOOKE_NO_MEMORY, "601 GB");
 }
 
-static void a_mesh_stops_at_the_edge_of_32_bits(void **unused) {
-  (void)unused;
+TEST(a_mesh_stops_at_the_edge_of_32_bits) {
   hooke_options *options;
   const double vertex[3] = {0};
   const int64_t triangle[3] = {0};
@@ -116,8 +114,7 @@ static hooke_options *altitude_options(void) {
 }
 
 /* The arrays have one element: nothing of them is read. */
-static void systems_stop_at_the_edge_of_32_bits(void **unused) {
-  (void)unused;
+TEST(systems_stop_at_the_edge_of_32_bits) {
   hooke_system *system = new_system(LITTLE);
   hooke_options *spring = spring_options(), *altitude = altitude_options();
   const double one = 1.0, place[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -163,8 +160,7 @@ static void systems_stop_at_the_edge_of_32_bits(void **unused) {
 }
 
 /* A part that fails leaves the counts unchanged. */
-static void what_is_taken_back_does_not_count(void **unused) {
-  (void)unused;
+TEST(what_is_taken_back_does_not_count) {
   hooke_system *system = new_system(0.0);
   int64_t size[3] = {10, 10, 0};
   hooke_options *options = part_options("cloth", size);
@@ -235,8 +231,7 @@ static const struct {
 };
 
 /* Each in its own process, since a peak stays. */
-static void a_scene_takes_what_it_is_said_to_need(void **unused) {
-  (void)unused;
+TEST(a_scene_takes_what_it_is_said_to_need) {
   if (short_of_time()) return; /* and memory is counted differently there */
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     const pid_t child = fork();
@@ -255,8 +250,7 @@ static void a_scene_takes_what_it_is_said_to_need(void **unused) {
   }
 }
 
-static void bytes_are_shown_in_three_digits(void **unused) {
-  (void)unused;
+TEST(bytes_are_shown_in_three_digits) {
   char shown[HOOKE_BYTES_SHOWN];
   const struct {
     double bytes;
@@ -274,8 +268,7 @@ static void bytes_are_shown_in_three_digits(void **unused) {
 }
 
 /* The limit on the address space is read each time. */
-static void a_limit_on_the_address_space_counts(void **unused) {
-  (void)unused;
+TEST(a_limit_on_the_address_space_counts) {
   struct rlimit before;
   const char *which = NULL;
   assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
@@ -312,8 +305,7 @@ static void check_parse(const char *text, double gigabytes, int32_t expected, co
   hooke_options_destroy(options);
 }
 
-static void scenes_that_are_too_large_are_refused(void **unused) {
-  (void)unused;
+TEST(scenes_that_are_too_large_are_refused) {
   check_parse("{\"hooke\":1,\"parts\":[{\"kind\":\"cloth\",\"size\":[100000,100000],"
               "\"edges\":[[1,0,0],[0,1,0]],\"mass\":1}]}",
               0.0, HOOKE_BAD_VALUE,
@@ -333,8 +325,7 @@ static void scenes_that_are_too_large_are_refused(void **unused) {
   check_parse(many, 1e-5, HOOKE_NO_MEMORY, "s: this scene needs");
 }
 
-static void equal_names_are_found_among_many(void **unused) {
-  (void)unused;
+TEST(equal_names_are_found_among_many) {
   enum { PARTS = 3000 };
   char *text = new_block(PARTS * 128 + 256, 1), *at = text;
   at += sprintf(at, "{\"hooke\":1,\"parts\":[");
@@ -373,8 +364,7 @@ static void check_load(const char *path, int32_t outside, int32_t expected, cons
 }
 
 /* The pipe has no writer: the alarm ends a process that waits for it. */
-static void nothing_waits_for_a_pipe(void **unused) {
-  (void)unused;
+TEST(nothing_waits_for_a_pipe) {
   char folder[] = "/tmp/hooke-room-XXXXXX";
   assert_non_null(mkdtemp(folder));
   const int back = open(".", O_RDONLY);
@@ -409,8 +399,7 @@ static void check_named(const char *file, int32_t outside, int32_t expected, con
   check_load("inside/scene.json", outside, expected, message);
 }
 
-static void files_stay_in_the_folder_unless_allowed(void **unused) {
-  (void)unused;
+TEST(files_stay_in_the_folder_unless_allowed) {
   char folder[] = "/tmp/hooke-room-XXXXXX", absolute[128];
   assert_non_null(mkdtemp(folder));
   const int back = open(".", O_RDONLY);
@@ -461,8 +450,7 @@ static int32_t no_force(int64_t n, double time, const double *q, const double *v
 
 /* Problems without particles have as many numbers as systems may have, and sizes that overflow are
  * refused. */
-static void problems_stop_where_systems_do(void **unused) {
-  (void)unused;
+TEST(problems_stop_where_systems_do) {
   const int64_t most = 3 * (int64_t)INT32_MAX,
                 bad[] = {INT64_MIN, -1, 0, most + 1, INT64_C(1) << 62, INT64_MAX};
   const double mass = 1.0;
@@ -488,28 +476,8 @@ static void problems_stop_where_systems_do(void **unused) {
 }
 
 /* No allocator has that much, and that of a sanitizer is not asked. */
-static void a_failed_allocation_keeps_errno(void **unused) {
-  (void)unused;
+TEST(a_failed_allocation_keeps_errno) {
   errno = EDOM;
   assert_null(hk_new(HOOKE_SANITIZED ? INT64_MAX / 4 : INT64_MAX / 64, sizeof(double)));
   assert_int_equal(errno, EDOM);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parts_stop_at_the_edge_of_32_bits),
-      cmocka_unit_test(a_mesh_stops_at_the_edge_of_32_bits),
-      cmocka_unit_test(systems_stop_at_the_edge_of_32_bits),
-      cmocka_unit_test(problems_stop_where_systems_do),
-      cmocka_unit_test(a_failed_allocation_keeps_errno),
-      cmocka_unit_test(what_is_taken_back_does_not_count),
-      cmocka_unit_test(a_scene_takes_what_it_is_said_to_need),
-      cmocka_unit_test(bytes_are_shown_in_three_digits),
-      cmocka_unit_test(a_limit_on_the_address_space_counts),
-      cmocka_unit_test(scenes_that_are_too_large_are_refused),
-      cmocka_unit_test(equal_names_are_found_among_many),
-      cmocka_unit_test(nothing_waits_for_a_pipe),
-      cmocka_unit_test(files_stay_in_the_folder_unless_allowed),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,8 +42,7 @@ static double measure(const char *method, double h, double w, double d, int rigi
 }
 
 /* Of every method whose steps may grow. */
-static void it_is_that_of_the_method(void **unused) {
-  (void)unused;
+TEST(it_is_that_of_the_method) {
   static const double modes[][3] = {{0.1, 10, 0}, {0.05, 10, 2}, {0.21, 10, 0.1}, {0.3, 10, 1},
                                     {0.1, 3, 25}, {0.01, 7, 3},  {0.5, 10, 30}};
   int64_t seen = 0;
@@ -63,8 +62,7 @@ static void it_is_that_of_the_method(void **unused) {
 }
 
 /* 1 just at the limit that hooke_limit_of_mode() has. */
-static void it_is_1_at_the_limit(void **unused) {
-  (void)unused;
+TEST(it_is_1_at_the_limit) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     const double limit = hooke_limit_of_mode(method, 10.0, 3.0);
@@ -76,12 +74,4 @@ static void it_is_1_at_the_limit(void **unused) {
     check_close(hk_mode_growth(stability, limit, 10.0, 3.0), 1.0, 1e-6);
   }
   assert_true(isnan(hk_mode_growth(hk_method_stability("no-method"), 0.1, 10.0, 0.0)));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_that_of_the_method),
-      cmocka_unit_test(it_is_1_at_the_limit),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

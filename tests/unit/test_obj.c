@@ -31,8 +31,7 @@ static void check_faces(const char *text, int64_t count, const int64_t *triangle
 
 #define FOUR "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
-static void faces_come_in_many_forms(void **unused) {
-  (void)unused;
+TEST(faces_come_in_many_forms) {
   const int64_t one[] = {0, 1, 2}, quad[] = {0, 1, 2, 0, 2, 3}, back[] = {3, 2, 1};
   check_faces(FOUR "f 1 2 3\n", 1, one);
   check_faces(FOUR "f 1 2 3", 1, one);
@@ -48,15 +47,13 @@ static void faces_come_in_many_forms(void **unused) {
   check_faces(FOUR "f 1 \\\r\n2 3\r\n", 1, one);
 }
 
-static void five_corners_make_three_triangles(void **unused) {
-  (void)unused;
+TEST(five_corners_make_three_triangles) {
   const int64_t fan[] = {4, 0, 1, 4, 1, 2, 4, 2, 3};
   check_faces(FOUR "v -1 0.5 0\nf 5 1 2 3 4\n", 3, fan);
 }
 
 /* Lines are counted in the same way for all line ends. */
-static void lines_end_in_three_ways(void **unused) {
-  (void)unused;
+TEST(lines_end_in_three_ways) {
   static const char *const ends[] = {"\n", "\r\n", "\r"};
   for (int k = 0; k < 3; k++) {
     char text[512];
@@ -79,8 +76,7 @@ static void lines_end_in_three_ways(void **unused) {
 }
 
 /* More than the first blocks hold. */
-static void lists_grow(void **unused) {
-  (void)unused;
+TEST(lists_grow) {
   enum { COUNT = 5000 };
   char *text = malloc(64 * COUNT), *at = text;
   struct hk_obj obj;
@@ -100,8 +96,7 @@ static void lists_grow(void **unused) {
   free(text);
 }
 
-static void faults_have_their_line(void **unused) {
-  (void)unused;
+TEST(faults_have_their_line) {
   static const struct {
     const char *text;
     int64_t line;
@@ -162,8 +157,7 @@ static int32_t read_file(const char *text, double weld, hooke_options **options)
   return status;
 }
 
-static void a_file_is_its_numbers(void **unused) {
-  (void)unused;
+TEST(a_file_is_its_numbers) {
   hooke_options *options;
   check_ok(read_file(FOUR "f 1 2 3 4\n", 0.0, &options));
   assert_int_equal(hooke_options_number_count(options, "vertices"), 12);
@@ -174,8 +168,7 @@ static void a_file_is_its_numbers(void **unused) {
   hooke_options_destroy(options);
 }
 
-static void faults_of_the_surface_have_their_line(void **unused) {
-  (void)unused;
+TEST(faults_of_the_surface_have_their_line) {
   static const struct {
     const char *text;
     const char *message;
@@ -202,8 +195,7 @@ static void faults_of_the_surface_have_their_line(void **unused) {
   }
 }
 
-static void a_file_has_to_be_there(void **unused) {
-  (void)unused;
+TEST(a_file_has_to_be_there) {
   hooke_options *options;
   check_ok(hooke_options_create("mesh", &options));
   check_status(hooke_mesh_read("/tmp/hooke-no-such.obj", options), HOOKE_BAD_VALUE);
@@ -212,18 +204,4 @@ static void a_file_has_to_be_there(void **unused) {
   check_message("directory");
   check_status(hooke_mesh_read(NULL, options), HOOKE_BAD_VALUE);
   hooke_options_destroy(options);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(faces_come_in_many_forms),
-      cmocka_unit_test(five_corners_make_three_triangles),
-      cmocka_unit_test(lines_end_in_three_ways),
-      cmocka_unit_test(lists_grow),
-      cmocka_unit_test(faults_have_their_line),
-      cmocka_unit_test(a_file_is_its_numbers),
-      cmocka_unit_test(faults_of_the_surface_have_their_line),
-      cmocka_unit_test(a_file_has_to_be_there),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

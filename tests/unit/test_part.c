@@ -80,8 +80,7 @@ static void check_equal_bits(const struct springs *s, int64_t begin, int64_t end
     check_same_bits(1, &s->rest_length[k], &rest_length);
 }
 
-static void a_rope_is_a_line(void **unused) {
-  (void)unused;
+TEST(a_rope_is_a_line) {
   hooke_system *system = new_system();
   hooke_options *options = rope_options(7);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 100));
@@ -121,8 +120,7 @@ static void a_rope_is_a_line(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void a_rope_ends_where_it_is_told(void **unused) {
-  (void)unused;
+TEST(a_rope_ends_where_it_is_told) {
   for (int segments = 1; segments < 60; segments++) {
     hooke_system *system = new_system();
     hooke_options *options = rope_options(segments);
@@ -152,8 +150,7 @@ static hooke_options *full_cloth(void) {
   return options;
 }
 
-static void a_cloth_has_its_springs_in_order(void **unused) {
-  (void)unused;
+TEST(a_cloth_has_its_springs_in_order) {
   hooke_system *system = new_system();
   hooke_options *options = full_cloth();
   check_ok(hooke_system_add_part(system, "cloth", "flag", options, NULL, NULL));
@@ -214,8 +211,7 @@ static void a_cloth_has_its_springs_in_order(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void a_family_that_is_absent_has_no_springs(void **unused) {
-  (void)unused;
+TEST(a_family_that_is_absent_has_no_springs) {
   hooke_system *system = new_system();
   hooke_options *options = cloth_options(3, 3);
   check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
@@ -249,8 +245,7 @@ static void check_pinned(const char *kind, const char *pinned, const char *expec
   hooke_system_destroy(system);
 }
 
-static void pinned_particles_have_names(void **unused) {
-  (void)unused;
+TEST(pinned_particles_have_names) {
   check_pinned("rope", "start", "x....");
   check_pinned("rope", "end", "....x");
   check_pinned("rope", "start, end", "x...x");
@@ -262,8 +257,7 @@ static void pinned_particles_have_names(void **unused) {
   check_pinned("cloth", "6", "......x.....");
 }
 
-static void parts_come_after_groups_and_are_counted(void **unused) {
-  (void)unused;
+TEST(parts_come_after_groups_and_are_counted) {
   hooke_system *system = new_system();
   hooke_options *options = rope_options(2), *explicit_group;
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 1));
@@ -326,8 +320,7 @@ static void check_refused(const char *kind, hooke_options *options, int32_t stat
   hooke_system_destroy(system);
 }
 
-static void bad_parts_are_refused(void **unused) {
-  (void)unused;
+TEST(bad_parts_are_refused) {
   hooke_options *options = rope_options(3);
   check_ok(hooke_options_set_text(options, "stretch", ""));
   check_refused("rope", options, HOOKE_BAD_VALUE, "stretch.stiffness");
@@ -355,8 +348,7 @@ static void bad_parts_are_refused(void **unused) {
                 "no kind of part called \"sail\"; allowed: rope, cloth, lattice, mesh, strand");
 }
 
-static void impossible_sizes_are_refused_before_anything_is_allocated(void **unused) {
-  (void)unused;
+TEST(impossible_sizes_are_refused_before_anything_is_allocated) {
   check_refused("cloth", cloth_options(1e6, 1e6), HOOKE_BAD_VALUE,
                 "size: a cloth of 1000000 x 1000000 particles needs 280 TB of memory for 1e+12 particles");
   check_refused("cloth", cloth_options(2147483647, 2147483647), HOOKE_BAD_VALUE, "2147483647 x 2147483647");
@@ -374,8 +366,7 @@ static void impossible_sizes_are_refused_before_anything_is_allocated(void **unu
   hooke_options_destroy(options);
 }
 
-static void a_committed_system_takes_no_part(void **unused) {
-  (void)unused;
+TEST(a_committed_system_takes_no_part) {
   hooke_system *system = new_system();
   hooke_options *options = rope_options(1);
   check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
@@ -385,8 +376,7 @@ static void a_committed_system_takes_no_part(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void kinds_can_be_listed(void **unused) {
-  (void)unused;
+TEST(kinds_can_be_listed) {
   assert_string_equal(hooke_part_kind(0, "name"), "rope");
   assert_string_equal(hooke_part_kind(1, "name"), "cloth");
   assert_string_equal(hooke_part_kind(2, "name"), "lattice");
@@ -397,20 +387,4 @@ static void kinds_can_be_listed(void **unused) {
   hooke_options *options;
   check_status(hooke_options_create(NULL, &options), HOOKE_BAD_VALUE);
   assert_null(options);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_rope_is_a_line),
-      cmocka_unit_test(a_rope_ends_where_it_is_told),
-      cmocka_unit_test(a_cloth_has_its_springs_in_order),
-      cmocka_unit_test(a_family_that_is_absent_has_no_springs),
-      cmocka_unit_test(pinned_particles_have_names),
-      cmocka_unit_test(parts_come_after_groups_and_are_counted),
-      cmocka_unit_test(bad_parts_are_refused),
-      cmocka_unit_test(impossible_sizes_are_refused_before_anything_is_allocated),
-      cmocka_unit_test(a_committed_system_takes_no_part),
-      cmocka_unit_test(kinds_can_be_listed),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,8 +29,7 @@ static hooke_system *cloth(void) {
   return system;
 }
 
-static void a_cloth_without_origin_begins_at_zero(void **unused) {
-  (void)unused;
+TEST(a_cloth_without_origin_begins_at_zero) {
   hooke_system *system = cloth();
   hooke_state *state = start_state(system);
   assert_memory_equal(hooke_state_position(state), ((double[]){0, 0, 0}), 3 * sizeof(double));
@@ -90,8 +89,7 @@ static double *numbers(const struct fixture *f, const char *what, int64_t rows, 
   return values;
 }
 
-static void arrays_are_those_of_the_run(void **unused) {
-  (void)unused;
+TEST(arrays_are_those_of_the_run) {
   struct fixture f = record(FRAMES);
   double *time = numbers(&f, "time", FRAMES, 1), *step = numbers(&f, "step", FRAMES, 1);
   double *kinetic = numbers(&f, "kinetic_energy", FRAMES, 1), *momentum = numbers(&f, "momentum", FRAMES, 3);
@@ -116,8 +114,7 @@ static void arrays_are_those_of_the_run(void **unused) {
 }
 
 /* For a finished run, and for one that was truncated to its frames. */
-static void frames_lie_where_it_says(void **unused) {
-  (void)unused;
+TEST(frames_lie_where_it_says) {
   const int64_t frames[] = {FRAMES, 3};
   for (int k = 0; k < 2; k++) {
     struct fixture f = record(frames[k]);
@@ -139,8 +136,7 @@ static void frames_lie_where_it_says(void **unused) {
   }
 }
 
-static void other_words_are_refused(void **unused) {
-  (void)unused;
+TEST(other_words_are_refused) {
   struct fixture f = record(1);
   int64_t rows = 7, columns = 7;
   double none;
@@ -155,8 +151,7 @@ static void other_words_are_refused(void **unused) {
 
 #else
 
-static void it_is_not_in_this_build(void **unused) {
-  (void)unused;
+TEST(it_is_not_in_this_build) {
   int64_t rows = 7, columns = 7;
   double none;
   check_status(hooke_record_size(NULL, "mass", &rows, &columns), HOOKE_BAD_CALL); /* there can be no record */
@@ -165,17 +160,3 @@ static void it_is_not_in_this_build(void **unused) {
 }
 
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_cloth_without_origin_begins_at_zero),
-#if HOOKE_HAVE_HDF5
-    cmocka_unit_test(arrays_are_those_of_the_run),
-    cmocka_unit_test(frames_lie_where_it_says),
-    cmocka_unit_test(other_words_are_refused),
-#else
-    cmocka_unit_test(it_is_not_in_this_build),
-#endif
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

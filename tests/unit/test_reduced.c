@@ -89,8 +89,7 @@ static const double weights[][2] = {{0.0, 0.01},  {0.0, 0.5},  {1e-4, 1e-2},
                                     {4e-4, 2e-2}, {1e-3, 0.0}, {0.0, 0.0}};
 enum { WEIGHTS = sizeof weights / sizeof weights[0] };
 
-static void every_law(void **unused) {
-  (void)unused;
+TEST(every_law) {
   for (int l = 0; l < LAW_COUNT; l++) {
     struct law_scene scene;
     law_scene_create(&laws[l], 31, &scene);
@@ -102,8 +101,7 @@ static void every_law(void **unused) {
   }
 }
 
-static void random_scenes(void **unused) {
-  (void)unused;
+TEST(random_scenes) {
   for (int32_t k = 0; k < 40; k++) {
     struct random_scene scene;
     random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + k),
@@ -125,9 +123,4 @@ static void random_scenes(void **unused) {
     free(v);
     random_scene_destroy(&scene);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_law), cmocka_unit_test(random_scenes)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,8 +78,7 @@ static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   unlink(path);
 }
 
-static void random_systems_come_back(void **state) {
-  (void)state;
+TEST(random_systems_come_back) {
   for (uint64_t seed = 1; seed <= 64; seed++) {
     const int32_t features = (int32_t)(seed * 29) & SCENE_EVERYTHING & ~(SCENE_CALLBACK | SCENE_DRIVEN);
     struct random_scene scene;
@@ -102,8 +101,7 @@ static void random_systems_come_back(void **state) {
 
 /* A lattice and a mesh from a file, with pins beyond those of their options: the mesh is written with its
  * numbers, so that the scene needs no file. */
-static void lattice_and_mesh_come_back(void **state) {
-  (void)state;
+TEST(lattice_and_mesh_come_back) {
   const double edges[9] = {1.1, 0.1, 0, 0, 0.7, 0, 0.2, 0, 0.3}, origin[3] = {0.1, 0.2, 0.3},
                size[3] = {4, 3, 5};
   const double moved[3] = {1.0 / 3.0, 5, -2}, amplitude[3] = {0, 0.1, 0};
@@ -163,8 +161,7 @@ static void add_strand(hooke_system *system, int curl) {
 }
 
 /* Tetrahedra of parts are equal to the bit; a scene cannot express explicit ones. */
-static void strands_come_back(void **state) {
-  (void)state;
+TEST(strands_come_back) {
   hooke_system *system;
   hooke_scene *read;
   check_ok(hooke_system_create(&system));
@@ -196,8 +193,7 @@ static void strands_come_back(void **state) {
 }
 
 /* Triples are equal to the bit, beside those of parts; an empty group keeps its place. */
-static void bending_comes_back(void **state) {
-  (void)state;
+TEST(bending_comes_back) {
   const double coefficient[2] = {0.1 + 0.2, 1.0 / 3.0}, zero = 0.0;
   const int64_t triples[6] = {3, 1, 0, 2, 4, 5};
   hooke_system *system;
@@ -217,8 +213,7 @@ static void bending_comes_back(void **state) {
 }
 
 /* Anchors are equal to the bit, in a variant that leaves a group out, too; an empty group keeps its place. */
-static void anchors_come_back(void **state) {
-  (void)state;
+TEST(anchors_come_back) {
   const double stiffness[2] = {0.1 + 0.2, 7.0}, point[6] = {1.0 / 3.0, 2, 3, 4, 5, 6};
   const int64_t tied[2] = {5, 3};
   int64_t particle[3];
@@ -262,8 +257,7 @@ static void anchors_come_back(void **state) {
 }
 
 /* Driven as before: at some times, to the same positions to the bit. */
-static void drives_come_back(void **state) {
-  (void)state;
+TEST(drives_come_back) {
   const double at[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[3] = {1, 2, 3}, amplitude[3] = {0.1, 0, 0.2};
   const double time[3] = {0, 0.5, 2}, displacement[9] = {0, 0, 0, 0.1, 0.2, 0.3, 0, 1, 0};
   const int64_t first = 0, last = 2;
@@ -288,8 +282,7 @@ static void drives_come_back(void **state) {
   hooke_system_destroy(system);
 }
 
-static void zeros_keep_their_sign(void **state) {
-  (void)state;
+TEST(zeros_keep_their_sign) {
   const double at[6] = {-0.0, 0, 0, 1, -0.0, 0}, still[6] = {0, 0, -0.0, 0, 0, 0}, mass = 1;
   hooke_system *system;
   hooke_scene *read;
@@ -303,8 +296,7 @@ static void zeros_keep_their_sign(void **state) {
 }
 
 /* "-0" is an integer, too, and a scene cannot express the sign of one. */
-static void whole_numbers_have_one_zero(void **state) {
-  (void)state;
+TEST(whole_numbers_have_one_zero) {
   const double wanted[2] = {0.0, 1.0};
   hooke_options *options;
   check_ok(hooke_options_create("rope", &options));
@@ -313,8 +305,7 @@ static void whole_numbers_have_one_zero(void **state) {
   hooke_options_destroy(options);
 }
 
-static void keys_of_a_scene_are_applied(void **state) {
-  (void)state;
+TEST(keys_of_a_scene_are_applied) {
   hooke_system *system;
   hooke_options *options, *other;
   const double origin[3] = {0, 0, 0}, gravity[3] = {0, -9.81, 0}, mass = 1;
@@ -349,8 +340,7 @@ static void check_not_written(const hooke_system *system, const char *force) {
 }
 
 /* Forces that have no key: a callback, and one that only the inside knows. */
-static void forces_without_a_key_are_not_lost(void **state) {
-  (void)state;
+TEST(forces_without_a_key_are_not_lost) {
   static const struct hk_element element = {.count = 1, .weight = {1.0}, .k_along = 2.0, .over = 1.0};
   static const double place[3] = {0.0, 0.0, 0.0}, one = 1.0;
   struct random_scene scene;
@@ -366,20 +356,4 @@ static void forces_without_a_key_are_not_lost(void **state) {
   check_ok(hooke_system_commit(system));
   check_not_written(system, "\"linear\"");
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(random_systems_come_back),
-      cmocka_unit_test(lattice_and_mesh_come_back),
-      cmocka_unit_test(drives_come_back),
-      cmocka_unit_test(strands_come_back),
-      cmocka_unit_test(bending_comes_back),
-      cmocka_unit_test(anchors_come_back),
-      cmocka_unit_test(zeros_keep_their_sign),
-      cmocka_unit_test(whole_numbers_have_one_zero),
-      cmocka_unit_test(keys_of_a_scene_are_applied),
-      cmocka_unit_test(forces_without_a_key_are_not_lost),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -150,21 +150,14 @@ static void test_sheet(int64_t side, int shuffled, int lawful) {
   free(sheet.stiffness);
 }
 
-static void test_runs(void **unused) {
-  (void)unused;
+TEST(test_runs) {
   test_sheet(30, 0, 1);
   test_sheet(30, 0, 0);
 }
 
 /* The large one has materials by a law, and none stored by spring. */
-static void test_tiled(void **unused) {
-  (void)unused;
+TEST(test_tiled) {
   test_sheet(30, 1, 1);
   test_sheet(30, 1, 0);
   test_sheet(220, 1, 1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_runs), cmocka_unit_test(test_tiled)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -103,8 +103,7 @@ static void compare(uint64_t seed, int *in_strided, int *most) {
   free(v);
 }
 
-static void test_same_bits(void **unused) {
-  (void)unused;
+TEST(test_same_bits) {
   int in_strided = 0, most = 0;
   for (uint64_t seed = 1; seed <= 200; seed++)
     compare(seed, &in_strided, &most);
@@ -121,8 +120,7 @@ static int64_t spring_count(const hooke_system *system, int32_t k) {
 
 /* Parallel ropes are two strided batches, not two a rope; springs of the same offset that follow later are a
  * third. */
-static void test_lanes_of_ropes(void **unused) {
-  (void)unused;
+TEST(test_lanes_of_ropes) {
   hooke_system *system;
   hooke_options *options;
   double q[3 * 90];
@@ -182,8 +180,7 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   free(v);
 }
 
-static void test_lanes_of_materials(void **unused) {
-  (void)unused;
+TEST(test_lanes_of_materials) {
   check_materials(30, 1, 0);
   check_materials(30, 30, HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED);
   check_materials(60, 2, HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED);
@@ -287,8 +284,7 @@ static void check_listing(uint64_t seed, struct listing listing) {
   free(v);
 }
 
-static void test_listed_by_particle(void **unused) {
-  (void)unused;
+TEST(test_listed_by_particle) {
   uint64_t seed = 0;
   for (int sheets = 1; sheets <= MOST_SHEETS; sheets += 2) {
     for (int material = 0; material < LISTED_MATERIALS; material++) {
@@ -303,8 +299,7 @@ static void test_listed_by_particle(void **unused) {
 
 /* A chain whose springs to the second next particles come first, and then every second one to the next: in a
  * single strided batch ends would have to precede beginnings at one particle, and follow them at another. */
-static void test_every_second_first(void **unused) {
-  (void)unused;
+TEST(test_every_second_first) {
   enum { CHAIN = 150 };
   double q[3 * CHAIN] = {0.0}, v[3 * CHAIN];
   int64_t ends[4 * CHAIN], count = 0;
@@ -339,8 +334,7 @@ static void test_every_second_first(void **unused) {
 }
 
 /* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are equal to the bit. */
-static void test_rounded_lengths(void **unused) {
-  (void)unused;
+TEST(test_rounded_lengths) {
   enum { EDGE = 24, EACH = EDGE * EDGE * EDGE };
   double *q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
   int64_t *ends = new_block(6 * EACH, (int64_t)sizeof *ends), count = 0;
@@ -376,12 +370,4 @@ static void test_rounded_lengths(void **unused) {
   free(q);
   free(length);
   free(ends);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_same_bits),          cmocka_unit_test(test_lanes_of_ropes),
-      cmocka_unit_test(test_lanes_of_materials), cmocka_unit_test(test_listed_by_particle),
-      cmocka_unit_test(test_every_second_first), cmocka_unit_test(test_rounded_lengths)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -176,8 +176,7 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   free(sheet);
 }
 
-static void test_same_bits(void **unused) {
-  (void)unused;
+TEST(test_same_bits) {
   static const int groups[] = {1, 3, 20};
   uint64_t seed = 0;
   for (int order = AS_BUILT; order <= ALL_IN_NO_ORDER; order++) {
@@ -188,8 +187,7 @@ static void test_same_bits(void **unused) {
   }
 }
 
-static void test_same_bits_by_law(void **unused) {
-  (void)unused;
+TEST(test_same_bits_by_law) {
   compare(101, LARGE, ALL_IN_NO_ORDER, 1, STRAIN);
   compare(102, LARGE, SPRINGS_IN_NO_ORDER, 3, STRAIN);
   compare(104, LARGE, AS_BUILT, 3, STRAIN);
@@ -197,8 +195,7 @@ static void test_same_bits_by_law(void **unused) {
 }
 
 /* So many springs between neighbours that indices into the ring need more than 16 bits. */
-static void test_wide(void **unused) {
-  (void)unused;
+TEST(test_wide) {
   enum { CHAIN = 300, EACH = 150, COUNT = (CHAIN - 1) * EACH };
   struct random_source source = {5};
   double q[3 * CHAIN], v[3 * CHAIN], mass[CHAIN];
@@ -261,8 +258,7 @@ static hooke_system *join_all(const double *q, const double *v, int64_t *ends) {
 }
 
 /* All that iterates over the springs of a small system keeps their order. */
-static void test_small(void **unused) {
-  (void)unused;
+TEST(test_small) {
   struct random_source source = {15};
   double q[3 * FEW], v[3 * FEW];
   int64_t ends[2 * PAIRS];
@@ -286,11 +282,4 @@ static void test_small(void **unused) {
   }
   canonical_destroy(&c);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits),
-                                     cmocka_unit_test(test_same_bits_by_law), cmocka_unit_test(test_wide),
-                                     cmocka_unit_test(test_small)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -158,8 +158,8 @@ static void check_text(const char *path, const char *expected) {
   assert_string_equal(text, expected);
 }
 
-static void all_frames_come_back(void **state) {
-  struct fixture *f = *state;
+TEST(all_frames_come_back) {
+  struct fixture *f = *prepared;
   create(f);
   run(f, HOOKE_OK);
   check_status(hooke_trajectory_write(f->trajectory, 101, f->state), HOOKE_BAD_CALL);
@@ -199,8 +199,8 @@ static void all_frames_come_back(void **state) {
 
 /* After each frame the bytes on the disk hold exactly the frames so far: nothing is cached in memory. */
 /* HDF5 fills texts beyond 1 MiB from beyond its buffer, which fails where the memory ends soon after. */
-static void scenes_of_any_length_come_back(void **state) {
-  struct fixture *f = *state;
+TEST(scenes_of_any_length_come_back) {
+  struct fixture *f = *prepared;
   static const int64_t lengths[] = {0,       1,       (1 << 20) - 1, 1 << 20, (1 << 20) + 1,
                                     1180000, 2300000, 3271701,       9000000};
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
@@ -217,8 +217,8 @@ static void scenes_of_any_length_come_back(void **state) {
   }
 }
 
-static void every_frame_is_in_the_file_at_once(void **state) {
-  struct fixture *f = *state;
+TEST(every_frame_is_in_the_file_at_once) {
+  struct fixture *f = *prepared;
   create(f);
   for (int64_t k = 0; k < FRAMES; k++) {
     copy_file(f->path, f->copy);
@@ -235,8 +235,8 @@ static void every_frame_is_in_the_file_at_once(void **state) {
   check_file(f, f->copy, FRAMES);
 }
 
-static void an_early_end_leaves_no_empty_frames(void **state) {
-  struct fixture *f = *state;
+TEST(an_early_end_leaves_no_empty_frames) {
+  struct fixture *f = *prepared;
   create(f);
   f->stop_after = 4;
   run(f, HOOKE_STOPPED);
@@ -249,15 +249,15 @@ static void an_early_end_leaves_no_empty_frames(void **state) {
   hk_free(column(f->copy, "/observables/total_energy/value", FRAMES));
 }
 
-static void a_run_without_a_frame_closes(void **state) {
-  struct fixture *f = *state;
+TEST(a_run_without_a_frame_closes) {
+  struct fixture *f = *prepared;
   create(f);
   check_ok(close_file(f, HOOKE_SOLVER_FAILED));
   check_no_frame(f->path, -1, "has no frames yet");
 }
 
-static void wrong_states_are_refused_and_do_no_harm(void **state) {
-  struct fixture *f = *state;
+TEST(wrong_states_are_refused_and_do_no_harm) {
+  struct fixture *f = *prepared;
   hooke_state *other;
   check_ok(hooke_state_create_first_order(4, &other));
   create(f);
@@ -277,8 +277,8 @@ static void check_not_created(struct fixture *f, const char *path, const char *m
   assert_null(f->trajectory);
 }
 
-static void only_regular_files_are_replaced(void **state) {
-  struct fixture *f = *state;
+TEST(only_regular_files_are_replaced) {
+  struct fixture *f = *prepared;
   struct stat device;
   check_not_created(f, "/dev/null", "is not a regular file");
   assert_int_equal(stat("/dev/null", &device), 0);
@@ -287,8 +287,8 @@ static void only_regular_files_are_replaced(void **state) {
   check_not_created(f, "/no/such/folder/out.h5", "No such file or directory");
 }
 
-static void a_link_stays_a_link(void **state) {
-  struct fixture *f = *state;
+TEST(a_link_stays_a_link) {
+  struct fixture *f = *prepared;
   struct stat there;
   write_file(f->copy, "old");
   assert_int_equal(symlink(f->copy, f->path), 0);
@@ -300,8 +300,8 @@ static void a_link_stays_a_link(void **state) {
   check_file(f, f->copy, FRAMES);
 }
 
-static void an_old_file_stays_until_there_is_room(void **state) {
-  struct fixture *f = *state;
+TEST(an_old_file_stays_until_there_is_room) {
+  struct fixture *f = *prepared;
   write_file(f->path, "precious");
   for (int64_t size = 0; size < 60000; size += 1500) {
     limit_files(size);
@@ -318,8 +318,8 @@ static void an_old_file_stays_until_there_is_room(void **state) {
   check_failed("a file of 60000 bytes is room enough");
 }
 
-static void a_failed_write_is_never_success(void **state) {
-  struct fixture *f = *state;
+TEST(a_failed_write_is_never_success) {
+  struct fixture *f = *prepared;
   create(f);
   f->stop_after = 3;
   run(f, HOOKE_STOPPED);
@@ -335,8 +335,8 @@ static void a_failed_write_is_never_success(void **state) {
   check_file(f, f->path, 3);
 }
 
-static void a_failed_shortening_keeps_the_long_file(void **state) {
-  struct fixture *f = *state;
+TEST(a_failed_shortening_keeps_the_long_file) {
+  struct fixture *f = *prepared;
   create(f);
   f->stop_after = 5;
   run(f, HOOKE_STOPPED);
@@ -348,8 +348,8 @@ static void a_failed_shortening_keeps_the_long_file(void **state) {
   check_file(f, f->path, 5);
 }
 
-static void arrays_are_refused_in_words(void **state) {
-  struct fixture *f = *state;
+TEST(arrays_are_refused_in_words) {
+  struct fixture *f = *prepared;
   double *values;
   int64_t rows, columns;
   create(f);
@@ -373,31 +373,12 @@ static void arrays_are_refused_in_words(void **state) {
   assert_null(values);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      TEST(all_frames_come_back),
-      TEST(scenes_of_any_length_come_back),
-      TEST(every_frame_is_in_the_file_at_once),
-      TEST(an_early_end_leaves_no_empty_frames),
-      TEST(a_run_without_a_frame_closes),
-      TEST(wrong_states_are_refused_and_do_no_harm),
-      TEST(only_regular_files_are_replaced),
-      TEST(a_link_stays_a_link),
-      TEST(an_old_file_stays_until_there_is_room),
-      TEST(a_failed_write_is_never_success),
-      TEST(a_failed_shortening_keeps_the_long_file),
-      TEST(arrays_are_refused_in_words),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+AROUND_EACH(set_up, tear_down)
 
 #else
 
 /* Without HDF5 every call says so. */
-static void trajectories_are_not_in_this_build(void **unused) {
-  (void)unused;
+TEST(trajectories_are_not_in_this_build) {
   hooke_system *system = new_rope();
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
@@ -411,11 +392,6 @@ static void trajectories_are_not_in_this_build(void **unused) {
   check_message("HDF5");
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(trajectories_are_not_in_this_build)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
 #endif

@@ -182,8 +182,8 @@ static void damage(const char *path, const void *found, size_t length, int64_t a
   free(bytes);
 }
 
-static void a_killed_run_ends_as_if_it_never_was(void **state) {
-  const struct fixture *f = *state;
+TEST(a_killed_run_ends_as_if_it_never_was) {
+  const struct fixture *f = *prepared;
   const int64_t killed_after[] = {0, 1, 4, 10, FRAMES};
   for (int k = 0; k < 5; k++) {
     const int64_t killed = killed_after[k];
@@ -217,8 +217,8 @@ static void a_killed_run_ends_as_if_it_never_was(void **state) {
   }
 }
 
-static void a_run_that_ended_early_goes_on(void **state) {
-  const struct fixture *f = *state;
+TEST(a_run_that_ended_early_goes_on) {
+  const struct fixture *f = *prepared;
   for (int64_t kept = 0; kept <= 6; kept += 3) {
     char run[64], now[64];
     end_early(f, 6);
@@ -237,8 +237,8 @@ static void a_run_that_ended_early_goes_on(void **state) {
 }
 
 /* A reported frame stays, also if the second run does not get as far as the first. */
-static void no_frame_is_lost(void **state) {
-  const struct fixture *f = *state;
+TEST(no_frame_is_lost) {
+  const struct fixture *f = *prepared;
   be_killed(f, 8, -1);
   hooke_trajectory *trajectory = reopen(f, 2);
   write_frames(f, trajectory, 2, 5);
@@ -264,8 +264,8 @@ static void check_refused(const struct fixture *f, int64_t kept, const char *mes
   free(bytes);
 }
 
-static void a_damaged_frame_is_refused_by_name(void **state) {
-  const struct fixture *f = *state;
+TEST(a_damaged_frame_is_refused_by_name) {
+  const struct fixture *f = *prepared;
   be_killed(f, 8, -1);
   damage(f->path, hooke_state_velocity(f->frame[3]), 3 * N * sizeof(double), 100);
   check_refused(f, 8, "frame 3 of ");
@@ -277,8 +277,8 @@ static void a_damaged_frame_is_refused_by_name(void **state) {
   check_frames(f, FRAMES, "finished");
 }
 
-static void frames_that_were_never_there_are_missed(void **state) {
-  const struct fixture *f = *state;
+TEST(frames_that_were_never_there_are_missed) {
+  const struct fixture *f = *prepared;
   be_killed(f, 5, -1);
   check_refused(f, 6, "frame 5 of ");
   end_early(f, 5);
@@ -297,8 +297,8 @@ static void check_other(struct fixture *f, int particles, double duration, const
   f->integrator = integrator;
 }
 
-static void other_files_are_refused(void **state) {
-  struct fixture *f = *state;
+TEST(other_files_are_refused) {
+  struct fixture *f = *prepared;
   hooke_trajectory *trajectory;
   be_killed(f, 5, -1);
   check_other(f, N + 1, 0.1, "is not there as a run of this system makes it");
@@ -314,8 +314,8 @@ static void other_files_are_refused(void **state) {
   }
 }
 
-static void without_room_the_short_file_stays(void **state) {
-  const struct fixture *f = *state;
+TEST(without_room_the_short_file_stays) {
+  const struct fixture *f = *prepared;
   hooke_trajectory *trajectory;
   end_early(f, 6);
   for (int64_t size = 0; size < 30000; size += 1500) {
@@ -336,8 +336,8 @@ static void without_room_the_short_file_stays(void **state) {
 
 /* ---- sync ---- */
 
-static void sync_brings_frames_to_the_disk(void **state) {
-  const struct fixture *f = *state;
+TEST(sync_brings_frames_to_the_disk) {
+  const struct fixture *f = *prepared;
   hooke_trajectory *trajectory = create(f, f->path);
   check_ok(hooke_trajectory_sync(trajectory));
   write_frames(f, trajectory, 0, 4);
@@ -354,8 +354,8 @@ static void sync_brings_frames_to_the_disk(void **state) {
 
 /* If another file takes the name during a run, it is neither written to nor replaced, and the run does not
  * report its frames as written. */
-static void another_file_of_the_name_is_left_alone(void **state) {
-  const struct fixture *f = *state;
+TEST(another_file_of_the_name_is_left_alone) {
+  const struct fixture *f = *prepared;
   for (int early = 0; early <= 1; early++) {
     for (int gone = 0; gone <= 1; gone++) {
       hooke_trajectory *trajectory = create(f, f->path), *second = NULL;
@@ -404,8 +404,8 @@ static void check_goes_on(const struct fixture *f, const char *origin) {
   hooke_integrator_destroy(integrator);
 }
 
-static void a_run_goes_on_where_its_file_ends(void **state) {
-  const struct fixture *f = *state;
+TEST(a_run_goes_on_where_its_file_ends) {
+  const struct fixture *f = *prepared;
   be_killed(f, 0, -1);
   check_goes_on(f, "the beginning, at t = 0 s");
   be_killed(f, 1, -1);
@@ -431,8 +431,8 @@ static void check_not_resumed(const struct fixture *f, const hooke_system *syste
   hooke_state_destroy(state);
 }
 
-static void other_runs_do_not_go_on(void **state) {
-  const struct fixture *f = *state;
+TEST(other_runs_do_not_go_on) {
+  const struct fixture *f = *prepared;
   struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01};
   be_killed(f, 5, -1);
   hooke_system *const systems[] = {rope(N + 1), braced_rope(N, 0.6, 0), braced_rope(N, 0.5, 1)};
@@ -462,8 +462,8 @@ static void other_runs_do_not_go_on(void **state) {
 }
 
 /* An outcome each, in the file's own words. */
-static void files_say_how_the_run_ended(void **state) {
-  const struct fixture *f = *state;
+TEST(files_say_how_the_run_ended) {
+  const struct fixture *f = *prepared;
   const struct {
     int32_t outcome;
     const char *word;
@@ -479,8 +479,8 @@ static void files_say_how_the_run_ended(void **state) {
   }
 }
 
-static void nothing_to_verify(void **state) {
-  const struct fixture *f = *state;
+TEST(nothing_to_verify) {
+  const struct fixture *f = *prepared;
   hooke_measurement *verify = NULL;
   be_killed(f, 0, -1);
   check_status(hooke_verify_create(f->path, NULL, NULL, &verify), HOOKE_BAD_VALUE);
@@ -490,31 +490,11 @@ static void nothing_to_verify(void **state) {
   check_message("no path given");
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      TEST(a_killed_run_ends_as_if_it_never_was),
-      TEST(a_run_that_ended_early_goes_on),
-      TEST(no_frame_is_lost),
-      TEST(a_damaged_frame_is_refused_by_name),
-      TEST(frames_that_were_never_there_are_missed),
-      TEST(other_files_are_refused),
-      TEST(without_room_the_short_file_stays),
-      TEST(sync_brings_frames_to_the_disk),
-      TEST(another_file_of_the_name_is_left_alone),
-      TEST(a_run_goes_on_where_its_file_ends),
-      TEST(other_runs_do_not_go_on),
-      TEST(files_say_how_the_run_ended),
-      TEST(nothing_to_verify),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+AROUND_EACH(set_up, tear_down)
 
 #else
 
-static void it_is_not_in_this_build(void **unused) {
-  (void)unused;
+TEST(it_is_not_in_this_build) {
   hooke_system *system = rope(N);
   hooke_integrator *integrator = integrator_of(system, 0.1);
   hooke_trajectory *trajectory;
@@ -525,11 +505,6 @@ static void it_is_not_in_this_build(void **unused) {
   assert_null(hooke_trajectory_text(NULL, "run"));
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_not_in_this_build)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
 #endif

@@ -51,8 +51,7 @@ static void check_same_run(const hooke_system *a, const hooke_system *b) {
   free(v2);
 }
 
-static void a_variant_that_changes_nothing_has_the_same_bits(void **state) {
-  (void)state;
+TEST(a_variant_that_changes_nothing_has_the_same_bits) {
   for (uint64_t seed = 1; seed <= 64; seed++) {
     struct random_scene scene;
     random_scene_create((struct random_scene_request){.seed = seed,
@@ -146,8 +145,7 @@ static void check_sizes(const hooke_system *made, const int64_t size[5]) {
     assert_int_equal(size_of(made, names[k]), size[k]);
 }
 
-static void what_is_left_out_is_out(void **state) {
-  (void)state;
+TEST(what_is_left_out_is_out) {
   hooke_system *system = two_parts(), *made;
   struct hk_variant variant = nothing_of(system);
   struct hk_variant_map map;
@@ -187,8 +185,7 @@ static void what_is_left_out_is_out(void **state) {
 
 /* Two of the seven springs two apart in the rope; the rest is a group of its own, numbered among the explicit
  * ones. */
-static void single_springs_of_a_family_are_left_out(void **state) {
-  (void)state;
+TEST(single_springs_of_a_family_are_left_out) {
   hooke_system *system = two_parts();
   struct hk_variant variant = nothing_of(system);
   struct hk_variant_map map;
@@ -241,8 +238,7 @@ static int64_t pinned_count(const hooke_system *system) {
   return hooke_system_particle_count(system) - hooke_system_count(system, "free");
 }
 
-static void parts_at_another_resolution_stand_for_the_same_material(void **state) {
-  (void)state;
+TEST(parts_at_another_resolution_stand_for_the_same_material) {
   static const struct {
     double rope, cloth;
     int64_t particles, pinned;
@@ -275,8 +271,7 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-static void a_callback_keeps_its_particles(void **state) {
-  (void)state;
+TEST(a_callback_keeps_its_particles) {
   struct random_scene scene;
   random_scene_create(
       (struct random_scene_request){.seed = 3, .particles = 12, .springs = 20, .cloth = {4, 4}}, &scene);
@@ -403,8 +398,7 @@ static int is_within(const struct single *all, int outer, int inner) {
 
 /* An omission is contained in itself, and in that of its group or part; and in the union of two if it is in
  * either. */
-static void variants_within_variants(void **state) {
-  (void)state;
+TEST(variants_within_variants) {
   hooke_system *system = everything();
   static struct single all[MOST_SINGLE];
   const int count = list_singles(system, all);
@@ -435,16 +429,4 @@ static void variants_within_variants(void **state) {
     hk_variant_release(&all[i].variant);
   hk_variant_release(&nothing);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_variant_that_changes_nothing_has_the_same_bits),
-      cmocka_unit_test(what_is_left_out_is_out),
-      cmocka_unit_test(single_springs_of_a_family_are_left_out),
-      cmocka_unit_test(parts_at_another_resolution_stand_for_the_same_material),
-      cmocka_unit_test(a_callback_keeps_its_particles),
-      cmocka_unit_test(variants_within_variants),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

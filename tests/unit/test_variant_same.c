@@ -75,8 +75,7 @@ static void check_same_run(const hooke_system *found, const hooke_system *expect
 }
 
 /* All combinations of features, with parts and drives of every kind. */
-static void nothing_left_out_is_the_same(void **unused) {
-  (void)unused;
+TEST(nothing_left_out_is_the_same) {
   for (int32_t features = 0; features <= SCENE_EVERYTHING; features++) {
     struct random_scene scene;
     random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + features),
@@ -104,8 +103,7 @@ static int has_force(const hooke_system *system, const char *name) {
 }
 
 /* One ingredient is gone and all others are unchanged. */
-static void one_is_left_out(void **unused) {
-  (void)unused;
+TEST(one_is_left_out) {
   struct random_scene scene;
   random_scene_create(
       (struct random_scene_request){
@@ -175,8 +173,7 @@ static hooke_system *without_force(const hooke_system *system, const struct hk_f
   return without(system, (struct what){row == &hk_force_weight ? &hk_force_gravity : row, .group = -1});
 }
 
-static void every_force_survives_a_copy_and_is_missed(void **unused) {
-  (void)unused;
+TEST(every_force_survives_a_copy_and_is_missed) {
   uint8_t seen[HOOKE_FORCES] = {0};
   for (int32_t overdamped = 0; overdamped < 2; overdamped++) {
     hooke_system *system = with_every_force(overdamped), *made = without(system, (struct what){.group = -1});
@@ -220,8 +217,7 @@ static void check_refused(const hooke_system *system, const char *what) {
 }
 
 /* A copy makes springs from the options of their group, and particles of a part from those of the part. */
-static void what_a_copy_changes_is_named(void **unused) {
-  (void)unused;
+TEST(what_a_copy_changes_is_named) {
   hooke_system *system = with_every_force(0);
   hooke_options *options = system->group[0].options;
   check_ok(hooke_options_set_number(options, "stiffness", 4.0));
@@ -233,12 +229,4 @@ static void what_a_copy_changes_is_named(void **unused) {
   system->position[4] += 1e-9;
   check_refused(system, "changes its particles");
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_left_out_is_the_same),
-                                     cmocka_unit_test(one_is_left_out),
-                                     cmocka_unit_test(every_force_survives_a_copy_and_is_missed),
-                                     cmocka_unit_test(what_a_copy_changes_is_named)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

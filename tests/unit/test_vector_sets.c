@@ -40,8 +40,7 @@ static void run_loops(const struct hk_vector_set *v, int64_t n, const double *x,
   sum[3] = v->largest(n, x);
 }
 
-static void vectors(void **unused) {
-  (void)unused;
+TEST(vectors) {
   struct random_source source = {11};
   double *x = new_doubles(LONGEST), *y = new_doubles(LONGEST);
   double *first = new_doubles(LOOPS * LONGEST + 4), *other = new_doubles(LOOPS * LONGEST + 4);
@@ -83,8 +82,7 @@ static void vectors(void **unused) {
 }
 
 /* Rows are joined unchanged, and every bit of them counts. */
-static void rows(void **unused) {
-  (void)unused;
+TEST(rows) {
   struct random_source source = {13};
   double *x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
   draw(&source, 3 * LONGEST, x);
@@ -133,8 +131,7 @@ static void check_factor(int64_t n, const double *block, const double *factor) {
   }
 }
 
-static void blocks(void **unused) {
-  (void)unused;
+TEST(blocks) {
   struct random_source source = {13};
   enum { LONG = 3 * MOST_PARTICLES };
   double block[2 * LONG] = {0}, factor[2 * LONG], first[2 * LONG], x[LONG], y[LONG], d[MOST_PARTICLES];
@@ -237,8 +234,7 @@ static void check_triangle(const struct example *x, const double *right, const d
   }
 }
 
-static void triangles(void **unused) {
-  (void)unused;
+TEST(triangles) {
   struct random_source source = {12};
   enum { SIZE = 2 * (MOST_ROWS + HOOKE_TRIANGLE_SPARE) };
   struct example *x = calloc(1, sizeof *x);
@@ -257,10 +253,4 @@ static void triangles(void **unused) {
     }
   }
   free(x);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(vectors), cmocka_unit_test(rows),
-                                     cmocka_unit_test(blocks), cmocka_unit_test(triangles)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,8 +27,7 @@ static void run_by(const hooke_system *system, struct run run, double *state) {
   hooke_integrator_destroy(integrator);
 }
 
-static void same_bits(void **unused) {
-  (void)unused;
+TEST(same_bits) {
   static const char *const methods[] = {"cvode-bdf", "cvode-adams"};
   if (hooke_method_is_built("cvode-bdf") != 1) skip();
   struct random_scene scene;
@@ -51,9 +50,4 @@ static void same_bits(void **unused) {
   }
   free(exact);
   random_scene_destroy(&scene);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

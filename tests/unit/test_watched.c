@@ -89,8 +89,7 @@ static double check_springs(struct hk_watched_list *list, const double *q, const
 }
 
 /* Every quantity is its formula of q and v. */
-static void every_form_is_read(void **unused) {
-  (void)unused;
+TEST(every_form_is_read) {
   hooke_system *system = scene();
   struct hk_watched_list list = {.system = system};
   double q[24], v[24], kinetic = 0.0;
@@ -115,8 +114,7 @@ static void every_form_is_read(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void what_is_nothing_is_refused(void **unused) {
-  (void)unused;
+TEST(what_is_nothing_is_refused) {
   static const struct {
     const char *text, *message;
   } bad[] = {{"", "nothing to watch"},
@@ -166,8 +164,7 @@ static void what_is_nothing_is_refused(void **unused) {
 }
 
 /* Indices into groups with dropped springs are refused. */
-static void springs_that_are_left_out_are_said(void **unused) {
-  (void)unused;
+TEST(springs_that_are_left_out_are_said) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, stiffness[] = {0.0, 10.0};
   static const int64_t ends[] = {0, 1, 1, 2};
   const double mass = 1.0;
@@ -219,8 +216,7 @@ static double pull(const hooke_system *system, double r, double rate) {
   return -force[3];
 }
 
-static void tension_is_the_slope_of_energy_and_the_force(void **unused) {
-  (void)unused;
+TEST(tension_is_the_slope_of_energy_and_the_force) {
   static const struct springs laws[] = {{NULL, 30.0, 0.0, 1.2, 0},     {"length", 30.0, 0.0, 1.2, 0},
                                         {"length", 30.0, 0.0, 0.0, 0}, {NULL, 30.0, 0.0, 1.2, 1},
                                         {NULL, 30.0, 2.0, 1.2, 0},     {"length", 30.0, 2.0, 1.2, 1},
@@ -242,8 +238,7 @@ static void tension_is_the_slope_of_energy_and_the_force(void **unused) {
 
 /* ---- periods ---- */
 
-static void periods_are_known(void **unused) {
-  (void)unused;
+TEST(periods_are_known) {
   enum { FRAMES = 200 };
   double time[FRAMES], value[FRAMES], flat[FRAMES], rising[FRAMES], noisy[FRAMES], coarse[FRAMES];
   const double period = 1.37;
@@ -267,12 +262,4 @@ static void periods_are_known(void **unused) {
   assert_true(isnan(hk_watched_period(1, time, value)));
   value[50] = NAN;
   assert_true(isnan(hk_watched_period(FRAMES, time, value)));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_form_is_read), cmocka_unit_test(what_is_nothing_is_refused),
-      cmocka_unit_test(springs_that_are_left_out_are_said),
-      cmocka_unit_test(tension_is_the_slope_of_energy_and_the_force), cmocka_unit_test(periods_are_known)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

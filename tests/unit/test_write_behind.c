@@ -114,8 +114,7 @@ static char *bytes_of(const char *path, size_t *count) {
   return bytes;
 }
 
-static void the_file_is_the_same(void **unused) {
-  (void)unused;
+TEST(the_file_is_the_same) {
   struct fixture f;
   build(&f, N);
   const int64_t frames[] = {FRAMES, 5, 1, 0};
@@ -143,8 +142,7 @@ static int64_t frames_in(const char *path) {
   return count;
 }
 
-static void small_frames_are_there_at_once(void **unused) {
-  (void)unused;
+TEST(small_frames_are_there_at_once) {
   struct fixture f;
   build(&f, 7);
   hooke_trajectory *trajectory = create(&f, f.path, 1);
@@ -165,8 +163,7 @@ static void small_frames_are_there_at_once(void **unused) {
 }
 
 /* A failed frame is reported by the next call, and by all after it. */
-static void a_failed_write_is_told(void **unused) {
-  (void)unused;
+TEST(a_failed_write_is_told) {
   struct fixture f;
   build(&f, N);
   for (int closes = 0; closes <= 1; closes++) {
@@ -192,8 +189,7 @@ static void a_failed_write_is_told(void **unused) {
 
 #else
 
-static void it_is_not_in_this_build(void **unused) {
-  (void)unused;
+TEST(it_is_not_in_this_build) {
   struct fixture f;
   build(&f, N);
   check_status(hooke_trajectory_write_behind(NULL), HOOKE_BAD_CALL);
@@ -201,16 +197,3 @@ static void it_is_not_in_this_build(void **unused) {
 }
 
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-#if HOOKE_HAVE_HDF5
-    cmocka_unit_test(the_file_is_the_same),
-    cmocka_unit_test(small_frames_are_there_at_once),
-    cmocka_unit_test(a_failed_write_is_told),
-#else
-    cmocka_unit_test(it_is_not_in_this_build),
-#endif
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -264,8 +264,7 @@ static void check_scene(enum shape shape, enum ingredient what, int32_t full) {
   hooke_system_destroy(without);
 }
 
-static void zero_strength_is_absence(void **unused) {
-  (void)unused;
+TEST(zero_strength_is_absence) {
   for (enum shape shape = CLOTH; shape < SHAPES; shape++) {
     for (enum ingredient what = GROUPS; what < INGREDIENTS; what++) {
       for (int32_t full = 0; full <= 1; full++)
@@ -275,8 +274,7 @@ static void zero_strength_is_absence(void **unused) {
 }
 
 /* The comparison can fail: with some strength, every ingredient affects the choice. */
-static void strength_is_seen(void **unused) {
-  (void)unused;
+TEST(strength_is_seen) {
   hooke_system *full = build((struct scene){CLOTH, INGREDIENTS, 1, 0});
   for (enum ingredient what = GROUPS; what < ALL; what++) {
     if (what == SOME_SPRINGS) continue;
@@ -296,8 +294,7 @@ static void strength_is_seen(void **unused) {
 
 /* The canonical sum over all springs, including those without strength, has the bits of the sum without
  * these. */
-static void canonical_sum_agrees(void **unused) {
-  (void)unused;
+TEST(canonical_sum_agrees) {
   struct network network;
   double found[3 * PARTICLES], expected[3 * PARTICLES], v[3 * PARTICLES] = {0.0};
   draw_network(1, 0.0, &network);
@@ -328,8 +325,7 @@ static void canonical_sum_agrees(void **unused) {
 
 /* Four particles in a row; a spring 0-1 without strength, a spring 1-2 with damping only, and a group without
  * members. */
-static void numbers_are_of_what_is_there(void **unused) {
-  (void)unused;
+TEST(numbers_are_of_what_is_there) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
   static const int64_t ends[] = {0, 1, 1, 2}, last[] = {2, 3}, pinned[] = {0, 3};
   static const double stiffness[] = {0.0, 0.0}, damping[] = {0.0, 0.5};
@@ -371,8 +367,7 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 
 /* Not idle are: a pinned particle at the end of a spring, one of a triple with strength, one that a callback
  * may read, and a free one. */
-static void idle_is_what_nothing_touches(void **unused) {
-  (void)unused;
+TEST(idle_is_what_nothing_touches) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
   static const int64_t ends[] = {0, 1}, pinned[] = {0, 2}, triple[] = {1, 2, 3};
   for (int k = 0; k < 4; k++) {
@@ -387,13 +382,4 @@ static void idle_is_what_nothing_touches(void **unused) {
     assert_int_equal(hooke_system_count(system, "idle"), callback || bending > 0.0 ? 0 : 1);
     hooke_system_destroy(system);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(zero_strength_is_absence),     cmocka_unit_test(strength_is_seen),
-      cmocka_unit_test(canonical_sum_agrees),         cmocka_unit_test(numbers_are_of_what_is_there),
-      cmocka_unit_test(idle_is_what_nothing_touches),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
