@@ -27,6 +27,7 @@ extern "C" {
 #define HOOKE_NOT_BUILT     (-5)
 #define HOOKE_UNSUITED      (-6)
 #define HOOKE_SOLVER_FAILED (-7)
+#define HOOKE_INTERNAL      (-8)
 HOOKE_API const char *hooke_last_error(void);
 HOOKE_API const char *hooke_status_name(int32_t status);
 HOOKE_API const char *hooke_version(void);
@@ -69,6 +70,7 @@ extern "C" {
 #endif
 typedef struct hooke_system hooke_system;
 typedef int32_t hooke_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
+HOOKE_API int64_t hooke_rows_hold(const double *q, int32_t more);
 typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
                                     const double *dv, double *out, void *ctx);
 typedef int32_t hooke_drive(int64_t count, double t, double *q, double *v, void *ctx);
@@ -96,6 +98,8 @@ HOOKE_API int32_t hooke_system_set_dynamics(hooke_system *system, const char *dy
 HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
                                          hooke_force_product *product, void *ctx);
+HOOKE_API int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force,
+                                          hooke_force_product *product, void *ctx, hooke_system **with);
 HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
                                               const double *amplitude, double frequency, double phase);
 HOOKE_API int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int64_t *particles,
@@ -195,6 +199,7 @@ HOOKE_API const char *hooke_method_meant(const char *word);
 HOOKE_API const char *hooke_method_summary(const char *name);
 HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
 HOOKE_API int32_t hooke_method_is_built(const char *name);
+HOOKE_API int32_t hooke_method_is_suited(const char *name, const char *problem);
 HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                           hooke_integrator **integrator);
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
@@ -226,10 +231,12 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
                                        const double *q, const double *v);
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 HOOKE_API double hooke_integrator_number(const hooke_integrator *integrator, const char *what);
+HOOKE_API const char *hooke_integrator_text(const hooke_integrator *integrator, const char *what);
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
                                           hooke_state *state);
 typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                               int64_t particle, void *ctx);
+HOOKE_API int32_t hooke_system_warnings(const hooke_system *system, hooke_warning *warning, void *ctx);
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 #ifdef __cplusplus
@@ -325,6 +332,7 @@ HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system
 HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
                                         const hooke_options *run, const char *name, const char *folder,
                                         hooke_scene **scene);
+HOOKE_API int32_t hooke_scene_check_output(const hooke_scene *scene, const char *path);
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
 HOOKE_API hooke_system *hooke_scene_system(hooke_scene *scene);
 HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
