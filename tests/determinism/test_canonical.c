@@ -5,6 +5,7 @@
 #include "lockstep.h"
 #include "random_scene.h"
 #include "run.h"
+#include "small.h"
 #include "sanitized.h"
 
 #include <math.h>
@@ -139,11 +140,9 @@ TEST(test_parts_are_springs) {
   random_scene_shake(&parts, 4, q, v);
 
   hooke_system *listed = NULL;
-  hooke_options *options = NULL;
   check_ok(hooke_system_create(&listed));
   check_ok(hooke_system_add_particles(listed, n, q, v, n, hooke_system_mass(parts.system), NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", m, c->kappa));
   check_ok(hooke_options_set_numbers(options, "damping", m, c->gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", m, c->rest_length));

@@ -265,9 +265,7 @@ TEST(test_studies_can_be_run_again) {
   hooke_options *run = run_options((struct run){.method = "verlet", .duration = 1.0, .every = 0.25}),
                 *options;
   hooke_measurement *study;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", "verlet"));
-  check_ok(hooke_options_set_text(options, "steps", "0.125,0.0625"));
+  options = options_with("study", "methods=verlet steps=0.125,0.0625");
   check_ok(hooke_measurement_create("study", system, run, options, &study));
   hooke_measurement_on_progress(study, progress, NULL);
   jump.calls = 2;

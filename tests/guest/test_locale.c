@@ -166,8 +166,7 @@ static void scenes(struct output *out) {
   add_file(out, "guest_locale.json");
 
   hooke_measurement *limit;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1));
+  options = options_with("limit", "predict=1");
   check_ok(hooke_measurement_create("limit", system, run, options, &limit));
   check_ok(hooke_measurement_run(limit, state));
   for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
@@ -177,9 +176,7 @@ static void scenes(struct output *out) {
   hooke_options_destroy(options);
 
   hooke_measurement *study;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", "verlet"));
-  check_ok(hooke_options_set_text(options, "steps", "0.0005,0.00025"));
+  options = options_with("study", "methods=verlet steps=0.0005,0.00025");
   check_ok(hooke_measurement_create("study", system, run, options, &study));
   check_ok(hooke_measurement_run(study, NULL));
   check_ok(hooke_study_recommend(study, 1e-13));

@@ -156,10 +156,8 @@ static int32_t create_needs(hooke_options *o) {
 
 static int32_t create_needs_of_run(hooke_options *o) {
   hooke_system *system = committed();
-  hooke_options *options;
   hooke_measurement *made = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_text(options, "want", "0.1"));
+  hooke_options *options = options_with("needs", "want=0.1");
   hooke_options_set_number(o, "duration", 0.1);
   const int32_t status = hooke_measurement_create("needs", system, o, options, &made);
   if (status == HOOKE_OK) hooke_measurement_destroy(made);

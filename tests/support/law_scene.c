@@ -1,6 +1,7 @@
 #include "law_scene.h"
 
 #include "check.h"
+#include "small.h"
 #include "random.h"
 #include "random_scene.h"
 
@@ -78,9 +79,7 @@ static void draw_spring(struct random_source *source, const struct law *law, int
 }
 
 static void add_springs(const struct law *law, const struct material *material, struct law_scene *scene) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", law->law));
+  hooke_options *options = options_with("springs", "law=%s", law->law);
   check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material->stiffness));
   if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_SPRINGS, material->damping));
   check_ok(hooke_options_set_numbers(options, "rest_length", LAW_SPRINGS, material->rest_length));

@@ -2,9 +2,9 @@
 
 #include "check.h"
 #include "random_scene.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define CLOTH "edges=0.9,0,0,0,0,0.9 mass=2 pinned=0,1 structural.stiffness=20 "
@@ -48,14 +48,6 @@ static void drive(const struct moving_scene *scene, hooke_system *system) {
   if (scene->driven == 3) check_ok(hooke_system_drive_callback(system, 1, &last, wave, NULL));
 }
 
-/* "name=value name=value" */
-static void set_all(hooke_options *options, const char *words) {
-  char name[64], value[64];
-  int length;
-  for (; sscanf(words, " %63[^=]=%63s%n", name, value, &length) == 2; words += length)
-    check_ok(hooke_options_set_text(options, name, value));
-}
-
 static void set_mesh(hooke_options *options) {
   const double a = 0.5, b = 0.3;
   const double vertex[] = {0, a, 0, -b, 0, -b, b, 0, -b, b, 0, b, -b, 0, b, 0, -a, 0};
@@ -70,7 +62,7 @@ hooke_system *moving_system(const struct moving_scene *scene) {
   check_ok(hooke_system_create(&system));
   check_ok(hooke_options_create(scene->kind, &options));
   if (strcmp(scene->kind, "mesh") == 0) set_mesh(options);
-  set_all(options, scene->options);
+  check_ok(set_words(options, scene->options));
   check_ok(hooke_system_add_part(system, scene->kind, NULL, options, NULL, NULL));
   hooke_options_destroy(options);
   if (scene->gravity) check_ok(hooke_system_set_gravity(system, gravity));

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -182,13 +183,11 @@ static void add_group(struct random_source *source, struct random_scene_request 
   int64_t *ends = wanted->ends + 2 * wanted->count;
   double *kappa = wanted->kappa + wanted->count, *gamma = wanted->gamma + wanted->count,
          *rest = wanted->rest_length + wanted->count;
-  hooke_options *options = NULL;
   char name[32];
   const int length_law = (int)random_whole(source, 0, 1);
   const int pulls = (request.features & SCENE_PULL_ONLY) && random_whole(source, 0, 1);
   draw_ends(source, request.particles, count, ends);
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", length_law ? "length" : "strain"));
+  hooke_options *options = options_with("springs", "law=%s", length_law ? "length" : "strain");
   set_random(source, options, "stiffness", count, 0.0, 50.0, kappa);
   if ((request.features & SCENE_DAMPING) && random_whole(source, 0, 3)) {
     set_random(source, options, "damping", count, 0.0, 0.5, gamma);

@@ -4,6 +4,65 @@
 #include "random.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+int32_t set_words(hooke_options *options, const char *words) {
+  char name[64], value[128];
+  int length;
+  int32_t status = HOOKE_OK;
+  for (; status == HOOKE_OK && sscanf(words, " %63[^=]=%127s%n", name, value, &length) == 2; words += length)
+    status = hooke_options_set_text(options, name, value);
+  return status == HOOKE_OK && words[strspn(words, " ")] != '\0' ? HOOKE_BAD_VALUE : status;
+}
+
+static hooke_options *formatted(const char *name, const char *words, va_list values) {
+  char text[1024];
+  hooke_options *options = NULL;
+  check_between(vsnprintf(text, sizeof text, words, values), 0.0, sizeof text - 1.0);
+  check_ok(hooke_options_create(name, &options));
+  check_ok(set_words(options, text));
+  return options;
+}
+
+hooke_options *options_with(const char *name, const char *words, ...) {
+  va_list values;
+  va_start(values, words);
+  hooke_options *options = formatted(name, words, values);
+  va_end(values);
+  return options;
+}
+
+hooke_system *small_part(hooke_system *system, const char *kind, const char *name, const char *words, ...) {
+  va_list values;
+  va_start(values, words);
+  hooke_options *options = formatted(kind, words, values);
+  va_end(values);
+  if (system == NULL) check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
+  hooke_options_destroy(options);
+  return system;
+}
+
+void small_group(hooke_system *system, const char *kind, const char *name, int64_t count,
+                 const int64_t *members, const char *words, ...) {
+  va_list values;
+  va_start(values, words);
+  hooke_options *options = formatted(kind, words, values);
+  va_end(values);
+  check_ok((strcmp(kind, "anchors") == 0 ? hooke_system_add_anchors
+            : strcmp(kind, "altitude") == 0
+                ? hooke_system_add_altitude
+                : hooke_system_add_springs)(system, name, count, members, options));
+  hooke_options_destroy(options);
+}
+
+hooke_system *small_falling(hooke_system *system) {
+  const double down[] = {0, -9.81, 0};
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
 
 hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
                            int32_t pin_first) {
@@ -44,9 +103,7 @@ hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin
     stiffness[k] = pow(10.0, random_between(&source, 0.0, 3.0));
     gamma[k] = damping * pow(10.0, random_between(&source, -1.0, 1.0));
   }
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, gamma));
   check_ok(hooke_system_add_springs(system, "net", SPRINGS, ends, options));
@@ -65,45 +122,17 @@ hooke_system *small_oscillator(double omega) {
 }
 
 hooke_system *small_crumpling_cloth(int64_t side) {
-  hooke_system *system;
-  hooke_options *cloth;
-  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {1.0, 0.05, 0.0, 0.0, 0.0, 1.0},
-               size[2] = {(double)side, (double)side};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_text(cloth, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "mass", 1.0));
-  check_ok(hooke_options_set_text(cloth, "pinned", "0"));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 500.0));
-  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 300.0));
-  check_ok(hooke_options_set_number(cloth, "bend.stiffness", 20.0));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, cloth, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(cloth);
-  return system;
+  return small_falling(
+      small_part(NULL, "cloth", NULL,
+                 "origin=0,0,0 edges=1,0.05,0,0,0,1 size=%d,%d mass=1 pinned=0 structural.stiffness=500 "
+                 "shear.stiffness=300 bend.stiffness=20",
+                 (int)side, (int)side));
 }
 
 hooke_system *small_cloth(int64_t side, double stiffness, double damping) {
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {(double)side, (double)side};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 0.2));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "structural.damping", damping));
-  check_ok(hooke_options_set_number(options, "shear.damping", damping));
-  check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  return system;
+  return small_falling(small_part(
+      NULL, "cloth", NULL,
+      "origin=0,0,0 edges=1,0,0,0,0,1 size=%d,%d mass=0.2 pinned=top-corners "
+      "structural.stiffness=%.17g shear.stiffness=%.17g structural.damping=%.17g shear.damping=%.17g",
+      (int)side, (int)side, stiffness, stiffness, damping, damping));
 }

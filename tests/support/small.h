@@ -2,7 +2,22 @@
 #ifndef TESTS_SUPPORT_SMALL_H
 #define TESTS_SUPPORT_SMALL_H
 
-#include "hooke/system.h"
+#include "hooke.h"
+
+/* Sets options from words as "size=6,6 mass=0.1", values without spaces; the status of the first that is
+ * refused. */
+int32_t set_words(hooke_options *options, const char *words);
+/* Options of that name; the words are a format. */
+__attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *name, const char *words, ...);
+/* Adds a part that the words describe to a system, NULL for a new one, and returns that. */
+__attribute__((format(printf, 4, 5))) hooke_system *small_part(hooke_system *system, const char *kind,
+                                                               const char *name, const char *words, ...);
+/* Adds a group of "springs", "altitude" springs or "anchors". */
+__attribute__((format(printf, 6, 7))) void small_group(hooke_system *system, const char *kind,
+                                                       const char *name, int64_t count,
+                                                       const int64_t *members, const char *words, ...);
+/* Commits a system that falls at 9.81 m/s^2 along -y, and returns it. */
+hooke_system *small_falling(hooke_system *system);
 
 /* One group of springs that share a material. */
 struct springs {

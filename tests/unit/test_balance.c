@@ -2,6 +2,7 @@
  * does not if the power is wrong. */
 #include "hooke.h"
 #include "check.h"
+#include "small.h"
 
 #include "measure/trial/balance.h"
 #include "model/system.h"
@@ -12,19 +13,10 @@
 enum { FRAMES = 8 };
 
 static hooke_system *damped_chain(int driven) {
-  hooke_system *system;
-  hooke_options *options;
   const double place[] = {0, 0, 0, 1.1, 0.1, 0, 2, 0.3, 0, 3.2, 0, 0.2}, mass = 0.5;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, first = 0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "stiffness", 40.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.3));
-  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
-  check_ok(hooke_system_add_springs(system, "", 3, ends, options));
-  hooke_options_destroy(options);
+  hooke_system *system = small_system(4, place, NULL, mass, 0);
+  small_group(system, "springs", "", 3, ends, "law=length stiffness=40 damping=0.3 rest_length=1");
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   check_ok(hooke_system_set_drag(system, 0.2));
   if (driven)
@@ -66,15 +58,10 @@ static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
 }
 
 static void run(struct watch *watch, const char *method, double step) {
-  hooke_options *options;
   hooke_integrator *integrator;
   hooke_state *state;
   watch->count = 0;
-  check_ok(hooke_options_create("run", &options));
-  check_ok(hooke_options_set_text(options, "method", method));
-  check_ok(hooke_options_set_number(options, "step", step));
-  check_ok(hooke_options_set_number(options, "duration", 0.8));
-  check_ok(hooke_options_set_number(options, "every", 0.1));
+  hooke_options *options = options_with("run", "method=%s step=%.17g duration=0.8 every=0.1", method, step);
   check_ok(hooke_integrator_create(watch->system, options, &integrator));
   check_ok(hooke_integrator_on_step(integrator, 1, on_step, watch));
   check_ok(hooke_integrator_on_frame(integrator, on_frame, watch));

@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "run.h"
+#include "small.h"
 #include "model/body.h"
 
 #include <math.h>
@@ -19,7 +20,6 @@ static hooke_system *two_bodies(int pinned) {
   const int64_t block[] = {0, 1, 2, 3}, bar[] = {4, 5, 6}, posts[] = {7, 8, 9, 4},
                 ends[] = {0, 7, 1, 8, 2, 5, 3, 6, 6, 9};
   hooke_system *system = NULL;
-  hooke_options *options = NULL;
   for (int k = 0; k < 3 * ALL; k++)
     q[k] = sin(1.0 + 2.3 * k) + 0.3 * (k / 3 % 4);
   for (int a = 0; a < 3; a++)
@@ -28,12 +28,7 @@ static hooke_system *two_bodies(int pinned) {
   check_ok(hooke_system_add_particles(system, ALL, q, NULL, ALL, mass, NULL));
   check_ok(hooke_system_pin(system, 3 + pinned, posts));
   check_ok(hooke_system_set_gravity(system, (double[]){1.0, -9.81, 2.0}));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 40.0));
-  check_ok(hooke_options_set_number(options, "damping", 1.0));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.4));
-  check_ok(hooke_system_add_springs(system, NULL, 5, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", NULL, 5, ends, "stiffness=40 damping=1 rest_length=0.4");
   check_ok(hooke_system_add_body(system, "block", 4, block, 0));
   check_ok(hooke_system_add_body(system, "bar", 3, bar, 0));
   check_ok(hooke_system_commit(system));

@@ -5,6 +5,7 @@
 #include "model/vector3.h"
 
 #include "check.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +23,6 @@ static hooke_system *hung_body(int pinned, double stiffness) {
   const double mass[ALL] = {1.0, 0.5, 2.0, 0.7, 0.3, 1, 1, 1, 1, 1};
   int64_t body[CORNERS], posts[CORNERS], ends[2 * CORNERS];
   hooke_system *system = NULL;
-  hooke_options *options = NULL;
   for (int p = 0; p < CORNERS; p++) {
     for (int a = 0; a < 3; a++) {
       q[3 * p + a] = CORNER[3 * p + a];
@@ -37,11 +37,7 @@ static hooke_system *hung_body(int pinned, double stiffness) {
   check_ok(hooke_system_add_particles(system, ALL, q, NULL, ALL, mass, NULL));
   check_ok(hooke_system_pin(system, CORNERS, posts));
   if (pinned) check_ok(hooke_system_pin(system, 1, body));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.2));
-  check_ok(hooke_system_add_springs(system, NULL, CORNERS, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", NULL, CORNERS, ends, "stiffness=%.17g rest_length=0.2", stiffness);
   check_ok(hooke_system_set_gravity(system, (double[]){1.0, -9.81, 2.0}));
   check_ok(hooke_system_add_body(system, "body", CORNERS, body, 0));
   check_ok(hooke_system_commit(system));

@@ -3,6 +3,7 @@
 
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,17 +18,12 @@ static int32_t nothing(int64_t n, double t, const double *q, const double *v, do
 /* A free particle on a spring of 1 m from the origin, with drag 1. */
 static hooke_system *make_pair(int calls_back) {
   hooke_system *system = NULL;
-  hooke_options *springs = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_add_particles(system, 2, (double[]){0, 0, 0, START, 0, 0}, NULL, 0, NULL, NULL));
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", KAPPA));
-  check_ok(hooke_options_set_number(springs, "rest_length", 1.0));
-  check_ok(hooke_system_add_springs(system, NULL, 1, (int64_t[]){0, 1}, springs));
-  hooke_options_destroy(springs);
+  small_group(system, "springs", NULL, 1, (int64_t[]){0, 1}, "stiffness=%.17g rest_length=1", KAPPA);
   if (calls_back) check_ok(hooke_system_set_force(system, nothing, NULL, NULL));
   check_ok(hooke_system_commit(system));
   return system;

@@ -2,6 +2,7 @@
  * were not checked have none, and neither has a state that is no frame. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include "model/state.h"
 
@@ -15,22 +16,13 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 }
 
 static hooke_system *hanging_rope(int outside) {
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", SEGMENTS));
-  check_ok(hooke_options_set_number(options, "mass", 0.5));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 20));
-  check_ok(hooke_options_set_number(options, "stretch.damping", 0.01));
-  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
+  hooke_system *system = small_part(
+      NULL, "rope", NULL,
+      "from=0,0,0 to=1,0.1,0 segments=%d mass=0.5 stretch.stiffness=20 stretch.damping=0.01", SEGMENTS);
   check_ok(hooke_system_pin(system, 1, &(const int64_t){0}));
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   if (outside) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 

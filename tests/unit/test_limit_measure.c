@@ -147,12 +147,10 @@ TEST(parallel_springs_are_one) {
   const double stiffness[MANY] = {20, 3, 0.5, 7, 11, 0}, damping[MANY] = {0, 0.1, 0.3, 0, 0, 0.2},
                rest[MANY] = {0.7, 0.5, 0.2, 1.5, 0.4, 1};
   hooke_system *system = small_system(3, place, NULL, 0.5, 0);
-  hooke_options *options;
   struct hk_twin twin;
   double product[9], of_twin[9], energy = 0.0, there[9];
   check_ok(hooke_system_pin(system, 1, &none));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", MANY, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", MANY, damping));
   check_ok(hooke_options_set_numbers(options, "rest_length", MANY, rest));
@@ -186,15 +184,10 @@ TEST(frozen_system_rests) {
   const double position[15] = {0, 0, 0, 1, 0, 0, 0.3, 0.8, 0, 2, 0.1, 0.2, 2, 0.1, 0.2};
   const int64_t ends[10] = {0, 1, 1, 2, 2, 0, 1, 3, 3, 4}, pinned = 0, driven = 3;
   const double rest[5] = {0.7, 1.5, 0.6, 0.9, 0.5}, amplitude[3] = {0, 0.1, 0}, mass = 0.5;
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 5, position, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(5, position, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
   check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "stiffness", 20.0));
+  hooke_options *options = options_with("springs", "law=length stiffness=20");
   check_ok(hooke_options_set_numbers(options, "rest_length", 5, rest));
   check_ok(hooke_system_add_springs(system, NULL, 5, ends, options));
   hooke_options_destroy(options);

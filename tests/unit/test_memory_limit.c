@@ -2,6 +2,7 @@
  * and of memory; stated needs are compared with the memory used. */
 #include "hooke.h"
 #include "check.h"
+#include "small.h"
 #include "sanitized.h"
 
 #include "core/memory.h"
@@ -31,21 +32,12 @@ static hooke_system *new_system(double limit) {
 /* ---- parts ---- */
 
 static hooke_options *part_options(const char *kind, int64_t size[3]) {
-  hooke_options *options;
-  check_ok(hooke_options_create(kind, &options));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  const int grid = strcmp(kind, "cloth") == 0 ? 2 : strcmp(kind, "lattice") == 0 ? 3 : 0;
-  const double edges[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const double sizes[] = {(double)size[0], (double)size[1], (double)size[2]};
-  if (grid) {
-    check_ok(hooke_options_set_numbers(options, "edges", 3 * grid, edges));
-    check_ok(hooke_options_set_numbers(options, "size", grid, sizes));
-  } else {
-    check_ok(hooke_options_set_numbers(options, "from", 3, edges + 1));
-    check_ok(hooke_options_set_numbers(options, "to", 3, edges));
-    check_ok(hooke_options_set_number(options, "segments", sizes[0]));
-  }
-  return options;
+  const double a = (double)size[0], b = (double)size[1], c = (double)size[2];
+  if (strcmp(kind, "cloth") == 0)
+    return options_with(kind, "mass=1 edges=1,0,0,0,1,0 size=%.17g,%.17g", a, b);
+  if (strcmp(kind, "lattice") == 0)
+    return options_with(kind, "mass=1 edges=1,0,0,0,1,0,0,0,1 size=%.17g,%.17g,%.17g", a, b, c);
+  return options_with(kind, "mass=1 from=0,0,0 to=1,0,0 segments=%.17g", a);
 }
 
 /* Up to 2^31 - 1 of everything memory is the limit, beyond it the numbers. */
@@ -100,16 +92,12 @@ TEST(a_mesh_stops_at_the_edge_of_32_bits) {
 /* ---- systems by hand ---- */
 
 static hooke_options *spring_options(void) {
-  hooke_options *options;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  hooke_options *options = options_with("springs", "stiffness=1");
   return options;
 }
 
 static hooke_options *altitude_options(void) {
-  hooke_options *options;
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  hooke_options *options = options_with("altitude", "stiffness=1");
   return options;
 }
 
@@ -189,7 +177,6 @@ static double peak(void) {
 static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, const char *const *families) {
   const double before = peak();
   hooke_system *system = new_system(0.0);
-  hooke_options *run;
   hooke_state *state;
   hooke_integrator *integrator;
   int64_t size[3] = {a, b, c};
@@ -200,10 +187,7 @@ static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, cons
   const double needed = hk_system_needed_bytes(system, (struct hk_more){0});
   check_ok(hooke_system_commit(system));
   check_ok(hooke_state_create(system, &state));
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_text(run, "method", "symplectic-euler"));
-  check_ok(hooke_options_set_number(run, "step", 1e-9));
-  check_ok(hooke_options_set_number(run, "duration", 1e-9));
+  hooke_options *run = options_with("run", "method=symplectic-euler step=1e-9 duration=1e-9");
   check_ok(hooke_integrator_create(system, run, &integrator));
   check_ok(hooke_integrator_run(integrator, state));
   hooke_integrator_destroy(integrator);
@@ -454,10 +438,7 @@ TEST(problems_stop_where_systems_do) {
   const int64_t most = 3 * (int64_t)INT32_MAX,
                 bad[] = {INT64_MIN, -1, 0, most + 1, INT64_C(1) << 62, INT64_MAX};
   const double mass = 1.0;
-  hooke_options *run;
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_text(run, "method", "rk4"));
-  check_ok(hooke_options_set_number(run, "step", 0.1));
+  hooke_options *run = options_with("run", "method=rk4 step=0.1");
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
     hooke_state *state = NULL;
     hooke_integrator *made = NULL;

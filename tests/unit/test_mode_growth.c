@@ -12,10 +12,7 @@ static double measure(const char *method, double h, double w, double d, int rigi
   const double q[] = {0.7, 0, 0}, point[] = {0, 0, 0};
   const int64_t particle = 0;
   hooke_system *system = small_system(1, q, NULL, 1.0, 0);
-  hooke_options *anchor;
-  check_ok(hooke_options_create("anchors", &anchor));
-  check_ok(hooke_options_set_number(anchor, "stiffness", w * w));
-  check_ok(hooke_options_set_number(anchor, "rest_length", 0.0));
+  hooke_options *anchor = options_with("anchors", "stiffness=%.17g rest_length=0", w * w);
   check_ok(hooke_options_set_numbers(anchor, "points", 3, point));
   check_ok(hooke_system_add_anchors(system, "anchor", 1, &particle, anchor));
   hooke_options_destroy(anchor);

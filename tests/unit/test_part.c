@@ -1,20 +1,21 @@
 /* Parts: the contents of rope and cloth, their order, and that rest lengths are equal to the bit. */
 #include "hooke.h"
 #include "check.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* All queries of a committed system about its springs. */
-struct springs {
+struct members {
   int64_t count;
   int64_t *ends;
   double *kappa, *gamma, *rest_length;
 };
 
-static struct springs springs_of(const hooke_system *system) {
-  struct springs s = {.count = hooke_system_count(system, "springs")};
+static struct members springs_of(const hooke_system *system) {
+  struct members s = {.count = hooke_system_count(system, "springs")};
   s.ends = new_block(2 * s.count, sizeof(int64_t));
   s.kappa = new_doubles(s.count);
   s.gamma = new_doubles(s.count);
@@ -24,7 +25,7 @@ static struct springs springs_of(const hooke_system *system) {
   return s;
 }
 
-static void release(struct springs *s) {
+static void release(struct members *s) {
   free(s->ends);
   free(s->kappa);
   free(s->gamma);
@@ -38,22 +39,14 @@ static hooke_system *new_system(void) {
 }
 
 static hooke_options *rope_options(double segments) {
-  hooke_options *options;
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0.1, 0.2, 0.3}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1.3, 0.2, -0.6}));
-  check_ok(hooke_options_set_number(options, "segments", segments));
-  check_ok(hooke_options_set_number(options, "mass", 0.7));
+  hooke_options *options =
+      options_with("rope", "from=0.1,0.2,0.3 to=1.3,0.2,-0.6 segments=%.17g mass=0.7", segments);
   return options;
 }
 
 static hooke_options *cloth_options(double nu, double nv) {
-  hooke_options *options;
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_numbers(options, "origin", 3, (double[]){0.1, 0.7, 0.3}));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, (double[]){1.1, 0.0, 0.2, 0.1, 0.0, 0.9}));
-  check_ok(hooke_options_set_numbers(options, "size", 2, (double[]){nu, nv}));
-  check_ok(hooke_options_set_number(options, "mass", 0.3));
+  hooke_options *options =
+      options_with("cloth", "origin=0.1,0.7,0.3 edges=1.1,0,0.2,0.1,0,0.9 size=%.17g,%.17g mass=0.3", nu, nv);
   return options;
 }
 
@@ -67,7 +60,7 @@ static void check_position(const hooke_system *system, int64_t particle, double 
   hooke_state_destroy(state);
 }
 
-static void check_spring(const struct springs *s, int64_t k, int64_t first, int64_t second) {
+static void check_spring(const struct members *s, int64_t k, int64_t first, int64_t second) {
   assert_in_range(k, 0, s->count - 1);
   if (s->ends[2 * k] == first && s->ends[2 * k + 1] == second) return;
   check_failed("spring %lld joins %lld and %lld, not %lld and %lld", (long long)k, (long long)s->ends[2 * k],
@@ -75,7 +68,7 @@ static void check_spring(const struct springs *s, int64_t k, int64_t first, int6
 }
 
 /* Springs begin..end-1 have exactly this rest length. */
-static void check_equal_bits(const struct springs *s, int64_t begin, int64_t end, double rest_length) {
+static void check_equal_bits(const struct members *s, int64_t begin, int64_t end, double rest_length) {
   for (int64_t k = begin; k < end; k++)
     check_same_bits(1, &s->rest_length[k], &rest_length);
 }
@@ -102,7 +95,7 @@ TEST(a_rope_is_a_line) {
     check_close(hooke_system_mass(system)[k], 0.7 / 8, 0.0);
     check_position(system, k, 0.1 + 1.2 * k / 7, 0.2, 0.3 - 0.9 * k / 7);
   }
-  struct springs s = springs_of(system);
+  struct members s = springs_of(system);
   for (int k = 0; k < 7; k++)
     check_spring(&s, k, k, k + 1);
   for (int k = 0; k < 6; k++)
@@ -160,7 +153,7 @@ TEST(a_cloth_has_its_springs_in_order) {
   assert_string_equal(hooke_system_group_name(system, "springs", 1), "flag.shear");
   assert_string_equal(hooke_system_group_name(system, "springs", 2), "flag.bend");
 
-  struct springs s = springs_of(system);
+  struct members s = springs_of(system);
   int64_t k = 0;
   for (int r = 0; r < NV; r++)
     for (int c = 0; c + 1 < NU; c++)
@@ -259,7 +252,7 @@ TEST(pinned_particles_have_names) {
 
 TEST(parts_come_after_groups_and_are_counted) {
   hooke_system *system = new_system();
-  hooke_options *options = rope_options(2), *explicit_group;
+  hooke_options *options = rope_options(2);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 1));
   check_ok(hooke_options_set_text(options, "pinned", "start"));
   const double position[] = {5, 0, 0, 6, 0, 0}, mass = 2;
@@ -271,16 +264,14 @@ TEST(parts_come_after_groups_and_are_counted) {
   assert_int_equal(first, 5);
   check_ok(hooke_system_add_part(system, "rope", NULL, options, &first, NULL));
   assert_int_equal(first, 8);
-  check_ok(hooke_options_create("springs", &explicit_group));
-  check_ok(hooke_options_set_number(explicit_group, "stiffness", 9));
-  check_ok(hooke_system_add_springs(system, "tie", 1, (int64_t[]){1, 4}, explicit_group));
+  small_group(system, "springs", "tie", 1, (int64_t[]){1, 4}, "stiffness=9");
   check_ok(hooke_system_commit(system));
 
   const char *const names[] = {"tie", "rope0.stretch", "named.stretch", "rope2.stretch"};
   assert_int_equal(hooke_system_group_count(system, "springs"), 4);
   for (int k = 0; k < 4; k++)
     assert_string_equal(hooke_system_group_name(system, "springs", k), names[k]);
-  struct springs s = springs_of(system);
+  struct members s = springs_of(system);
   check_spring(&s, 0, 1, 4);
   check_spring(&s, 1, 2, 3);
   check_spring(&s, 3, 5, 6);
@@ -289,7 +280,6 @@ TEST(parts_come_after_groups_and_are_counted) {
   held(system, found);
   assert_string_equal(found, "..x..x..x..");
   release(&s);
-  hooke_options_destroy(explicit_group);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
 }

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "hooke/trajectory.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,21 +13,8 @@
 enum { N = 12, SPRINGS = 17, FRAMES = 5, PATH_SIZE = 256 };
 
 static hooke_system *cloth(void) {
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  assert_int_equal(hooke_options_is_set(options, "origin"), 0);
-  check_ok(hooke_options_set_text(options, "edges", "1,0,0,0,0,1"));
-  check_ok(hooke_options_set_text(options, "size", "4,3"));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(options, "mass", 6));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 5));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
-  hooke_options_destroy(options);
-  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return small_falling(small_part(
+      NULL, "cloth", NULL, "edges=1,0,0,0,0,1 size=4,3 pinned=top-corners mass=6 structural.stiffness=5"));
 }
 
 TEST(a_cloth_without_origin_begins_at_zero) {

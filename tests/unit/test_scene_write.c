@@ -3,6 +3,7 @@
 #include "model/force/drive.h"
 #include "model/variant/variant.h"
 #include "check.h"
+#include "small.h"
 #include "random_scene.h"
 
 #include "model/system.h"
@@ -59,13 +60,10 @@ static void check_in_memory(const hooke_system *system, const hooke_options *run
 
 static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   char path[] = "/tmp/hooke-scene-XXXXXX";
-  hooke_options *run;
   const int descriptor = mkstemp(path);
   assert_true(descriptor >= 0);
   close(descriptor);
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_number(run, "step", 0.1));
-  check_ok(hooke_options_set_text(run, "method", "rk4"));
+  hooke_options *run = options_with("run", "step=0.1 method=rk4");
   check_ok(hooke_scene_write(path, system, "a \"title\" \\ <b> \xc3\xa4", run));
   check_ok(hooke_scene_load(path, NULL, scene));
   check_ok(hooke_scene_commit(*scene));
@@ -102,31 +100,17 @@ TEST(random_systems_come_back) {
 /* A lattice and a mesh from a file, with pins beyond those of their options: the mesh is written with its
  * numbers, so that the scene needs no file. */
 TEST(lattice_and_mesh_come_back) {
-  const double edges[9] = {1.1, 0.1, 0, 0, 0.7, 0, 0.2, 0, 0.3}, origin[3] = {0.1, 0.2, 0.3},
-               size[3] = {4, 3, 5};
-  const double moved[3] = {1.0 / 3.0, 5, -2}, amplitude[3] = {0, 0.1, 0};
+  const double amplitude[3] = {0, 0.1, 0};
   const int64_t pinned[2] = {5, 65}, driven = 61;
-  hooke_system *system;
-  hooke_options *lattice, *mesh;
   hooke_scene *read;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("lattice", &lattice));
-  check_ok(hooke_options_set_numbers(lattice, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(lattice, "edges", 9, edges));
-  check_ok(hooke_options_set_numbers(lattice, "size", 3, size));
-  check_ok(hooke_options_set_number(lattice, "density", 3));
-  check_ok(hooke_options_set_text(lattice, "pinned", "top, 3"));
-  check_ok(hooke_options_set_number(lattice, "shear.stiffness", 7));
-  check_ok(hooke_options_set_number(lattice, "shear.damping_ratio", 0.1));
-  check_ok(hooke_system_add_part(system, "lattice", "block", lattice, NULL, NULL));
-  check_ok(hooke_options_create("mesh", &mesh));
-  check_ok(hooke_options_set_number(mesh, "mass", 0.7));
-  check_ok(hooke_options_set_number(mesh, "transform.scale", 0.1));
-  check_ok(hooke_options_set_numbers(mesh, "transform.translate", 3, moved));
-  check_ok(hooke_options_set_number(mesh, "weld", 1e-5));
-  check_ok(hooke_options_set_number(mesh, "structural.stiffness", 3));
-  check_ok(hooke_options_set_number(mesh, "bend.stiffness", 2));
-  check_ok(hooke_options_set_number(mesh, "bend.damping_ratio", 0.2));
+  hooke_system *system =
+      small_part(NULL, "lattice", "block",
+                 "origin=0.1,0.2,0.3 edges=1.1,0.1,0,0,0.7,0,0.2,0,0.3 size=4,3,5 density=3 pinned=top,3 "
+                 "shear.stiffness=7 shear.damping_ratio=0.1");
+  hooke_options *mesh = options_with("mesh",
+                                     "mass=0.7 transform.scale=0.1 transform.translate=%.17g,5,-2 weld=1e-5 "
+                                     "structural.stiffness=3 bend.stiffness=2 bend.damping_ratio=0.2",
+                                     1.0 / 3.0);
   check_ok(hooke_mesh_read(HOOKE_SOURCE_DIR "/examples/scenes/ball.obj", mesh));
   check_ok(hooke_system_add_part(system, "mesh", "ball", mesh, NULL, NULL));
   check_ok(hooke_system_pin(system, 2, pinned));
@@ -136,28 +120,16 @@ TEST(lattice_and_mesh_come_back) {
   write_and_read(system, &read);
   check_same_system(hooke_scene_system(read), system);
   hooke_scene_destroy(read);
-  hooke_options_destroy(lattice);
   hooke_options_destroy(mesh);
   hooke_system_destroy(system);
 }
 
 static void add_strand(hooke_system *system, int curl) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("strand", &options));
-  check_ok(hooke_options_set_text(options, "from", "0.1,0.2,0.3"));
-  check_ok(hooke_options_set_text(options, "to", "1.7,0.1,-0.6"));
-  check_ok(hooke_options_set_number(options, "segments", 13));
-  check_ok(hooke_options_set_number(options, curl ? "curl" : "offset", 0.3));
-  if (curl) check_ok(hooke_options_set_number(options, "turns", -2.3));
-  check_ok(hooke_options_set_number(options, "density", 0.7));
-  check_ok(hooke_options_set_text(options, "pinned", "start,3"));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 3.0));
-  check_ok(hooke_options_set_number(options, "altitude.stiffness", 7.0));
-  check_ok(hooke_options_set_number(options, "altitude.damping_ratio", 0.3));
-  check_ok(hooke_options_set_number(options, "altitude.rest_scale", 0.9));
-  check_ok(hooke_options_set_number(options, "altitude.compression", curl));
-  check_ok(hooke_system_add_part(system, "strand", curl ? "curl" : NULL, options, NULL, NULL));
-  hooke_options_destroy(options);
+  small_part(
+      system, "strand", curl ? "curl" : NULL,
+      "from=0.1,0.2,0.3 to=1.7,0.1,-0.6 segments=13 %s density=0.7 pinned=start,3 bend.stiffness=3 "
+      "altitude.stiffness=7 altitude.damping_ratio=0.3 altitude.rest_scale=0.9 altitude.compression=%s",
+      curl ? "curl=0.3 turns=-2.3" : "offset=0.3", curl ? "true" : "false");
 }
 
 /* Tetrahedra of parts are equal to the bit; a scene cannot express explicit ones. */
@@ -179,16 +151,12 @@ TEST(strands_come_back) {
   hooke_system_destroy(system);
 
   const int64_t corners[4] = {0, 1, 2, 3};
-  hooke_options *options = NULL;
   check_ok(hooke_system_create(&system));
   add_strand(system, 1);
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-  check_ok(hooke_system_add_altitude(system, "mine", 1, corners, options));
+  small_group(system, "altitude", "mine", 1, corners, "stiffness=1");
   check_ok(hooke_system_commit(system));
   check_status(hooke_scene_write("/tmp/hooke-never-written.json", system, NULL, NULL), HOOKE_UNSUITED);
   check_message("tetrahedra of its own");
-  hooke_options_destroy(options);
   hooke_system_destroy(system);
 }
 
@@ -219,14 +187,12 @@ TEST(anchors_come_back) {
   int64_t particle[3];
   double points[9], number[3][3];
   hooke_system *system, *made;
-  hooke_options *options = NULL;
   hooke_scene *read;
   struct hk_variant variant;
   struct hk_variant_map map;
   check_ok(hooke_system_create(&system));
   add_strand(system, 1);
-  check_ok(hooke_options_create("anchors", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  hooke_options *options = options_with("anchors", "stiffness=0");
   check_ok(hooke_system_add_anchors(system, "nothing", 1, tied, options));
   check_ok(hooke_options_set_number(options, "stiffness", 3.0));
   check_ok(hooke_system_add_anchors(system, "one", 1, tied, options));
@@ -284,10 +250,8 @@ TEST(drives_come_back) {
 
 TEST(zeros_keep_their_sign) {
   const double at[6] = {-0.0, 0, 0, 1, -0.0, 0}, still[6] = {0, 0, -0.0, 0, 0, 0}, mass = 1;
-  hooke_system *system;
   hooke_scene *read;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 2, at, still, 1, &mass, NULL));
+  hooke_system *system = small_system(2, at, still, mass, 0);
   check_ok(hooke_system_commit(system));
   write_and_read(system, &read);
   check_same_system(hooke_scene_system(read), system);
@@ -298,22 +262,16 @@ TEST(zeros_keep_their_sign) {
 /* "-0" is an integer, too, and a scene cannot express the sign of one. */
 TEST(whole_numbers_have_one_zero) {
   const double wanted[2] = {0.0, 1.0};
-  hooke_options *options;
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_text(options, "pinned", "-0,1"));
+  hooke_options *options = options_with("rope", "pinned=-0,1");
   check_same_bits(2, hooke_options_numbers(options, "pinned"), wanted);
   hooke_options_destroy(options);
 }
 
 TEST(keys_of_a_scene_are_applied) {
-  hooke_system *system;
   hooke_options *options, *other;
   const double origin[3] = {0, 0, 0}, gravity[3] = {0, -9.81, 0}, mass = 1;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("scene", &options));
-  check_ok(hooke_options_set_text(options, "gravity", "0,-9.81,0"));
-  check_ok(hooke_options_set_number(options, "drag", 0.25));
+  hooke_system *system = small_system(1, origin, NULL, mass, 0);
+  options = options_with("scene", "gravity=0,-9.81,0 drag=0.25");
   check_ok(hooke_scene_options_apply(options, system));
   check_same_bits(3, system->gravity, gravity);
   assert_true(system->drag == 0.25);
@@ -349,9 +307,7 @@ TEST(forces_without_a_key_are_not_lost) {
       &scene);
   check_not_written(scene.system, "callbacks");
   random_scene_destroy(&scene);
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, place, NULL, 1, &one, NULL));
+  hooke_system *system = small_system(1, place, NULL, one, 0);
   hk_system_set_linear(system, 1, &element, place);
   check_ok(hooke_system_commit(system));
   check_not_written(system, "\"linear\"");

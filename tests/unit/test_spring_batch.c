@@ -1,6 +1,7 @@
 /* Batches contain every spring once, with its material to the bit, by runs or by the tiles of a tiled batch;
  * sums over them equal those over single springs. */
 #include "check.h"
+#include "small.h"
 #include "model/sum/spring_batch.h"
 #include "model/sum/tiled.h"
 #include "random.h"
@@ -129,11 +130,8 @@ static void add_group(const struct sheet *sheet, int group, int lawful, hooke_sy
 
 static void test_sheet(int64_t side, int shuffled, int lawful) {
   struct sheet sheet;
-  hooke_system *system;
-  const double mass = 1.0;
   draw_sheet(side, shuffled, &sheet);
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, sheet.particles, sheet.q, sheet.v, 1, &mass, NULL));
+  hooke_system *system = small_system(sheet.particles, sheet.q, sheet.v, 1.0, 0);
   for (int group = 0; group < 3; group++)
     add_group(&sheet, group, lawful, system);
   check_ok(hooke_system_commit(system));

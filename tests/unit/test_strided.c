@@ -3,6 +3,7 @@
 #include "agree.h"
 #include "canonical.h"
 #include "check.h"
+#include "small.h"
 #include "workers.h"
 #include "random.h"
 
@@ -38,9 +39,7 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   }
   char name[32];
   snprintf(name, sizeof name, "%s%d", pulls ? "pull" : "push", group);
-  hooke_options *options;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", count, gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", count, rest));
@@ -121,15 +120,13 @@ static int64_t spring_count(const hooke_system *system, int32_t k) {
 /* Parallel ropes are two strided batches, not two a rope; springs of the same offset that follow later are a
  * third. */
 TEST(test_lanes_of_ropes) {
-  hooke_system *system;
   hooke_options *options;
   double q[3 * 90];
   int64_t ends[2 * 29];
   const double stiffness = 10.0, mass = 1.0;
   for (int p = 0; p < 90; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7), q[3 * p + 2] = 0.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 90, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(90, q, NULL, mass, 0);
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 1, &stiffness));
   for (int group = 0; group < 7; group++) {
@@ -149,16 +146,12 @@ TEST(test_lanes_of_ropes) {
 
 /* Ropes of one material are a strided batch that reads no parameters, those of several one that does. */
 static void check_materials(int ropes, int materials, int32_t shape) {
-  hooke_system *system;
-  hooke_options *options;
   double *q = new_doubles(3 * 30 * ropes), mass = 1.0;
   int64_t ends[2 * 29];
   for (int p = 0; p < 30 * ropes; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7);
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 30 * ropes, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.09));
+  hooke_system *system = small_system(30 * ropes, q, NULL, mass, 0);
+  hooke_options *options = options_with("springs", "rest_length=0.09");
   for (int rope = 0; rope < ropes; rope++) {
     for (int k = 0; k < 29; k++)
       ends[2 * k] = 30 * rope + k, ends[2 * k + 1] = 30 * rope + k + 1;
@@ -243,8 +236,6 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
                                   double *v) {
   static int64_t ends[2 * STEPS * MOST_LISTED];
   const int64_t particles = listing->sheets * SIDE * SIDE, count = list(source, listing, ends);
-  const double mass = 1.0;
-  hooke_system *system;
   hooke_options *options;
   for (int64_t p = 0; p < particles; p++) {
     q[3 * p] = (double)(p % SIDE) / 7.0;
@@ -253,8 +244,7 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
     for (int a = 0; a < 3; a++)
       v[3 * p + a] = random_between(source, -1.0, 1.0);
   }
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, particles, q, v, 1, &mass, NULL));
+  hooke_system *system = small_system(particles, q, v, 1.0, 0);
   check_ok(hooke_options_create("springs", &options));
   set_each(source, options, "stiffness", count, 80.0, listing->material >= STIFFNESS_OF_ITS_OWN);
   set_each(source, options, "damping", count, 0.1, listing->material == ALL_OF_ITS_OWN);
@@ -304,7 +294,6 @@ TEST(test_every_second_first) {
   double q[3 * CHAIN] = {0.0}, v[3 * CHAIN];
   int64_t ends[4 * CHAIN], count = 0;
   struct random_source source = {31};
-  const double mass = 1.0;
   for (int k = 0; k < 3 * CHAIN; k++) {
     q[k] = random_between(&source, 0.0, 0.1) + (k % 3 ? 0.0 : 0.1 * (k / 3.0));
     v[k] = random_between(&source, -1.0, 1.0);
@@ -315,15 +304,8 @@ TEST(test_every_second_first) {
     for (int64_t p = odd; p + 1 < CHAIN; p += 2, count++)
       ends[2 * count] = p, ends[2 * count + 1] = p + 1;
   }
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, CHAIN, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.09));
-  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
-  hooke_options_destroy(options);
+  hooke_system *system = small_system(CHAIN, q, v, 1.0, 0);
+  small_group(system, "springs", NULL, count, ends, "stiffness=10 rest_length=0.09");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);
   struct canonical c;
@@ -347,15 +329,8 @@ TEST(test_rounded_lengths) {
       ends[2 * count++ + 1] = p + next[a];
     }
   }
-  hooke_system *system;
-  hooke_options *options;
-  const double mass = 1.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, EACH, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
-  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
-  hooke_options_destroy(options);
+  hooke_system *system = small_system(EACH, q, NULL, 1.0, 0);
+  small_group(system, "springs", NULL, count, ends, "stiffness=10");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);
   assert_true(system->strided->batch[0].shape & HOOKE_RUN_MIXED);

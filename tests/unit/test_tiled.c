@@ -2,6 +2,7 @@
  * and steps have the bits of the plain order, for any numbering of particles and springs. */
 #include "agree.h"
 #include "check.h"
+#include "small.h"
 #include "workers.h"
 #include "random.h"
 
@@ -213,14 +214,9 @@ TEST(test_wide) {
     ends[2 * s + 1 - turned] = low + 1;
   }
   hooke_system *system;
-  hooke_options *options;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 3.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.01));
-  check_ok(hooke_system_add_springs(system, "net", COUNT, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", "net", COUNT, ends, "stiffness=3 damping=0.01");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->tiled->particles, CHAIN);
   assert_true(system->tiled->wide);
@@ -236,9 +232,6 @@ enum { FEW = 6, PAIRS = FEW * (FEW - 1) / 2 };
 
 /* A spring for every pair of particles, from the last to the first. */
 static hooke_system *join_all(const double *q, const double *v, int64_t *ends) {
-  hooke_system *system;
-  hooke_options *options;
-  const double mass = 1.0;
   int64_t *end = ends;
   for (int64_t p = FEW - 1; p > 0; p--) {
     for (int64_t other = 0; other < p; other++) {
@@ -246,14 +239,9 @@ static hooke_system *join_all(const double *q, const double *v, int64_t *ends) {
       *end++ = other;
     }
   }
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, FEW, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.1));
-  check_ok(hooke_system_add_springs(system, "pairs", PAIRS, ends, options));
+  hooke_system *system = small_system(FEW, q, v, 1.0, 0);
+  small_group(system, "springs", "pairs", PAIRS, ends, "stiffness=50 damping=0.1");
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 

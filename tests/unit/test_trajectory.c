@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,21 +16,8 @@
 #include <unistd.h>
 
 static hooke_system *new_rope(void) {
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", 6));
-  check_ok(hooke_options_set_number(options, "mass", 0.5));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 30));
-  check_ok(hooke_options_set_text(options, "pinned", "start"));
-  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
-  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  return system;
+  return small_falling(small_part(
+      NULL, "rope", NULL, "from=0,0,0 to=1,0.1,0 segments=6 mass=0.5 stretch.stiffness=30 pinned=start"));
 }
 
 #if HOOKE_HAVE_HDF5

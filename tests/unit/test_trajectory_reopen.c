@@ -19,22 +19,11 @@ enum { N = 7, FRAMES = 11, PATH_SIZE = 256 };
 /* `brace`: one more spring, from the first particle to the third. */
 static hooke_system *braced_rope(int particles, double mass, int brace) {
   const int64_t ends[] = {0, 2};
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", particles - 1));
-  check_ok(hooke_options_set_number(options, "mass", mass));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 30));
-  check_ok(hooke_options_set_text(options, "pinned", "start"));
-  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
+  hooke_system *system = small_part(
+      NULL, "rope", NULL, "from=0,0,0 to=1,0.1,0 segments=%d mass=%.17g stretch.stiffness=30 pinned=start",
+      particles - 1, mass);
   if (brace) small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 0.5});
-  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  return system;
+  return small_falling(system);
 }
 
 static hooke_system *rope(int particles) {

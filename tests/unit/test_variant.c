@@ -3,6 +3,7 @@
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
+#include "small.h"
 
 #include "model/group.h"
 #include "model/variant/variant.h"
@@ -79,54 +80,21 @@ TEST(a_variant_that_changes_nothing_has_the_same_bits) {
 
 /* ---- a scene of two parts and a group that joins them ---- */
 
-static void add_family(hooke_options *options, const char *family, double stiffness, double damping) {
-  char name[64];
-  snprintf(name, sizeof name, "%s.stiffness", family);
-  check_ok(hooke_options_set_number(options, name, stiffness));
-  snprintf(name, sizeof name, "%s.damping", family);
-  check_ok(hooke_options_set_number(options, name, damping));
-}
-
 /* Particles 0 and 1 alone, a rope of 9 (2 to 10), a cloth of 7 x 5 (11 to 45). */
 static hooke_system *two_parts(void) {
-  hooke_system *system;
-  hooke_options *rope, *cloth, *ties;
-  const double alone[6] = {-1, 0, 0, 5, 5, 5}, mass = 0.5, gravity[3] = {0, -9.81, 0};
-  const double from[3] = {0, 0, 0}, to[3] = {2, 0, 0}, origin[3] = {0, 0, 1}, edges[6] = {3, 0, 0, 0, 0, 2};
-  const double size[2] = {7, 5}, held[2] = {0, 1};
+  const double alone[6] = {-1, 0, 0, 5, 5, 5};
   const int64_t ends[4] = {0, 2, 10, 11}, pinned = 1;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 2, alone, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
-  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, "segments", 8));
-  check_ok(hooke_options_set_number(rope, "mass", 1));
-  check_ok(hooke_options_set_numbers(rope, "pinned", 2, held));
-  add_family(rope, "stretch", 100, 0.1);
-  add_family(rope, "bend", 10, 0);
-  check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "mass", 2));
-  check_ok(hooke_options_set_text(cloth, "pinned", "top"));
-  add_family(cloth, "structural", 50, 0.2);
-  add_family(cloth, "shear", 20, 0);
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  check_ok(hooke_options_create("springs", &ties));
-  check_ok(hooke_options_set_number(ties, "stiffness", 30));
-  check_ok(hooke_options_set_number(ties, "damping", 0.3));
-  check_ok(hooke_system_add_springs(system, "ties", 2, ends, ties));
+  hooke_system *system = small_system(2, alone, NULL, 0.5, 0);
+  small_part(system, "rope", "rope",
+             "from=0,0,0 to=2,0,0 segments=8 mass=1 pinned=0,1 stretch.stiffness=100 stretch.damping=0.1 "
+             "bend.stiffness=10 bend.damping=0");
+  small_part(system, "cloth", "cloth",
+             "origin=0,0,1 edges=3,0,0,0,0,2 size=7,5 mass=2 pinned=top structural.stiffness=50 "
+             "structural.damping=0.2 shear.stiffness=20 shear.damping=0");
+  small_group(system, "springs", "ties", 2, ends, "stiffness=30 damping=0.3");
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.1));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(rope);
-  hooke_options_destroy(cloth);
-  hooke_options_destroy(ties);
-  return system;
+  return small_falling(system);
 }
 
 enum { TIES = 0, STRETCH = 1, BEND = 2, STRUCTURAL = 3, SHEAR = 4, ROPE = 0, CLOTH = 1 };
@@ -281,10 +249,8 @@ TEST(a_callback_keeps_its_particles) {
   hooke_system_destroy(made);
   hk_variant_map_release(&map);
 
-  hooke_system *open;
   const double at[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0;
-  check_ok(hooke_system_create(&open));
-  check_ok(hooke_system_add_particles(open, 2, at, NULL, 1, &mass, NULL));
+  hooke_system *open = small_system(2, at, NULL, mass, 0);
   check_ok(hooke_system_set_force(open, no_force, NULL, NULL));
   check_ok(hooke_system_commit(open));
   struct hk_variant fewer = nothing_of(open);
@@ -321,40 +287,19 @@ static struct single *next_single(const hooke_system *system, struct single *all
 
 /* Two parts, with springs, triples and tetrahedra of their own, and the same by hand. */
 static hooke_system *everything(void) {
-  const double place[] = {9, 0, 0, 9.3, 0, 0, 9.1, 0.28, 0, 9.12, 0.1, 0.26}, mass = 0.1, coefficient = 2;
+  const double place[] = {9, 0, 0, 9.3, 0, 0, 9.1, 0.28, 0, 9.12, 0.1, 0.26}, coefficient = 2;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
-  hooke_system *system;
-  hooke_options *strand, *cloth, *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("strand", &strand));
-  check_ok(hooke_options_set_numbers(strand, "from", 3, (double[]){0, 1, 0}));
-  check_ok(hooke_options_set_numbers(strand, "to", 3, (double[]){1, 1, 0}));
-  check_ok(hooke_options_set_number(strand, "segments", 4));
-  check_ok(hooke_options_set_number(strand, "mass", 0.1));
-  add_family(strand, "stretch", 20, 0);
-  add_family(strand, "bend", 2, 0);
-  check_ok(hooke_options_set_number(strand, "altitude.stiffness", 1));
-  check_ok(hooke_system_add_part(system, "strand", "strand", strand, NULL, NULL));
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0, 1}));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, (double[]){3, 3}));
-  check_ok(hooke_options_set_number(cloth, "mass", 0.2));
-  check_ok(hooke_options_set_number(cloth, "bending", 0.001));
-  add_family(cloth, "structural", 20, 0.1);
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 30));
-  check_ok(hooke_system_add_springs(system, "ties", 3, ends, options));
-  hooke_options_destroy(options);
+  hooke_system *system = small_system(4, place, NULL, 0.1, 0);
+  small_part(system, "strand", "strand",
+             "from=0,1,0 to=1,1,0 segments=4 mass=0.1 stretch.stiffness=20 stretch.damping=0 "
+             "bend.stiffness=2 bend.damping=0 altitude.stiffness=1");
+  small_part(system, "cloth", "cloth",
+             "edges=1,0,0,0,0,1 size=3,3 mass=0.2 bending=0.001 structural.stiffness=20 "
+             "structural.damping=0.1");
+  small_group(system, "springs", "ties", 3, ends, "stiffness=30");
   check_ok(hooke_system_add_bending(system, "hinge", 1, triple, 1, &coefficient));
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 3));
-  check_ok(hooke_system_add_altitude(system, "body", 1, corners, options));
-  hooke_options_destroy(options);
+  small_group(system, "altitude", "body", 1, corners, "stiffness=3");
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(strand);
-  hooke_options_destroy(cloth);
   return system;
 }
 

@@ -20,28 +20,11 @@ static hooke_system *scene(void) {
   static const double q[] = {0, 0, 0, 1, 0.2, 0, 2, 0.5, 0.3};
   static const int64_t rods[] = {0, 1, 1, 2}, tie[] = {0, 2};
   const double mass = 1.0;
-  hooke_system *system;
-  hooke_options *options, *rope;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.7));
-  check_ok(hooke_options_set_numbers(options, "rest_length", 2, (double[]){0.8, 1.5}));
-  check_ok(hooke_system_add_springs(system, "rods", 2, rods, options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.0));
-  check_ok(hooke_system_add_springs(system, "tie", 1, tie, options));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_text(rope, "from", "5,0,0"));
-  check_ok(hooke_options_set_text(rope, "to", "6,0,0"));
-  check_ok(hooke_options_set_number(rope, "segments", 4));
-  check_ok(hooke_options_set_number(rope, "mass", 1));
-  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 10));
-  check_ok(hooke_system_add_part(system, "rope", "line", rope, NULL, NULL));
+  hooke_system *system = small_system(3, q, NULL, mass, 0);
+  small_group(system, "springs", "rods", 2, rods, "stiffness=50 damping=0.7 rest_length=0.8,1.5");
+  small_group(system, "springs", "tie", 1, tie, "stiffness=50 damping=0.7 law=length rest_length=0");
+  small_part(system, "rope", "line", "from=5,0,0 to=6,0,0 segments=4 mass=1 stretch.stiffness=10");
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  hooke_options_destroy(rope);
   return system;
 }
 
@@ -167,11 +150,8 @@ TEST(what_is_nothing_is_refused) {
 TEST(springs_that_are_left_out_are_said) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, stiffness[] = {0.0, 10.0};
   static const int64_t ends[] = {0, 1, 1, 2};
-  const double mass = 1.0;
-  hooke_system *system;
   hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
+  hooke_system *system = small_system(3, q, NULL, 1.0, 0);
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
 #include "run.h"
+#include "small.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,19 +25,11 @@ struct fixture {
 };
 
 static void build(struct fixture *f, int n) {
-  hooke_options *options;
-  check_ok(hooke_system_create(&f->system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", n - 1));
-  check_ok(hooke_options_set_number(options, "mass", 0.5));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 1e-3));
-  check_ok(hooke_options_set_number(options, "stretch.damping", 1e-6));
-  check_ok(hooke_system_add_part(f->system, "rope", NULL, options, NULL, NULL));
+  f->system = small_part(
+      NULL, "rope", NULL,
+      "from=0,0,0 to=1,0.1,0 segments=%d mass=0.5 stretch.stiffness=1e-3 stretch.damping=1e-6", n - 1);
   check_ok(hooke_system_set_gravity(f->system, (double[]){0, -9.81, 0}));
   check_ok(hooke_system_commit(f->system));
-  hooke_options_destroy(options);
   f->integrator = start_run(
       f->system, (struct run){.method = "symplectic-euler", .step = 1e-4, .duration = 8e-3, .every = 1e-3});
   f->state = start_state(f->system);

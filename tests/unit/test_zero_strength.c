@@ -103,11 +103,9 @@ static void draw_network(int zeros, double damping, struct network *network) {
 static void add_network(const struct scene *scene, hooke_system *system) {
   const double mass = 0.1;
   struct network network;
-  hooke_options *options;
   draw_network(is_zero(scene, SOME_SPRINGS), is_full(scene, DAMPING) ? 0.01 : 0.0, &network);
   check_ok(hooke_system_add_particles(system, PARTICLES, network.position, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", network.count, network.stiffness));
   if (is_full(scene, DAMPING) || is_zero(scene, DAMPING))
     check_ok(hooke_options_set_numbers(options, "damping", network.count, network.damping));
@@ -118,16 +116,10 @@ static void add_network(const struct scene *scene, hooke_system *system) {
 
 static void add_group(hooke_system *system, int64_t offset, double stiffness) {
   int64_t ends[2 * GROUP];
-  hooke_options *options;
   for (int64_t k = 0; k < GROUP; k++)
     ends[2 * k] = k, ends[2 * k + 1] = k + offset;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.3));
-  check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
-  check_ok(hooke_options_set_number(options, "compression", 0.0));
-  check_ok(hooke_system_add_springs(system, "group", GROUP, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", "group", GROUP, ends,
+              "stiffness=%.17g rest_length=0.3 rest_scale=1.5 compression=false", stiffness);
 }
 
 static void add_bending(hooke_system *system, double coefficient) {
