@@ -85,11 +85,3 @@ def test_planted_stranger(tmp_path):
                                           {"hooke_a"})])
 def test_reading_of_headers(text, names):
     assert headers.functions(text) == names
-
-
-def test_the_outputs_of_all_creators_are_tested():
-    public = headers.public(ROOT / "include")
-    creators = {name for text in public.values() for _, name, parameters in headers.declared(text)
-                if any(re.fullmatch(r"hooke_\w+ \*\*", kind) for kind, _ in parameters)}
-    tested = set(re.findall(r"FAILS\(\w+, (\w+)", (ROOT / "tests/guest/test_outputs.c").read_text()))
-    assert creators - tested == {"hooke_system_create", "hooke_options_copy"} and len(tested) > 15

@@ -1,7 +1,7 @@
 /* Every public function with odd arguments of every kind: NULL, sizes that are no sizes or overflow, numbers
  * that are none, states of another size and kind, and in builds that check handles, objects of another type.
- * Each call answers what its header says, reads nothing beyond an array, and comes back. The functions are
- * those of the headers. */
+ * Each call answers what its header says, reads nothing beyond an array, leaves no old object where it could
+ * make none, and comes back. The functions are those of the headers. */
 #include "check.h"
 #include "public_calls.h"
 #include "random.h"
@@ -64,6 +64,8 @@ static void complain(const char *what, int64_t status) {
            hooke_last_error(), told->call);
 }
 
+static char left_over; /* its address stands for an old object where a function puts a new one */
+
 /* `bad`: 1 if something is missing that has to be there, or does not fit. */
 static void check_result(const struct function *f, const union value *result, void *const *made, int bad) {
   const int64_t status = (int32_t)result->whole;
@@ -75,6 +77,10 @@ static void check_result(const struct function *f, const union value *result, vo
     complain("it is taken", status);
   for (int32_t k = 0; k < f->count; k++) {
     if (f->parameter[k].kind != MADE || made[k] == NULL) continue;
+    if (made[k] == &left_over) {
+      complain("an output is left as it was", status);
+      continue;
+    }
     if (status < 0) complain("an object besides a failure", status);
     destroy_object(f->parameter[k].type, made[k]);
   }
@@ -102,6 +108,7 @@ static void call(const struct pool *pool, const struct function *f, const int32_
     const struct parameter *p = &f->parameter[k];
     if (is_left_out(f, k, choice[k])) return;
     choose(pool, f, k, choice[k], &made[k], &argument[k]);
+    if (p->kind == MADE && argument[k].address) made[k] = &left_over;
     objects += p->kind == HANDLE && strcmp(p->type, "hooke_options") != 0;
     odd_ones += choice[k] != 0;
     misfits += is_misfit(pool, p, choice[k]);
