@@ -9,23 +9,19 @@
 #include "sanitized.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void compare_acceleration(const struct random_scene *scene, uint64_t seed) {
   const int64_t n = scene->canonical.particle_count;
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
-         *expected = new_doubles(3 * n);
+  OWN(double)
+  q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
+  *expected = new_doubles(3 * n);
   random_scene_shake(scene, seed, q, v);
   memset(found, 0x55, (size_t)(3 * n) * sizeof(double));
   check_ok(hooke_system_acceleration(scene->system, 0.125, q, v, found));
   canonical_acceleration(&scene->canonical, 0.125, q, v, expected);
   assert_true(largest(3 * n, expected) < 1e9);
   check_same_bits(3 * n, found, expected);
-  free(q);
-  free(v);
-  free(found);
-  free(expected);
 }
 
 /* An implicit step takes as long as fifty others. */
@@ -135,8 +131,9 @@ TEST(test_parts_are_springs) {
                       &parts);
   const struct canonical *c = &parts.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
-         *expected = new_doubles(3 * n);
+  OWN(double)
+  q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
+  *expected = new_doubles(3 * n);
   random_scene_shake(&parts, 4, q, v);
 
   hooke_system *listed = NULL;
@@ -156,10 +153,6 @@ TEST(test_parts_are_springs) {
   check_same_bits(3 * n, found, expected);
   hooke_system_destroy(listed);
   random_scene_destroy(&parts);
-  free(q);
-  free(v);
-  free(found);
-  free(expected);
 }
 
 /* The comparison itself: one unit in the last place, and another order of the springs, must be detected. */
@@ -171,7 +164,8 @@ TEST(test_planted_faults) {
       &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  OWN(double)
+  q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
   random_scene_shake(&scene, 12, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
 
@@ -200,10 +194,6 @@ TEST(test_planted_faults) {
   assert_true(largest_difference(3 * n, a, b) <
               1e-9 * largest(3 * n, a)); /* the same physics in another order */
   random_scene_destroy(&scene);
-  free(q);
-  free(v);
-  free(a);
-  free(b);
 }
 
 /* Triples in another order must be detected. */
@@ -213,7 +203,8 @@ TEST(test_planted_bending) {
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->triple_count;
   assert_true(m > 500);
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  OWN(double)
+  q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
   random_scene_shake(&scene, 32, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -232,10 +223,6 @@ TEST(test_planted_bending) {
   assert_true(first_difference(3 * n, a, b) >= 0);
   assert_true(largest_difference(3 * n, a, b) < 1e-9 * largest(3 * n, a));
   random_scene_destroy(&scene);
-  free(q);
-  free(v);
-  free(a);
-  free(b);
 }
 
 /* Tetrahedra in another order, or with two corners exchanged, must be detected. */
@@ -245,7 +232,8 @@ TEST(test_planted_altitude) {
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->tetrahedron_count;
   assert_true(m > 200);
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  OWN(double)
+  q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
   random_scene_shake(&scene, 42, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -277,10 +265,6 @@ TEST(test_planted_altitude) {
   canonical_acceleration(c, 0.0, q, v, b);
   assert_true(largest_difference(3 * n, a, b) > 1e-3 * largest(3 * n, a));
   random_scene_destroy(&scene);
-  free(q);
-  free(v);
-  free(a);
-  free(b);
 }
 
 /* Steps that are solved for: a velocity off by 1e-7 of the largest change, or 1e-3 with Verlet, which solves
@@ -296,7 +280,7 @@ TEST(test_planted_defects) {
                                                     .features = SCENE_DAMPING | SCENE_GRAVITY | SCENE_DRAG},
                       &scene);
   const int64_t size = 3 * scene.canonical.particle_count;
-  double *q = new_doubles(size), *v = new_doubles(size);
+  OWN(double) q = new_doubles(size), *v = new_doubles(size);
   random_scene_shake(&scene, 22, q, v);
   for (int m = 0; m < 4; m++) {
     hooke_state *state = start_state(scene.system);
@@ -323,8 +307,6 @@ TEST(test_planted_defects) {
     hooke_state_destroy(state);
   }
   random_scene_destroy(&scene);
-  free(q);
-  free(v);
 }
 
 /* FNV-1a of known bytes: 0.0 is eight zero bytes, and the bytes of 1.0 end in f0 3f. */

@@ -41,8 +41,8 @@ static void keep(const hooke_integrator *integrator, const hooke_state *state, s
 
 /* Stopped repeatedly, each time after more calls. */
 static void run_by_pieces(const hooke_system *system, struct run run, struct end *end, int64_t *stops) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  OWN(hooke_integrator) integrator = start_run(system, run);
+  OWN(hooke_state) state = start_state(system);
   struct listener listener = {.method = run.method, .stop_at = 1};
   check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
   int32_t status = hooke_integrator_run(integrator, state);
@@ -54,17 +54,13 @@ static void run_by_pieces(const hooke_system *system, struct run run, struct end
   }
   check_status(status, HOOKE_OK);
   keep(integrator, state, end);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 static void run_alone(const hooke_system *system, struct run run, struct end *end) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  OWN(hooke_integrator) integrator = start_run(system, run);
+  OWN(hooke_state) state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   keep(integrator, state, end);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* A solve of the cloth takes many products: stops occur within steps, too. */
@@ -91,7 +87,7 @@ TEST(test_a_stopped_run_goes_on) {
 
 /* Between frames, in steps by hand, and with error control. */
 TEST(test_every_method_is_heard) {
-  hooke_system *system = small_oscillator(1.0);
+  OWN(hooke_system) system = small_oscillator(1.0);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct listener listener = {.method = hooke_method_name(k), .stop_at = 3};
     if (!hooke_method_is_built(listener.method)) continue;
@@ -113,11 +109,10 @@ TEST(test_every_method_is_heard) {
     hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
 }
 
 TEST(test_seconds) {
-  hooke_system *system = small_oscillator(1.0);
+  OWN(hooke_system) system = small_oscillator(1.0);
   struct listener listener = {.method = "verlet"};
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 10.0});
@@ -135,5 +130,4 @@ TEST(test_seconds) {
   check_between((double)listener.calls, 1.0, 10000.0);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }

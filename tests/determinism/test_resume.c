@@ -9,7 +9,6 @@
 #include "sanitized.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -207,7 +206,7 @@ static const char *const references[] = {"rk8pd", "arkode-esdirk"};
 
 static void check_scene(const struct moving_scene *scene, int64_t tries) {
   struct random_source random = {(uint64_t)(scene - moving_scenes) + 1};
-  hooke_system *system = moving_system(scene);
+  OWN(hooke_system) system = moving_system(scene);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     if (hooke_method_is_built(hooke_method_name(m)))
       check_method(scene, system, hooke_method_name(m), tries, &random);
@@ -215,7 +214,6 @@ static void check_scene(const struct moving_scene *scene, int64_t tries) {
   for (int m = 0; m < 2; m++) {
     if (hooke_method_is_built(references[m])) check_method(scene, system, references[m], tries, &random);
   }
-  hooke_system_destroy(system);
 }
 
 TEST(resumed_runs_end_in_the_same_bits) {
@@ -229,7 +227,7 @@ TEST(threads_change_nothing) {
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
   const struct moving_scene *scene = &moving_scenes[MOVING_LARGE];
   struct random_source random = {17};
-  hooke_system *system = moving_system(scene);
+  OWN(hooke_system) system = moving_system(scene);
   for (int m = 0; m < 4; m++) {
     if (!hooke_method_is_built(methods[m]) || left_out(m, 3)) continue;
     struct run run = run_of(scene, methods[m], 0);
@@ -239,7 +237,6 @@ TEST(threads_change_nothing) {
       check_stops(system, run, &whole, calls, &random, methods[m]);
     free(whole.row);
   }
-  hooke_system_destroy(system);
 }
 
 /* In the same process, from the state where an observer stopped it, repeatedly. */

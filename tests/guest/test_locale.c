@@ -7,7 +7,6 @@
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- a locale with a comma, created here: a machine need not have one ---- */
@@ -85,7 +84,7 @@ static void add_file(struct output *out, const char *path) {
 
 static void refusals(struct output *out) {
   hooke_options *options;
-  hooke_system *system;
+  OWN(hooke_system) system = NULL;
   const double q[] = {0, 0, 0}, bad[] = {0.5, NAN, 1.5};
   check_ok(hooke_options_create("run", &options));
   check_status(hooke_options_set_text(options, "step", "-1.25e-3"), HOOKE_BAD_VALUE);
@@ -108,14 +107,13 @@ static void refusals(struct output *out) {
   add(out, hooke_last_error());
   check_status(hooke_system_add_particles(system, 1, bad, NULL, 1, q, NULL), HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
-  hooke_system_destroy(system);
 }
 
 static void divergence(struct output *out) {
-  hooke_system *system = small_oscillator(100.0);
+  OWN(hooke_system) system = small_oscillator(100.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "forward-euler", .step = 0.0625, .duration = 100.0});
-  hooke_state *state = start_state(system);
+  OWN(hooke_state) state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   add(out, hooke_last_error());
 #if HOOKE_HAVE_LAPACK
@@ -128,9 +126,7 @@ static void divergence(struct output *out) {
   }
   hooke_measurement_destroy(why);
 #endif
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #if HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS && HOOKE_HAVE_HDF5

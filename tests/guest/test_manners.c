@@ -17,7 +17,6 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -196,10 +195,10 @@ static void tour_methods(void) {
 }
 
 static void tour_divergence(void) {
-  hooke_system *system = small_oscillator(100.0);
+  OWN(hooke_system) system = small_oscillator(100.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "forward-euler", .step = 0.5, .duration = 500.0});
-  hooke_state *state = start_state(system);
+  OWN(hooke_state) state = start_state(system);
   REFUSED(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
 #if HOOKE_HAVE_LAPACK
   hooke_measurement *why = NULL;
@@ -208,9 +207,7 @@ static void tour_divergence(void) {
   ASK(hooke_measurement_text(why, "why", 0, "sentence"));
   ASK(hooke_measurement_destroy(why));
 #endif
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #if HOOKE_HAVE_HDF5 && HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS

@@ -58,10 +58,11 @@ static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
 }
 
 static void run(struct watch *watch, const char *method, double step) {
-  hooke_integrator *integrator;
-  hooke_state *state;
+  OWN(hooke_integrator) integrator = NULL;
+  OWN(hooke_state) state = NULL;
   watch->count = 0;
-  hooke_options *options = options_with("run", "method=%s step=%.17g duration=0.8 every=0.1", method, step);
+  OWN(hooke_options)
+  options = options_with("run", "method=%s step=%.17g duration=0.8 every=0.1", method, step);
   check_ok(hooke_integrator_create(watch->system, options, &integrator));
   check_ok(hooke_integrator_on_step(integrator, 1, on_step, watch));
   check_ok(hooke_integrator_on_frame(integrator, on_frame, watch));
@@ -69,9 +70,6 @@ static void run(struct watch *watch, const char *method, double step) {
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(watch->count, FRAMES);
   hk_balance_release(&watch->balance);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
 }
 
 static int32_t holds(const char *method, int driven,
@@ -133,7 +131,7 @@ TEST(wrong_heat_is_seen) {
 
 /* Missing work is detected, too. */
 TEST(wrong_work_is_seen) {
-  hooke_system *system = damped_chain(1);
+  OWN(hooke_system) system = damped_chain(1);
   struct watch coarse = {.system = system}, fine = coarse;
   double largest, bound;
   run(&coarse, "verlet", 1e-3);
@@ -146,5 +144,4 @@ TEST(wrong_work_is_seen) {
   assert_false(hk_balance_holds(FRAMES, coarse.residual, fine.residual, hk_balance_floor(&fine.balance),
                                 &largest, &bound));
   check_between(largest, bound, INFINITY);
-  hooke_system_destroy(system);
 }

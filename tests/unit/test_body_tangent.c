@@ -8,7 +8,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { CORNERS = 5, ALL = 2 * CORNERS };
@@ -107,7 +106,7 @@ TEST(derivative_is_that_of_differences) {
 /* Of springs that factors make stiffer as of springs that are. */
 TEST(stiffer_springs_turn_more) {
   const double twice[CORNERS] = {2.0, 2.0, 2.0, 2.0, 2.0};
-  hooke_system *soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
+  OWN(hooke_system) soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
   struct hk_rigid factors, found;
   check_ok(hk_rigid_create(soft, soft->position, twice, &factors));
   check_ok(hk_rigid_create(stiff, stiff->position, NULL, &found));
@@ -117,6 +116,4 @@ TEST(stiffer_springs_turn_more) {
               1e-12);
   hk_rigid_release(&factors);
   hk_rigid_release(&found);
-  hooke_system_destroy(soft);
-  hooke_system_destroy(stiff);
 }

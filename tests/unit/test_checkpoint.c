@@ -11,7 +11,6 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -95,16 +94,14 @@ static int32_t stop_at(int64_t step, const hooke_state *state, void *ctx) {
 
 /* A run that was stopped after `stop` steps; the file is that of the run "first". */
 static void write_stopped(const hooke_system *system, struct run run, int64_t stop, double *numbers) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  OWN(hooke_integrator) integrator = start_run(system, run);
+  OWN(hooke_state) state = start_state(system);
   check_ok(hooke_integrator_on_step(integrator, 1, stop_at, &stop));
   check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
   check_ok(hooke_checkpoint_write(path, integrator, state, "first"));
   numbers[0] = hooke_state_time(state);
   memcpy(numbers + 1, hooke_state_position(state), SIZE * sizeof(double));
   memcpy(numbers + 1 + SIZE, hooke_state_velocity(state), SIZE * sizeof(double));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 struct reader {

@@ -39,9 +39,9 @@ static double potential_at(struct hk_descent *descent, const hooke_integrator *i
 }
 
 TEST(test_wrong_solution) {
-  hooke_system *system = make_pair(0);
+  OWN(hooke_system) system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
-  hooke_state *state = start_state(system);
+  OWN(hooke_state) state = start_state(system);
   struct hk_stage *stage = it->own;
   double slack = 0.0;
   check_ok(hooke_integrator_step(it, state, 1));
@@ -52,9 +52,7 @@ TEST(test_wrong_solution) {
   check_between(slack, 0.0, 1e-14);
   assert_true(potential_at(&stage->descent, it, right, &slack) < start);
   assert_true(potential_at(&stage->descent, it, wrong, &slack) > start + 0.1);
-  hooke_state_destroy(state);
   hooke_integrator_destroy(it);
-  hooke_system_destroy(system);
 }
 
 static int32_t plant(struct hk_stage *stage) {
@@ -70,7 +68,7 @@ static int32_t plant(struct hk_stage *stage) {
 
 /* A first solution on the other side: the stage ends at the right one. */
 TEST(test_planted) {
-  hooke_system *system = make_pair(0);
+  OWN(hooke_system) system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   const double start[6] = {0.0, 0.0, 0.0, START, 0.0, 0.0}, still[6] = {0}, place[6] = {0.0, START};
   const struct hk_equations equations = {0.0, STEP, place, still, STEP};
@@ -78,13 +76,11 @@ TEST(test_planted) {
   check_ok(hk_stage_solve_by(it->own, &equations, plant));
   check_close(it->motion->q[0][1], START - STEP * KAPPA * (START - 1.0) / (1.0 + KAPPA * STEP), 1e-9);
   hooke_integrator_destroy(it);
-  hooke_system_destroy(system);
 }
 
 TEST(test_no_potential) {
-  hooke_system *system = make_pair(1);
+  OWN(hooke_system) system = make_pair(1);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   assert_null(((struct hk_stage *)it->own)->descent.rows);
   hooke_integrator_destroy(it);
-  hooke_system_destroy(system);
 }

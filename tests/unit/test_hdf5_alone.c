@@ -52,10 +52,10 @@ static void *open_often(void *arg) {
 
 TEST(test_files_at_once) {
   struct reader reader[THREADS];
-  hooke_system *system = small_oscillator(10.0);
+  OWN(hooke_system) system = small_oscillator(10.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = 0.125, .duration = 0.25});
-  hooke_state *state = start_state(system);
+  OWN(hooke_state) state = start_state(system);
   char path[64];
   for (int t = 0; t < THREADS; t++) {
     hooke_trajectory *trajectory;
@@ -79,9 +79,7 @@ TEST(test_files_at_once) {
     remove(path);
     assert_int_equal(reader[t].fine_count, OPENINGS);
   }
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #else

@@ -68,7 +68,7 @@ static struct watch watch_run(const hooke_system *system, const char *method, do
 }
 
 TEST(every_checked_frame_has_its_own) {
-  hooke_system *system = hanging_rope(0);
+  OWN(hooke_system) system = hanging_rope(0);
   const char *const methods[] = {"symplectic-euler", "rk4", "backward-euler"};
   for (int k = 0; k < 3; k++) {
     const struct watch watch = watch_run(system, methods[k], 1e-3, HOOKE_OK);
@@ -77,21 +77,18 @@ TEST(every_checked_frame_has_its_own) {
   }
   if (hooke_method_is_built("cvode-adams"))
     assert_int_equal(watch_run(system, "cvode-adams", 0.0, HOOKE_OK).known, FRAMES);
-  hooke_system_destroy(system);
 }
 
 TEST(frames_after_divergence_have_none) {
-  hooke_system *system = hanging_rope(0);
+  OWN(hooke_system) system = hanging_rope(0);
   const struct watch watch = watch_run(system, "symplectic-euler", 0.02, HOOKE_DIVERGED);
   assert_in_range(watch.known, 1, FRAMES - 2);
   assert_true(watch.frames > watch.known);
-  hooke_system_destroy(system);
 }
 
 TEST(energy_from_outside_is_not_followed) {
-  hooke_system *system = hanging_rope(1);
+  OWN(hooke_system) system = hanging_rope(1);
   const struct watch watch = watch_run(system, "symplectic-euler", 1e-3, HOOKE_OK);
   assert_int_equal(watch.frames, FRAMES);
   assert_int_equal(watch.known, 0);
-  hooke_system_destroy(system);
 }

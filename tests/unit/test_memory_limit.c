@@ -13,7 +13,6 @@
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -43,16 +42,14 @@ static hooke_options *part_options(const char *kind, int64_t size[3]) {
 /* Up to 2^31 - 1 of everything memory is the limit, beyond it the numbers. */
 static void check_part(const char *kind, const char *family, int64_t a, int64_t b, int64_t c,
                        int32_t expected, const char *count) {
-  hooke_system *system = new_system(LITTLE);
+  OWN(hooke_system) system = new_system(LITTLE);
   int64_t size[3] = {a, b, c};
-  hooke_options *options = part_options(kind, size);
+  OWN(hooke_options) options = part_options(kind, size);
   if (family) check_ok(hooke_options_set_number(options, family, 1.0));
   check_status(hooke_system_add_part(system, kind, "", options, NULL, NULL), expected);
   check_message("of memory");
   check_message(count);
   assert_int_equal(hooke_system_particle_count(system), 0);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 TEST(parts_stop_at_the_edge_of_32_bits) {
@@ -77,7 +74,7 @@ TEST(parts_stop_at_the_edge_of_32_bits) {
 }
 
 TEST(a_mesh_stops_at_the_edge_of_32_bits) {
-  hooke_options *options;
+  OWN(hooke_options) options = NULL;
   const double vertex[3] = {0};
   const int64_t triangle[3] = {0};
   check_ok(hooke_options_create("mesh", &options));
@@ -86,7 +83,6 @@ TEST(a_mesh_stops_at_the_edge_of_32_bits) {
     check_status(hooke_mesh_set(options, counts[k], vertex, 1, triangle), HOOKE_BAD_VALUE);
     check_status(hooke_mesh_set(options, 1, vertex, counts[k], triangle), HOOKE_BAD_VALUE);
   }
-  hooke_options_destroy(options);
 }
 
 /* ---- systems by hand ---- */
@@ -103,8 +99,8 @@ static hooke_options *altitude_options(void) {
 
 /* The arrays have one element: nothing of them is read. */
 TEST(systems_stop_at_the_edge_of_32_bits) {
-  hooke_system *system = new_system(LITTLE);
-  hooke_options *spring = spring_options(), *altitude = altitude_options();
+  OWN(hooke_system) system = new_system(LITTLE);
+  OWN(hooke_options) spring = spring_options(), *altitude = altitude_options();
   const double one = 1.0, place[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const int64_t ends[4] = {0, 1, 2, 3};
   check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &one, NULL));
@@ -142,16 +138,13 @@ TEST(systems_stop_at_the_edge_of_32_bits) {
   check_status(hooke_system_add_particles(system, 1, place, NULL, 1, &one, NULL), HOOKE_NO_MEMORY);
   check_status(hooke_system_limit_memory(system, -1.0), HOOKE_BAD_VALUE);
   check_status(hooke_system_limit_memory(system, (double)NAN), HOOKE_BAD_VALUE);
-  hooke_options_destroy(spring);
-  hooke_options_destroy(altitude);
-  hooke_system_destroy(system);
 }
 
 /* A part that fails leaves the counts unchanged. */
 TEST(what_is_taken_back_does_not_count) {
-  hooke_system *system = new_system(0.0);
+  OWN(hooke_system) system = new_system(0.0);
   int64_t size[3] = {10, 10, 0};
-  hooke_options *options = part_options("cloth", size);
+  OWN(hooke_options) options = part_options("cloth", size);
   check_ok(hooke_options_set_number(options, "structural.stiffness", 1.0));
   check_ok(hooke_options_set_number(options, "bending", 1.0));
   check_ok(hooke_system_add_part(system, "cloth", "", options, NULL, NULL));
@@ -161,8 +154,6 @@ TEST(what_is_taken_back_does_not_count) {
   check_ok(hooke_options_set_number(options, "pinned", 100.0));
   check_status(hooke_system_add_part(system, "cloth", "", options, NULL, NULL), HOOKE_BAD_VALUE);
   check_close(hk_system_needed_bytes(system, (struct hk_more){0}), before, 0.0);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* ---- stated needs ---- */
@@ -281,12 +272,10 @@ static hooke_options *limits(double gigabytes, int32_t outside) {
 }
 
 static void check_parse(const char *text, double gigabytes, int32_t expected, const char *message) {
-  hooke_scene *scene = NULL;
-  hooke_options *options = limits(gigabytes, 0);
+  OWN(hooke_scene) scene = NULL;
+  OWN(hooke_options) options = limits(gigabytes, 0);
   check_status(hooke_scene_parse(text, (int64_t)strlen(text), "s", NULL, options, &scene), expected);
   if (message) check_message(message);
-  hooke_scene_destroy(scene);
-  hooke_options_destroy(options);
 }
 
 TEST(scenes_that_are_too_large_are_refused) {
@@ -339,12 +328,10 @@ static void write_text(const char *path, const char *text) {
 }
 
 static void check_load(const char *path, int32_t outside, int32_t expected, const char *message) {
-  hooke_scene *scene = NULL;
-  hooke_options *options = limits(0.0, outside);
+  OWN(hooke_scene) scene = NULL;
+  OWN(hooke_options) options = limits(0.0, outside);
   check_status(hooke_scene_load(path, options, &scene), expected);
   if (message) check_message(message);
-  hooke_scene_destroy(scene);
-  hooke_options_destroy(options);
 }
 
 /* The pipe has no writer: the alarm ends a process that waits for it. */

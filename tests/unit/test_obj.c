@@ -4,7 +4,6 @@
 #include "io/scene/obj.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -158,14 +157,13 @@ static int32_t read_file(const char *text, double weld, hooke_options **options)
 }
 
 TEST(a_file_is_its_numbers) {
-  hooke_options *options;
+  OWN(hooke_options) options = NULL;
   check_ok(read_file(FOUR "f 1 2 3 4\n", 0.0, &options));
   assert_int_equal(hooke_options_number_count(options, "vertices"), 12);
   check_same_bits(6, hooke_options_numbers(options, "triangles"), ((double[]){0, 1, 2, 0, 2, 3}));
   assert_false(hooke_options_is_set(options, "file"));
   check_status(hooke_mesh_read("other.obj", options), HOOKE_BAD_VALUE);
   check_message("a file, or vertices and triangles");
-  hooke_options_destroy(options);
 }
 
 TEST(faults_of_the_surface_have_their_line) {
@@ -196,12 +194,11 @@ TEST(faults_of_the_surface_have_their_line) {
 }
 
 TEST(a_file_has_to_be_there) {
-  hooke_options *options;
+  OWN(hooke_options) options = NULL;
   check_ok(hooke_options_create("mesh", &options));
   check_status(hooke_mesh_read("/tmp/hooke-no-such.obj", options), HOOKE_BAD_VALUE);
   check_message("/tmp/hooke-no-such.obj: cannot be opened: No such file");
   check_status(hooke_mesh_read("/tmp", options), HOOKE_BAD_VALUE);
   check_message("directory");
   check_status(hooke_mesh_read(NULL, options), HOOKE_BAD_VALUE);
-  hooke_options_destroy(options);
 }

@@ -6,7 +6,6 @@
 
 #include <locale.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const struct hk_option_row family_rows[] = {
@@ -242,7 +241,7 @@ TEST(words_and_numbers_mix_where_allowed) {
 TEST(large_arrays_are_copied) {
   hooke_options *o = *prepared;
   enum { COUNT = 1000000 };
-  double *values = new_doubles(COUNT);
+  OWN(double) values = new_doubles(COUNT);
   for (int k = 0; k < COUNT; k++)
     values[k] = 1 + k;
   check_ok(hooke_options_set_numbers(o, "rest_length", COUNT, values));
@@ -251,7 +250,6 @@ TEST(large_arrays_are_copied) {
   check_status(hooke_options_set_numbers(o, "rest_length", COUNT, values), HOOKE_BAD_VALUE);
   check_message("rest_length[999999]: -1 is not allowed");
   check_close(hooke_options_numbers(o, "rest_length")[COUNT - 1], COUNT, 0);
-  free(values);
 }
 
 /* ---- refusals ---- */

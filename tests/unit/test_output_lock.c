@@ -11,7 +11,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/wait.h>
@@ -80,12 +79,11 @@ static void write_frames(hooke_trajectory *trajectory, int64_t from, int64_t to)
 }
 
 static void check_frames(int64_t count) {
-  hooke_record *record;
+  OWN(hooke_record) record = NULL;
   check_ok(hooke_record_open(path, &record));
   assert_int_equal(hooke_record_count(record, "frames"), count);
   for (int64_t k = 0; k < count; k++)
     check_ok(hooke_record_check(record, k));
-  hooke_record_close(record);
 }
 
 /* ---- during a run ---- */
@@ -124,8 +122,8 @@ TEST(readers_come_and_go) {
 }
 
 TEST(one_alone_goes_on_with_it) {
-  hooke_integrator *other = start_run(cloth, fixed), *third = start_run(cloth, fixed);
-  hooke_state *standing = start_state(cloth);
+  OWN(hooke_integrator) other = start_run(cloth, fixed), *third = start_run(cloth, fixed);
+  OWN(hooke_state) standing = start_state(cloth);
   hooke_trajectory *first = create(), *second = NULL, *none;
   write_frames(first, 0, 3);
   check_status(hooke_trajectory_resume(path, cloth, other, standing, &none), HOOKE_IO_FAILED);
@@ -137,9 +135,6 @@ TEST(one_alone_goes_on_with_it) {
   check_taken(path);
   check_ok(hooke_trajectory_close(second, HOOKE_STOPPED));
   check_frames(3);
-  hooke_state_destroy(standing);
-  hooke_integrator_destroy(third);
-  hooke_integrator_destroy(other);
 }
 
 /* ---- processes ---- */

@@ -4,7 +4,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* All queries of a committed system about its springs. */
@@ -51,13 +50,12 @@ static hooke_options *cloth_options(double nu, double nv) {
 }
 
 static void check_position(const hooke_system *system, int64_t particle, double x, double y, double z) {
-  hooke_state *state;
+  OWN(hooke_state) state = NULL;
   check_ok(hooke_state_create(system, &state));
   const double *q = hooke_state_position(state) + 3 * particle;
   check_close(q[0], x, 1e-15);
   check_close(q[1], y, 1e-15);
   check_close(q[2], z, 1e-15);
-  hooke_state_destroy(state);
 }
 
 static void check_spring(const struct members *s, int64_t k, int64_t first, int64_t second) {
@@ -74,8 +72,8 @@ static void check_equal_bits(const struct members *s, int64_t begin, int64_t end
 }
 
 TEST(a_rope_is_a_line) {
-  hooke_system *system = new_system();
-  hooke_options *options = rope_options(7);
+  OWN(hooke_system) system = new_system();
+  OWN(hooke_options) options = rope_options(7);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 100));
   check_ok(hooke_options_set_number(options, "stretch.damping", 0.5));
   check_ok(hooke_options_set_number(options, "bend.stiffness", 3));
@@ -109,8 +107,6 @@ TEST(a_rope_is_a_line) {
   check_close(s.kappa[7], 3 / piece, 1e-13);
   check_close(s.gamma[7], 0.0, 0.0);
   release(&s);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 TEST(a_rope_ends_where_it_is_told) {
@@ -144,8 +140,8 @@ static hooke_options *full_cloth(void) {
 }
 
 TEST(a_cloth_has_its_springs_in_order) {
-  hooke_system *system = new_system();
-  hooke_options *options = full_cloth();
+  OWN(hooke_system) system = new_system();
+  OWN(hooke_options) options = full_cloth();
   check_ok(hooke_system_add_part(system, "cloth", "flag", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_particle_count(system), NU * NV);
@@ -200,21 +196,17 @@ TEST(a_cloth_has_its_springs_in_order) {
   check_position(system, NU * NV - 1, 1.3, 0.7, 1.4);
   hooke_state_destroy(state);
   release(&s);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 TEST(a_family_that_is_absent_has_no_springs) {
-  hooke_system *system = new_system();
-  hooke_options *options = cloth_options(3, 3);
+  OWN(hooke_system) system = new_system();
+  OWN(hooke_options) options = cloth_options(3, 3);
   check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_group_count(system, "springs"), 1);
   assert_int_equal(hooke_system_count(system, "springs"), 8);
   assert_string_equal(hooke_system_group_name(system, "springs", 0), "cloth0.shear");
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* Constrained particles of a system as text: "x..x". */
@@ -227,15 +219,13 @@ static void held(const hooke_system *system, char *text) {
 
 static void check_pinned(const char *kind, const char *pinned, const char *expected) {
   char found[64];
-  hooke_system *system = new_system();
-  hooke_options *options = strcmp(kind, "rope") == 0 ? rope_options(4) : cloth_options(4, 3);
+  OWN(hooke_system) system = new_system();
+  OWN(hooke_options) options = strcmp(kind, "rope") == 0 ? rope_options(4) : cloth_options(4, 3);
   check_ok(hooke_options_set_text(options, "pinned", pinned));
   check_ok(hooke_system_add_part(system, kind, NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   held(system, found);
   assert_string_equal(found, expected);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 TEST(pinned_particles_have_names) {
@@ -251,8 +241,8 @@ TEST(pinned_particles_have_names) {
 }
 
 TEST(parts_come_after_groups_and_are_counted) {
-  hooke_system *system = new_system();
-  hooke_options *options = rope_options(2);
+  OWN(hooke_system) system = new_system();
+  OWN(hooke_options) options = rope_options(2);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 1));
   check_ok(hooke_options_set_text(options, "pinned", "start"));
   const double position[] = {5, 0, 0, 6, 0, 0}, mass = 2;
@@ -280,13 +270,11 @@ TEST(parts_come_after_groups_and_are_counted) {
   held(system, found);
   assert_string_equal(found, "..x..x..x..");
   release(&s);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* A refused part leaves no trace: the system is then built as if it had never been tried. */
 static void check_refused(const char *kind, hooke_options *options, int32_t status, const char *message) {
-  hooke_system *system = new_system();
+  OWN(hooke_system) system = new_system();
   const double position[] = {0, 0, 0}, mass = 1;
   check_ok(hooke_system_add_particles(system, 1, position, NULL, 1, &mass, NULL));
   int64_t first = -7, count = -7;
@@ -295,7 +283,7 @@ static void check_refused(const char *kind, hooke_options *options, int32_t stat
   assert_int_equal(first, -7);
   assert_int_equal(count, -7);
   assert_int_equal(hooke_system_particle_count(system), 1);
-  hooke_options *good = rope_options(3);
+  OWN(hooke_options) good = rope_options(3);
   check_ok(hooke_options_set_number(good, "stretch.stiffness", 1));
   check_ok(hooke_system_add_part(system, "rope", NULL, good, &first, &count));
   assert_int_equal(first, 1);
@@ -305,9 +293,7 @@ static void check_refused(const char *kind, hooke_options *options, int32_t stat
   char found[32];
   held(system, found);
   assert_string_equal(found, ".....");
-  hooke_options_destroy(good);
   hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 TEST(bad_parts_are_refused) {
@@ -344,7 +330,7 @@ TEST(impossible_sizes_are_refused_before_anything_is_allocated) {
   check_refused("cloth", cloth_options(2147483647, 2147483647), HOOKE_BAD_VALUE, "2147483647 x 2147483647");
   check_refused("rope", rope_options(2147483647), HOOKE_BAD_VALUE, "segments: a rope of 2147483647 segments");
 
-  hooke_options *options = cloth_options(2, 2);
+  OWN(hooke_options) options = cloth_options(2, 2);
   check_status(hooke_options_set_numbers(options, "size", 2, (double[]){1, 5}), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_numbers(options, "size", 2, (double[]){2.5, 5}), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_numbers(options, "size", 3, (double[]){2, 2, 2}), HOOKE_BAD_VALUE);
@@ -353,17 +339,14 @@ TEST(impossible_sizes_are_refused_before_anything_is_allocated) {
   check_status(hooke_options_set_number(options, "structural.stiffness", -1), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_text(options, "pinned", "start"), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_number(options, "pinned", -1), HOOKE_BAD_VALUE);
-  hooke_options_destroy(options);
 }
 
 TEST(a_committed_system_takes_no_part) {
-  hooke_system *system = new_system();
-  hooke_options *options = rope_options(1);
+  OWN(hooke_system) system = new_system();
+  OWN(hooke_options) options = rope_options(1);
   check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   check_status(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL), HOOKE_BAD_CALL);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 TEST(kinds_can_be_listed) {

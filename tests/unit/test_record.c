@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -18,12 +17,10 @@ static hooke_system *cloth(void) {
 }
 
 TEST(a_cloth_without_origin_begins_at_zero) {
-  hooke_system *system = cloth();
-  hooke_state *state = start_state(system);
+  OWN(hooke_system) system = cloth();
+  OWN(hooke_state) state = start_state(system);
   assert_memory_equal(hooke_state_position(state), ((double[]){0, 0, 0}), 3 * sizeof(double));
   assert_true(hooke_state_position(state)[9] == 1.0);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 #if HOOKE_HAVE_HDF5

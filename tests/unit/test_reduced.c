@@ -7,7 +7,6 @@
 #include "run.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Rows of x y z and x, y, z apart. */
@@ -50,7 +49,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
                            double beta, double rounding) {
   const int64_t n = hooke_system_particle_count(system), size = 3 * n;
   struct random_source source = {17};
-  double *b = new_doubles(size), *x = new_doubles(size);
+  OWN(double) b = new_doubles(size), *x = new_doubles(size);
   hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
   struct hk_reduced reduced;
   struct hk_solution solution;
@@ -81,8 +80,6 @@ static void check_solution(const hooke_system *system, const double *q, const do
   free(found);
   hk_reduced_release(&reduced);
   hooke_integrator_destroy(integrator);
-  free(b);
-  free(x);
 }
 
 static const double weights[][2] = {{0.0, 0.01},  {0.0, 0.5},  {1e-4, 1e-2},

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -283,7 +282,8 @@ static hooke_scene *parse(const char *quoted) {
 }
 
 TEST(a_whole_scene_becomes_a_system) {
-  hooke_scene *scene = parse(
+  OWN(hooke_scene)
+  scene = parse(
       "{'hooke': 1, 'title': 'net', 'gravity': [0, -9.81, 0], 'drag': 0.25,"
       " 'particles': {'position': [[0,0,0],[1,0,0.5],[2,0.25,0]], 'velocity': [[0,0,0],[1,2,3],[4,5,6]],"
       "               'mass': [1,2,4], 'pinned': [0]},"
@@ -329,11 +329,10 @@ TEST(a_whole_scene_becomes_a_system) {
   assert_int_equal(hooke_options_is_set(run, "every"), 1);
   assert_int_equal(hooke_options_is_set(run, "duration"), 0);
   assert_int_equal(hooke_options_is_set(run, "rtol"), 0);
-  hooke_scene_destroy(scene);
 }
 
 TEST(what_is_not_named_is_not_computed) {
-  hooke_scene *scene = parse("{'hooke': 1, " TWO "}");
+  OWN(hooke_scene) scene = parse("{'hooke': 1, " TWO "}");
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   assert_int_equal(hooke_system_count(system, "forces"), 0);
@@ -341,12 +340,10 @@ TEST(what_is_not_named_is_not_computed) {
   assert_int_equal(hooke_system_count(system, "free"), 2);
   assert_string_equal(hooke_scene_text(scene, "title"), "");
   assert_int_equal(hooke_options_is_set(hooke_scene_run_options(scene), "method"), 0);
-  hooke_state *initial = NULL;
+  OWN(hooke_state) initial = NULL;
   check_ok(hooke_state_create(system, &initial));
   for (int k = 0; k < 6; k++)
     check_close(hooke_state_velocity(initial)[k], 0, 0);
-  hooke_state_destroy(initial);
-  hooke_scene_destroy(scene);
 }
 
 /* Explicit particles come first, then those of parts in order; explicit springs first, then those of parts.
@@ -516,11 +513,11 @@ TEST(syntax_errors_give_line_and_column) {
 
 /* Commit finds faults that the parser does not; its message still has a position in the text. */
 TEST(commit_gives_the_place_too) {
-  hooke_scene *scene = parse("{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
-                             " 'velocity': [[0,0,3]]}}");
+  OWN(hooke_scene)
+  scene = parse("{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
+                " 'velocity': [[0,0,3]]}}");
   check_status(hooke_scene_commit(scene), HOOKE_BAD_VALUE);
   check_message("test.json:2:20: particles.velocity[0][2]: ");
-  hooke_scene_destroy(scene);
 }
 
 TEST(files_need_a_folder) {

@@ -6,7 +6,6 @@
 #include "model/sum/tiled.h"
 #include "random.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 struct one {
@@ -118,14 +117,13 @@ static void add_group(const struct sheet *sheet, int group, int lawful, hooke_sy
     sheet->ends[2 * count] = sheet->number[p];
     sheet->ends[2 * count++ + 1] = sheet->number[p + ahead[group]];
   }
-  hooke_options *options;
+  OWN(hooke_options) options = NULL;
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", lawful ? 1 : count, sheet->stiffness));
   check_ok(hooke_options_set_number(options, "damping", group == 2 ? 0.0 : 0.5));
   check_ok(hooke_options_set_number(options, "rest_scale", 0.98));
   if (group == 1) check_ok(hooke_options_set_text(options, "compression", "false"));
   check_ok(hooke_system_add_springs(system, "net", count, sheet->ends, options));
-  hooke_options_destroy(options);
 }
 
 static void test_sheet(int64_t side, int shuffled, int lawful) {

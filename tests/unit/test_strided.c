@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { PARTICLES = 1500, MOST_STRETCH = 700 };
@@ -23,7 +22,7 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   const int pulls = random_whole(source, 0, 3) == 0, turned = random_whole(source, 0, 1) == 0;
   const int64_t offset = random_whole(source, 1, random_whole(source, 0, 1) ? 3 : particles / 4);
   int64_t *ends = malloc((size_t)(2 * particles) * sizeof *ends), count = 0;
-  double *kappa = new_doubles(particles), *gamma = new_doubles(particles), *rest = new_doubles(particles);
+  OWN(double) kappa = new_doubles(particles), *gamma = new_doubles(particles), *rest = new_doubles(particles);
   for (int64_t l = random_whole(source, 0, 20); l + 8 + offset < particles;
        l += sparse ? 90 : random_whole(source, 1, random_whole(source, 0, 1) ? 12 : 300)) {
     const int64_t length = random_whole(source, 8, sparse ? 20 : MOST_STRETCH);
@@ -39,17 +38,13 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   }
   char name[32];
   snprintf(name, sizeof name, "%s%d", pulls ? "pull" : "push", group);
-  hooke_options *options = options_with("springs", "law=length");
+  OWN(hooke_options) options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", count, gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", count, rest));
   check_ok(hooke_options_set_text(options, "compression", pulls ? "false" : "true"));
   check_ok(hooke_system_add_springs(system, name, count, ends, options));
-  hooke_options_destroy(options);
   free(ends);
-  free(kappa);
-  free(gamma);
-  free(rest);
 }
 
 static hooke_system *build(struct random_source *source, int64_t particles, int groups, int sparse, double *q,
@@ -126,7 +121,7 @@ TEST(test_lanes_of_ropes) {
   const double stiffness = 10.0, mass = 1.0;
   for (int p = 0; p < 90; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7), q[3 * p + 2] = 0.0;
-  hooke_system *system = small_system(90, q, NULL, mass, 0);
+  OWN(hooke_system) system = small_system(90, q, NULL, mass, 0);
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 1, &stiffness));
   for (int group = 0; group < 7; group++) {
@@ -141,7 +136,6 @@ TEST(test_lanes_of_ropes) {
   assert_int_equal(spring_count(system, 0), 3 * 29);
   assert_int_equal(spring_count(system, 1), 3 * 28);
   assert_int_equal(spring_count(system, 2), 29);
-  hooke_system_destroy(system);
 }
 
 /* Ropes of one material are a strided batch that reads no parameters, those of several one that does. */
@@ -150,7 +144,7 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   int64_t ends[2 * 29];
   for (int p = 0; p < 30 * ropes; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7);
-  hooke_system *system = small_system(30 * ropes, q, NULL, mass, 0);
+  OWN(hooke_system) system = small_system(30 * ropes, q, NULL, mass, 0);
   hooke_options *options = options_with("springs", "rest_length=0.09");
   for (int rope = 0; rope < ropes; rope++) {
     for (int k = 0; k < 29; k++)
@@ -164,13 +158,11 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   assert_int_equal(system->strided->count, 1);
   assert_int_equal(system->strided->batch[0].shape, shape);
   struct canonical c;
-  double *v = new_doubles(3 * 30 * ropes);
+  OWN(double) v = new_doubles(3 * 30 * ropes);
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
   free(q);
-  free(v);
 }
 
 TEST(test_lanes_of_materials) {
@@ -224,11 +216,10 @@ static int64_t list(struct random_source *source, const struct listing *listing,
 /* Random numbers up to `most`, or `most`. */
 static void set_each(struct random_source *source, hooke_options *options, const char *name, int64_t count,
                      double most, int own) {
-  double *value = new_doubles(count);
+  OWN(double) value = new_doubles(count);
   for (int64_t k = 0; k < count; k++)
     value[k] = own ? random_between(source, 0.1, 1.0) * most : most;
   check_ok(hooke_options_set_numbers(options, name, own ? count : 1, value));
-  free(value);
 }
 
 /* Rest lengths of flat sheets are those of rounded positions. */
@@ -258,8 +249,8 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
  * order; springs in random order form no strided batches. */
 static void check_listing(uint64_t seed, struct listing listing) {
   struct random_source source = {seed};
-  double *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
-  hooke_system *system = build_listed(&source, &listing, q, v);
+  OWN(double) q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
+  OWN(hooke_system) system = build_listed(&source, &listing, q, v);
   const int32_t strided = system->strided->count;
   if (listing.order == SAME) assert_int_equal(strided, STEPS);
   if (listing.order == ONE_OPPOSITE) assert_in_range(strided, STEPS + 1, 2 * STEPS);
@@ -269,9 +260,6 @@ static void check_listing(uint64_t seed, struct listing listing) {
   check_agrees(system, &c, q, v);
   check_members(system, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
-  free(q);
-  free(v);
 }
 
 TEST(test_listed_by_particle) {
@@ -304,7 +292,7 @@ TEST(test_every_second_first) {
     for (int64_t p = odd; p + 1 < CHAIN; p += 2, count++)
       ends[2 * count] = p, ends[2 * count + 1] = p + 1;
   }
-  hooke_system *system = small_system(CHAIN, q, v, 1.0, 0);
+  OWN(hooke_system) system = small_system(CHAIN, q, v, 1.0, 0);
   small_group(system, "springs", NULL, count, ends, "stiffness=10 rest_length=0.09");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);
@@ -312,13 +300,12 @@ TEST(test_every_second_first) {
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
 }
 
 /* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are equal to the bit. */
 TEST(test_rounded_lengths) {
   enum { EDGE = 24, EACH = EDGE * EDGE * EDGE };
-  double *q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
+  OWN(double) q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
   int64_t *ends = new_block(6 * EACH, (int64_t)sizeof *ends), count = 0;
   for (int64_t p = 0; p < EACH; p++) {
     const int64_t at[3] = {p % EDGE, p / EDGE % EDGE, p / EDGE / EDGE}, next[3] = {1, EDGE, EDGE * EDGE};
@@ -329,7 +316,7 @@ TEST(test_rounded_lengths) {
       ends[2 * count++ + 1] = p + next[a];
     }
   }
-  hooke_system *system = small_system(EACH, q, NULL, 1.0, 0);
+  OWN(hooke_system) system = small_system(EACH, q, NULL, 1.0, 0);
   small_group(system, "springs", NULL, count, ends, "stiffness=10");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);
@@ -341,8 +328,5 @@ TEST(test_rounded_lengths) {
     const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], r = sqrt((x * x + y * y) + z * z);
     check_same_bits(1, &length[s], &r);
   }
-  hooke_system_destroy(system);
-  free(q);
-  free(length);
   free(ends);
 }

@@ -10,7 +10,6 @@
 #include "model/sum/spring_batch.h"
 #include "model/sum/tiled.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Sides of sheets; only the springs of a large one are stored by the law that they follow. */
@@ -75,9 +74,9 @@ static void draw_sheet(struct random_source *source, int order, struct sheet *sh
 
 static void add_group(struct random_source *source, const struct sheet *sheet, hooke_system *system,
                       int64_t from, int64_t count, int material) {
-  hooke_options *options;
+  OWN(hooke_options) options = NULL;
   check_ok(hooke_options_create("springs", &options));
-  double *kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
+  OWN(double) kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
   const int pulls = random_whole(source, 0, 3) == 0, damped = random_whole(source, 0, 3) > 0;
   for (int64_t k = 0; k < count; k++) {
     const int own = k == 0 || material == OF_ITS_OWN;
@@ -91,10 +90,6 @@ static void add_group(struct random_source *source, const struct sheet *sheet, h
   check_ok(hooke_options_set_numbers(options, "rest_length", count, length));
   check_ok(hooke_options_set_text(options, "compression", pulls ? "false" : "true"));
   check_ok(hooke_system_add_springs(system, pulls ? "pull" : "push", count, sheet->ends + 2 * from, options));
-  hooke_options_destroy(options);
-  free(kappa);
-  free(gamma);
-  free(length);
 }
 
 static hooke_system *build(struct random_source *source, struct sheet *sheet, int groups, int material,
@@ -159,7 +154,7 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   draw_sheet(&source, order, sheet);
   struct canonical c;
   double drag;
-  hooke_system *system = build(&source, sheet, groups, material, &drag);
+  OWN(hooke_system) system = build(&source, sheet, groups, material, &drag);
   const int listed = system->strided->count > 0;
   assert_int_equal(system->tiled->particles, listed ? 0 : sheet->particles);
   if (order != AS_BUILT || groups <= 3) assert_int_equal(listed, order == AS_BUILT);
@@ -173,7 +168,6 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   check_agrees(system, &c, sheet->q, sheet->v);
   check_members(system, sheet->q, sheet->v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
   free(sheet);
 }
 
@@ -200,7 +194,7 @@ TEST(test_wide) {
   enum { CHAIN = 300, EACH = 150, COUNT = (CHAIN - 1) * EACH };
   struct random_source source = {5};
   double q[3 * CHAIN], v[3 * CHAIN], mass[CHAIN];
-  int64_t *ends = new_block(2 * COUNT, (int64_t)sizeof *ends);
+  OWN(int64_t) ends = new_block(2 * COUNT, (int64_t)sizeof *ends);
   for (int p = 0; p < CHAIN; p++) {
     mass[p] = random_between(&source, 100.0, 200.0);
     for (int a = 0; a < 3; a++) {
@@ -213,7 +207,7 @@ TEST(test_wide) {
     ends[2 * s + turned] = low;
     ends[2 * s + 1 - turned] = low + 1;
   }
-  hooke_system *system;
+  OWN(hooke_system) system = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, mass, NULL));
   small_group(system, "springs", "net", COUNT, ends, "stiffness=3 damping=0.01");
@@ -224,8 +218,6 @@ TEST(test_wide) {
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
-  free(ends);
 }
 
 enum { FEW = 6, PAIRS = FEW * (FEW - 1) / 2 };
@@ -254,7 +246,7 @@ TEST(test_small) {
     q[k] = random_between(&source, -1.0, 1.0);
     v[k] = random_between(&source, -1.0, 1.0);
   }
-  hooke_system *system = join_all(q, v, ends);
+  OWN(hooke_system) system = join_all(q, v, ends);
   assert_int_equal(system->tiled->particles, FEW);
   struct canonical c;
   canonical_create(system, &c);
@@ -269,5 +261,4 @@ TEST(test_small) {
     assert_true(batch.kappa[k] == c.kappa[k] && batch.gamma[k] == c.gamma[k]);
   }
   canonical_destroy(&c);
-  hooke_system_destroy(system);
 }

@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -367,7 +366,7 @@ AROUND_EACH(set_up, tear_down)
 
 /* Without HDF5 every call says so. */
 TEST(trajectories_are_not_in_this_build) {
-  hooke_system *system = new_rope();
+  OWN(hooke_system) system = new_rope();
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
   hooke_trajectory *trajectory;
@@ -379,7 +378,6 @@ TEST(trajectories_are_not_in_this_build) {
   check_status(hk_array_read("out.h5", "/a", 0, 0, &values, &rows, &columns), HOOKE_NOT_BUILT);
   check_message("HDF5");
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #endif

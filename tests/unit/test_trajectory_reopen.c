@@ -9,7 +9,6 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -113,8 +112,8 @@ static void end_early(const struct fixture *f, int64_t frames) {
 
 /* Exactly these frames, each to the bit. */
 static void check_frames(const struct fixture *f, int64_t count, const char *status) {
-  hooke_record *record;
-  hooke_state *state = start_state(f->system);
+  OWN(hooke_record) record = NULL;
+  OWN(hooke_state) state = start_state(f->system);
   check_ok(hooke_record_open(f->path, &record));
   assert_int_equal(hooke_record_count(record, "frames"), count);
   assert_string_equal(hooke_record_text(record, "status"), status);
@@ -124,8 +123,6 @@ static void check_frames(const struct fixture *f, int64_t count, const char *sta
     check_same_bits(3 * N, hooke_state_velocity(state), hooke_state_velocity(f->frame[k]));
     assert_true(hooke_state_time(state) == hooke_state_time(f->frame[k]));
   }
-  hooke_state_destroy(state);
-  hooke_record_close(record);
 }
 
 static int64_t planned(const struct fixture *f) {
@@ -138,10 +135,9 @@ static int64_t planned(const struct fixture *f) {
 }
 
 static void read_run(const struct fixture *f, char run[64]) {
-  hooke_record *record;
+  OWN(hooke_record) record = NULL;
   check_ok(hooke_record_open(f->path, &record));
   snprintf(run, 64, "%s", hooke_record_text(record, "run"));
-  hooke_record_close(record);
 }
 
 static char *bytes_of(const char *path, size_t *count) {
@@ -159,7 +155,7 @@ static char *bytes_of(const char *path, size_t *count) {
 /* Changes byte number `at` of a byte string in the file. */
 static void damage(const char *path, const void *found, size_t length, int64_t at) {
   size_t count;
-  char *bytes = bytes_of(path, &count);
+  OWN(char) bytes = bytes_of(path, &count);
   FILE *file = fopen(path, "r+b");
   size_t k = 0;
   while (k + length <= count && memcmp(bytes + k, found, length) != 0)
@@ -168,7 +164,6 @@ static void damage(const char *path, const void *found, size_t length, int64_t a
   assert_int_equal(fseek(file, (long)(k + (size_t)at), SEEK_SET), 0);
   fputc(bytes[k + (size_t)at] ^ 1, file);
   assert_int_equal(fclose(file), 0);
-  free(bytes);
 }
 
 TEST(a_killed_run_ends_as_if_it_never_was) {
@@ -242,15 +237,13 @@ TEST(no_frame_is_lost) {
 static void check_refused(const struct fixture *f, int64_t kept, const char *message) {
   size_t before_size, size;
   hooke_trajectory *trajectory;
-  char *before = bytes_of(f->path, &before_size);
+  OWN(char) before = bytes_of(f->path, &before_size);
   check_status(hk_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory), HOOKE_BAD_VALUE);
   check_message(message);
   assert_null(trajectory);
-  char *bytes = bytes_of(f->path, &size);
+  OWN(char) bytes = bytes_of(f->path, &size);
   assert_int_equal(before_size, size);
   assert_memory_equal(before, bytes, size);
-  free(before);
-  free(bytes);
 }
 
 TEST(a_damaged_frame_is_refused_by_name) {
@@ -373,8 +366,8 @@ static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
 
 /* To the end of the run, which then equals an uninterrupted one. */
 static void check_goes_on(const struct fixture *f, const char *origin) {
-  hooke_integrator *integrator = integrator_of(f->system, 0.1);
-  hooke_state *state = start_state(f->system);
+  OWN(hooke_integrator) integrator = integrator_of(f->system, 0.1);
+  OWN(hooke_state) state = start_state(f->system);
   hooke_trajectory *trajectory = NULL;
   check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
   assert_non_null(trajectory);
@@ -389,8 +382,6 @@ static void check_goes_on(const struct fixture *f, const char *origin) {
   /* and nothing is left to do */
   check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
   assert_null(trajectory);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 TEST(a_run_goes_on_where_its_file_ends) {
@@ -411,13 +402,11 @@ TEST(a_run_goes_on_where_its_file_ends) {
 static void check_not_resumed(const struct fixture *f, const hooke_system *system,
                               hooke_integrator *integrator, int32_t status, const char *message) {
   hooke_trajectory *trajectory = NULL;
-  hooke_state *state = start_state(system), *before = start_state(system);
+  OWN(hooke_state) state = start_state(system), *before = start_state(system);
   check_status(hooke_trajectory_resume(f->path, system, integrator, state, &trajectory), status);
   check_message(message);
   assert_null(trajectory);
   check_same_bits(hooke_state_size(state), hooke_state_position(state), hooke_state_position(before));
-  hooke_state_destroy(before);
-  hooke_state_destroy(state);
 }
 
 TEST(other_runs_do_not_go_on) {
@@ -484,16 +473,14 @@ AROUND_EACH(set_up, tear_down)
 #else
 
 TEST(it_is_not_in_this_build) {
-  hooke_system *system = rope(N);
-  hooke_integrator *integrator = integrator_of(system, 0.1);
+  OWN(hooke_system) system = rope(N);
+  OWN(hooke_integrator) integrator = integrator_of(system, 0.1);
   hooke_trajectory *trajectory;
   check_status(hk_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
   assert_null(trajectory);
   check_status(hooke_trajectory_sync(NULL), HOOKE_BAD_CALL);
   check_status(hooke_record_check(NULL, 0), HOOKE_BAD_CALL);
   assert_null(hooke_trajectory_text(NULL, "run"));
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #endif

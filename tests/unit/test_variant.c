@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static hooke_system *make(const hooke_system *from, const struct hk_variant *variant,
@@ -41,15 +40,11 @@ static void release(struct hk_variant *variant, struct hk_variant_map *map, hook
 static void check_same_run(const hooke_system *a, const hooke_system *b) {
   const int64_t size = 3 * hooke_system_particle_count(a);
   const struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.02};
-  double *q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size), *v2 = new_doubles(size);
+  OWN(double) q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size), *v2 = new_doubles(size);
   run_to_end(a, run, q, v);
   run_to_end(b, run, q2, v2);
   check_same_bits(size, q2, q);
   check_same_bits(size, v2, v);
-  free(q);
-  free(v);
-  free(q2);
-  free(v2);
 }
 
 TEST(a_variant_that_changes_nothing_has_the_same_bits) {
@@ -154,7 +149,7 @@ TEST(what_is_left_out_is_out) {
 /* Two of the seven springs two apart in the rope; the rest is a group of its own, numbered among the explicit
  * ones. */
 TEST(single_springs_of_a_family_are_left_out) {
-  hooke_system *system = two_parts();
+  OWN(hooke_system) system = two_parts();
   struct hk_variant variant = nothing_of(system);
   struct hk_variant_map map;
   variant.spring[2 + 8] = variant.spring[2 + 8 + 3] = variant.spring[1] = 1;
@@ -172,7 +167,6 @@ TEST(single_springs_of_a_family_are_left_out) {
     assert_true(kappa[1 + k] == full[2 + 8]);
   }
   release(&variant, &map, made);
-  hooke_system_destroy(system);
 }
 
 /* ---- resolution ---- */
@@ -180,7 +174,7 @@ TEST(single_springs_of_a_family_are_left_out) {
 /* Positions of the variant that are an affine function of the material are recovered at every particle. */
 static void check_affine(const hooke_system *system, const hooke_system *made,
                          const struct hk_variant_map *map) {
-  hooke_state *from, *to;
+  OWN(hooke_state) from = NULL, *to = NULL;
   check_ok(hooke_state_create(system, &from));
   check_ok(hooke_state_create(made, &to));
   double *q = hooke_state_position(to);
@@ -198,8 +192,6 @@ static void check_affine(const hooke_system *system, const hooke_system *made,
     check_close(place[1], at[1] + 0.5 * at[0], 1e-14);
     check_close(place[2], 3.0 * at[2] - at[0], 1e-14);
   }
-  hooke_state_destroy(from);
-  hooke_state_destroy(to);
 }
 
 static int64_t pinned_count(const hooke_system *system) {
@@ -218,7 +210,7 @@ TEST(parts_at_another_resolution_stand_for_the_same_material) {
       {1.0, 2.0, 2 + 9 + 13 * 9, 1 + 2 + 13},
       {0.3, 0.01, 2 + 3 + 4, 1 + 1 + 2}, /* 8 cells: 2; one cell is the minimum */
   };
-  hooke_system *system = two_parts();
+  OWN(hooke_system) system = two_parts();
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     struct hk_variant variant = nothing_of(system);
     struct hk_variant_map map;
@@ -231,7 +223,6 @@ TEST(parts_at_another_resolution_stand_for_the_same_material) {
     check_affine(system, made, &map);
     release(&variant, &map, made);
   }
-  hooke_system_destroy(system);
 }
 
 static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
@@ -344,7 +335,7 @@ static int is_within(const struct single *all, int outer, int inner) {
 /* An omission is contained in itself, and in that of its group or part; and in the union of two if it is in
  * either. */
 TEST(variants_within_variants) {
-  hooke_system *system = everything();
+  OWN(hooke_system) system = everything();
   static struct single all[MOST_SINGLE];
   const int count = list_singles(system, all);
   struct hk_variant nothing = nothing_of(system);
@@ -373,5 +364,4 @@ TEST(variants_within_variants) {
   for (int i = 0; i < count; i++)
     hk_variant_release(&all[i].variant);
   hk_variant_release(&nothing);
-  hooke_system_destroy(system);
 }

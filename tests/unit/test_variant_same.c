@@ -9,7 +9,6 @@
 #include "model/system.h"
 #include "model/variant/variant.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* One of these is left out, or the group `group` (-1: none). */
@@ -66,12 +65,10 @@ static void check_same_loops(const hooke_system *found, const hooke_system *expe
 static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
   const struct run run = {.method = method, .step = 1e-4, .duration = 2e-3};
   const int64_t size = 3 * hooke_system_particle_count(expected);
-  double *a = new_doubles(2 * size), *b = new_doubles(2 * size);
+  OWN(double) a = new_doubles(2 * size), *b = new_doubles(2 * size);
   run_to_end(found, run, a, a + size);
   run_to_end(expected, run, b, b + size);
   check_same_bits(2 * size, a, b);
-  free(a);
-  free(b);
 }
 
 /* All combinations of features, with parts and drives of every kind. */

@@ -9,7 +9,6 @@
 #include "kernel/vector_loops.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LONGEST = 301, LOOPS = 9 };
@@ -42,8 +41,8 @@ static void run_loops(const struct hk_vector_set *v, int64_t n, const double *x,
 
 TEST(vectors) {
   struct random_source source = {11};
-  double *x = new_doubles(LONGEST), *y = new_doubles(LONGEST);
-  double *first = new_doubles(LOOPS * LONGEST + 4), *other = new_doubles(LOOPS * LONGEST + 4);
+  OWN(double) x = new_doubles(LONGEST), *y = new_doubles(LONGEST);
+  OWN(double) first = new_doubles(LOOPS * LONGEST + 4), *other = new_doubles(LOOPS * LONGEST + 4);
   for (int64_t n = 0; n < LONGEST; n += n < 70 ? 1 : 33) {
     draw(&source, n, x);
     draw(&source, n, y);
@@ -75,16 +74,12 @@ TEST(vectors) {
     check_close(sum[2], squares, 1e-13);
     check_close(sum[3], most, 0.0);
   }
-  free(x);
-  free(y);
-  free(first);
-  free(other);
 }
 
 /* Rows are joined unchanged, and every bit of them counts. */
 TEST(rows) {
   struct random_source source = {13};
-  double *x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
+  OWN(double) x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
   draw(&source, 3 * LONGEST, x);
   for (int32_t k = 0; hk_spring_set(k); k++) {
     const struct hk_vector_set *v = hk_spring_set(k)->vector;
@@ -99,8 +94,6 @@ TEST(rows) {
       assert_true(v->differing_bits(n, x, x + n, x + 2 * n, joined) == UINT64_C(1) << 63);
     }
   }
-  free(joined);
-  free(x);
 }
 
 /* ---- blocks of particles, and loops that combine others ---- */

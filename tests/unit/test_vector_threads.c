@@ -7,7 +7,6 @@
 #include "core/thread_pool.h"
 #include "integrate/integrator.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { SIDE = 108 }; /* 69984 numbers in a vector */
@@ -16,15 +15,13 @@ static const double DURATION = 4e-5;
 
 static void run_by(const hooke_system *system, struct run run, double *state) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *found = start_state(system);
+  OWN(hooke_integrator) integrator = start_run(system, run);
+  OWN(hooke_state) found = start_state(system);
   /* a thread pool of one would prove nothing */
   assert_true(run.threads <= 1 || hk_pool_members(integrator->pool) > 1);
   check_ok(hooke_integrator_run(integrator, found));
   memcpy(state, hooke_state_position(found), (size_t)size * sizeof(double));
   memcpy(state + size, hooke_state_velocity(found), (size_t)size * sizeof(double));
-  hooke_state_destroy(found);
-  hooke_integrator_destroy(integrator);
 }
 
 TEST(same_bits) {

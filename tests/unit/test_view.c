@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -60,14 +59,14 @@ struct fixture {
  */
 static void write_file(const struct fixture *f, double far, double duration) {
   const double q[] = {0, 0, 0, 3, 0, 0, 3, 0.5, 0, 0, 0, far};
-  hooke_system *system = small_system(PARTICLES, q, NULL, 1.0, 1);
+  OWN(hooke_system) system = small_system(PARTICLES, q, NULL, 1.0, 1);
   small_springs(system, 1, (int64_t[]){0, 1}, (struct springs){.stiffness = 1e-6, .rest_length = 2});
   small_springs(system, 1, (int64_t[]){1, 2}, (struct springs){.law = "length", .stiffness = 1e-6});
   small_springs(system, 1, (int64_t[]){2, 1}, (struct springs){.stiffness = 1e-6, .rest_length = 1});
   check_ok(hooke_system_commit(system));
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = duration, .every = 1e-3});
-  hooke_state *state = start_state(system);
+  OWN(hooke_state) state = start_state(system);
   hooke_trajectory *trajectory;
   check_ok(hooke_trajectory_create(f->path, system, integrator, NULL, &trajectory));
   for (int64_t k = 0; k < hooke_integrator_count(integrator, "frames"); k++) {
@@ -75,9 +74,7 @@ static void write_file(const struct fixture *f, double far, double duration) {
     check_ok(hooke_trajectory_write(trajectory, k, state));
   }
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 static int set_up(void **state) {
@@ -202,7 +199,7 @@ TEST(views_are_refused_in_words) {
 /* Beside the trajectory it replaces an older companion, and nothing else. */
 TEST(a_companion_is_written) {
   const struct fixture *f = *prepared;
-  hooke_record *record;
+  OWN(hooke_record) record = NULL;
   write_file(f, 1.0, 0.01);
   check_ok(hooke_record_open(f->path, &record));
   FILE *file = fopen(f->companion, "w");
@@ -214,7 +211,6 @@ TEST(a_companion_is_written) {
   check_ok(hooke_record_write_xdmf(record, f->companion));
   check_ok(hooke_record_write_xdmf(record, NULL));
   check_status(hooke_record_write_xdmf(record, "/nowhere/out.xdmf"), HOOKE_IO_FAILED);
-  hooke_record_close(record);
 }
 
 TEST(names_that_paraview_cannot_take) {

@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -73,7 +72,7 @@ static double check_springs(struct hk_watched_list *list, const double *q, const
 
 /* Every quantity is its formula of q and v. */
 TEST(every_form_is_read) {
-  hooke_system *system = scene();
+  OWN(hooke_system) system = scene();
   struct hk_watched_list list = {.system = system};
   double q[24], v[24], kinetic = 0.0;
   for (int k = 0; k < 24; k++) {
@@ -94,7 +93,6 @@ TEST(every_form_is_read) {
   check_ok(hk_watched_read(&list, "watch", "7.y, energy ,7.y"));
   assert_int_equal(list.count, count + 1);
   hk_watched_release(&list);
-  hooke_system_destroy(system);
 }
 
 TEST(what_is_nothing_is_refused) {
@@ -127,7 +125,7 @@ TEST(what_is_nothing_is_refused) {
              {"line:0.length", "allowed: rods, tie, line.stretch"},
              {":0.length", "allowed: rods, tie, line.stretch"},
              {"tie:0.strain", "allowed: length, tension"}};
-  hooke_system *system = scene();
+  OWN(hooke_system) system = scene();
   struct hk_watched_list list = {.system = system};
   check_ok(hk_watched_read(&list, "watch", "0.x"));
   for (size_t k = 0; k < COUNT(bad); k++) {
@@ -143,7 +141,6 @@ TEST(what_is_nothing_is_refused) {
   assert_int_equal(list.count, 1);
   free(endless);
   hk_watched_release(&list);
-  hooke_system_destroy(system);
 }
 
 /* Indices into groups with dropped springs are refused. */
@@ -151,7 +148,7 @@ TEST(springs_that_are_left_out_are_said) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, stiffness[] = {0.0, 10.0};
   static const int64_t ends[] = {0, 1, 1, 2};
   hooke_options *options;
-  hooke_system *system = small_system(3, q, NULL, 1.0, 0);
+  OWN(hooke_system) system = small_system(3, q, NULL, 1.0, 0);
   check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
@@ -161,7 +158,6 @@ TEST(springs_that_are_left_out_are_said) {
   check_status(hk_watched_read(&list, "watch", "some:0.length"), HOOKE_BAD_VALUE);
   check_message("neither stiffness nor damping");
   hk_watched_release(&list);
-  hooke_system_destroy(system);
 }
 
 /* ---- tension ---- */

@@ -9,7 +9,6 @@
 #include "model/system.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- scenes ---- */
@@ -55,7 +54,7 @@ static void add_part(const struct scene *scene, hooke_system *system) {
   static const double origin[] = {0, 0, 0}, edges[] = {1, 0.1, 0, 0, 0.2, 1}, size[] = {17, 13};
   static const double to[] = {2, 0.5, 0.1};
   const int cloth = scene->shape == CLOTH;
-  hooke_options *options;
+  OWN(hooke_options) options = NULL;
   check_ok(hooke_options_create(cloth ? "cloth" : "rope", &options));
   check_ok(hooke_options_set_number(options, "mass", 1.0));
   if (cloth) {
@@ -73,7 +72,6 @@ static void add_part(const struct scene *scene, hooke_system *system) {
   if (is_zero(scene, FAMILY)) check_ok(hooke_options_set_number(options, "bend.stiffness", 0.0));
   if (is_full(scene, FAMILY)) check_ok(hooke_options_set_number(options, "bend.stiffness", 1.0));
   check_ok(hooke_system_add_part(system, cloth ? "cloth" : "rope", "part", options, NULL, NULL));
-  hooke_options_destroy(options);
 }
 
 struct network {
@@ -105,13 +103,12 @@ static void add_network(const struct scene *scene, hooke_system *system) {
   struct network network;
   draw_network(is_zero(scene, SOME_SPRINGS), is_full(scene, DAMPING) ? 0.01 : 0.0, &network);
   check_ok(hooke_system_add_particles(system, PARTICLES, network.position, NULL, 1, &mass, NULL));
-  hooke_options *options = options_with("springs", "law=length");
+  OWN(hooke_options) options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", network.count, network.stiffness));
   if (is_full(scene, DAMPING) || is_zero(scene, DAMPING))
     check_ok(hooke_options_set_numbers(options, "damping", network.count, network.damping));
   check_ok(hooke_options_set_number(options, "rest_length", REST));
   check_ok(hooke_system_add_springs(system, "network", network.count, network.ends, options));
-  hooke_options_destroy(options);
 }
 
 static void add_group(hooke_system *system, int64_t offset, double stiffness) {
@@ -223,14 +220,12 @@ static void run(const hooke_system *system, const char *method, hooke_state *sta
 
 static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
   int64_t a[COUNTS], b[COUNTS];
-  hooke_state *x = start_state(found), *y = start_state(expected);
+  OWN(hooke_state) x = start_state(found), *y = start_state(expected);
   run(found, method, x, a);
   run(expected, method, y, b);
   check_same_bits(hooke_state_size(y), hooke_state_position(x), hooke_state_position(y));
   check_same_bits(hooke_state_size(y), hooke_state_velocity(x), hooke_state_velocity(y));
   assert_memory_equal(a, b, sizeof a);
-  hooke_state_destroy(x);
-  hooke_state_destroy(y);
 }
 
 static int64_t zeros_of(enum shape shape, enum ingredient what) {
@@ -321,7 +316,7 @@ TEST(numbers_are_of_what_is_there) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
   static const int64_t ends[] = {0, 1, 1, 2}, last[] = {2, 3}, pinned[] = {0, 3};
   static const double stiffness[] = {0.0, 0.0}, damping[] = {0.0, 0.5};
-  hooke_system *system = small_system(4, q, NULL, 1.0, 0);
+  OWN(hooke_system) system = small_system(4, q, NULL, 1.0, 0);
   hooke_options *options;
   int64_t found[2];
   double gamma;
@@ -349,7 +344,6 @@ TEST(numbers_are_of_what_is_there) {
   assert_true(found[0] == 1 && found[1] == 2);
   check_close(gamma, 0.5, 0.0);
   assert_int_equal(hooke_system_count(system, "idle"), 2);
-  hooke_system_destroy(system);
 }
 
 static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
