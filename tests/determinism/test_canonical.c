@@ -13,9 +13,8 @@
 
 static void compare_acceleration(const struct random_scene *scene, uint64_t seed) {
   const int64_t n = scene->canonical.particle_count;
-  OWN(double)
-  q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
-  *expected = new_doubles(3 * n);
+  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
+  OWN(double) expected = new_doubles(3 * n);
   random_scene_shake(scene, seed, q, v);
   memset(found, 0x55, (size_t)(3 * n) * sizeof(double));
   check_ok(hooke_system_acceleration(scene->system, 0.125, q, v, found));
@@ -131,9 +130,8 @@ TEST(test_parts_are_springs) {
                       &parts);
   const struct canonical *c = &parts.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  OWN(double)
-  q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
-  *expected = new_doubles(3 * n);
+  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
+  OWN(double) expected = new_doubles(3 * n);
   random_scene_shake(&parts, 4, q, v);
 
   hooke_system *listed = NULL;
@@ -164,8 +162,8 @@ TEST(test_planted_faults) {
       &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  OWN(double)
-  q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  OWN(double) b = new_doubles(3 * n);
   random_scene_shake(&scene, 12, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
 
@@ -203,8 +201,8 @@ TEST(test_planted_bending) {
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->triple_count;
   assert_true(m > 500);
-  OWN(double)
-  q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  OWN(double) b = new_doubles(3 * n);
   random_scene_shake(&scene, 32, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -232,8 +230,8 @@ TEST(test_planted_altitude) {
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->tetrahedron_count;
   assert_true(m > 200);
-  OWN(double)
-  q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  OWN(double) b = new_doubles(3 * n);
   random_scene_shake(&scene, 42, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -283,7 +281,7 @@ TEST(test_planted_defects) {
   OWN(double) q = new_doubles(size), *v = new_doubles(size);
   random_scene_shake(&scene, 22, q, v);
   for (int m = 0; m < 4; m++) {
-    hooke_state *state = start_state(scene.system);
+    OWN(hooke_state) state = start_state(scene.system);
     double *q1 = hooke_state_position(state), *v1 = hooke_state_velocity(state);
     memcpy(q1, q, (size_t)size * sizeof(double));
     memcpy(v1, v, (size_t)size * sizeof(double));
@@ -304,7 +302,6 @@ TEST(test_planted_defects) {
     if (m == 1) q1[17] = q[17] + h * v1[17];
     if (m == 3) q1[17] = q[17] + h * ((v[17] + v1[17]) / 2.0);
     assert_true(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1) > 1.0);
-    hooke_state_destroy(state);
   }
   random_scene_destroy(&scene);
 }

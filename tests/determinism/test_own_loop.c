@@ -148,7 +148,7 @@ static const char *method_of(int64_t number) {
 
 static void for_every_method(void (*check)(const hooke_system *, struct run)) {
   for (int scene = 0; scene < SCENES; scene++) {
-    hooke_system *system = make_system(scene);
+    OWN(hooke_system) system = make_system(scene);
     const int32_t threads = scene >= MOVING_LARGE ? 2 : 1;
     const char *method;
     for (int64_t m = 0; (method = method_of(m)) != NULL; m++) {
@@ -156,7 +156,6 @@ static void for_every_method(void (*check)(const hooke_system *, struct run)) {
       for (int32_t k = 1; k <= threads; k++)
         check(system, run_of(method, k));
     }
-    hooke_system_destroy(system);
   }
 }
 

@@ -70,7 +70,7 @@ TEST(test_a_stopped_run_goes_on) {
     const char *method = hooke_method_name(k);
     if (!is_fixed_step(method)) continue;
     const int implicit = is_implicit(method);
-    hooke_system *system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
+    OWN(hooke_system) system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
     const double step = implicit ? 0.02 : 1e-3;
     const struct run run = {.method = method, .step = step, .duration = 8.0 * step, .every = 4.0 * step};
     int64_t stops;
@@ -81,7 +81,6 @@ TEST(test_a_stopped_run_goes_on) {
     check_same_bits(6 * hooke_system_particle_count(system), pieces.numbers, whole.numbers);
     for (int c = 0; c < COUNTS; c++)
       if (c == 0 || implicit) assert_int_equal(pieces.count[c], whole.count[c]);
-    hooke_system_destroy(system);
   }
 }
 
@@ -95,7 +94,7 @@ TEST(test_every_method_is_heard) {
     hooke_integrator *integrator = start_run(
         system,
         (struct run){.method = listener.method, .step = 0.01, .duration = duration, .every = duration});
-    hooke_state *state = start_state(system);
+    OWN(hooke_state) state = start_state(system);
     check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_message("the progress callback asked to stop at t = ");
@@ -106,7 +105,6 @@ TEST(test_every_method_is_heard) {
     check_ok(hooke_integrator_on_progress(integrator, 0.0, NULL, NULL));
     check_ok(hooke_integrator_step(integrator, state, 3));
     assert_int_equal(listener.calls, 3);
-    hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);
   }
 }

@@ -244,7 +244,7 @@ TEST(fixed_steps_go_on_where_they_stopped) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    hooke_system *system = moving_system(&moving_scenes[2]);
+    OWN(hooke_system) system = moving_system(&moving_scenes[2]);
     const struct run run = run_of(&moving_scenes[2], method, 0);
     struct trace whole = trace_create(system), trace = trace_create(system);
     const int64_t calls = run_whole(system, run, &whole);
@@ -263,7 +263,6 @@ TEST(fixed_steps_go_on_where_they_stopped) {
     hooke_state_destroy(at);
     free(trace.row);
     free(whole.row);
-    hooke_system_destroy(system);
   }
 }
 
@@ -273,7 +272,7 @@ TEST(the_last_short_interval_goes_on) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    hooke_system *system = moving_system(&moving_scenes[1]);
+    OWN(hooke_system) system = moving_system(&moving_scenes[1]);
     const struct run run = run_of(&moving_scenes[1], method, 1);
     struct trace whole = trace_create(system), trace = trace_create(system);
     run_whole(system, run, &whole);
@@ -291,7 +290,6 @@ TEST(the_last_short_interval_goes_on) {
     }
     free(trace.row);
     free(whole.row);
-    hooke_system_destroy(system);
   }
 }
 
@@ -302,11 +300,12 @@ TEST(single_steps_go_on_from_a_checkpoint) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    hooke_system *system = moving_system(&moving_scenes[1]);
+    OWN(hooke_system) system = moving_system(&moving_scenes[1]);
     const struct run run = {.method = method, .step = 1e-3};
-    hooke_integrator *whole = start_run(system, run), *half = start_run(system, run),
-                     *rest = start_run(system, run);
-    hooke_state *expected = start_state(system), *before = start_state(system), *found = start_state(system);
+    OWN(hooke_integrator) whole = start_run(system, run), *half = start_run(system, run);
+    OWN(hooke_integrator) rest = start_run(system, run);
+    OWN(hooke_state) expected = start_state(system), *before = start_state(system);
+    OWN(hooke_state) found = start_state(system);
     check_ok(hooke_integrator_step(whole, expected, 20));
     check_ok(hooke_integrator_step(half, before, 11));
     check_ok(hooke_checkpoint_write(path, half, before, NULL));
@@ -318,13 +317,6 @@ TEST(single_steps_go_on_from_a_checkpoint) {
     check_same_bits(hooke_state_size(found), hooke_state_velocity(found), hooke_state_velocity(expected));
     for (int k = 0; k < COUNTS; k++)
       assert_int_equal(hooke_integrator_count(rest, counts[k]), hooke_integrator_count(whole, counts[k]));
-    hooke_state_destroy(expected);
-    hooke_state_destroy(before);
-    hooke_state_destroy(found);
-    hooke_integrator_destroy(whole);
-    hooke_integrator_destroy(half);
-    hooke_integrator_destroy(rest);
-    hooke_system_destroy(system);
   }
   remove_files(path);
 }

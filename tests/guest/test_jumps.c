@@ -194,7 +194,7 @@ TEST(test_rates) {
   const char *const methods[] = {"rk4", "cvode-adams"};
   for (int m = 0; m < 2; m++) {
     if (!hooke_method_is_built(methods[m])) continue;
-    hooke_state *state;
+    OWN(hooke_state) state = NULL;
     check_ok(hooke_state_create_first_order(2, &state));
     hooke_integrator *integrator = start_first_order(
         2, decay, NULL,
@@ -211,7 +211,6 @@ TEST(test_rates) {
     assert_int_equal(run_until(integrator, state, 0), 0);
     check_same_bits(2, hooke_state_position(state), expected);
     hooke_integrator_destroy(integrator);
-    hooke_state_destroy(state);
   }
 }
 

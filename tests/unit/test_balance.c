@@ -2,6 +2,7 @@
  * does not if the power is wrong. */
 #include "hooke.h"
 #include "check.h"
+#include "run.h"
 #include "small.h"
 
 #include "measure/trial/balance.h"
@@ -57,16 +58,13 @@ static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void run(struct watch *watch, const char *method, double step) {
-  OWN(hooke_integrator) integrator = NULL;
-  OWN(hooke_state) state = NULL;
+static void run_watched(struct watch *watch, const char *method, double step) {
   watch->count = 0;
-  OWN(hooke_options)
-  options = options_with("run", "method=%s step=%.17g duration=0.8 every=0.1", method, step);
-  check_ok(hooke_integrator_create(watch->system, options, &integrator));
+  const struct run run = {.method = method, .step = step, .duration = 0.8, .every = 0.1};
+  OWN(hooke_integrator) integrator = start_run(watch->system, run);
   check_ok(hooke_integrator_on_step(integrator, 1, on_step, watch));
   check_ok(hooke_integrator_on_frame(integrator, on_frame, watch));
-  check_ok(hooke_state_create(watch->system, &state));
+  OWN(hooke_state) state = start_state(watch->system);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(watch->count, FRAMES);
   hk_balance_release(&watch->balance);
@@ -78,8 +76,8 @@ static int32_t holds(const char *method, int driven,
   hooke_system *system = damped_chain(driven);
   struct watch coarse = {.system = system, .power = power}, fine = coarse;
   double largest, bound, smaller, other;
-  run(&coarse, method, 1e-3);
-  run(&fine, method, 5e-4);
+  run_watched(&coarse, method, 1e-3);
+  run_watched(&fine, method, 5e-4);
   const double floor = hk_balance_floor(&fine.balance);
   const int32_t kept = hk_balance_holds(FRAMES, coarse.residual, fine.residual, floor, &largest, &bound);
   hk_balance_holds(FRAMES, fine.residual, fine.residual, floor, &smaller, &other);
@@ -134,8 +132,8 @@ TEST(wrong_work_is_seen) {
   OWN(hooke_system) system = damped_chain(1);
   struct watch coarse = {.system = system}, fine = coarse;
   double largest, bound;
-  run(&coarse, "verlet", 1e-3);
-  run(&fine, "verlet", 5e-4);
+  run_watched(&coarse, "verlet", 1e-3);
+  run_watched(&fine, "verlet", 5e-4);
   assert_true(fabs(coarse.balance.work) > 0.1);
   for (int k = 0; k < FRAMES; k++) {
     coarse.residual[k] += 0.05 * coarse.balance.work;

@@ -46,7 +46,7 @@ static void find_right(struct hk_stage *stage, const double *v, double *right) {
 TEST(matrix_is_the_derivative) {
   const double small = 1e-6, still[3 * ALL] = {0.0};
   for (int pinned = 0; pinned < 2; pinned++) {
-    hooke_system *system = two_bodies(pinned);
+    OWN(hooke_system) system = two_bodies(pinned);
     hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = 0.1});
     struct hk_stage *stage = it->own;
     const int64_t size = 3 * ALL + UNKNOWNS;
@@ -79,6 +79,5 @@ TEST(matrix_is_the_derivative) {
     for (int k = 0; k < UNKNOWNS; k++)
       check_close(stage->change[3 * ALL + k], by[k], 1e-7);
     hooke_integrator_destroy(it);
-    hooke_system_destroy(system);
   }
 }

@@ -70,7 +70,7 @@ static void pushed(const hooke_system *system, const struct hk_body_tangent *t, 
 
 TEST(derivative_is_that_of_differences) {
   for (int pinned = 0; pinned <= 1; pinned++) {
-    hooke_system *system = hung_body(pinned, 40.0);
+    OWN(hooke_system) system = hung_body(pinned, 40.0);
     struct hk_body_tangents tangents;
     struct hk_rigid rigid;
     double force[3 * ALL], x[3 * ALL] = {0.0}, change[3 * ALL];
@@ -99,7 +99,6 @@ TEST(derivative_is_that_of_differences) {
     }
     hk_rigid_release(&rigid);
     hk_body_tangents_release(&tangents);
-    hooke_system_destroy(system);
   }
 }
 

@@ -40,12 +40,11 @@ static void *open_often(void *arg) {
   snprintf(path, sizeof path, "unit_hdf5_alone_%d.h5", reader->number);
   pthread_barrier_wait(&together);
   for (int k = 0; k < OPENINGS; k++) {
-    hooke_record *record = NULL;
+    OWN(hooke_record) record = NULL;
     if (hooke_record_open(path, &record) != HOOKE_OK) continue;
     const int fine = hooke_record_size(record, "time", &rows, &columns) == HOOKE_OK && rows == 1 &&
                      hooke_record_numbers(record, "time", time) == HOOKE_OK && time[0] == reader->number;
     reader->fine_count += fine;
-    hooke_record_close(record);
   }
   return NULL;
 }

@@ -5,6 +5,7 @@
 #include "measure/limit/limit_measure.h"
 
 #include "check.h"
+#include "run.h"
 #include "small.h"
 
 #include <math.h>
@@ -61,7 +62,7 @@ TEST(one_oscillator) {
   const double rk4[] = {2.95085, 2.62254, 2.78529, 0.28137}; /* |R(h lambda)| = 1 */
   for (int k = 0; k < 4; k++) {
     const double stiffness = omega * omega, damping = 2.0 * zeta[k] * omega;
-    hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
+    OWN(hooke_system) system = oscillators(1, &stiffness, &damping, 0.0);
     const struct {
       const char *method;
       double limit;
@@ -79,7 +80,6 @@ TEST(one_oscillator) {
         assert_int_equal(out.never_stable, 0);
       }
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -121,14 +121,12 @@ TEST(hidden_mode_is_found) {
   const char *const methods[] = {"symplectic-euler", "verlet", "rk4"};
   for (int m = 0; m < 3; m++) {
     /* the prediction of the slower mode alone, started in it */
-    hooke_system *slow = oscillators(1, stiffness, damping, 0.0),
-                 *fast = oscillators(1, stiffness + 1, damping, 0.0);
+    OWN(hooke_system) slow = oscillators(1, stiffness, damping, 0.0);
+    OWN(hooke_system) fast = oscillators(1, stiffness + 1, damping, 0.0);
     const double wrong = measure(slow, methods[m], NAN, NULL, 1e-3).step;
     const double right = measure(fast, methods[m], NAN, NULL, 1e-3).step;
     check_between(wrong / right, 1.1, 1.2);
     check_close(measure(system, methods[m], wrong, mode, 1e-3).step, right, 2e-3 * right);
-    hooke_system_destroy(slow);
-    hooke_system_destroy(fast);
   }
 }
 
@@ -311,11 +309,10 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
                              double predicted, double budget, hooke_progress *progress,
                              struct hk_measured_limit *out) {
   hooke_options *run = NULL;
-  hooke_state *start = NULL;
   check_ok(hooke_options_create("run", &run));
   if (duration > 0.0) check_ok(hooke_options_set_number(run, "duration", duration));
   check_ok(hooke_options_set_number(run, "every", 1.0)); /* which allows few steps, and is not used here */
-  check_ok(hooke_state_create(system, &start));
+  hooke_state *start = start_state(system);
   const int32_t status =
       hk_limit_measure_nonlinear(system, start, run, method, predicted, 1e-2, budget, progress, NULL, out);
   check_close(hooke_options_number(run, "every"), 1.0, 0.0);
@@ -372,8 +369,7 @@ TEST(scenes_that_take_too_long) {
   check_status(measure_scene(system, "verlet", 0.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
   check_message("duration");
   check_status(measure_scene(system, "no-such", 1.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
-  OWN(hooke_state) start = NULL;
-  check_ok(hooke_state_create(system, &start));
+  OWN(hooke_state) start = start_state(system);
   check_status(hk_limit_measure_nonlinear(system, start, NULL, "verlet", 0.19, 1e-2, 100.0, NULL, NULL, &out),
                HOOKE_BAD_VALUE);
   check_message("give the time to run");

@@ -2,6 +2,7 @@
  * and of memory; stated needs are compared with the memory used. */
 #include "hooke.h"
 #include "check.h"
+#include "run.h"
 #include "small.h"
 #include "sanitized.h"
 
@@ -168,7 +169,6 @@ static double peak(void) {
 static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, const char *const *families) {
   const double before = peak();
   hooke_system *system = new_system(0.0);
-  hooke_state *state;
   hooke_integrator *integrator;
   int64_t size[3] = {a, b, c};
   hooke_options *options = part_options(kind, size);
@@ -177,7 +177,7 @@ static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, cons
   check_ok(hooke_system_add_part(system, kind, "", options, NULL, NULL));
   const double needed = hk_system_needed_bytes(system, (struct hk_more){0});
   check_ok(hooke_system_commit(system));
-  check_ok(hooke_state_create(system, &state));
+  hooke_state *state = start_state(system);
   hooke_options *run = options_with("run", "method=symplectic-euler step=1e-9 duration=1e-9");
   check_ok(hooke_integrator_create(system, run, &integrator));
   check_ok(hooke_integrator_run(integrator, state));

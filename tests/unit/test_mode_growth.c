@@ -23,14 +23,13 @@ static double measure(const char *method, double h, double w, double d, int rigi
   double m[2][2];
   for (int k = 0; k < 2; k++) {
     hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
-    hooke_state *state = start_state(system);
+    OWN(hooke_state) state = start_state(system);
     double *x = hooke_state_position(state), *v = hooke_state_velocity(state);
     *x = k == 0 ? 0.7 : 0.0; /* an anchor of no length, in its point, pulls nowhere */
     *v = k == 1 ? 0.7 : 0.0;
     check_ok(hooke_integrator_step(integrator, state, 1));
     m[0][k] = *x / 0.7;
     m[1][k] = *v / 0.7;
-    hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);
   }
   hooke_system_destroy(system);

@@ -184,12 +184,11 @@ TEST(faults_of_the_surface_have_their_line) {
       {FOUR "f 1 2 3 4\n", "its corners", 1.0},
   };
   for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {
-    hooke_options *options;
+    OWN(hooke_options) options = NULL;
     check_status(read_file(faults[k].text, faults[k].weld, &options), HOOKE_BAD_VALUE);
     check_message(faults[k].message);
     check_message("/tmp/hooke-mesh-");
     assert_false(hooke_options_is_set(options, "vertices"));
-    hooke_options_destroy(options);
   }
 }
 

@@ -1,6 +1,7 @@
 /* Parts: the contents of rope and cloth, their order, and that rest lengths are equal to the bit. */
 #include "hooke.h"
 #include "check.h"
+#include "run.h"
 #include "small.h"
 
 #include <math.h>
@@ -50,8 +51,7 @@ static hooke_options *cloth_options(double nu, double nv) {
 }
 
 static void check_position(const hooke_system *system, int64_t particle, double x, double y, double z) {
-  OWN(hooke_state) state = NULL;
-  check_ok(hooke_state_create(system, &state));
+  OWN(hooke_state) state = start_state(system);
   const double *q = hooke_state_position(state) + 3 * particle;
   check_close(q[0], x, 1e-15);
   check_close(q[1], y, 1e-15);
@@ -111,17 +111,13 @@ TEST(a_rope_is_a_line) {
 
 TEST(a_rope_ends_where_it_is_told) {
   for (int segments = 1; segments < 60; segments++) {
-    hooke_system *system = new_system();
-    hooke_options *options = rope_options(segments);
+    OWN(hooke_system) system = new_system();
+    OWN(hooke_options) options = rope_options(segments);
     check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    hooke_state *state;
-    check_ok(hooke_state_create(system, &state));
+    OWN(hooke_state) state = start_state(system);
     check_same_bits(3, hooke_state_position(state) + 3 * segments, hooke_options_numbers(options, "to"));
     check_same_bits(3, hooke_state_position(state), hooke_options_numbers(options, "from"));
-    hooke_state_destroy(state);
-    hooke_options_destroy(options);
-    hooke_system_destroy(system);
   }
 }
 
@@ -178,8 +174,7 @@ TEST(a_cloth_has_its_springs_in_order) {
   assert_int_equal(k, s.count);
 
   /* every spring at rest initially, and one number for each family and direction */
-  hooke_state *state;
-  check_ok(hooke_state_create(system, &state));
+  hooke_state *state = start_state(system);
   const double *q = hooke_state_position(state);
   for (k = 0; k < s.count; k++) {
     const double *a = q + 3 * s.ends[2 * k], *b = q + 3 * s.ends[2 * k + 1];

@@ -1,5 +1,6 @@
 /* The scene loader: the system of a valid scene, and the position of the fault in an invalid one. */
 #include "check.h"
+#include "run.h"
 
 #include "core/memory.h"
 #include "io/scene/json.h"
@@ -282,8 +283,7 @@ static hooke_scene *parse(const char *quoted) {
 }
 
 TEST(a_whole_scene_becomes_a_system) {
-  OWN(hooke_scene)
-  scene = parse(
+  static const char text[] =
       "{'hooke': 1, 'title': 'net', 'gravity': [0, -9.81, 0], 'drag': 0.25,"
       " 'particles': {'position': [[0,0,0],[1,0,0.5],[2,0.25,0]], 'velocity': [[0,0,0],[1,2,3],[4,5,6]],"
       "               'mass': [1,2,4], 'pinned': [0]},"
@@ -291,7 +291,8 @@ TEST(a_whole_scene_becomes_a_system) {
       "              'rest_length': 2, 'rest_scale': 0.5},"
       "             {'between': [[2,0]], 'law': 'length', 'stiffness': 7, 'rest_length': 0, 'compression': "
       "false}],"
-      " 'run': {'method': 'forward-euler', 'step': 1e-3, 'every': 0.5}}");
+      " 'run': {'method': 'forward-euler', 'step': 1e-3, 'every': 0.5}}";
+  OWN(hooke_scene) scene = parse(text);
   hooke_system *system = hooke_scene_system(scene);
   assert_string_equal(hooke_scene_text(scene, "title"), "net");
   assert_int_equal(hooke_system_is_committed(system), 0);
@@ -316,9 +317,8 @@ TEST(a_whole_scene_becomes_a_system) {
   check_same_bits(3, gamma, wanted_gamma);
   check_same_bits(3, length, wanted_length);
 
-  hooke_state *initial = NULL;
   const double position[] = {0, 0, 0, 1, 0, 0.5, 2, 0.25, 0}, velocity[] = {0, 0, 0, 1, 2, 3, 4, 5, 6};
-  check_ok(hooke_state_create(system, &initial));
+  hooke_state *initial = start_state(system);
   check_same_bits(9, hooke_state_position(initial), position);
   check_same_bits(9, hooke_state_velocity(initial), velocity);
   hooke_state_destroy(initial);
@@ -340,8 +340,7 @@ TEST(what_is_not_named_is_not_computed) {
   assert_int_equal(hooke_system_count(system, "free"), 2);
   assert_string_equal(hooke_scene_text(scene, "title"), "");
   assert_int_equal(hooke_options_is_set(hooke_scene_run_options(scene), "method"), 0);
-  OWN(hooke_state) initial = NULL;
-  check_ok(hooke_state_create(system, &initial));
+  OWN(hooke_state) initial = start_state(system);
   for (int k = 0; k < 6; k++)
     check_close(hooke_state_velocity(initial)[k], 0, 0);
 }
@@ -391,8 +390,7 @@ TEST(driven_particles_move) {
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   assert_int_equal(hooke_system_count(system, "free"), 2);
-  hooke_state *initial = NULL;
-  check_ok(hooke_state_create(system, &initial));
+  hooke_state *initial = start_state(system);
   check_close(hooke_state_position(initial)[4], 2, 1e-15);
   check_close(hooke_state_position(initial)[3], 1, 0);
   hooke_state_destroy(initial);
@@ -513,9 +511,9 @@ TEST(syntax_errors_give_line_and_column) {
 
 /* Commit finds faults that the parser does not; its message still has a position in the text. */
 TEST(commit_gives_the_place_too) {
-  OWN(hooke_scene)
-  scene = parse("{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
-                " 'velocity': [[0,0,3]]}}");
+  static const char text[] = "{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
+                             " 'velocity': [[0,0,3]]}}";
+  OWN(hooke_scene) scene = parse(text);
   check_status(hooke_scene_commit(scene), HOOKE_BAD_VALUE);
   check_message("test.json:2:20: particles.velocity[0][2]: ");
 }
@@ -554,7 +552,7 @@ TEST(files_of_every_length_are_read_whole) {
   snprintf(path, sizeof path, "%s/scene.json", folder);
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
     const int gap = (int)(lengths[k] - (int64_t)(sizeof before + sizeof after - 2));
-    hooke_scene *scene = NULL;
+    OWN(hooke_scene) scene = NULL;
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_int_equal(fprintf(file, "%s%*s%s", before, gap, "", after), lengths[k]);
@@ -564,7 +562,6 @@ TEST(files_of_every_length_are_read_whole) {
     assert_string_equal(hooke_scene_text(scene, "text") + lengths[k] - (int64_t)sizeof after + 1, after);
     check_ok(hooke_scene_commit(scene));
     assert_int_equal(hooke_system_particle_count(hooke_scene_system(scene)), 1);
-    hooke_scene_destroy(scene);
   }
   assert_int_equal(unlink(path), 0);
   assert_int_equal(rmdir(folder), 0);

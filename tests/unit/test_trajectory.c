@@ -191,16 +191,14 @@ TEST(scenes_of_any_length_come_back) {
   static const int64_t lengths[] = {0,       1,       (1 << 20) - 1, 1 << 20, (1 << 20) + 1,
                                     1180000, 2300000, 3271701,       9000000};
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
-    hooke_record *record;
-    char *text = new_block(lengths[k] + 1, 1);
+    OWN(hooke_record) record = NULL;
+    OWN(char) text = new_block(lengths[k] + 1, 1);
     for (int64_t i = 0; i < lengths[k]; i++)
       text[i] = (char)('a' + (i * 7 + i / 1000) % 26);
     check_ok(hooke_trajectory_create(f->path, f->system, f->integrator, text, &f->trajectory));
     check_ok(close_file(f, HOOKE_STOPPED));
     check_ok(hooke_record_open(f->path, &record));
     assert_string_equal(hooke_record_text(record, "scene"), text);
-    hooke_record_close(record);
-    free(text);
   }
 }
 

@@ -189,14 +189,12 @@ TEST(a_killed_run_ends_as_if_it_never_was) {
       write_frames(f, trajectory, 0, FRAMES);
       memcpy(run, hooke_trajectory_text(trajectory, "run"), 33);
       check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
-      char *bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
+      OWN(char) bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
       assert_int_equal(size, whole_size);
       int64_t different = 0;
       for (size_t at = 0; at < size; at++)
         different += bytes[at] != whole[at];
       assert_true(different <= 32); /* the name of the run */
-      free(bytes);
-      free(whole);
     }
   }
 }
@@ -428,9 +426,8 @@ TEST(other_runs_do_not_go_on) {
                                {.method = "symplectic-euler", .step = 1e-3, .duration = 0.2, .every = 0.01},
                                {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.02}};
   for (int k = 0; k < 4; k++) {
-    hooke_integrator *integrator = start_run(f->system, others[k]);
+    OWN(hooke_integrator) integrator = start_run(f->system, others[k]);
     check_not_resumed(f, f->system, integrator, HOOKE_BAD_VALUE, "only threads may be changed");
-    hooke_integrator_destroy(integrator);
   }
   run.duration = 0.0;
   hooke_integrator *endless = start_run(f->system, run);

@@ -199,7 +199,7 @@ TEST(tension_is_the_slope_of_energy_and_the_force) {
                                         {"length", 30.0, 2.0, 1.2, 0}};
   static const double lengths[] = {0.7, 1.19, 1.3, 2.5}, rates[] = {-40.0, -0.1, 0.0, 3.0};
   for (size_t k = 0; k < COUNT(laws); k++) {
-    hooke_system *system = one_spring(laws[k]);
+    OWN(hooke_system) system = one_spring(laws[k]);
     for (size_t i = 0; i < COUNT(lengths); i++) {
       const double r = lengths[i], h = 1e-5;
       check_close(tension(system, r, 0.0), (energy(system, r + h) - energy(system, r - h)) / (2.0 * h), 1e-7);
@@ -208,7 +208,6 @@ TEST(tension_is_the_slope_of_energy_and_the_force) {
       /* a cable does not push, at any damping */
       assert_true(!laws[k].pull_only || tension(system, r, -40.0) >= 0.0);
     }
-    hooke_system_destroy(system);
   }
 }
 

@@ -115,14 +115,12 @@ TEST(the_file_is_the_same) {
     size_t size, other_size;
     write_file(&f, f.path, 1, frames[k]);
     write_file(&f, f.other, 0, frames[k]);
-    char *bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
+    OWN(char) bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
     assert_int_equal(size, other_size);
     blank_run(f.path, bytes, size);
     blank_run(f.other, other, size);
     assert_true(size > (size_t)(48 * N * frames[k]));
     assert_memory_equal(bytes, other, size);
-    free(bytes);
-    free(other);
   }
   release(&f);
 }

@@ -359,13 +359,12 @@ TEST(idle_is_what_nothing_touches) {
   for (int k = 0; k < 4; k++) {
     const int callback = k == 1;
     const double bending = k == 2 ? 1.0 : 0.0;
-    hooke_system *system = small_system(4, q, NULL, 1.0, 0);
+    OWN(hooke_system) system = small_system(4, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
     check_ok(hooke_system_pin(system, 2, pinned));
     if (k >= 2) check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &bending));
     if (callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
     assert_int_equal(hooke_system_count(system, "idle"), callback || bending > 0.0 ? 0 : 1);
-    hooke_system_destroy(system);
   }
 }
