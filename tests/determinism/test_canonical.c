@@ -13,8 +13,8 @@
 
 static void compare_acceleration(const struct random_scene *scene, uint64_t seed) {
   const int64_t n = scene->canonical.particle_count;
-  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
-  OWN(double) expected = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
+  owned_doubles *expected = new_doubles(3 * n);
   random_scene_shake(scene, seed, q, v);
   memset(found, 0x55, (size_t)(3 * n) * sizeof(double));
   check_ok(hooke_system_acceleration(scene->system, 0.125, q, v, found));
@@ -130,12 +130,11 @@ TEST(test_parts_are_springs) {
                       &parts);
   const struct canonical *c = &parts.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
-  OWN(double) expected = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
+  owned_doubles *expected = new_doubles(3 * n);
   random_scene_shake(&parts, 4, q, v);
 
-  hooke_system *listed = NULL;
-  check_ok(hooke_system_create(&listed));
+  hooke_system *listed = new_system();
   check_ok(hooke_system_add_particles(listed, n, q, v, n, hooke_system_mass(parts.system), NULL));
   hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", m, c->kappa));
@@ -162,8 +161,8 @@ TEST(test_planted_faults) {
       &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
-  OWN(double) b = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  owned_doubles *b = new_doubles(3 * n);
   random_scene_shake(&scene, 12, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
 
@@ -201,8 +200,8 @@ TEST(test_planted_bending) {
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->triple_count;
   assert_true(m > 500);
-  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
-  OWN(double) b = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  owned_doubles *b = new_doubles(3 * n);
   random_scene_shake(&scene, 32, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -230,8 +229,8 @@ TEST(test_planted_altitude) {
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->tetrahedron_count;
   assert_true(m > 200);
-  OWN(double) q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
-  OWN(double) b = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  owned_doubles *b = new_doubles(3 * n);
   random_scene_shake(&scene, 42, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -278,10 +277,10 @@ TEST(test_planted_defects) {
                                                     .features = SCENE_DAMPING | SCENE_GRAVITY | SCENE_DRAG},
                       &scene);
   const int64_t size = 3 * scene.canonical.particle_count;
-  OWN(double) q = new_doubles(size), *v = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size);
   random_scene_shake(&scene, 22, q, v);
   for (int m = 0; m < 4; m++) {
-    OWN(hooke_state) state = start_state(scene.system);
+    owned_state *state = start_state(scene.system);
     double *q1 = hooke_state_position(state), *v1 = hooke_state_velocity(state);
     memcpy(q1, q, (size_t)size * sizeof(double));
     memcpy(v1, v, (size_t)size * sizeof(double));

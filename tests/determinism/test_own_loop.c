@@ -148,7 +148,7 @@ static const char *method_of(int64_t number) {
 
 static void for_every_method(void (*check)(const hooke_system *, struct run)) {
   for (int scene = 0; scene < SCENES; scene++) {
-    OWN(hooke_system) system = make_system(scene);
+    owned_system *system = make_system(scene);
     const int32_t threads = scene >= MOVING_LARGE ? 2 : 1;
     const char *method;
     for (int64_t m = 0; (method = method_of(m)) != NULL; m++) {
@@ -237,7 +237,7 @@ TEST(test_particles) {
 
 /* A pinned particle is held where it is put, with zero velocity. */
 TEST(test_pinned) {
-  OWN(hooke_system) system = moving_system(&moving_scenes[0]);
+  owned_system *system = moving_system(&moving_scenes[0]);
   struct loop loop = loop_start(system, run_of("symplectic-euler", 1));
   const int64_t pinned = 1;
   const double q[] = {0.25, 0.5, -0.75}, v[] = {1, 2, 3}, rest[3] = {0};
@@ -305,7 +305,7 @@ static struct loop start_wild(const hooke_system *system, double step) {
 
 /* Each call of a step checks for non-finite numbers, and leaves the state of the previous call. */
 TEST(test_steps_diverge) {
-  OWN(hooke_system) system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   struct loop loop = start_wild(system, 10.0);
   hooke_state *before = start_state(system), *recent = start_state(system);
   int32_t status = HOOKE_OK;
@@ -334,9 +334,9 @@ TEST(test_steps_diverge) {
 
 /* Without a state the check is made every 1000 steps, and when the state is requested. */
 TEST(test_motion_diverges) {
-  OWN(hooke_system) system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   struct loop loop = start_wild(system, 0.01);
-  OWN(hooke_state) start = start_state(system);
+  owned_state *start = start_state(system);
   check_ok(hooke_integrator_step(loop.integrator, loop.state, 0));
   check_ok(hooke_integrator_advance(loop.integrator, 999));
   check_status(hooke_integrator_advance(loop.integrator, 1), HOOKE_DIVERGED); /* by its energy */
@@ -359,7 +359,7 @@ TEST(test_motion_diverges) {
 
 /* Moving particles may add any energy. */
 TEST(test_put_brings_energy) {
-  OWN(hooke_system) system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   const int64_t particle = 1;
   for (int put = 0; put < 2; put++) {
     struct loop loop = loop_start(system, (struct run){.method = "symplectic-euler", .step = 0.01});
@@ -385,7 +385,7 @@ static void check_no_motion(struct loop *loop) {
 }
 
 TEST(test_misuse) {
-  OWN(hooke_system) system = moving_system(&moving_scenes[0]), *other = small_oscillator(1.0);
+  owned_system *system = moving_system(&moving_scenes[0]), *other = small_oscillator(1.0);
   struct loop loop = loop_start(system, run_of("verlet", 1));
   hooke_state *before = start_state(system), *small = start_state(other);
   const int64_t n = hooke_system_particle_count(system), particle[] = {2, n}, below[] = {-1};

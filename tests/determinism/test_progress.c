@@ -41,8 +41,8 @@ static void keep(const hooke_integrator *integrator, const hooke_state *state, s
 
 /* Stopped repeatedly, each time after more calls. */
 static void run_by_pieces(const hooke_system *system, struct run run, struct end *end, int64_t *stops) {
-  OWN(hooke_integrator) integrator = start_run(system, run);
-  OWN(hooke_state) state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   struct listener listener = {.method = run.method, .stop_at = 1};
   check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
   int32_t status = hooke_integrator_run(integrator, state);
@@ -57,8 +57,8 @@ static void run_by_pieces(const hooke_system *system, struct run run, struct end
 }
 
 static void run_alone(const hooke_system *system, struct run run, struct end *end) {
-  OWN(hooke_integrator) integrator = start_run(system, run);
-  OWN(hooke_state) state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   keep(integrator, state, end);
 }
@@ -70,7 +70,7 @@ TEST(test_a_stopped_run_goes_on) {
     const char *method = hooke_method_name(k);
     if (!is_fixed_step(method)) continue;
     const int implicit = is_implicit(method);
-    OWN(hooke_system) system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
+    owned_system *system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
     const double step = implicit ? 0.02 : 1e-3;
     const struct run run = {.method = method, .step = step, .duration = 8.0 * step, .every = 4.0 * step};
     int64_t stops;
@@ -86,7 +86,7 @@ TEST(test_a_stopped_run_goes_on) {
 
 /* Between frames, in steps by hand, and with error control. */
 TEST(test_every_method_is_heard) {
-  OWN(hooke_system) system = small_oscillator(1.0);
+  owned_system *system = small_oscillator(1.0);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct listener listener = {.method = hooke_method_name(k), .stop_at = 3};
     if (!hooke_method_is_built(listener.method)) continue;
@@ -94,7 +94,7 @@ TEST(test_every_method_is_heard) {
     hooke_integrator *integrator = start_run(
         system,
         (struct run){.method = listener.method, .step = 0.01, .duration = duration, .every = duration});
-    OWN(hooke_state) state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_message("the progress callback asked to stop at t = ");
@@ -110,7 +110,7 @@ TEST(test_every_method_is_heard) {
 }
 
 TEST(test_seconds) {
-  OWN(hooke_system) system = small_oscillator(1.0);
+  owned_system *system = small_oscillator(1.0);
   struct listener listener = {.method = "verlet"};
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 10.0});

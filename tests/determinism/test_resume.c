@@ -206,7 +206,7 @@ static const char *const references[] = {"rk8pd", "arkode-esdirk"};
 
 static void check_scene(const struct moving_scene *scene, int64_t tries) {
   struct random_source random = {(uint64_t)(scene - moving_scenes) + 1};
-  OWN(hooke_system) system = moving_system(scene);
+  owned_system *system = moving_system(scene);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     if (hooke_method_is_built(hooke_method_name(m)))
       check_method(scene, system, hooke_method_name(m), tries, &random);
@@ -227,7 +227,7 @@ TEST(threads_change_nothing) {
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
   const struct moving_scene *scene = &moving_scenes[MOVING_LARGE];
   struct random_source random = {17};
-  OWN(hooke_system) system = moving_system(scene);
+  owned_system *system = moving_system(scene);
   for (int m = 0; m < 4; m++) {
     if (!hooke_method_is_built(methods[m]) || left_out(m, 3)) continue;
     struct run run = run_of(scene, methods[m], 0);
@@ -244,7 +244,7 @@ TEST(fixed_steps_go_on_where_they_stopped) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    OWN(hooke_system) system = moving_system(&moving_scenes[2]);
+    owned_system *system = moving_system(&moving_scenes[2]);
     const struct run run = run_of(&moving_scenes[2], method, 0);
     struct trace whole = trace_create(system), trace = trace_create(system);
     const int64_t calls = run_whole(system, run, &whole);
@@ -272,7 +272,7 @@ TEST(the_last_short_interval_goes_on) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    OWN(hooke_system) system = moving_system(&moving_scenes[1]);
+    owned_system *system = moving_system(&moving_scenes[1]);
     const struct run run = run_of(&moving_scenes[1], method, 1);
     struct trace whole = trace_create(system), trace = trace_create(system);
     run_whole(system, run, &whole);
@@ -300,12 +300,12 @@ TEST(single_steps_go_on_from_a_checkpoint) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    OWN(hooke_system) system = moving_system(&moving_scenes[1]);
+    owned_system *system = moving_system(&moving_scenes[1]);
     const struct run run = {.method = method, .step = 1e-3};
-    OWN(hooke_integrator) whole = start_run(system, run), *half = start_run(system, run);
-    OWN(hooke_integrator) rest = start_run(system, run);
-    OWN(hooke_state) expected = start_state(system), *before = start_state(system);
-    OWN(hooke_state) found = start_state(system);
+    owned_integrator *whole = start_run(system, run), *half = start_run(system, run);
+    owned_integrator *rest = start_run(system, run);
+    owned_state *expected = start_state(system), *before = start_state(system);
+    owned_state *found = start_state(system);
     check_ok(hooke_integrator_step(whole, expected, 20));
     check_ok(hooke_integrator_step(half, before, 11));
     check_ok(hooke_checkpoint_write(path, half, before, NULL));

@@ -1,5 +1,6 @@
 /* Systems by hand and by parts, drives, commit, and queries that need scratch. */
 #include "scenarios.h"
+#include "words.h"
 
 #include <string.h>
 
@@ -33,7 +34,7 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   if (anchors == NULL) goto end;
   TRY(a, hooke_options_set_numbers(springs, "stiffness", 10, stiffness));
   TRY(a, hooke_system_add_springs(system, "edges", 10, ends, springs));
-  TRY(a, set_words(springs, "law=length stiffness=3 compression=false"));
+  TRY(a, try_words(springs, "law=length stiffness=3 compression=false"));
   TRY(a, hooke_system_add_springs(system, "cables", 3, ends, springs));
   TRY(a, hooke_system_add_bending(system, "beam", 2, triples, 1, &coefficient));
   TRY(a, hooke_system_add_altitude(system, "volume", 2, tetrahedra, altitude));
@@ -160,7 +161,7 @@ static void set_mesh(struct attempt *a, hooke_options *options) {
   const double vertices[] = {0, 6, 0, 1, 6, 0, 0, 7, 0, 1, 7, 0, 1, 6, 0};
   const int64_t triangles[] = {0, 1, 2, 4, 3, 2};
   TRY(a, hooke_mesh_set(options, 5, vertices, 2, triangles));
-  TRY(a, set_words(options,
+  TRY(a, try_words(options,
                    "mass=0.1 weld=1e-6 structural.stiffness=10 bend.damping_ratio=0.1 bend.stiffness=1"));
 end:
   return;

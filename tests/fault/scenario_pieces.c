@@ -1,4 +1,5 @@
 #include "scenarios.h"
+#include "words.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -76,7 +77,7 @@ hooke_options *make_options(struct attempt *a, const char *name, const char *wor
   va_end(values);
   if (a->gave_up) return NULL;
   TRY(a, hooke_options_create(name, &options));
-  TRY(a, set_words(options, text));
+  TRY(a, try_words(options, text));
   return options;
 end:
   hooke_options_destroy(options);

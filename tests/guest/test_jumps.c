@@ -194,7 +194,7 @@ TEST(test_rates) {
   const char *const methods[] = {"rk4", "cvode-adams"};
   for (int m = 0; m < 2; m++) {
     if (!hooke_method_is_built(methods[m])) continue;
-    OWN(hooke_state) state = NULL;
+    owned_state *state = NULL;
     check_ok(hooke_state_create_first_order(2, &state));
     hooke_integrator *integrator = start_first_order(
         2, decay, NULL,

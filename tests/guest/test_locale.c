@@ -83,10 +83,8 @@ static void add_file(struct output *out, const char *path) {
 }
 
 static void refusals(struct output *out) {
-  hooke_options *options;
-  OWN(hooke_system) system = NULL;
   const double q[] = {0, 0, 0}, bad[] = {0.5, NAN, 1.5};
-  check_ok(hooke_options_create("run", &options));
+  hooke_options *options = new_options("run");
   check_status(hooke_options_set_text(options, "step", "-1.25e-3"), HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
   check_status(hooke_options_set_text(options, "step", "1,5"), HOOKE_BAD_VALUE);
@@ -102,7 +100,7 @@ static void refusals(struct output *out) {
     add(out, hooke_options_row(options, row, "allowed"));
   }
   hooke_options_destroy(options);
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_status(hooke_system_set_drag(system, -0.5), HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
   check_status(hooke_system_add_particles(system, 1, bad, NULL, 1, q, NULL), HOOKE_BAD_VALUE);
@@ -110,10 +108,10 @@ static void refusals(struct output *out) {
 }
 
 static void divergence(struct output *out) {
-  OWN(hooke_system) system = small_oscillator(100.0);
+  owned_system *system = small_oscillator(100.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "forward-euler", .step = 0.0625, .duration = 100.0});
-  OWN(hooke_state) state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   add(out, hooke_last_error());
 #if HOOKE_HAVE_LAPACK

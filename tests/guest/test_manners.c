@@ -195,10 +195,10 @@ static void tour_methods(void) {
 }
 
 static void tour_divergence(void) {
-  OWN(hooke_system) system = small_oscillator(100.0);
+  owned_system *system = small_oscillator(100.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "forward-euler", .step = 0.5, .duration = 500.0});
-  OWN(hooke_state) state = start_state(system);
+  owned_state *state = start_state(system);
   REFUSED(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
 #if HOOKE_HAVE_LAPACK
   hooke_measurement *why = NULL;

@@ -209,7 +209,7 @@ TEST(test_other_options_are_refused) {
   int64_t taken = 0, bad = 0;
   for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
     for (int t = 0; t < TABLES; t++) {
-      OWN(hooke_options) options = NULL;
+      owned_options *options = NULL;
       if (hooke_options_create(tables[t], &options) == HOOKE_NOT_BUILT) continue;
       hooke_options_set_number(options, "step", 0.01); /* of a run; others have none */
       const int32_t status = functions[f].take(options);

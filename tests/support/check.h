@@ -6,11 +6,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #include "hooke.h"
+#include "owned.h"
 
 /* A test of the program, which runs all that its file has, in their order. */
 #define TEST(name)                                                                                           \
@@ -31,26 +31,6 @@
   __attribute__((constructor)) static void add_around_all(void) {                                            \
     check_around_all((set_up), (tear_down));                                                                 \
   }
-
-/* Declares a pointer to what its function alone has, which is released where the function ends:
- * OWN(hooke_system) system = small_oscillator(2.0); */
-#define OWN(type) __attribute__((cleanup(own_##type))) type *
-
-#define RELEASED(type, release)                                                                              \
-  static inline void own_##type(type **own) {                                                                \
-    release(*own);                                                                                           \
-  }
-RELEASED(char, free)
-RELEASED(double, free)
-RELEASED(int32_t, free)
-RELEASED(int64_t, free)
-RELEASED(hooke_system, hooke_system_destroy)
-RELEASED(hooke_options, hooke_options_destroy)
-RELEASED(hooke_state, hooke_state_destroy)
-RELEASED(hooke_integrator, hooke_integrator_destroy)
-RELEASED(hooke_measurement, hooke_measurement_destroy)
-RELEASED(hooke_scene, hooke_scene_destroy)
-RELEASED(hooke_record, hooke_record_close)
 
 /* The call returned exactly this status; prints the library's message otherwise. */
 #define check_status(call, status) check_status_at((call), (status), #call, __FILE__, __LINE__)

@@ -57,14 +57,10 @@ static void set_mesh(hooke_options *options) {
 
 hooke_system *moving_system(const struct moving_scene *scene) {
   const double gravity[] = {0.1, -9.81, 0.3};
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create(scene->kind, &options));
+  hooke_system *system = new_system();
+  owned_options *options = options_with(scene->kind, "%s", scene->options);
   if (strcmp(scene->kind, "mesh") == 0) set_mesh(options);
-  check_ok(set_words(options, scene->options));
   check_ok(hooke_system_add_part(system, scene->kind, NULL, options, NULL, NULL));
-  hooke_options_destroy(options);
   if (scene->gravity) check_ok(hooke_system_set_gravity(system, gravity));
   if (scene->drag) check_ok(hooke_system_set_drag(system, 1e-3));
   if (scene->callback)

@@ -47,8 +47,7 @@ static void add_group(hooke_system *system, const struct reference_group *group)
 }
 
 hooke_system *build_reference(const struct reference *reference) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, reference->particle_count, reference->position, NULL,
                                       reference->mass_count, reference->mass, NULL));
   check_ok(hooke_system_pin(system, reference->pinned_count, reference->pinned));

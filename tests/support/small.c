@@ -2,89 +2,71 @@
 
 #include "check.h"
 #include "random.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-int32_t set_words(hooke_options *options, const char *words) {
-  char name[64], value[128];
-  int length;
-  int32_t status = HOOKE_OK;
-  for (; status == HOOKE_OK && sscanf(words, " %63[^=]=%127s%n", name, value, &length) == 2; words += length)
-    status = hooke_options_set_text(options, name, value);
-  return status == HOOKE_OK && words[strspn(words, " ")] != '\0' ? HOOKE_BAD_VALUE : status;
+static void set_words(hooke_options *options, const char *words, va_list arguments) {
+  char all[1024], *next = all;
+  const int size = vsnprintf(all, sizeof all, words, arguments);
+  assert_in_range(size, 0, sizeof all - 1);
+  while (next != NULL && *next != '\0') {
+    char *name = next;
+    if ((next = strchr(name, ' ')) != NULL) *next++ = '\0';
+    char *value = strchr(name, '=');
+    assert_non_null(value);
+    *value++ = '\0';
+    check_ok(hooke_options_set_text(options, name, value));
+  }
 }
 
-static hooke_options *formatted(const char *name, const char *words, va_list values) {
-  char text[1024];
+hooke_options *new_options(const char *table) {
   hooke_options *options = NULL;
-  check_between(vsnprintf(text, sizeof text, words, values), 0.0, sizeof text - 1.0);
-  check_ok(hooke_options_create(name, &options));
-  check_ok(set_words(options, text));
+  check_ok(hooke_options_create(table, &options));
   return options;
 }
 
-hooke_options *options_with(const char *name, const char *words, ...) {
-  va_list values;
-  va_start(values, words);
-  hooke_options *options = formatted(name, words, values);
-  va_end(values);
+hooke_options *options_with(const char *table, const char *words, ...) {
+  hooke_options *options = new_options(table);
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
   return options;
 }
 
-hooke_system *small_part(hooke_system *system, const char *kind, const char *name, const char *words, ...) {
-  va_list values;
-  va_start(values, words);
-  hooke_options *options = formatted(kind, words, values);
-  va_end(values);
-  if (system == NULL) check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
-  hooke_options_destroy(options);
-  return system;
+void set_options(hooke_options *options, const char *words, ...) {
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
 }
 
-void small_group(hooke_system *system, const char *kind, const char *name, int64_t count,
-                 const int64_t *members, const char *words, ...) {
-  va_list values;
-  va_start(values, words);
-  hooke_options *options = formatted(kind, words, values);
-  va_end(values);
-  check_ok((strcmp(kind, "anchors") == 0 ? hooke_system_add_anchors
-            : strcmp(kind, "altitude") == 0
-                ? hooke_system_add_altitude
-                : hooke_system_add_springs)(system, name, count, members, options));
-  hooke_options_destroy(options);
-}
-
-hooke_system *small_falling(hooke_system *system) {
-  const double down[] = {0, -9.81, 0};
-  check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_commit(system));
+hooke_system *new_system(void) {
+  hooke_system *system = NULL;
+  check_ok(hooke_system_create(&system));
   return system;
 }
 
 hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
                            int32_t pin_first) {
-  hooke_system *system = NULL;
+  hooke_system *system = new_system();
   const int64_t first = 0;
-  check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, count, position, velocity, 1, &mass, NULL));
   if (pin_first) check_ok(hooke_system_pin(system, 1, &first));
   return system;
 }
 
 void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  if (springs.law != NULL) check_ok(hooke_options_set_text(options, "law", springs.law));
-  check_ok(hooke_options_set_number(options, "stiffness", springs.stiffness));
-  check_ok(hooke_options_set_number(options, "damping", springs.damping));
+  owned_options *options =
+      options_with("springs", "law=%s stiffness=%.17g damping=%.17g",
+                   springs.law != NULL ? springs.law : "strain", springs.stiffness, springs.damping);
   if (springs.rest_length >= 0.0)
     check_ok(hooke_options_set_number(options, "rest_length", springs.rest_length));
   if (springs.pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(system, "springs", count, ends, options));
-  hooke_options_destroy(options);
 }
 
 hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin_first) {
@@ -103,11 +85,10 @@ hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin
     stiffness[k] = pow(10.0, random_between(&source, 0.0, 3.0));
     gamma[k] = damping * pow(10.0, random_between(&source, -1.0, 1.0));
   }
-  hooke_options *options = options_with("springs", "law=length");
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, gamma));
   check_ok(hooke_system_add_springs(system, "net", SPRINGS, ends, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
@@ -135,4 +116,15 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping) {
       "origin=0,0,0 edges=1,0,0,0,0,1 size=%d,%d mass=0.2 pinned=top-corners "
       "structural.stiffness=%.17g shear.stiffness=%.17g structural.damping=%.17g shear.damping=%.17g",
       (int)side, (int)side, stiffness, stiffness, damping, damping));
+}
+
+double volume_of(const double *q, const int64_t *p) {
+  double e[3][3];
+  for (int k = 0; k < 3; k++) {
+    for (int a = 0; a < 3; a++)
+      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }

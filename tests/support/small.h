@@ -4,20 +4,14 @@
 
 #include "hooke.h"
 
-/* Sets options from words as "size=6,6 mass=0.1", values without spaces; the status of the first that is
- * refused. */
-int32_t set_words(hooke_options *options, const char *words);
-/* Options of that name; the words are a format. */
-__attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *name, const char *words, ...);
-/* Adds a part that the words describe to a system, NULL for a new one, and returns that. */
-__attribute__((format(printf, 4, 5))) hooke_system *small_part(hooke_system *system, const char *kind,
-                                                               const char *name, const char *words, ...);
-/* Adds a group of "springs", "altitude" springs or "anchors". */
-__attribute__((format(printf, 6, 7))) void small_group(hooke_system *system, const char *kind,
-                                                       const char *name, int64_t count,
-                                                       const int64_t *members, const char *words, ...);
-/* Commits a system that falls at 9.81 m/s^2 along -y, and returns it. */
-hooke_system *small_falling(hooke_system *system);
+hooke_options *new_options(const char *table);
+/* Options of a table, set by "name=value name=value", in which printf() puts the rest: numbers by %.17g, which
+ * keeps every bit. */
+__attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *table, const char *words, ...);
+__attribute__((format(printf, 2, 3))) void set_options(hooke_options *options, const char *words, ...);
+
+/* An open system without particles. */
+hooke_system *new_system(void);
 
 /* One group of springs that share a material. */
 struct springs {
@@ -49,5 +43,8 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping);
 /* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples:
  * chaotic after a second or so. */
 hooke_system *small_crumpling_cloth(int64_t side);
+
+/* Six times the volume of the tetrahedron with these corners, with its sign. */
+double volume_of(const double *q, const int64_t *corners);
 
 #endif

@@ -4,6 +4,7 @@
 #include "check.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include "measure/trial/balance.h"
 #include "model/system.h"
@@ -61,10 +62,10 @@ static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
 static void run_watched(struct watch *watch, const char *method, double step) {
   watch->count = 0;
   const struct run run = {.method = method, .step = step, .duration = 0.8, .every = 0.1};
-  OWN(hooke_integrator) integrator = start_run(watch->system, run);
+  owned_integrator *integrator = start_run(watch->system, run);
   check_ok(hooke_integrator_on_step(integrator, 1, on_step, watch));
   check_ok(hooke_integrator_on_frame(integrator, on_frame, watch));
-  OWN(hooke_state) state = start_state(watch->system);
+  owned_state *state = start_state(watch->system);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(watch->count, FRAMES);
   hk_balance_release(&watch->balance);
@@ -129,7 +130,7 @@ TEST(wrong_heat_is_seen) {
 
 /* Missing work is detected, too. */
 TEST(wrong_work_is_seen) {
-  OWN(hooke_system) system = damped_chain(1);
+  owned_system *system = damped_chain(1);
   struct watch coarse = {.system = system}, fine = coarse;
   double largest, bound;
   run_watched(&coarse, "verlet", 1e-3);

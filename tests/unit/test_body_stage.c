@@ -5,6 +5,7 @@
 #include "check.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 #include "model/body.h"
 
 #include <math.h>
@@ -19,12 +20,11 @@ static hooke_system *two_bodies(int pinned) {
   const double mass[ALL] = {0.5, 1.0, 0.4, 0.7, 0.6, 0.9, 0.3, 1, 1, 1};
   const int64_t block[] = {0, 1, 2, 3}, bar[] = {4, 5, 6}, posts[] = {7, 8, 9, 4},
                 ends[] = {0, 7, 1, 8, 2, 5, 3, 6, 6, 9};
-  hooke_system *system = NULL;
   for (int k = 0; k < 3 * ALL; k++)
     q[k] = sin(1.0 + 2.3 * k) + 0.3 * (k / 3 % 4);
   for (int a = 0; a < 3; a++)
     q[18 + a] = q[12 + a] + 1.7 * (q[15 + a] - q[12 + a]);
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, ALL, q, NULL, ALL, mass, NULL));
   check_ok(hooke_system_pin(system, 3 + pinned, posts));
   check_ok(hooke_system_set_gravity(system, (double[]){1.0, -9.81, 2.0}));
@@ -46,7 +46,7 @@ static void find_right(struct hk_stage *stage, const double *v, double *right) {
 TEST(matrix_is_the_derivative) {
   const double small = 1e-6, still[3 * ALL] = {0.0};
   for (int pinned = 0; pinned < 2; pinned++) {
-    OWN(hooke_system) system = two_bodies(pinned);
+    owned_system *system = two_bodies(pinned);
     hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = 0.1});
     struct hk_stage *stage = it->own;
     const int64_t size = 3 * ALL + UNKNOWNS;

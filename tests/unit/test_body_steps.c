@@ -2,6 +2,7 @@
  * bodies of every kind among other particles, which are driven in every way. */
 #include "canonical_body.h"
 #include "check.h"
+#include "small.h"
 #include "random.h"
 #include "run.h"
 
@@ -45,7 +46,7 @@ static void add_particles(struct random_source *random, hooke_system *system) {
 }
 
 static void add_forces(struct random_source *random, struct features with, hooke_system *system) {
-  OWN(hooke_options) springs = NULL, *anchors = NULL;
+  owned_options *springs = NULL, *anchors = NULL;
   int64_t ends[2 * SPRINGS], anchored[ANCHORS];
   double point[3 * ANCHORS];
   for (int k = 0; k < SPRINGS; k++) {
@@ -96,7 +97,7 @@ static void drive(hooke_system *system) {
 static void place(double t, double *q, double *v, void *ctx) {
   const hooke_system *system = ctx;
   hooke_integrator *driver = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
-  OWN(hooke_state) state = start_state(system);
+  owned_state *state = start_state(system);
   hooke_state_set_time(state, t);
   check_ok(hooke_integrator_step(driver, state, 0));
   memcpy(q + 3 * (N - 3), hooke_state_position(state) + 3 * (N - 3), 9 * sizeof *q);
@@ -106,8 +107,7 @@ static void place(double t, double *q, double *v, void *ctx) {
 
 static hooke_system *mixed_system(uint64_t seed, struct features with, const double gravity[3]) {
   struct random_source random = {seed};
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   add_particles(&random, system);
   add_forces(&random, with, system);
   int64_t p = 0, members[8];
@@ -147,7 +147,7 @@ static void fill_bodies(const hooke_system *system, struct canonical_body *body)
 static void compare(uint64_t seed, struct features with, const char *method) {
   const int exactly = strcmp(method, "symplectic-euler") == 0 || strcmp(method, "verlet") == 0;
   const double gravity[3] = {0.3, -9.81, 0.7}, h = 0.0009765; /* no binary fraction */
-  OWN(hooke_system) system = mixed_system(seed, with, gravity);
+  owned_system *system = mixed_system(seed, with, gravity);
   struct canonical canonical;
   struct canonical_body body[BODIES];
   canonical_create(system, &canonical);

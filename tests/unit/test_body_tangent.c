@@ -6,6 +6,7 @@
 
 #include "check.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,7 +22,6 @@ static hooke_system *hung_body(int pinned, double stiffness) {
   double q[3 * ALL];
   const double mass[ALL] = {1.0, 0.5, 2.0, 0.7, 0.3, 1, 1, 1, 1, 1};
   int64_t body[CORNERS], posts[CORNERS], ends[2 * CORNERS];
-  hooke_system *system = NULL;
   for (int p = 0; p < CORNERS; p++) {
     for (int a = 0; a < 3; a++) {
       q[3 * p + a] = CORNER[3 * p + a];
@@ -32,7 +32,7 @@ static hooke_system *hung_body(int pinned, double stiffness) {
     ends[2 * p] = p;
     ends[2 * p + 1] = CORNERS + p;
   }
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, ALL, q, NULL, ALL, mass, NULL));
   check_ok(hooke_system_pin(system, CORNERS, posts));
   if (pinned) check_ok(hooke_system_pin(system, 1, body));
@@ -70,7 +70,7 @@ static void pushed(const hooke_system *system, const struct hk_body_tangent *t, 
 
 TEST(derivative_is_that_of_differences) {
   for (int pinned = 0; pinned <= 1; pinned++) {
-    OWN(hooke_system) system = hung_body(pinned, 40.0);
+    owned_system *system = hung_body(pinned, 40.0);
     struct hk_body_tangents tangents;
     struct hk_rigid rigid;
     double force[3 * ALL], x[3 * ALL] = {0.0}, change[3 * ALL];
@@ -105,7 +105,7 @@ TEST(derivative_is_that_of_differences) {
 /* Of springs that factors make stiffer as of springs that are. */
 TEST(stiffer_springs_turn_more) {
   const double twice[CORNERS] = {2.0, 2.0, 2.0, 2.0, 2.0};
-  OWN(hooke_system) soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
+  owned_system *soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
   struct hk_rigid factors, found;
   check_ok(hk_rigid_create(soft, soft->position, twice, &factors));
   check_ok(hk_rigid_create(stiff, stiff->position, NULL, &found));

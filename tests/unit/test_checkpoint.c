@@ -94,8 +94,8 @@ static int32_t stop_at(int64_t step, const hooke_state *state, void *ctx) {
 
 /* A run that was stopped after `stop` steps; the file is that of the run "first". */
 static void write_stopped(const hooke_system *system, struct run run, int64_t stop, double *numbers) {
-  OWN(hooke_integrator) integrator = start_run(system, run);
-  OWN(hooke_state) state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_step(integrator, 1, stop_at, &stop));
   check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
   check_ok(hooke_checkpoint_write(path, integrator, state, "first"));

@@ -4,6 +4,7 @@
 #include "check.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,8 +18,7 @@ static int32_t nothing(int64_t n, double t, const double *q, const double *v, do
 
 /* A free particle on a spring of 1 m from the origin, with drag 1. */
 static hooke_system *make_pair(int calls_back) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_add_particles(system, 2, (double[]){0, 0, 0, START, 0, 0}, NULL, 0, NULL, NULL));
@@ -39,9 +39,9 @@ static double potential_at(struct hk_descent *descent, const hooke_integrator *i
 }
 
 TEST(test_wrong_solution) {
-  OWN(hooke_system) system = make_pair(0);
+  owned_system *system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
-  OWN(hooke_state) state = start_state(system);
+  owned_state *state = start_state(system);
   struct hk_stage *stage = it->own;
   double slack = 0.0;
   check_ok(hooke_integrator_step(it, state, 1));
@@ -68,7 +68,7 @@ static int32_t plant(struct hk_stage *stage) {
 
 /* A first solution on the other side: the stage ends at the right one. */
 TEST(test_planted) {
-  OWN(hooke_system) system = make_pair(0);
+  owned_system *system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   const double start[6] = {0.0, 0.0, 0.0, START, 0.0, 0.0}, still[6] = {0}, place[6] = {0.0, START};
   const struct hk_equations equations = {0.0, STEP, place, still, STEP};
@@ -79,7 +79,7 @@ TEST(test_planted) {
 }
 
 TEST(test_no_potential) {
-  OWN(hooke_system) system = make_pair(1);
+  owned_system *system = make_pair(1);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   assert_null(((struct hk_stage *)it->own)->descent.rows);
   hooke_integrator_destroy(it);

@@ -298,7 +298,7 @@ static int32_t apply(void *ctx, const double *x, double *out) {
 TEST(minimal) {
   struct random_source source = {41};
   double *a = new_doubles(SIZE * SIZE), *x = new_doubles(3 * SIZE), *b = x + SIZE, *found = b + SIZE;
-  OWN(double) scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
+  owned_doubles *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
   const struct hk_operator operator= {SIZE, apply, a};
   for (int k = 0; k < SIZE * SIZE; k++)
     a[k] = random_between(&source, -0.19, 0.19) + (k % (SIZE + 1) == 0 ? 2.0 : 0.0);

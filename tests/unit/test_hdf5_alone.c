@@ -40,7 +40,7 @@ static void *open_often(void *arg) {
   snprintf(path, sizeof path, "unit_hdf5_alone_%d.h5", reader->number);
   pthread_barrier_wait(&together);
   for (int k = 0; k < OPENINGS; k++) {
-    OWN(hooke_record) record = NULL;
+    owned_record *record = NULL;
     if (hooke_record_open(path, &record) != HOOKE_OK) continue;
     const int fine = hooke_record_size(record, "time", &rows, &columns) == HOOKE_OK && rows == 1 &&
                      hooke_record_numbers(record, "time", time) == HOOKE_OK && time[0] == reader->number;
@@ -51,10 +51,10 @@ static void *open_often(void *arg) {
 
 TEST(test_files_at_once) {
   struct reader reader[THREADS];
-  OWN(hooke_system) system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = 0.125, .duration = 0.25});
-  OWN(hooke_state) state = start_state(system);
+  owned_state *state = start_state(system);
   char path[64];
   for (int t = 0; t < THREADS; t++) {
     hooke_trajectory *trajectory;

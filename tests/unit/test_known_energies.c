@@ -3,6 +3,7 @@
 #include "check.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include "model/state.h"
 
@@ -68,7 +69,7 @@ static struct watch watch_run(const hooke_system *system, const char *method, do
 }
 
 TEST(every_checked_frame_has_its_own) {
-  OWN(hooke_system) system = hanging_rope(0);
+  owned_system *system = hanging_rope(0);
   const char *const methods[] = {"symplectic-euler", "rk4", "backward-euler"};
   for (int k = 0; k < 3; k++) {
     const struct watch watch = watch_run(system, methods[k], 1e-3, HOOKE_OK);
@@ -80,14 +81,14 @@ TEST(every_checked_frame_has_its_own) {
 }
 
 TEST(frames_after_divergence_have_none) {
-  OWN(hooke_system) system = hanging_rope(0);
+  owned_system *system = hanging_rope(0);
   const struct watch watch = watch_run(system, "symplectic-euler", 0.02, HOOKE_DIVERGED);
   assert_in_range(watch.known, 1, FRAMES - 2);
   assert_true(watch.frames > watch.known);
 }
 
 TEST(energy_from_outside_is_not_followed) {
-  OWN(hooke_system) system = hanging_rope(1);
+  owned_system *system = hanging_rope(1);
   const struct watch watch = watch_run(system, "symplectic-euler", 1e-3, HOOKE_OK);
   assert_int_equal(watch.frames, FRAMES);
   assert_int_equal(watch.known, 0);

@@ -16,11 +16,9 @@
 /* Unit masses on springs of 1 m to pins, apart from each other: mode k is the motion of mass k along its
  * spring. */
 static hooke_system *oscillators(int64_t count, const double *stiffness, const double *damping, double far) {
-  hooke_system *system;
-  hooke_options *options;
   const double mass = 1.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("springs", &options));
+  hooke_system *system = new_system();
+  hooke_options *options = new_options("springs");
   for (int64_t k = 0; k < count; k++) {
     const double place[6] = {far, (double)k, 0.0, far + 1.0, (double)k, 0.0};
     const int64_t pinned = 2 * k;
@@ -62,7 +60,7 @@ TEST(one_oscillator) {
   const double rk4[] = {2.95085, 2.62254, 2.78529, 0.28137}; /* |R(h lambda)| = 1 */
   for (int k = 0; k < 4; k++) {
     const double stiffness = omega * omega, damping = 2.0 * zeta[k] * omega;
-    OWN(hooke_system) system = oscillators(1, &stiffness, &damping, 0.0);
+    owned_system *system = oscillators(1, &stiffness, &damping, 0.0);
     const struct {
       const char *method;
       double limit;
@@ -85,7 +83,7 @@ TEST(one_oscillator) {
 
 TEST(undamped_oscillator) {
   const double stiffness = 49.0, damping = 0.0;
-  OWN(hooke_system) system = oscillators(1, &stiffness, &damping, 0.0);
+  owned_system *system = oscillators(1, &stiffness, &damping, 0.0);
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "verlet", 0.3, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "rk4", 0.4, NULL, 1e-4).step, 2.0 * sqrt(2.0) / 7.0, 1e-4);
@@ -105,7 +103,7 @@ TEST(undamped_oscillator) {
 
 TEST(far_from_the_origin) {
   const double stiffness = 49.0, damping = 1.0, far = 1048576.0;
-  OWN(hooke_system) system = oscillators(1, &stiffness, &damping, far);
+  owned_system *system = oscillators(1, &stiffness, &damping, far);
   const double zeta = 1.0 / 14.0;
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-3).step, symplectic_euler(zeta) / 7.0,
               1e-3 / 7.0);
@@ -115,14 +113,14 @@ TEST(far_from_the_origin) {
 
 TEST(hidden_mode_is_found) {
   const double stiffness[2] = {49.0, 64.0}, damping[2] = {0.3, 0.3};
-  OWN(hooke_system) system = oscillators(2, stiffness, damping, 0.0);
+  owned_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
   mode[3] = 1.0;
   const char *const methods[] = {"symplectic-euler", "verlet", "rk4"};
   for (int m = 0; m < 3; m++) {
     /* the prediction of the slower mode alone, started in it */
-    OWN(hooke_system) slow = oscillators(1, stiffness, damping, 0.0);
-    OWN(hooke_system) fast = oscillators(1, stiffness + 1, damping, 0.0);
+    owned_system *slow = oscillators(1, stiffness, damping, 0.0);
+    owned_system *fast = oscillators(1, stiffness + 1, damping, 0.0);
     const double wrong = measure(slow, methods[m], NAN, NULL, 1e-3).step;
     const double right = measure(fast, methods[m], NAN, NULL, 1e-3).step;
     check_between(wrong / right, 1.1, 1.2);
@@ -141,7 +139,7 @@ TEST(parallel_springs_are_one) {
   const int64_t ends[2 * MANY] = {0, 1, 1, 2, 1, 0, 0, 1, 2, 1, 0, 1}, none = 0;
   const double stiffness[MANY] = {20, 3, 0.5, 7, 11, 0}, damping[MANY] = {0, 0.1, 0.3, 0, 0, 0.2},
                rest[MANY] = {0.7, 0.5, 0.2, 1.5, 0.4, 1};
-  OWN(hooke_system) system = small_system(3, place, NULL, 0.5, 0);
+  owned_system *system = small_system(3, place, NULL, 0.5, 0);
   struct hk_twin twin;
   double product[9], of_twin[9], energy = 0.0, there[9];
   check_ok(hooke_system_pin(system, 1, &none));
@@ -178,7 +176,7 @@ TEST(frozen_system_rests) {
   const double position[15] = {0, 0, 0, 1, 0, 0, 0.3, 0.8, 0, 2, 0.1, 0.2, 2, 0.1, 0.2};
   const int64_t ends[10] = {0, 1, 1, 2, 2, 0, 1, 3, 3, 4}, pinned = 0, driven = 3;
   const double rest[5] = {0.7, 1.5, 0.6, 0.9, 0.5}, amplitude[3] = {0, 0.1, 0}, mass = 0.5;
-  OWN(hooke_system) system = small_system(5, position, NULL, mass, 0);
+  owned_system *system = small_system(5, position, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
   check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
   hooke_options *options = options_with("springs", "law=length stiffness=20");
@@ -238,7 +236,7 @@ TEST(drag_alone) {
   check_close(measure(system, "forward-euler", NAN, NULL, 1e-3).step, 0.8, 1e-3);
   assert_true(isinf(measure(system, "verlet", INFINITY, NULL, 1e-3).step));
   hooke_system_destroy(system);
-  OWN(hooke_system) nothing = small_system(1, place, NULL, 2.0, 0);
+  owned_system *nothing = small_system(1, place, NULL, 2.0, 0);
   check_ok(hooke_system_commit(nothing));
   assert_true(isinf(measure(nothing, "symplectic-euler", NAN, NULL, 1e-3).step));
 }
@@ -252,7 +250,7 @@ static int32_t refuse(double done, const char *what, void *ctx) {
 
 TEST(what_is_refused) {
   const double stiffness = 49.0, damping = 1.0;
-  OWN(hooke_system) system = oscillators(1, &stiffness, &damping, 0.0);
+  owned_system *system = oscillators(1, &stiffness, &damping, 0.0);
   struct hk_measured_limit out;
   const double *q = system->position;
   check_status(hk_limit_measure(system, q, NULL, "no-such", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
@@ -278,7 +276,7 @@ TEST(what_is_refused) {
 TEST(damping_of_a_spring_of_no_length) {
   const double place[6] = {0.0};
   const int64_t ends[2] = {0, 1};
-  OWN(hooke_system) system = small_system(2, place, NULL, 1.0, 1);
+  owned_system *system = small_system(2, place, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 49.0, .damping = 3.0});
   check_ok(hooke_system_commit(system));
   check_close(measure(system, "verlet", NAN, NULL, 1e-3).step, 2.0 / 7.0, 1e-3 * 2.0 / 7.0);
@@ -308,8 +306,7 @@ static const double OMEGA = 10.0, BRIEF = 40.0, LONG = 12000.0;
 static int32_t measure_scene(const hooke_system *system, const char *method, double duration,
                              double predicted, double budget, hooke_progress *progress,
                              struct hk_measured_limit *out) {
-  hooke_options *run = NULL;
-  check_ok(hooke_options_create("run", &run));
+  hooke_options *run = new_options("run");
   if (duration > 0.0) check_ok(hooke_options_set_number(run, "duration", duration));
   check_ok(hooke_options_set_number(run, "every", 1.0)); /* which allows few steps, and is not used here */
   hooke_state *start = start_state(system);
@@ -322,7 +319,7 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
 }
 
 TEST(the_scene_itself) {
-  OWN(hooke_system) system = small_oscillator(OMEGA);
+  owned_system *system = small_oscillator(OMEGA);
   struct hk_measured_limit out;
   /* with a = h omega energy swells by up to (1 + a/2)/(1 - a/2), which is 100 at a = 1.9604 */
   const double guess[] = {NAN, 0.0, INFINITY, 0.1, 0.3};
@@ -350,7 +347,7 @@ static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
 TEST(scenes_that_no_step_helps) {
   struct hk_measured_limit out;
   struct spoiler not_a_number = {0.5, 0}, stop = {0.5, 1};
-  OWN(hooke_system) diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
+  owned_system *diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
   check_ok(measure_scene(diverges, "verlet", 1.0, 0.2, 100.0, NULL, &out));
   assert_true(out.step == 0.0 && out.never_stable);
   assert_non_null(strstr(out.note, "diverged at every step"));
@@ -358,7 +355,7 @@ TEST(scenes_that_no_step_helps) {
 }
 
 TEST(scenes_that_take_too_long) {
-  OWN(hooke_system) system = small_oscillator(OMEGA);
+  owned_system *system = small_oscillator(OMEGA);
   struct hk_measured_limit out;
   check_ok(measure_scene(system, "verlet", LONG, 0.19, 0.0, NULL, &out));
   assert_true(isnan(out.step));
@@ -369,7 +366,7 @@ TEST(scenes_that_take_too_long) {
   check_status(measure_scene(system, "verlet", 0.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
   check_message("duration");
   check_status(measure_scene(system, "no-such", 1.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
-  OWN(hooke_state) start = start_state(system);
+  owned_state *start = start_state(system);
   check_status(hk_limit_measure_nonlinear(system, start, NULL, "verlet", 0.19, 1e-2, 100.0, NULL, NULL, &out),
                HOOKE_BAD_VALUE);
   check_message("give the time to run");
@@ -416,7 +413,7 @@ TEST(bracket_closes_from_both_sides) {
 /* Two oscillators and a mode in which both move: shares by hand. */
 TEST(shares_are_those_of_the_mode) {
   const double stiffness[2] = {100.0, 400.0}, damping[2] = {3.0, 1.0};
-  OWN(hooke_system) system = oscillators(2, stiffness, damping, 0.0);
+  owned_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
   mode[3] = 1.0, mode[9] = 0.5, mode[0] = 7.0; /* the last one is pinned */
   struct hk_participation participation;
@@ -446,7 +443,7 @@ TEST(most_shares_are_kept_in_order) {
     damping[k] = 0.0;
     memcpy(mode + 6 * k, (const double[6]){0, 0, 0, 1, 0, 0}, 6 * sizeof(double));
   }
-  OWN(hooke_system) system = oscillators(COUNT, stiffness, damping, 0.0);
+  owned_system *system = oscillators(COUNT, stiffness, damping, 0.0);
   struct hk_participation participation;
   check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
   assert_int_equal(participation.spring_count, HOOKE_MOST_LIMITING);

@@ -22,9 +22,8 @@
 
 static const double LITTLE = 1e6; /* bytes, too few for any scene at the limits */
 
-static hooke_system *new_system(double limit) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+static hooke_system *limited_system(double limit) {
+  hooke_system *system = new_system();
   check_ok(hooke_system_limit_memory(system, limit));
   return system;
 }
@@ -43,9 +42,9 @@ static hooke_options *part_options(const char *kind, int64_t size[3]) {
 /* Up to 2^31 - 1 of everything memory is the limit, beyond it the numbers. */
 static void check_part(const char *kind, const char *family, int64_t a, int64_t b, int64_t c,
                        int32_t expected, const char *count) {
-  OWN(hooke_system) system = new_system(LITTLE);
+  owned_system *system = limited_system(LITTLE);
   int64_t size[3] = {a, b, c};
-  OWN(hooke_options) options = part_options(kind, size);
+  owned_options *options = part_options(kind, size);
   if (family) check_ok(hooke_options_set_number(options, family, 1.0));
   check_status(hooke_system_add_part(system, kind, "", options, NULL, NULL), expected);
   check_message("of memory");
@@ -75,10 +74,9 @@ TEST(parts_stop_at_the_edge_of_32_bits) {
 }
 
 TEST(a_mesh_stops_at_the_edge_of_32_bits) {
-  OWN(hooke_options) options = NULL;
   const double vertex[3] = {0};
   const int64_t triangle[3] = {0};
-  check_ok(hooke_options_create("mesh", &options));
+  owned_options *options = new_options("mesh");
   const int64_t counts[] = {2147483648, 2147483649, INT64_MAX / 3 + 1, INT64_MAX};
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
     check_status(hooke_mesh_set(options, counts[k], vertex, 1, triangle), HOOKE_BAD_VALUE);
@@ -100,8 +98,8 @@ static hooke_options *altitude_options(void) {
 
 /* The arrays have one element: nothing of them is read. */
 TEST(systems_stop_at_the_edge_of_32_bits) {
-  OWN(hooke_system) system = new_system(LITTLE);
-  OWN(hooke_options) spring = spring_options(), *altitude = altitude_options();
+  owned_system *system = limited_system(LITTLE);
+  owned_options *spring = spring_options(), *altitude = altitude_options();
   const double one = 1.0, place[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const int64_t ends[4] = {0, 1, 2, 3};
   check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &one, NULL));
@@ -143,9 +141,9 @@ TEST(systems_stop_at_the_edge_of_32_bits) {
 
 /* A part that fails leaves the counts unchanged. */
 TEST(what_is_taken_back_does_not_count) {
-  OWN(hooke_system) system = new_system(0.0);
+  owned_system *system = limited_system(0.0);
   int64_t size[3] = {10, 10, 0};
-  OWN(hooke_options) options = part_options("cloth", size);
+  owned_options *options = part_options("cloth", size);
   check_ok(hooke_options_set_number(options, "structural.stiffness", 1.0));
   check_ok(hooke_options_set_number(options, "bending", 1.0));
   check_ok(hooke_system_add_part(system, "cloth", "", options, NULL, NULL));
@@ -168,7 +166,7 @@ static double peak(void) {
 /* Builds, commits and runs one step; returns the fraction of the stated memory that was used. */
 static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, const char *const *families) {
   const double before = peak();
-  hooke_system *system = new_system(0.0);
+  hooke_system *system = limited_system(0.0);
   hooke_integrator *integrator;
   int64_t size[3] = {a, b, c};
   hooke_options *options = part_options(kind, size);
@@ -264,16 +262,15 @@ TEST(a_limit_on_the_address_space_counts) {
 /* ---- the text of a scene ---- */
 
 static hooke_options *limits(double gigabytes, int32_t outside) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limits", &options));
+  hooke_options *options = new_options("limits");
   if (gigabytes > 0.0) check_ok(hooke_options_set_number(options, "memory", gigabytes));
   check_ok(hooke_options_set_number(options, "outside", outside));
   return options;
 }
 
 static void check_parse(const char *text, double gigabytes, int32_t expected, const char *message) {
-  OWN(hooke_scene) scene = NULL;
-  OWN(hooke_options) options = limits(gigabytes, 0);
+  owned_scene *scene = NULL;
+  owned_options *options = limits(gigabytes, 0);
   check_status(hooke_scene_parse(text, (int64_t)strlen(text), "s", NULL, options, &scene), expected);
   if (message) check_message(message);
 }
@@ -328,8 +325,8 @@ static void write_text(const char *path, const char *text) {
 }
 
 static void check_load(const char *path, int32_t outside, int32_t expected, const char *message) {
-  OWN(hooke_scene) scene = NULL;
-  OWN(hooke_options) options = limits(0.0, outside);
+  owned_scene *scene = NULL;
+  owned_options *options = limits(0.0, outside);
   check_status(hooke_scene_load(path, options, &scene), expected);
   if (message) check_message(message);
 }

@@ -23,7 +23,7 @@ static double measure(const char *method, double h, double w, double d, int rigi
   double m[2][2];
   for (int k = 0; k < 2; k++) {
     hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
-    OWN(hooke_state) state = start_state(system);
+    owned_state *state = start_state(system);
     double *x = hooke_state_position(state), *v = hooke_state_velocity(state);
     *x = k == 0 ? 0.7 : 0.0; /* an anchor of no length, in its point, pulls nowhere */
     *v = k == 1 ? 0.7 : 0.0;

@@ -1,5 +1,6 @@
 /* OBJ files: every form that is read, and every fault with its line. */
 #include "check.h"
+#include "small.h"
 
 #include "io/scene/obj.h"
 
@@ -157,7 +158,7 @@ static int32_t read_file(const char *text, double weld, hooke_options **options)
 }
 
 TEST(a_file_is_its_numbers) {
-  OWN(hooke_options) options = NULL;
+  owned_options *options = NULL;
   check_ok(read_file(FOUR "f 1 2 3 4\n", 0.0, &options));
   assert_int_equal(hooke_options_number_count(options, "vertices"), 12);
   check_same_bits(6, hooke_options_numbers(options, "triangles"), ((double[]){0, 1, 2, 0, 2, 3}));
@@ -184,7 +185,7 @@ TEST(faults_of_the_surface_have_their_line) {
       {FOUR "f 1 2 3 4\n", "its corners", 1.0},
   };
   for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {
-    OWN(hooke_options) options = NULL;
+    owned_options *options = NULL;
     check_status(read_file(faults[k].text, faults[k].weld, &options), HOOKE_BAD_VALUE);
     check_message(faults[k].message);
     check_message("/tmp/hooke-mesh-");
@@ -193,8 +194,7 @@ TEST(faults_of_the_surface_have_their_line) {
 }
 
 TEST(a_file_has_to_be_there) {
-  OWN(hooke_options) options = NULL;
-  check_ok(hooke_options_create("mesh", &options));
+  owned_options *options = new_options("mesh");
   check_status(hooke_mesh_read("/tmp/hooke-no-such.obj", options), HOOKE_BAD_VALUE);
   check_message("/tmp/hooke-no-such.obj: cannot be opened: No such file");
   check_status(hooke_mesh_read("/tmp", options), HOOKE_BAD_VALUE);

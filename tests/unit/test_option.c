@@ -241,7 +241,7 @@ TEST(words_and_numbers_mix_where_allowed) {
 TEST(large_arrays_are_copied) {
   hooke_options *o = *prepared;
   enum { COUNT = 1000000 };
-  OWN(double) values = new_doubles(COUNT);
+  owned_doubles *values = new_doubles(COUNT);
   for (int k = 0; k < COUNT; k++)
     values[k] = 1 + k;
   check_ok(hooke_options_set_numbers(o, "rest_length", COUNT, values));

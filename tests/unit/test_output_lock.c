@@ -79,7 +79,7 @@ static void write_frames(hooke_trajectory *trajectory, int64_t from, int64_t to)
 }
 
 static void check_frames(int64_t count) {
-  OWN(hooke_record) record = NULL;
+  owned_record *record = NULL;
   check_ok(hooke_record_open(path, &record));
   assert_int_equal(hooke_record_count(record, "frames"), count);
   for (int64_t k = 0; k < count; k++)
@@ -122,8 +122,8 @@ TEST(readers_come_and_go) {
 }
 
 TEST(one_alone_goes_on_with_it) {
-  OWN(hooke_integrator) other = start_run(cloth, fixed), *third = start_run(cloth, fixed);
-  OWN(hooke_state) standing = start_state(cloth);
+  owned_integrator *other = start_run(cloth, fixed), *third = start_run(cloth, fixed);
+  owned_state *standing = start_state(cloth);
   hooke_trajectory *first = create(), *second = NULL, *none;
   write_frames(first, 0, 3);
   check_status(hooke_trajectory_resume(path, cloth, other, standing, &none), HOOKE_IO_FAILED);

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,26 +33,17 @@ static void release(struct members *s) {
   free(s->rest_length);
 }
 
-static hooke_system *new_system(void) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
-  return system;
-}
-
 static hooke_options *rope_options(double segments) {
-  hooke_options *options =
-      options_with("rope", "from=0.1,0.2,0.3 to=1.3,0.2,-0.6 segments=%.17g mass=0.7", segments);
-  return options;
+  return options_with("rope", "from=0.1,0.2,0.3 to=1.3,0.2,-0.6 segments=%.17g mass=0.7", segments);
 }
 
 static hooke_options *cloth_options(double nu, double nv) {
-  hooke_options *options =
-      options_with("cloth", "origin=0.1,0.7,0.3 edges=1.1,0,0.2,0.1,0,0.9 size=%.17g,%.17g mass=0.3", nu, nv);
-  return options;
+  return options_with("cloth", "origin=0.1,0.7,0.3 edges=1.1,0,0.2,0.1,0,0.9 size=%.17g,%.17g mass=0.3", nu,
+                      nv);
 }
 
 static void check_position(const hooke_system *system, int64_t particle, double x, double y, double z) {
-  OWN(hooke_state) state = start_state(system);
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state) + 3 * particle;
   check_close(q[0], x, 1e-15);
   check_close(q[1], y, 1e-15);
@@ -72,8 +64,8 @@ static void check_equal_bits(const struct members *s, int64_t begin, int64_t end
 }
 
 TEST(a_rope_is_a_line) {
-  OWN(hooke_system) system = new_system();
-  OWN(hooke_options) options = rope_options(7);
+  owned_system *system = new_system();
+  owned_options *options = rope_options(7);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 100));
   check_ok(hooke_options_set_number(options, "stretch.damping", 0.5));
   check_ok(hooke_options_set_number(options, "bend.stiffness", 3));
@@ -111,11 +103,11 @@ TEST(a_rope_is_a_line) {
 
 TEST(a_rope_ends_where_it_is_told) {
   for (int segments = 1; segments < 60; segments++) {
-    OWN(hooke_system) system = new_system();
-    OWN(hooke_options) options = rope_options(segments);
+    owned_system *system = new_system();
+    owned_options *options = rope_options(segments);
     check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    OWN(hooke_state) state = start_state(system);
+    owned_state *state = start_state(system);
     check_same_bits(3, hooke_state_position(state) + 3 * segments, hooke_options_numbers(options, "to"));
     check_same_bits(3, hooke_state_position(state), hooke_options_numbers(options, "from"));
   }
@@ -136,8 +128,8 @@ static hooke_options *full_cloth(void) {
 }
 
 TEST(a_cloth_has_its_springs_in_order) {
-  OWN(hooke_system) system = new_system();
-  OWN(hooke_options) options = full_cloth();
+  owned_system *system = new_system();
+  owned_options *options = full_cloth();
   check_ok(hooke_system_add_part(system, "cloth", "flag", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_particle_count(system), NU * NV);
@@ -194,8 +186,8 @@ TEST(a_cloth_has_its_springs_in_order) {
 }
 
 TEST(a_family_that_is_absent_has_no_springs) {
-  OWN(hooke_system) system = new_system();
-  OWN(hooke_options) options = cloth_options(3, 3);
+  owned_system *system = new_system();
+  owned_options *options = cloth_options(3, 3);
   check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
@@ -214,8 +206,8 @@ static void held(const hooke_system *system, char *text) {
 
 static void check_pinned(const char *kind, const char *pinned, const char *expected) {
   char found[64];
-  OWN(hooke_system) system = new_system();
-  OWN(hooke_options) options = strcmp(kind, "rope") == 0 ? rope_options(4) : cloth_options(4, 3);
+  owned_system *system = new_system();
+  owned_options *options = strcmp(kind, "rope") == 0 ? rope_options(4) : cloth_options(4, 3);
   check_ok(hooke_options_set_text(options, "pinned", pinned));
   check_ok(hooke_system_add_part(system, kind, NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
@@ -236,8 +228,8 @@ TEST(pinned_particles_have_names) {
 }
 
 TEST(parts_come_after_groups_and_are_counted) {
-  OWN(hooke_system) system = new_system();
-  OWN(hooke_options) options = rope_options(2);
+  owned_system *system = new_system();
+  owned_options *options = rope_options(2);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 1));
   check_ok(hooke_options_set_text(options, "pinned", "start"));
   const double position[] = {5, 0, 0, 6, 0, 0}, mass = 2;
@@ -269,7 +261,7 @@ TEST(parts_come_after_groups_and_are_counted) {
 
 /* A refused part leaves no trace: the system is then built as if it had never been tried. */
 static void check_refused(const char *kind, hooke_options *options, int32_t status, const char *message) {
-  OWN(hooke_system) system = new_system();
+  owned_system *system = new_system();
   const double position[] = {0, 0, 0}, mass = 1;
   check_ok(hooke_system_add_particles(system, 1, position, NULL, 1, &mass, NULL));
   int64_t first = -7, count = -7;
@@ -278,7 +270,7 @@ static void check_refused(const char *kind, hooke_options *options, int32_t stat
   assert_int_equal(first, -7);
   assert_int_equal(count, -7);
   assert_int_equal(hooke_system_particle_count(system), 1);
-  OWN(hooke_options) good = rope_options(3);
+  owned_options *good = rope_options(3);
   check_ok(hooke_options_set_number(good, "stretch.stiffness", 1));
   check_ok(hooke_system_add_part(system, "rope", NULL, good, &first, &count));
   assert_int_equal(first, 1);
@@ -325,7 +317,7 @@ TEST(impossible_sizes_are_refused_before_anything_is_allocated) {
   check_refused("cloth", cloth_options(2147483647, 2147483647), HOOKE_BAD_VALUE, "2147483647 x 2147483647");
   check_refused("rope", rope_options(2147483647), HOOKE_BAD_VALUE, "segments: a rope of 2147483647 segments");
 
-  OWN(hooke_options) options = cloth_options(2, 2);
+  owned_options *options = cloth_options(2, 2);
   check_status(hooke_options_set_numbers(options, "size", 2, (double[]){1, 5}), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_numbers(options, "size", 2, (double[]){2.5, 5}), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_numbers(options, "size", 3, (double[]){2, 2, 2}), HOOKE_BAD_VALUE);
@@ -337,8 +329,8 @@ TEST(impossible_sizes_are_refused_before_anything_is_allocated) {
 }
 
 TEST(a_committed_system_takes_no_part) {
-  OWN(hooke_system) system = new_system();
-  OWN(hooke_options) options = rope_options(1);
+  owned_system *system = new_system();
+  owned_options *options = rope_options(1);
   check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   check_status(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL), HOOKE_BAD_CALL);

@@ -3,6 +3,7 @@
 #include "hooke/trajectory.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,8 +18,8 @@ static hooke_system *cloth(void) {
 }
 
 TEST(a_cloth_without_origin_begins_at_zero) {
-  OWN(hooke_system) system = cloth();
-  OWN(hooke_state) state = start_state(system);
+  owned_system *system = cloth();
+  owned_state *state = start_state(system);
   assert_memory_equal(hooke_state_position(state), ((double[]){0, 0, 0}), 3 * sizeof(double));
   assert_true(hooke_state_position(state)[9] == 1.0);
 }

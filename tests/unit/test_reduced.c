@@ -49,7 +49,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
                            double beta, double rounding) {
   const int64_t n = hooke_system_particle_count(system), size = 3 * n;
   struct random_source source = {17};
-  OWN(double) b = new_doubles(size), *x = new_doubles(size);
+  owned_doubles *b = new_doubles(size), *x = new_doubles(size);
   hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
   struct hk_reduced reduced;
   struct hk_solution solution;

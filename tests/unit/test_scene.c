@@ -292,7 +292,7 @@ TEST(a_whole_scene_becomes_a_system) {
       "             {'between': [[2,0]], 'law': 'length', 'stiffness': 7, 'rest_length': 0, 'compression': "
       "false}],"
       " 'run': {'method': 'forward-euler', 'step': 1e-3, 'every': 0.5}}";
-  OWN(hooke_scene) scene = parse(text);
+  owned_scene *scene = parse(text);
   hooke_system *system = hooke_scene_system(scene);
   assert_string_equal(hooke_scene_text(scene, "title"), "net");
   assert_int_equal(hooke_system_is_committed(system), 0);
@@ -332,7 +332,7 @@ TEST(a_whole_scene_becomes_a_system) {
 }
 
 TEST(what_is_not_named_is_not_computed) {
-  OWN(hooke_scene) scene = parse("{'hooke': 1, " TWO "}");
+  owned_scene *scene = parse("{'hooke': 1, " TWO "}");
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   assert_int_equal(hooke_system_count(system, "forces"), 0);
@@ -340,7 +340,7 @@ TEST(what_is_not_named_is_not_computed) {
   assert_int_equal(hooke_system_count(system, "free"), 2);
   assert_string_equal(hooke_scene_text(scene, "title"), "");
   assert_int_equal(hooke_options_is_set(hooke_scene_run_options(scene), "method"), 0);
-  OWN(hooke_state) initial = start_state(system);
+  owned_state *initial = start_state(system);
   for (int k = 0; k < 6; k++)
     check_close(hooke_state_velocity(initial)[k], 0, 0);
 }
@@ -513,7 +513,7 @@ TEST(syntax_errors_give_line_and_column) {
 TEST(commit_gives_the_place_too) {
   static const char text[] = "{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
                              " 'velocity': [[0,0,3]]}}";
-  OWN(hooke_scene) scene = parse(text);
+  owned_scene *scene = parse(text);
   check_status(hooke_scene_commit(scene), HOOKE_BAD_VALUE);
   check_message("test.json:2:20: particles.velocity[0][2]: ");
 }
@@ -552,7 +552,7 @@ TEST(files_of_every_length_are_read_whole) {
   snprintf(path, sizeof path, "%s/scene.json", folder);
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
     const int gap = (int)(lengths[k] - (int64_t)(sizeof before + sizeof after - 2));
-    OWN(hooke_scene) scene = NULL;
+    owned_scene *scene = NULL;
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_int_equal(fprintf(file, "%s%*s%s", before, gap, "", after), lengths[k]);

@@ -4,6 +4,7 @@
 #include "model/variant/variant.h"
 #include "check.h"
 #include "small.h"
+#include "words.h"
 #include "random_scene.h"
 
 #include "model/system.h"
@@ -14,8 +15,8 @@
 static void check_springs(const hooke_system *found, const hooke_system *expected) {
   const int64_t count = hooke_system_count(expected, "springs");
   assert_int_equal(hooke_system_count(found, "springs"), count);
-  OWN(double) a = new_doubles(3 * count), *b = new_doubles(3 * count);
-  OWN(int64_t) ends = new_block(2 * count, sizeof *ends), *other = new_block(2 * count, sizeof *other);
+  owned_doubles *a = new_doubles(3 * count), *b = new_doubles(3 * count);
+  owned_wholes *ends = new_block(2 * count, sizeof *ends), *other = new_block(2 * count, sizeof *other);
   check_ok(hooke_system_members(found, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(expected, "springs", other, NULL, NULL, NULL));
   assert_memory_equal(ends, other, (size_t)(2 * count) * sizeof *ends);
@@ -45,7 +46,7 @@ static void check_same_system(const hooke_system *found, const hooke_system *exp
 /* A scene that is made in memory has the text that is written. */
 static void check_in_memory(const hooke_system *system, const hooke_options *run,
                             const hooke_scene *written) {
-  OWN(hooke_scene) made = NULL;
+  owned_scene *made = NULL;
   check_ok(hooke_scene_of_system(system, hooke_scene_text(written, "title"), run, "memory", NULL, &made));
   assert_string_equal(hooke_scene_text(made, "text"), hooke_scene_text(written, "text"));
   check_ok(hooke_scene_commit(made));
@@ -96,7 +97,7 @@ TEST(random_systems_come_back) {
 TEST(lattice_and_mesh_come_back) {
   const double amplitude[3] = {0, 0.1, 0};
   const int64_t pinned[2] = {5, 65}, driven = 61;
-  OWN(hooke_scene) read = NULL;
+  owned_scene *read = NULL;
   hooke_system *system =
       small_part(NULL, "lattice", "block",
                  "origin=0.1,0.2,0.3 edges=1.1,0.1,0,0,0.7,0,0.2,0,0.3 size=4,3,5 density=3 pinned=top,3 "
@@ -157,9 +158,8 @@ TEST(strands_come_back) {
 TEST(bending_comes_back) {
   const double coefficient[2] = {0.1 + 0.2, 1.0 / 3.0}, zero = 0.0;
   const int64_t triples[6] = {3, 1, 0, 2, 4, 5};
-  OWN(hooke_system) system = NULL;
-  OWN(hooke_scene) read = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_scene *read = NULL;
+  owned_system *system = new_system();
   add_strand(system, 1);
   check_ok(hooke_system_add_bending(system, "two", 2, triples, 2, coefficient));
   check_ok(hooke_system_add_bending(system, "none", 2, triples, 1, &zero));
@@ -177,7 +177,7 @@ TEST(anchors_come_back) {
   const int64_t tied[2] = {5, 3};
   int64_t particle[3];
   double points[9], number[3][3];
-  OWN(hooke_system) system = NULL, *made = NULL;
+  owned_system *system = NULL, *made = NULL;
   hooke_scene *read;
   struct hk_variant variant;
   struct hk_variant_map map;
@@ -216,9 +216,8 @@ TEST(drives_come_back) {
   const double at[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[3] = {1, 2, 3}, amplitude[3] = {0.1, 0, 0.2};
   const double time[3] = {0, 0.5, 2}, displacement[9] = {0, 0, 0, 0.1, 0.2, 0.3, 0, 1, 0};
   const int64_t first = 0, last = 2;
-  OWN(hooke_system) system = NULL;
-  OWN(hooke_scene) read = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_scene *read = NULL;
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 3, at, NULL, 3, mass, NULL));
   check_ok(hooke_system_drive_harmonic(system, 1, &first, amplitude, 1.5, 0.25));
   check_ok(hooke_system_drive_table(system, 1, &last, 3, time, displacement));
@@ -237,8 +236,8 @@ TEST(drives_come_back) {
 
 TEST(zeros_keep_their_sign) {
   const double at[6] = {-0.0, 0, 0, 1, -0.0, 0}, still[6] = {0, 0, -0.0, 0, 0, 0}, mass = 1;
-  OWN(hooke_scene) read = NULL;
-  OWN(hooke_system) system = small_system(2, at, still, mass, 0);
+  owned_scene *read = NULL;
+  owned_system *system = small_system(2, at, still, mass, 0);
   check_ok(hooke_system_commit(system));
   write_and_read(system, &read);
   check_same_system(hooke_scene_system(read), system);
@@ -247,14 +246,14 @@ TEST(zeros_keep_their_sign) {
 /* "-0" is an integer, too, and a scene cannot express the sign of one. */
 TEST(whole_numbers_have_one_zero) {
   const double wanted[2] = {0.0, 1.0};
-  OWN(hooke_options) options = options_with("rope", "pinned=-0,1");
+  owned_options *options = options_with("rope", "pinned=-0,1");
   check_same_bits(2, hooke_options_numbers(options, "pinned"), wanted);
 }
 
 TEST(keys_of_a_scene_are_applied) {
   hooke_options *options, *other;
   const double origin[3] = {0, 0, 0}, gravity[3] = {0, -9.81, 0}, mass = 1;
-  OWN(hooke_system) system = small_system(1, origin, NULL, mass, 0);
+  owned_system *system = small_system(1, origin, NULL, mass, 0);
   options = options_with("scene", "gravity=0,-9.81,0 drag=0.25");
   check_ok(hooke_scene_options_apply(options, system));
   check_same_bits(3, system->gravity, gravity);
@@ -290,7 +289,7 @@ TEST(forces_without_a_key_are_not_lost) {
       &scene);
   check_not_written(scene.system, "callbacks");
   random_scene_destroy(&scene);
-  OWN(hooke_system) system = small_system(1, place, NULL, one, 0);
+  owned_system *system = small_system(1, place, NULL, one, 0);
   hk_system_set_linear(system, 1, &element, place);
   check_ok(hooke_system_commit(system));
   check_not_written(system, "\"linear\"");

@@ -117,8 +117,7 @@ static void add_group(const struct sheet *sheet, int group, int lawful, hooke_sy
     sheet->ends[2 * count] = sheet->number[p];
     sheet->ends[2 * count++ + 1] = sheet->number[p + ahead[group]];
   }
-  OWN(hooke_options) options = NULL;
-  check_ok(hooke_options_create("springs", &options));
+  owned_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", lawful ? 1 : count, sheet->stiffness));
   check_ok(hooke_options_set_number(options, "damping", group == 2 ? 0.0 : 0.5));
   check_ok(hooke_options_set_number(options, "rest_scale", 0.98));

@@ -4,6 +4,7 @@
 #include "canonical.h"
 #include "check.h"
 #include "small.h"
+#include "words.h"
 #include "workers.h"
 #include "random.h"
 
@@ -22,7 +23,8 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   const int pulls = random_whole(source, 0, 3) == 0, turned = random_whole(source, 0, 1) == 0;
   const int64_t offset = random_whole(source, 1, random_whole(source, 0, 1) ? 3 : particles / 4);
   int64_t *ends = malloc((size_t)(2 * particles) * sizeof *ends), count = 0;
-  OWN(double) kappa = new_doubles(particles), *gamma = new_doubles(particles), *rest = new_doubles(particles);
+  owned_doubles *kappa = new_doubles(particles), *gamma = new_doubles(particles),
+                *rest = new_doubles(particles);
   for (int64_t l = random_whole(source, 0, 20); l + 8 + offset < particles;
        l += sparse ? 90 : random_whole(source, 1, random_whole(source, 0, 1) ? 12 : 300)) {
     const int64_t length = random_whole(source, 8, sparse ? 20 : MOST_STRETCH);
@@ -38,7 +40,7 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   }
   char name[32];
   snprintf(name, sizeof name, "%s%d", pulls ? "pull" : "push", group);
-  OWN(hooke_options) options = options_with("springs", "law=length");
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", count, gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", count, rest));
@@ -49,8 +51,7 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
 
 static hooke_system *build(struct random_source *source, int64_t particles, int groups, int sparse, double *q,
                            double *v, double *gravity, double *drag) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   for (int64_t p = 0; p < particles; p++) {
     const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* coincides with its neighbour */
     for (int a = 0; a < 3; a++) {
@@ -115,14 +116,13 @@ static int64_t spring_count(const hooke_system *system, int32_t k) {
 /* Parallel ropes are two strided batches, not two a rope; springs of the same offset that follow later are a
  * third. */
 TEST(test_lanes_of_ropes) {
-  hooke_options *options;
   double q[3 * 90];
   int64_t ends[2 * 29];
   const double stiffness = 10.0, mass = 1.0;
   for (int p = 0; p < 90; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7), q[3 * p + 2] = 0.0;
-  OWN(hooke_system) system = small_system(90, q, NULL, mass, 0);
-  check_ok(hooke_options_create("springs", &options));
+  owned_system *system = small_system(90, q, NULL, mass, 0);
+  hooke_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 1, &stiffness));
   for (int group = 0; group < 7; group++) {
     const int rope = group / 2 % 3, offset = group % 2 + 1;
@@ -144,7 +144,7 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   int64_t ends[2 * 29];
   for (int p = 0; p < 30 * ropes; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7);
-  OWN(hooke_system) system = small_system(30 * ropes, q, NULL, mass, 0);
+  owned_system *system = small_system(30 * ropes, q, NULL, mass, 0);
   hooke_options *options = options_with("springs", "rest_length=0.09");
   for (int rope = 0; rope < ropes; rope++) {
     for (int k = 0; k < 29; k++)
@@ -158,7 +158,7 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   assert_int_equal(system->strided->count, 1);
   assert_int_equal(system->strided->batch[0].shape, shape);
   struct canonical c;
-  OWN(double) v = new_doubles(3 * 30 * ropes);
+  owned_doubles *v = new_doubles(3 * 30 * ropes);
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   canonical_destroy(&c);
@@ -216,7 +216,7 @@ static int64_t list(struct random_source *source, const struct listing *listing,
 /* Random numbers up to `most`, or `most`. */
 static void set_each(struct random_source *source, hooke_options *options, const char *name, int64_t count,
                      double most, int own) {
-  OWN(double) value = new_doubles(count);
+  owned_doubles *value = new_doubles(count);
   for (int64_t k = 0; k < count; k++)
     value[k] = own ? random_between(source, 0.1, 1.0) * most : most;
   check_ok(hooke_options_set_numbers(options, name, own ? count : 1, value));
@@ -227,7 +227,6 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
                                   double *v) {
   static int64_t ends[2 * STEPS * MOST_LISTED];
   const int64_t particles = listing->sheets * SIDE * SIDE, count = list(source, listing, ends);
-  hooke_options *options;
   for (int64_t p = 0; p < particles; p++) {
     q[3 * p] = (double)(p % SIDE) / 7.0;
     q[3 * p + 1] = 0.0;
@@ -236,7 +235,7 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
       v[3 * p + a] = random_between(source, -1.0, 1.0);
   }
   hooke_system *system = small_system(particles, q, v, 1.0, 0);
-  check_ok(hooke_options_create("springs", &options));
+  hooke_options *options = new_options("springs");
   set_each(source, options, "stiffness", count, 80.0, listing->material >= STIFFNESS_OF_ITS_OWN);
   set_each(source, options, "damping", count, 0.1, listing->material == ALL_OF_ITS_OWN);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
@@ -249,8 +248,8 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
  * order; springs in random order form no strided batches. */
 static void check_listing(uint64_t seed, struct listing listing) {
   struct random_source source = {seed};
-  OWN(double) q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
-  OWN(hooke_system) system = build_listed(&source, &listing, q, v);
+  owned_doubles *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
+  owned_system *system = build_listed(&source, &listing, q, v);
   const int32_t strided = system->strided->count;
   if (listing.order == SAME) assert_int_equal(strided, STEPS);
   if (listing.order == ONE_OPPOSITE) assert_in_range(strided, STEPS + 1, 2 * STEPS);
@@ -292,7 +291,7 @@ TEST(test_every_second_first) {
     for (int64_t p = odd; p + 1 < CHAIN; p += 2, count++)
       ends[2 * count] = p, ends[2 * count + 1] = p + 1;
   }
-  OWN(hooke_system) system = small_system(CHAIN, q, v, 1.0, 0);
+  owned_system *system = small_system(CHAIN, q, v, 1.0, 0);
   small_group(system, "springs", NULL, count, ends, "stiffness=10 rest_length=0.09");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);
@@ -305,7 +304,7 @@ TEST(test_every_second_first) {
 /* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are equal to the bit. */
 TEST(test_rounded_lengths) {
   enum { EDGE = 24, EACH = EDGE * EDGE * EDGE };
-  OWN(double) q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
+  owned_doubles *q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
   int64_t *ends = new_block(6 * EACH, (int64_t)sizeof *ends), count = 0;
   for (int64_t p = 0; p < EACH; p++) {
     const int64_t at[3] = {p % EDGE, p / EDGE % EDGE, p / EDGE / EDGE}, next[3] = {1, EDGE, EDGE * EDGE};
@@ -316,7 +315,7 @@ TEST(test_rounded_lengths) {
       ends[2 * count++ + 1] = p + next[a];
     }
   }
-  OWN(hooke_system) system = small_system(EACH, q, NULL, 1.0, 0);
+  owned_system *system = small_system(EACH, q, NULL, 1.0, 0);
   small_group(system, "springs", NULL, count, ends, "stiffness=10");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);

@@ -3,6 +3,7 @@
 #include "agree.h"
 #include "check.h"
 #include "small.h"
+#include "words.h"
 #include "workers.h"
 #include "random.h"
 
@@ -74,9 +75,8 @@ static void draw_sheet(struct random_source *source, int order, struct sheet *sh
 
 static void add_group(struct random_source *source, const struct sheet *sheet, hooke_system *system,
                       int64_t from, int64_t count, int material) {
-  OWN(hooke_options) options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  OWN(double) kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
+  owned_options *options = new_options("springs");
+  owned_doubles *kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
   const int pulls = random_whole(source, 0, 3) == 0, damped = random_whole(source, 0, 3) > 0;
   for (int64_t k = 0; k < count; k++) {
     const int own = k == 0 || material == OF_ITS_OWN;
@@ -94,8 +94,7 @@ static void add_group(struct random_source *source, const struct sheet *sheet, h
 
 static hooke_system *build(struct random_source *source, struct sheet *sheet, int groups, int material,
                            double *drag) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   const int64_t pinned[] = {3, sheet->particles - 1};
   for (int a = 0; a < 3; a++)
     sheet->v[3 * pinned[0] + a] = sheet->v[3 * pinned[1] + a] = 0.0;
@@ -154,7 +153,7 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   draw_sheet(&source, order, sheet);
   struct canonical c;
   double drag;
-  OWN(hooke_system) system = build(&source, sheet, groups, material, &drag);
+  owned_system *system = build(&source, sheet, groups, material, &drag);
   const int listed = system->strided->count > 0;
   assert_int_equal(system->tiled->particles, listed ? 0 : sheet->particles);
   if (order != AS_BUILT || groups <= 3) assert_int_equal(listed, order == AS_BUILT);
@@ -194,7 +193,7 @@ TEST(test_wide) {
   enum { CHAIN = 300, EACH = 150, COUNT = (CHAIN - 1) * EACH };
   struct random_source source = {5};
   double q[3 * CHAIN], v[3 * CHAIN], mass[CHAIN];
-  OWN(int64_t) ends = new_block(2 * COUNT, (int64_t)sizeof *ends);
+  owned_wholes *ends = new_block(2 * COUNT, (int64_t)sizeof *ends);
   for (int p = 0; p < CHAIN; p++) {
     mass[p] = random_between(&source, 100.0, 200.0);
     for (int a = 0; a < 3; a++) {
@@ -207,8 +206,7 @@ TEST(test_wide) {
     ends[2 * s + turned] = low;
     ends[2 * s + 1 - turned] = low + 1;
   }
-  OWN(hooke_system) system = NULL;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, mass, NULL));
   small_group(system, "springs", "net", COUNT, ends, "stiffness=3 damping=0.01");
   check_ok(hooke_system_commit(system));
@@ -246,7 +244,7 @@ TEST(test_small) {
     q[k] = random_between(&source, -1.0, 1.0);
     v[k] = random_between(&source, -1.0, 1.0);
   }
-  OWN(hooke_system) system = join_all(q, v, ends);
+  owned_system *system = join_all(q, v, ends);
   assert_int_equal(system->tiled->particles, FEW);
   struct canonical c;
   canonical_create(system, &c);

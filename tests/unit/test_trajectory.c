@@ -7,6 +7,7 @@
 #include "io/hdf5/array_h5.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -191,8 +192,8 @@ TEST(scenes_of_any_length_come_back) {
   static const int64_t lengths[] = {0,       1,       (1 << 20) - 1, 1 << 20, (1 << 20) + 1,
                                     1180000, 2300000, 3271701,       9000000};
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
-    OWN(hooke_record) record = NULL;
-    OWN(char) text = new_block(lengths[k] + 1, 1);
+    owned_record *record = NULL;
+    owned_text *text = new_block(lengths[k] + 1, 1);
     for (int64_t i = 0; i < lengths[k]; i++)
       text[i] = (char)('a' + (i * 7 + i / 1000) % 26);
     check_ok(hooke_trajectory_create(f->path, f->system, f->integrator, text, &f->trajectory));
@@ -364,7 +365,7 @@ AROUND_EACH(set_up, tear_down)
 
 /* Without HDF5 every call says so. */
 TEST(trajectories_are_not_in_this_build) {
-  OWN(hooke_system) system = new_rope();
+  owned_system *system = new_rope();
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
   hooke_trajectory *trajectory;

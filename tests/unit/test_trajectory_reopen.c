@@ -5,6 +5,7 @@
 #include "io/trajectory/trajectory.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <signal.h>
@@ -112,8 +113,8 @@ static void end_early(const struct fixture *f, int64_t frames) {
 
 /* Exactly these frames, each to the bit. */
 static void check_frames(const struct fixture *f, int64_t count, const char *status) {
-  OWN(hooke_record) record = NULL;
-  OWN(hooke_state) state = start_state(f->system);
+  owned_record *record = NULL;
+  owned_state *state = start_state(f->system);
   check_ok(hooke_record_open(f->path, &record));
   assert_int_equal(hooke_record_count(record, "frames"), count);
   assert_string_equal(hooke_record_text(record, "status"), status);
@@ -135,7 +136,7 @@ static int64_t planned(const struct fixture *f) {
 }
 
 static void read_run(const struct fixture *f, char run[64]) {
-  OWN(hooke_record) record = NULL;
+  owned_record *record = NULL;
   check_ok(hooke_record_open(f->path, &record));
   snprintf(run, 64, "%s", hooke_record_text(record, "run"));
 }
@@ -155,7 +156,7 @@ static char *bytes_of(const char *path, size_t *count) {
 /* Changes byte number `at` of a byte string in the file. */
 static void damage(const char *path, const void *found, size_t length, int64_t at) {
   size_t count;
-  OWN(char) bytes = bytes_of(path, &count);
+  owned_text *bytes = bytes_of(path, &count);
   FILE *file = fopen(path, "r+b");
   size_t k = 0;
   while (k + length <= count && memcmp(bytes + k, found, length) != 0)
@@ -189,7 +190,7 @@ TEST(a_killed_run_ends_as_if_it_never_was) {
       write_frames(f, trajectory, 0, FRAMES);
       memcpy(run, hooke_trajectory_text(trajectory, "run"), 33);
       check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
-      OWN(char) bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
+      owned_text *bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
       assert_int_equal(size, whole_size);
       int64_t different = 0;
       for (size_t at = 0; at < size; at++)
@@ -235,11 +236,11 @@ TEST(no_frame_is_lost) {
 static void check_refused(const struct fixture *f, int64_t kept, const char *message) {
   size_t before_size, size;
   hooke_trajectory *trajectory;
-  OWN(char) before = bytes_of(f->path, &before_size);
+  owned_text *before = bytes_of(f->path, &before_size);
   check_status(hk_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory), HOOKE_BAD_VALUE);
   check_message(message);
   assert_null(trajectory);
-  OWN(char) bytes = bytes_of(f->path, &size);
+  owned_text *bytes = bytes_of(f->path, &size);
   assert_int_equal(before_size, size);
   assert_memory_equal(before, bytes, size);
 }
@@ -364,8 +365,8 @@ static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
 
 /* To the end of the run, which then equals an uninterrupted one. */
 static void check_goes_on(const struct fixture *f, const char *origin) {
-  OWN(hooke_integrator) integrator = integrator_of(f->system, 0.1);
-  OWN(hooke_state) state = start_state(f->system);
+  owned_integrator *integrator = integrator_of(f->system, 0.1);
+  owned_state *state = start_state(f->system);
   hooke_trajectory *trajectory = NULL;
   check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
   assert_non_null(trajectory);
@@ -400,7 +401,7 @@ TEST(a_run_goes_on_where_its_file_ends) {
 static void check_not_resumed(const struct fixture *f, const hooke_system *system,
                               hooke_integrator *integrator, int32_t status, const char *message) {
   hooke_trajectory *trajectory = NULL;
-  OWN(hooke_state) state = start_state(system), *before = start_state(system);
+  owned_state *state = start_state(system), *before = start_state(system);
   check_status(hooke_trajectory_resume(f->path, system, integrator, state, &trajectory), status);
   check_message(message);
   assert_null(trajectory);
@@ -426,7 +427,7 @@ TEST(other_runs_do_not_go_on) {
                                {.method = "symplectic-euler", .step = 1e-3, .duration = 0.2, .every = 0.01},
                                {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.02}};
   for (int k = 0; k < 4; k++) {
-    OWN(hooke_integrator) integrator = start_run(f->system, others[k]);
+    owned_integrator *integrator = start_run(f->system, others[k]);
     check_not_resumed(f, f->system, integrator, HOOKE_BAD_VALUE, "only threads may be changed");
   }
   run.duration = 0.0;
@@ -470,8 +471,8 @@ AROUND_EACH(set_up, tear_down)
 #else
 
 TEST(it_is_not_in_this_build) {
-  OWN(hooke_system) system = rope(N);
-  OWN(hooke_integrator) integrator = integrator_of(system, 0.1);
+  owned_system *system = rope(N);
+  owned_integrator *integrator = integrator_of(system, 0.1);
   hooke_trajectory *trajectory;
   check_status(hk_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
   assert_null(trajectory);

@@ -4,6 +4,7 @@
 #include "random_scene.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include "model/group.h"
 #include "model/variant/variant.h"
@@ -40,7 +41,8 @@ static void release(struct hk_variant *variant, struct hk_variant_map *map, hook
 static void check_same_run(const hooke_system *a, const hooke_system *b) {
   const int64_t size = 3 * hooke_system_particle_count(a);
   const struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.02};
-  OWN(double) q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size), *v2 = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size),
+                *v2 = new_doubles(size);
   run_to_end(a, run, q, v);
   run_to_end(b, run, q2, v2);
   check_same_bits(size, q2, q);
@@ -149,7 +151,7 @@ TEST(what_is_left_out_is_out) {
 /* Two of the seven springs two apart in the rope; the rest is a group of its own, numbered among the explicit
  * ones. */
 TEST(single_springs_of_a_family_are_left_out) {
-  OWN(hooke_system) system = two_parts();
+  owned_system *system = two_parts();
   struct hk_variant variant = nothing_of(system);
   struct hk_variant_map map;
   variant.spring[2 + 8] = variant.spring[2 + 8 + 3] = variant.spring[1] = 1;
@@ -174,7 +176,7 @@ TEST(single_springs_of_a_family_are_left_out) {
 /* Positions of the variant that are an affine function of the material are recovered at every particle. */
 static void check_affine(const hooke_system *system, const hooke_system *made,
                          const struct hk_variant_map *map) {
-  OWN(hooke_state) from = NULL, *to = NULL;
+  owned_state *from = NULL, *to = NULL;
   check_ok(hooke_state_create(system, &from));
   check_ok(hooke_state_create(made, &to));
   double *q = hooke_state_position(to);
@@ -210,7 +212,7 @@ TEST(parts_at_another_resolution_stand_for_the_same_material) {
       {1.0, 2.0, 2 + 9 + 13 * 9, 1 + 2 + 13},
       {0.3, 0.01, 2 + 3 + 4, 1 + 1 + 2}, /* 8 cells: 2; one cell is the minimum */
   };
-  OWN(hooke_system) system = two_parts();
+  owned_system *system = two_parts();
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     struct hk_variant variant = nothing_of(system);
     struct hk_variant_map map;
@@ -335,7 +337,7 @@ static int is_within(const struct single *all, int outer, int inner) {
 /* An omission is contained in itself, and in that of its group or part; and in the union of two if it is in
  * either. */
 TEST(variants_within_variants) {
-  OWN(hooke_system) system = everything();
+  owned_system *system = everything();
   static struct single all[MOST_SINGLE];
   const int count = list_singles(system, all);
   struct hk_variant nothing = nothing_of(system);

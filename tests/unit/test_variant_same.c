@@ -65,7 +65,7 @@ static void check_same_loops(const hooke_system *found, const hooke_system *expe
 static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
   const struct run run = {.method = method, .step = 1e-4, .duration = 2e-3};
   const int64_t size = 3 * hooke_system_particle_count(expected);
-  OWN(double) a = new_doubles(2 * size), *b = new_doubles(2 * size);
+  owned_doubles *a = new_doubles(2 * size), *b = new_doubles(2 * size);
   run_to_end(found, run, a, a + size);
   run_to_end(expected, run, b, b + size);
   check_same_bits(2 * size, a, b);
@@ -131,8 +131,7 @@ TEST(one_is_left_out) {
 /* ---- every force of the table ---- */
 
 static hooke_options *options_of(const char *table) {
-  hooke_options *options;
-  check_ok(hooke_options_create(table, &options));
+  hooke_options *options = new_options(table);
   check_ok(hooke_options_set_number(options, "stiffness", 3.0));
   return options;
 }
@@ -143,10 +142,9 @@ static hooke_system *with_every_force(int32_t overdamped) {
   static const int64_t ends[4] = {0, 1, 4, 5}, triple[3] = {1, 0, 2}, corners[4] = {0, 1, 2, 3}, tied = 5;
   static const struct hk_element element = {
       .count = 1, .particle = {4}, .weight = {1.0}, .k_along = 2.0, .k_across = 2.0, .over = 1.0};
-  hooke_system *system;
   hooke_options *spring = options_of("springs"), *altitude = options_of("altitude"),
                 *anchor = options_of("anchors");
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, overdamped ? "overdamped" : "inertial"));
   check_ok(hooke_system_add_particles(system, 6, at, NULL, 1, &one, NULL));
   check_ok(hooke_system_add_springs(system, "pair", 2, ends, spring));

@@ -41,8 +41,8 @@ static void run_loops(const struct hk_vector_set *v, int64_t n, const double *x,
 
 TEST(vectors) {
   struct random_source source = {11};
-  OWN(double) x = new_doubles(LONGEST), *y = new_doubles(LONGEST);
-  OWN(double) first = new_doubles(LOOPS * LONGEST + 4), *other = new_doubles(LOOPS * LONGEST + 4);
+  owned_doubles *x = new_doubles(LONGEST), *y = new_doubles(LONGEST);
+  owned_doubles *first = new_doubles(LOOPS * LONGEST + 4), *other = new_doubles(LOOPS * LONGEST + 4);
   for (int64_t n = 0; n < LONGEST; n += n < 70 ? 1 : 33) {
     draw(&source, n, x);
     draw(&source, n, y);
@@ -79,7 +79,7 @@ TEST(vectors) {
 /* Rows are joined unchanged, and every bit of them counts. */
 TEST(rows) {
   struct random_source source = {13};
-  OWN(double) x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
+  owned_doubles *x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
   draw(&source, 3 * LONGEST, x);
   for (int32_t k = 0; hk_spring_set(k); k++) {
     const struct hk_vector_set *v = hk_spring_set(k)->vector;

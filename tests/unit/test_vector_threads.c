@@ -15,8 +15,8 @@ static const double DURATION = 4e-5;
 
 static void run_by(const hooke_system *system, struct run run, double *state) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  OWN(hooke_integrator) integrator = start_run(system, run);
-  OWN(hooke_state) found = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *found = start_state(system);
   /* a thread pool of one would prove nothing */
   assert_true(run.threads <= 1 || hk_pool_members(integrator->pool) > 1);
   check_ok(hooke_integrator_run(integrator, found));

@@ -59,14 +59,14 @@ struct fixture {
  */
 static void write_file(const struct fixture *f, double far, double duration) {
   const double q[] = {0, 0, 0, 3, 0, 0, 3, 0.5, 0, 0, 0, far};
-  OWN(hooke_system) system = small_system(PARTICLES, q, NULL, 1.0, 1);
+  owned_system *system = small_system(PARTICLES, q, NULL, 1.0, 1);
   small_springs(system, 1, (int64_t[]){0, 1}, (struct springs){.stiffness = 1e-6, .rest_length = 2});
   small_springs(system, 1, (int64_t[]){1, 2}, (struct springs){.law = "length", .stiffness = 1e-6});
   small_springs(system, 1, (int64_t[]){2, 1}, (struct springs){.stiffness = 1e-6, .rest_length = 1});
   check_ok(hooke_system_commit(system));
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = duration, .every = 1e-3});
-  OWN(hooke_state) state = start_state(system);
+  owned_state *state = start_state(system);
   hooke_trajectory *trajectory;
   check_ok(hooke_trajectory_create(f->path, system, integrator, NULL, &trajectory));
   for (int64_t k = 0; k < hooke_integrator_count(integrator, "frames"); k++) {
@@ -99,10 +99,9 @@ static int tear_down(void **state) {
 }
 
 static hooke_measurement *open_view(const struct fixture *f, double frames, hooke_record **record) {
-  hooke_options *options;
   hooke_measurement *view;
   check_ok(hooke_record_open(f->path, record));
-  check_ok(hooke_options_create("view", &options));
+  hooke_options *options = new_options("view");
   if (frames > 0) check_ok(hooke_options_set_number(options, "frames", frames));
   check_ok(hooke_view_create(*record, options, &view));
   hooke_options_destroy(options);
@@ -199,7 +198,7 @@ TEST(views_are_refused_in_words) {
 /* Beside the trajectory it replaces an older companion, and nothing else. */
 TEST(a_companion_is_written) {
   const struct fixture *f = *prepared;
-  OWN(hooke_record) record = NULL;
+  owned_record *record = NULL;
   write_file(f, 1.0, 0.01);
   check_ok(hooke_record_open(f->path, &record));
   FILE *file = fopen(f->companion, "w");

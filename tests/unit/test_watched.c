@@ -5,6 +5,7 @@
 #include "measure/quantity/watched.h"
 #include "model/particles.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,7 +73,7 @@ static double check_springs(struct hk_watched_list *list, const double *q, const
 
 /* Every quantity is its formula of q and v. */
 TEST(every_form_is_read) {
-  OWN(hooke_system) system = scene();
+  owned_system *system = scene();
   struct hk_watched_list list = {.system = system};
   double q[24], v[24], kinetic = 0.0;
   for (int k = 0; k < 24; k++) {
@@ -125,7 +126,7 @@ TEST(what_is_nothing_is_refused) {
              {"line:0.length", "allowed: rods, tie, line.stretch"},
              {":0.length", "allowed: rods, tie, line.stretch"},
              {"tie:0.strain", "allowed: length, tension"}};
-  OWN(hooke_system) system = scene();
+  owned_system *system = scene();
   struct hk_watched_list list = {.system = system};
   check_ok(hk_watched_read(&list, "watch", "0.x"));
   for (size_t k = 0; k < COUNT(bad); k++) {
@@ -147,9 +148,8 @@ TEST(what_is_nothing_is_refused) {
 TEST(springs_that_are_left_out_are_said) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, stiffness[] = {0.0, 10.0};
   static const int64_t ends[] = {0, 1, 1, 2};
-  hooke_options *options;
-  OWN(hooke_system) system = small_system(3, q, NULL, 1.0, 0);
-  check_ok(hooke_options_create("springs", &options));
+  owned_system *system = small_system(3, q, NULL, 1.0, 0);
+  hooke_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
   hooke_options_destroy(options);
@@ -199,7 +199,7 @@ TEST(tension_is_the_slope_of_energy_and_the_force) {
                                         {"length", 30.0, 2.0, 1.2, 0}};
   static const double lengths[] = {0.7, 1.19, 1.3, 2.5}, rates[] = {-40.0, -0.1, 0.0, 3.0};
   for (size_t k = 0; k < COUNT(laws); k++) {
-    OWN(hooke_system) system = one_spring(laws[k]);
+    owned_system *system = one_spring(laws[k]);
     for (size_t i = 0; i < COUNT(lengths); i++) {
       const double r = lengths[i], h = 1e-5;
       check_close(tension(system, r, 0.0), (energy(system, r + h) - energy(system, r - h)) / (2.0 * h), 1e-7);

@@ -156,7 +156,7 @@ static int32_t slope(int64_t size, double t, const double *x, double *out, void 
 
 TEST(test_first_order_problems_have_work) {
   hooke_integrator *it = start_first_order(6, slope, NULL, (struct run){.method = "rk4", .step = 0.01});
-  OWN(hooke_state) state = NULL;
+  owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(6, &state));
   check_ok(hooke_integrator_step(it, state, 10));
   const double once = hk_work_of(it);

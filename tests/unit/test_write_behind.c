@@ -6,6 +6,7 @@
 #include "io/hdf5/array_h5.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -115,7 +116,7 @@ TEST(the_file_is_the_same) {
     size_t size, other_size;
     write_file(&f, f.path, 1, frames[k]);
     write_file(&f, f.other, 0, frames[k]);
-    OWN(char) bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
+    owned_text *bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
     assert_int_equal(size, other_size);
     blank_run(f.path, bytes, size);
     blank_run(f.other, other, size);

@@ -5,6 +5,7 @@
 #include "random.h"
 #include "run.h"
 #include "small.h"
+#include "words.h"
 
 #include "model/system.h"
 
@@ -54,7 +55,7 @@ static void add_part(const struct scene *scene, hooke_system *system) {
   static const double origin[] = {0, 0, 0}, edges[] = {1, 0.1, 0, 0, 0.2, 1}, size[] = {17, 13};
   static const double to[] = {2, 0.5, 0.1};
   const int cloth = scene->shape == CLOTH;
-  OWN(hooke_options) options = NULL;
+  owned_options *options = NULL;
   check_ok(hooke_options_create(cloth ? "cloth" : "rope", &options));
   check_ok(hooke_options_set_number(options, "mass", 1.0));
   if (cloth) {
@@ -103,7 +104,7 @@ static void add_network(const struct scene *scene, hooke_system *system) {
   struct network network;
   draw_network(is_zero(scene, SOME_SPRINGS), is_full(scene, DAMPING) ? 0.01 : 0.0, &network);
   check_ok(hooke_system_add_particles(system, PARTICLES, network.position, NULL, 1, &mass, NULL));
-  OWN(hooke_options) options = options_with("springs", "law=length");
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", network.count, network.stiffness));
   if (is_full(scene, DAMPING) || is_zero(scene, DAMPING))
     check_ok(hooke_options_set_numbers(options, "damping", network.count, network.damping));
@@ -129,8 +130,7 @@ static void add_bending(hooke_system *system, double coefficient) {
 static hooke_system *build(struct scene scene) {
   static const double down[] = {0, 0, -9.81}, nothing[] = {0.0, -0.0, 0.0};
   static const int64_t pinned[] = {0, 16};
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   if (scene.shape == NETWORK)
     add_network(&scene, system);
   else
@@ -220,7 +220,7 @@ static void run(const hooke_system *system, const char *method, hooke_state *sta
 
 static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
   int64_t a[COUNTS], b[COUNTS];
-  OWN(hooke_state) x = start_state(found), *y = start_state(expected);
+  owned_state *x = start_state(found), *y = start_state(expected);
   run(found, method, x, a);
   run(expected, method, y, b);
   check_same_bits(hooke_state_size(y), hooke_state_position(x), hooke_state_position(y));
@@ -316,11 +316,10 @@ TEST(numbers_are_of_what_is_there) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
   static const int64_t ends[] = {0, 1, 1, 2}, last[] = {2, 3}, pinned[] = {0, 3};
   static const double stiffness[] = {0.0, 0.0}, damping[] = {0.0, 0.5};
-  OWN(hooke_system) system = small_system(4, q, NULL, 1.0, 0);
-  hooke_options *options;
+  owned_system *system = small_system(4, q, NULL, 1.0, 0);
   int64_t found[2];
   double gamma;
-  check_ok(hooke_options_create("springs", &options));
+  hooke_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", 2, damping));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
@@ -359,7 +358,7 @@ TEST(idle_is_what_nothing_touches) {
   for (int k = 0; k < 4; k++) {
     const int callback = k == 1;
     const double bending = k == 2 ? 1.0 : 0.0;
-    OWN(hooke_system) system = small_system(4, q, NULL, 1.0, 0);
+    owned_system *system = small_system(4, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
     check_ok(hooke_system_pin(system, 2, pinned));
     if (k >= 2) check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &bending));
