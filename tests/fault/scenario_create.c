@@ -1,6 +1,6 @@
 /* Systems by hand and by parts, drives, commit, and queries that need scratch. */
 #include "scenarios.h"
-#include "words.h"
+#include "small.h"
 
 #include <string.h>
 

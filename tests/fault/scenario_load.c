@@ -1,6 +1,6 @@
 /* Scenes of every kind, from files and from text. */
 #include "scenarios.h"
-#include "words.h"
+#include "small.h"
 
 #include "check.h"
 #include "file_copy.h"

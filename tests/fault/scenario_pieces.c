@@ -1,5 +1,5 @@
 #include "scenarios.h"
-#include "words.h"
+#include "small.h"
 
 #include <stdarg.h>
 #include <stdio.h>

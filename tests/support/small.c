@@ -2,7 +2,6 @@
 
 #include "check.h"
 #include "random.h"
-#include "words.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,6 +41,46 @@ void set_options(hooke_options *options, const char *words, ...) {
   va_start(arguments, words);
   set_words(options, words, arguments);
   va_end(arguments);
+}
+
+hooke_system *small_part(hooke_system *system, const char *kind, const char *name, const char *words, ...) {
+  owned_options *options = new_options(kind);
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
+  if (system == NULL) system = new_system();
+  check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
+  return system;
+}
+
+void small_group(hooke_system *system, const char *kind, const char *name, int64_t count,
+                 const int64_t *members, const char *words, ...) {
+  owned_options *options = new_options(kind);
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
+  const int anchors = strcmp(kind, "anchors") == 0, altitude = strcmp(kind, "altitude") == 0;
+  check_ok((anchors    ? hooke_system_add_anchors
+            : altitude ? hooke_system_add_altitude
+                       : hooke_system_add_springs)(system, name, count, members, options));
+}
+
+hooke_system *small_falling(hooke_system *system) {
+  const double down[] = {0, -9.81, 0};
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+int32_t try_words(hooke_options *options, const char *words) {
+  char name[64], value[128];
+  int length;
+  int32_t status = HOOKE_OK;
+  for (; status == HOOKE_OK && sscanf(words, " %63[^=]=%127s%n", name, value, &length) == 2; words += length)
+    status = hooke_options_set_text(options, name, value);
+  return status == HOOKE_OK && words[strspn(words, " ")] != '\0' ? HOOKE_BAD_VALUE : status;
 }
 
 hooke_system *new_system(void) {

@@ -5,7 +5,6 @@
 #include "check.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 #include "model/body.h"
 
 #include <math.h>

@@ -6,7 +6,6 @@
 
 #include "check.h"
 #include "small.h"
-#include "words.h"
 
 #include <math.h>
 #include <string.h>

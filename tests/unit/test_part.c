@@ -3,7 +3,6 @@
 #include "check.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 
 #include <math.h>
 #include <string.h>

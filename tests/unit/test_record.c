@@ -3,7 +3,6 @@
 #include "hooke/trajectory.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,6 @@
 #include "model/variant/variant.h"
 #include "check.h"
 #include "small.h"
-#include "words.h"
 #include "random_scene.h"
 
 #include "model/system.h"

@@ -4,7 +4,6 @@
 #include "canonical.h"
 #include "check.h"
 #include "small.h"
-#include "words.h"
 #include "workers.h"
 #include "random.h"
 

@@ -3,7 +3,6 @@
 #include "agree.h"
 #include "check.h"
 #include "small.h"
-#include "words.h"
 #include "workers.h"
 #include "random.h"
 

@@ -7,7 +7,6 @@
 #include "io/hdf5/array_h5.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,6 @@
 #include "io/trajectory/trajectory.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 
 #include <math.h>
 #include <signal.h>

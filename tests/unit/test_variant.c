@@ -4,7 +4,6 @@
 #include "random_scene.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 
 #include "model/group.h"
 #include "model/variant/variant.h"

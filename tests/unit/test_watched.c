@@ -5,7 +5,6 @@
 #include "measure/quantity/watched.h"
 #include "model/particles.h"
 #include "small.h"
-#include "words.h"
 
 #include <math.h>
 #include <stdio.h>

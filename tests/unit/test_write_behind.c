@@ -6,7 +6,6 @@
 #include "io/hdf5/array_h5.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,6 @@
 #include "random.h"
 #include "run.h"
 #include "small.h"
-#include "words.h"
 
 #include "model/system.h"
 
