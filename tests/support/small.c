@@ -156,14 +156,3 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping) {
       "structural.stiffness=%.17g shear.stiffness=%.17g structural.damping=%.17g shear.damping=%.17g",
       (int)side, (int)side, stiffness, stiffness, damping, damping));
 }
-
-double volume_of(const double *q, const int64_t *p) {
-  double e[3][3];
-  for (int k = 0; k < 3; k++) {
-    for (int a = 0; a < 3; a++)
-      e[k][a] = q[3 * p[k + 1] + a] - q[3 * p[0] + a];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}

@@ -56,7 +56,4 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping);
  * chaotic after a second or so. */
 hooke_system *small_crumpling_cloth(int64_t side);
 
-/* Six times the volume of the tetrahedron with these corners, with its sign. */
-double volume_of(const double *q, const int64_t *corners);
-
 #endif
