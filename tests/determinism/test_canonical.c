@@ -120,7 +120,7 @@ TEST(test_lattices) {
 
 /* A scene listed spring by spring is summed like the same scene made of parts. */
 TEST(test_parts_are_springs) {
-  struct random_scene parts;
+  owned_random_scene parts;
   random_scene_create((struct random_scene_request){.seed = 3,
                                                     .particles = 7,
                                                     .springs = 12,
@@ -149,12 +149,11 @@ TEST(test_parts_are_springs) {
   check_ok(hooke_system_acceleration(listed, 0.0, q, v, found));
   check_same_bits(3 * n, found, expected);
   hooke_system_destroy(listed);
-  random_scene_destroy(&parts);
 }
 
 /* The comparison itself: one unit in the last place, and another order of the springs, must be detected. */
 TEST(test_planted_faults) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(
       (struct random_scene_request){
           .seed = 11, .particles = 200, .springs = 2000, .features = SCENE_DAMPING | SCENE_GRAVITY},
@@ -190,12 +189,11 @@ TEST(test_planted_faults) {
   assert_true(first_difference(3 * n, a, b) >= 0);
   assert_true(largest_difference(3 * n, a, b) <
               1e-9 * largest(3 * n, a)); /* the same physics in another order */
-  random_scene_destroy(&scene);
 }
 
 /* Triples in another order must be detected. */
 TEST(test_planted_bending) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 31, .particles = 200, .triples = 900}, &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->triple_count;
@@ -219,12 +217,11 @@ TEST(test_planted_bending) {
   canonical_acceleration(c, 0.0, q, v, b);
   assert_true(first_difference(3 * n, a, b) >= 0);
   assert_true(largest_difference(3 * n, a, b) < 1e-9 * largest(3 * n, a));
-  random_scene_destroy(&scene);
 }
 
 /* Tetrahedra in another order, or with two corners exchanged, must be detected. */
 TEST(test_planted_altitude) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 41, .particles = 60, .tetrahedra = 400}, &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->tetrahedron_count;
@@ -261,7 +258,6 @@ TEST(test_planted_altitude) {
   }
   canonical_acceleration(c, 0.0, q, v, b);
   assert_true(largest_difference(3 * n, a, b) > 1e-3 * largest(3 * n, a));
-  random_scene_destroy(&scene);
 }
 
 /* Steps that are solved for: a velocity off by 1e-7 of the largest change, or 1e-3 with Verlet, which solves
@@ -270,7 +266,7 @@ TEST(test_planted_altitude) {
 TEST(test_planted_defects) {
   const char *methods[] = {"verlet", "backward-euler", "tr-bdf2", "implicit-midpoint"};
   const double start = 0.003, h = 0.0009765;
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 21,
                                                     .particles = 200,
                                                     .springs = 600,
@@ -302,7 +298,6 @@ TEST(test_planted_defects) {
     if (m == 3) q1[17] = q[17] + h * ((v[17] + v1[17]) / 2.0);
     assert_true(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1) > 1.0);
   }
-  random_scene_destroy(&scene);
 }
 
 /* FNV-1a of known bytes: 0.0 is eight zero bytes, and the bytes of 1.0 end in f0 3f. */

@@ -112,13 +112,12 @@ TEST(test_same_bits) {
 TEST(test_seeds_differ) {
   uint64_t hash[2];
   for (uint64_t k = 0; k < 2; k++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create(
         (struct random_scene_request){
             .seed = 5 + k, .particles = 100, .springs = 300, .features = SCENE_EVERYTHING},
         &scene);
     hash[k] = run_here(&scene, "symplectic-euler", 1, STEPS).hash;
-    random_scene_destroy(&scene);
   }
   assert_true(hash[0] != hash[1]);
 }

@@ -44,6 +44,8 @@ struct random_scene {
 
 void random_scene_create(struct random_scene_request request, struct random_scene *scene);
 void random_scene_destroy(struct random_scene *scene);
+/* Destroyed where its block ends. */
+#define owned_random_scene __attribute__((cleanup(random_scene_destroy))) struct random_scene
 
 /* Positions and velocities (3n each) near the initial ones; coincident ends still coincide, constrained
  * particles stay. */

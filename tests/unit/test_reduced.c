@@ -100,7 +100,7 @@ TEST(every_law) {
 
 TEST(random_scenes) {
   for (int32_t k = 0; k < 40; k++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + k),
                                                       .particles = 20 + 13 * k,
                                                       .springs = 60 + 20 * k,
@@ -118,6 +118,5 @@ TEST(random_scenes) {
     check_solution(scene.system, q, v, 1e-6, 1e-3, 1e-10);
     free(q);
     free(v);
-    random_scene_destroy(&scene);
   }
 }

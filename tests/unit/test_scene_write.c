@@ -73,7 +73,7 @@ static void write_and_read(const hooke_system *system, hooke_scene **scene) {
 TEST(random_systems_come_back) {
   for (uint64_t seed = 1; seed <= 64; seed++) {
     const int32_t features = (int32_t)(seed * 29) & SCENE_EVERYTHING & ~(SCENE_CALLBACK | SCENE_DRIVEN);
-    struct random_scene scene;
+    owned_random_scene scene;
     hooke_scene *read;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 20,
@@ -87,7 +87,6 @@ TEST(random_systems_come_back) {
     write_and_read(scene.system, &read);
     check_same_system(hooke_scene_system(read), scene.system);
     hooke_scene_destroy(read);
-    random_scene_destroy(&scene);
   }
 }
 

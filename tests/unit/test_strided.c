@@ -85,13 +85,12 @@ static void compare(uint64_t seed, int *in_strided, int *most) {
       build(&source, particles, (int)random_whole(&source, 1, 9), seed % 5 == 0, q, v, gravity, &drag);
   *in_strided += system->strided->count > 0;
   if (system->strided->count > *most) *most = system->strided->count;
-  struct canonical c;
+  owned_canonical c;
   canonical_create(system, &c);
   c.gravity = gravity[1] != 0.0 ? gravity : NULL;
   c.drag = drag;
   check_agrees(system, &c, q, v);
   if (system->strided->count > 0 && seed % 4 == 0) check_members(system, q, v);
-  canonical_destroy(&c);
   hooke_system_destroy(system);
   free(q);
   free(v);

@@ -150,7 +150,7 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   sheet->side = side;
   sheet->particles = side * side;
   draw_sheet(&source, order, sheet);
-  struct canonical c;
+  owned_canonical c;
   double drag;
   owned_system *system = build(&source, sheet, groups, material, &drag);
   const int listed = system->strided->count > 0;
@@ -165,7 +165,6 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   }
   check_agrees(system, &c, sheet->q, sheet->v);
   check_members(system, sheet->q, sheet->v);
-  canonical_destroy(&c);
   free(sheet);
 }
 

@@ -50,7 +50,7 @@ static void check_same_run(const hooke_system *a, const hooke_system *b) {
 
 TEST(a_variant_that_changes_nothing_has_the_same_bits) {
   for (uint64_t seed = 1; seed <= 64; seed++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 30,
                                                       .springs = 60,
@@ -70,7 +70,6 @@ TEST(a_variant_that_changes_nothing_has_the_same_bits) {
       assert_int_equal(map.to[p], p);
     check_same_run(scene.system, made);
     release(&variant, &map, made);
-    random_scene_destroy(&scene);
   }
 }
 
@@ -232,7 +231,7 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 }
 
 TEST(a_callback_keeps_its_particles) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(
       (struct random_scene_request){.seed = 3, .particles = 12, .springs = 20, .cloth = {4, 4}}, &scene);
   struct hk_variant variant = nothing_of(scene.system);
@@ -255,7 +254,6 @@ TEST(a_callback_keeps_its_particles) {
   release(&fewer, &map, made);
   hk_variant_release(&variant);
   hooke_system_destroy(open);
-  random_scene_destroy(&scene);
 }
 
 /* ---- one within another ---- */

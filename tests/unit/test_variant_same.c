@@ -74,7 +74,7 @@ static void check_same_run(const hooke_system *found, const hooke_system *expect
 /* All combinations of features, with parts and drives of every kind. */
 TEST(nothing_left_out_is_the_same) {
   for (int32_t features = 0; features <= SCENE_EVERYTHING; features++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + features),
                                                       .particles = 40 + features % 50,
                                                       .springs = 3 * (features % 70),
@@ -88,7 +88,6 @@ TEST(nothing_left_out_is_the_same) {
       if (is_fixed_step(hooke_method_name(m))) check_same_run(made, scene.system, hooke_method_name(m));
     }
     hooke_system_destroy(made);
-    random_scene_destroy(&scene);
   }
 }
 
@@ -101,7 +100,7 @@ static int has_force(const hooke_system *system, const char *name) {
 
 /* One ingredient is gone and all others are unchanged. */
 TEST(one_is_left_out) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(
       (struct random_scene_request){
           .seed = 8, .particles = 50, .springs = 70, .features = SCENE_EVERYTHING, .cloth = {12, 9}},
@@ -125,7 +124,6 @@ TEST(one_is_left_out) {
     check_groups(made, scene.system, g);
     hooke_system_destroy(made);
   }
-  random_scene_destroy(&scene);
 }
 
 /* ---- every force of the table ---- */

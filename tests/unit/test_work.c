@@ -43,33 +43,31 @@ TEST(test_every_cost_is_positive) {
 }
 
 TEST(test_every_method_has_work) {
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(mixed, &scene);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (hooke_method_is_built(method))
       assert_true(work_of(&scene, (struct run){.method = method, .step = 1e-5}, 3) > 0.0);
   }
-  random_scene_destroy(&scene);
 }
 
 TEST(test_twice_the_steps_are_twice_the_work) {
   static const char *const methods[] = {
       "forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4"};
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(mixed, &scene);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     const struct run run = {.method = methods[k], .step = 1e-6};
     const double once = work_of(&scene, run, 200), twice = work_of(&scene, run, 400);
     assert_true(fabs(twice / once - 2.0) < 0.02);
   }
-  random_scene_destroy(&scene);
 }
 
 /* What it foretells is what is counted, where nothing is solved. */
 TEST(test_steps_are_foretold) {
   static const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet", "heun", "rk4"};
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(large, &scene);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     const double counted = work_of(&scene, (struct run){.method = methods[k], .step = 1e-6}, 200);
@@ -82,7 +80,6 @@ TEST(test_steps_are_foretold) {
   random_scene_destroy(&scene);
   random_scene_create(mixed, &scene);
   assert_true(isnan(hk_work_of_steps(scene.system, "verlet", 200))); /* it may solve for damping */
-  random_scene_destroy(&scene);
 }
 
 TEST(test_threads_do_not_count) {
@@ -102,7 +99,7 @@ TEST(test_threads_do_not_count) {
 /* An evaluation has every member of every force; what else is in it is below 2 % of that. */
 TEST(test_every_member_counts) {
   struct random_scene_request request = mixed;
-  struct random_scene scene;
+  owned_random_scene scene;
   request.springs = 9000;
   request.triples = 8000;
   request.tetrahedra = 3000;
@@ -119,7 +116,6 @@ TEST(test_every_member_counts) {
                                : 0.0;
   const double work = hk_work_of_evaluation(scene.system);
   assert_true(work > sum && work < 1.02 * (sum + scattered));
-  random_scene_destroy(&scene);
 }
 
 /* A factor counts by its size, and a step that has one is dearer than its matrix alone. */

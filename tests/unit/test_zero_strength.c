@@ -285,7 +285,7 @@ TEST(canonical_sum_agrees) {
   double found[3 * PARTICLES], expected[3 * PARTICLES], v[3 * PARTICLES] = {0.0};
   draw_network(1, 0.0, &network);
   hooke_system *system = build((struct scene){NETWORK, SOME_SPRINGS, 0, 1});
-  struct canonical c;
+  owned_canonical c;
   canonical_create(system, &c);
   struct canonical whole = c;
   whole.spring_count = network.count;
@@ -303,7 +303,6 @@ TEST(canonical_sum_agrees) {
   check_same_bits(3 * PARTICLES, found, expected);
   free(whole.rest_length);
   free(whole.pull_only);
-  canonical_destroy(&c);
   hooke_system_destroy(system);
 }
 
