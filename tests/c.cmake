@@ -87,8 +87,6 @@ hooke_add_c_tests(physics hooke)
 hooke_add_c_tests(physics/extremes hooke)
 hooke_add_c_tests(determinism hooke)
 hooke_add_c_tests(guest hooke)
-target_include_directories(hooke_test_guest_handles PRIVATE ${PROJECT_BINARY_DIR}/generated)
-add_dependencies(hooke_test_guest_handles hooke_guard_calls)
 
 # Inputs that fuzzing came across, with every sanitizer there is; and where lines are counted.
 set(counted FALSE)

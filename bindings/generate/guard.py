@@ -1,8 +1,7 @@
 """Writes the tables of the guard for every public function: python bindings/generate/guard.py FOLDER
 
 FOLDER/guard/calls.inc, the functions, their texts, arrays and handles, for src/guard/guard.c; FOLDER/guard/names.h,
-other names for the functions that they call, included by every file of the library; FOLDER/handle_calls.inc, a bad
-call for each handle of each function, for the tests."""
+other names for the functions that they call, included by every file of the library."""
 
 import re
 import sys
@@ -88,26 +87,6 @@ def call(function, types):
     return f"{head}{name[len('hooke_'):]}, ({declared}), ({arguments}), {' '.join(checks)})"
 
 
-def bad_calls(function, types):
-    """A line for each handle: the others are valid, and the other arguments do not matter."""
-    result, name, parameters = function
-    kinds = [handle(kind, what, types) for kind, what in parameters]
-    value = refused(result, name)
-    how = {None: "NOTHING", "NULL": "NULL_POINTER", "NAN": "NOT_A_NUMBER"}.get(value, "NUMBER")
-    for place, (_, what) in enumerate(parameters):
-        if kinds[place] is None:
-            continue
-        given = [f"GOOD({k})" if k and p < place else f"BAD({k})" if p == place else zero(parameters[p][0])
-                 for p, k in enumerate(kinds)]
-        first = next((k for k in kinds[:place] if k), "hooke_system")
-        yield (f'BAD_CALL({how}, {value or 0}, {kinds[place]}, {int(may_be_null(name, kinds[place]))}, "{first}", {what}, '
-               f'{name}, ({", ".join(given)}))')
-
-
-def zero(kind):
-    return "NULL" if kind.endswith("*") else "0"
-
-
 def texts(public):
     """{path: text} of all generated files, from {header: text}."""
     types = headers.opaque_types("".join(public.values()))
@@ -118,7 +97,6 @@ def texts(public):
         "guard/calls.inc": MADE_BY + includes + "\n".join(call(f, types) for f in every) + "\n",
         "guard/names.h": MADE_BY + "#ifndef HOOKE_GUARD_NAMES_H\n#define HOOKE_GUARD_NAMES_H\n\n"
                          f"#define HOOKE_API /* only the guard's own are exported */\n{names}\n#endif\n",
-        "handle_calls.inc": MADE_BY + "\n".join(line for f in every for line in bad_calls(f, types)) + "\n",
     }
 
 

@@ -1,7 +1,7 @@
 """Records the headers that callers of this version are compiled against: python tests/abi/freeze.py
 
-Makes tests/abi/baseline/<major.minor>/hooke.h, all public headers as one, without comments. To be run for the release
-of a minor version, and before it where what the file has was changed; after it the file stays as it is.
+Makes tests/abi/baseline/<major.minor>/hooke.h, all public headers as one, without comments. To be run after
+every change of a public header; once the minor version is released, the file stays as it is.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The guard covers every function of the headers, and its test calls each one with each of its handles bad."""
+"""The guard covers every function of the headers."""
 
 import os
 import re
@@ -10,7 +10,7 @@ import headers
 MADE = Path(os.environ["HOOKE_BUILD_DIR"]) / "generated"
 PUBLIC = "".join(headers.public().values())
 HANDLES, CALLBACKS = headers.opaque_types(PUBLIC), headers.callback_types(PUBLIC)
-CALLS, BAD = ((MADE / name).read_text() for name in ("guard/calls.inc", "handle_calls.inc"))
+CALLS = (MADE / "guard/calls.inc").read_text()
 
 
 def test_every_function_and_every_handle_is_there():
@@ -22,7 +22,6 @@ def test_every_function_and_every_handle_is_there():
         taken = [what for kind, what in parameters
                  if re.sub(r"const | \*$", "", kind) in HANDLES or (kind == "void *" and what != "ctx")]
         assert re.findall(r"(?:IS|MAY_BE)\((\w+)", line.group()) == taken, line.group()
-        assert re.findall(rf", (\w+), {name}, \(", BAD) == taken, name
         handles += len(taken)
     assert handles > 150
 

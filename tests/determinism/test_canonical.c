@@ -5,26 +5,22 @@
 #include "lockstep.h"
 #include "random_scene.h"
 #include "run.h"
+#include "small.h"
 #include "sanitized.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void compare_acceleration(const struct random_scene *scene, uint64_t seed) {
   const int64_t n = scene->canonical.particle_count;
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
-         *expected = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
+  owned_doubles *expected = new_doubles(3 * n);
   random_scene_shake(scene, seed, q, v);
   memset(found, 0x55, (size_t)(3 * n) * sizeof(double));
   check_ok(hooke_system_acceleration(scene->system, 0.125, q, v, found));
   canonical_acceleration(&scene->canonical, 0.125, q, v, expected);
   assert_true(largest(3 * n, expected) < 1e9);
   check_same_bits(3 * n, found, expected);
-  free(q);
-  free(v);
-  free(found);
-  free(expected);
 }
 
 /* An implicit step takes as long as fifty others. */
@@ -56,8 +52,7 @@ static void compare_scene(struct random_scene_request request) {
 }
 
 /* Two scenes for each of the 256 combinations of features. */
-static void test_small_scenes(void **unused) {
-  (void)unused;
+TEST(test_small_scenes) {
   for (int32_t features = 0; features <= SCENE_EVERYTHING; features++) {
     for (uint64_t round = 0; round < 2; round++) {
       if (left_out(2 * features + (int64_t)round, 7)) continue;
@@ -73,8 +68,7 @@ static void test_small_scenes(void **unused) {
   }
 }
 
-static void test_large_scenes(void **unused) {
-  (void)unused;
+TEST(test_large_scenes) {
   const int32_t features[] = {0, SCENE_DAMPING | SCENE_GRAVITY,
                               SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
   const int64_t share = short_of_time() ? 3 : 1;
@@ -89,8 +83,7 @@ static void test_large_scenes(void **unused) {
   }
 }
 
-static void test_parts(void **unused) {
-  (void)unused;
+TEST(test_parts) {
   const int32_t size[] = {2, 3, 4, 5, 8, 9, 16, 17, 33, 64, 70};
   const int32_t sizes = (int32_t)(sizeof size / sizeof size[0]);
   for (int32_t k = 0; k < sizes; k++) {
@@ -111,8 +104,7 @@ static void test_parts(void **unused) {
 }
 
 /* With additional particles and springs, and alone, where its springs form strided batches. */
-static void test_lattices(void **unused) {
-  (void)unused;
+TEST(test_lattices) {
   static const int32_t size[][3] = {{2, 2, 2},  {3, 2, 4}, {2, 17, 4},  {5, 4, 3},
                                     {16, 3, 5}, {9, 8, 7}, {13, 12, 11}};
   for (uint64_t k = 0; k < sizeof size / sizeof size[0]; k++) {
@@ -127,9 +119,8 @@ static void test_lattices(void **unused) {
 }
 
 /* A scene listed spring by spring is summed like the same scene made of parts. */
-static void test_parts_are_springs(void **unused) {
-  (void)unused;
-  struct random_scene parts;
+TEST(test_parts_are_springs) {
+  owned_random_scene parts;
   random_scene_create((struct random_scene_request){.seed = 3,
                                                     .particles = 7,
                                                     .springs = 12,
@@ -139,16 +130,13 @@ static void test_parts_are_springs(void **unused) {
                       &parts);
   const struct canonical *c = &parts.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n),
-         *expected = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *found = new_doubles(3 * n);
+  owned_doubles *expected = new_doubles(3 * n);
   random_scene_shake(&parts, 4, q, v);
 
-  hooke_system *listed = NULL;
-  hooke_options *options = NULL;
-  check_ok(hooke_system_create(&listed));
+  hooke_system *listed = new_system();
   check_ok(hooke_system_add_particles(listed, n, q, v, n, hooke_system_mass(parts.system), NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", m, c->kappa));
   check_ok(hooke_options_set_numbers(options, "damping", m, c->gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", m, c->rest_length));
@@ -161,24 +149,19 @@ static void test_parts_are_springs(void **unused) {
   check_ok(hooke_system_acceleration(listed, 0.0, q, v, found));
   check_same_bits(3 * n, found, expected);
   hooke_system_destroy(listed);
-  random_scene_destroy(&parts);
-  free(q);
-  free(v);
-  free(found);
-  free(expected);
 }
 
 /* The comparison itself: one unit in the last place, and another order of the springs, must be detected. */
-static void test_planted_faults(void **unused) {
-  (void)unused;
-  struct random_scene scene;
+TEST(test_planted_faults) {
+  owned_random_scene scene;
   random_scene_create(
       (struct random_scene_request){
           .seed = 11, .particles = 200, .springs = 2000, .features = SCENE_DAMPING | SCENE_GRAVITY},
       &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->spring_count;
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  owned_doubles *b = new_doubles(3 * n);
   random_scene_shake(&scene, 12, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
 
@@ -206,22 +189,17 @@ static void test_planted_faults(void **unused) {
   assert_true(first_difference(3 * n, a, b) >= 0);
   assert_true(largest_difference(3 * n, a, b) <
               1e-9 * largest(3 * n, a)); /* the same physics in another order */
-  random_scene_destroy(&scene);
-  free(q);
-  free(v);
-  free(a);
-  free(b);
 }
 
 /* Triples in another order must be detected. */
-static void test_planted_bending(void **unused) {
-  (void)unused;
-  struct random_scene scene;
+TEST(test_planted_bending) {
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 31, .particles = 200, .triples = 900}, &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->triple_count;
   assert_true(m > 500);
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  owned_doubles *b = new_doubles(3 * n);
   random_scene_shake(&scene, 32, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -239,22 +217,17 @@ static void test_planted_bending(void **unused) {
   canonical_acceleration(c, 0.0, q, v, b);
   assert_true(first_difference(3 * n, a, b) >= 0);
   assert_true(largest_difference(3 * n, a, b) < 1e-9 * largest(3 * n, a));
-  random_scene_destroy(&scene);
-  free(q);
-  free(v);
-  free(a);
-  free(b);
 }
 
 /* Tetrahedra in another order, or with two corners exchanged, must be detected. */
-static void test_planted_altitude(void **unused) {
-  (void)unused;
-  struct random_scene scene;
+TEST(test_planted_altitude) {
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 41, .particles = 60, .tetrahedra = 400}, &scene);
   struct canonical *c = &scene.canonical;
   const int64_t n = c->particle_count, m = c->tetrahedron_count;
   assert_true(m > 200);
-  double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n), *b = new_doubles(3 * n);
+  owned_doubles *q = new_doubles(3 * n), *v = new_doubles(3 * n), *a = new_doubles(3 * n);
+  owned_doubles *b = new_doubles(3 * n);
   random_scene_shake(&scene, 42, q, v);
   canonical_acceleration(c, 0.0, q, v, a);
   check_ok(hooke_system_acceleration(scene.system, 0.0, q, v, b));
@@ -285,31 +258,25 @@ static void test_planted_altitude(void **unused) {
   }
   canonical_acceleration(c, 0.0, q, v, b);
   assert_true(largest_difference(3 * n, a, b) > 1e-3 * largest(3 * n, a));
-  random_scene_destroy(&scene);
-  free(q);
-  free(v);
-  free(a);
-  free(b);
 }
 
 /* Steps that are solved for: a velocity off by 1e-7 of the largest change, or 1e-3 with Verlet, which solves
  * no better than its order needs, and a position off by a bit, or by 1e-10 m where it goes through those of
  * stages, have to show. */
-static void test_planted_defects(void **unused) {
-  (void)unused;
+TEST(test_planted_defects) {
   const char *methods[] = {"verlet", "backward-euler", "tr-bdf2", "implicit-midpoint"};
   const double start = 0.003, h = 0.0009765;
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create((struct random_scene_request){.seed = 21,
                                                     .particles = 200,
                                                     .springs = 600,
                                                     .features = SCENE_DAMPING | SCENE_GRAVITY | SCENE_DRAG},
                       &scene);
   const int64_t size = 3 * scene.canonical.particle_count;
-  double *q = new_doubles(size), *v = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size);
   random_scene_shake(&scene, 22, q, v);
   for (int m = 0; m < 4; m++) {
-    hooke_state *state = start_state(scene.system);
+    owned_state *state = start_state(scene.system);
     double *q1 = hooke_state_position(state), *v1 = hooke_state_velocity(state);
     memcpy(q1, q, (size_t)size * sizeof(double));
     memcpy(v1, v, (size_t)size * sizeof(double));
@@ -330,16 +297,11 @@ static void test_planted_defects(void **unused) {
     if (m == 1) q1[17] = q[17] + h * v1[17];
     if (m == 3) q1[17] = q[17] + h * ((v[17] + v1[17]) / 2.0);
     assert_true(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1) > 1.0);
-    hooke_state_destroy(state);
   }
-  random_scene_destroy(&scene);
-  free(q);
-  free(v);
 }
 
 /* FNV-1a of known bytes: 0.0 is eight zero bytes, and the bytes of 1.0 end in f0 3f. */
-static void test_hash(void **unused) {
-  (void)unused;
+TEST(test_hash) {
   const double zero = 0.0, one = 1.0, minus_zero = -0.0;
   assert_true(hash_doubles(0, &zero, HASH_START) == HASH_START);
   uint64_t expected = HASH_START;
@@ -348,20 +310,4 @@ static void test_hash(void **unused) {
   assert_true(hash_doubles(1, &zero, HASH_START) == expected);
   assert_true(hash_doubles(1, &one, HASH_START) != expected);
   assert_int_equal(first_difference(1, &zero, &minus_zero), 0);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_hash),
-      cmocka_unit_test(test_planted_faults),
-      cmocka_unit_test(test_planted_bending),
-      cmocka_unit_test(test_planted_altitude),
-      cmocka_unit_test(test_planted_defects),
-      cmocka_unit_test(test_small_scenes),
-      cmocka_unit_test(test_large_scenes),
-      cmocka_unit_test(test_parts),
-      cmocka_unit_test(test_lattices),
-      cmocka_unit_test(test_parts_are_springs),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -92,8 +92,7 @@ static void check_method(const struct random_scene *scene, const char *method, i
   }
 }
 
-static void test_same_bits(void **unused) {
-  (void)unused;
+TEST(test_same_bits) {
   const int64_t share = short_of_time() ? SHARE : 1;
   struct random_scene all, some;
   create_scene(share, &all);
@@ -110,22 +109,15 @@ static void test_same_bits(void **unused) {
 }
 
 /* Another seed is another scene: a constant hash would prove nothing. */
-static void test_seeds_differ(void **unused) {
-  (void)unused;
+TEST(test_seeds_differ) {
   uint64_t hash[2];
   for (uint64_t k = 0; k < 2; k++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create(
         (struct random_scene_request){
             .seed = 5 + k, .particles = 100, .springs = 300, .features = SCENE_EVERYTHING},
         &scene);
     hash[k] = run_here(&scene, "symplectic-euler", 1, STEPS).hash;
-    random_scene_destroy(&scene);
   }
   assert_true(hash[0] != hash[1]);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_seeds_differ)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

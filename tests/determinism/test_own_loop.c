@@ -7,7 +7,6 @@
 #include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { STEPS = 24, SHEET = 120, SCENES = MOVING_SCENES + 2 };
@@ -149,7 +148,7 @@ static const char *method_of(int64_t number) {
 
 static void for_every_method(void (*check)(const hooke_system *, struct run)) {
   for (int scene = 0; scene < SCENES; scene++) {
-    hooke_system *system = make_system(scene);
+    owned_system *system = make_system(scene);
     const int32_t threads = scene >= MOVING_LARGE ? 2 : 1;
     const char *method;
     for (int64_t m = 0; (method = method_of(m)) != NULL; m++) {
@@ -157,12 +156,10 @@ static void for_every_method(void (*check)(const hooke_system *, struct run)) {
       for (int32_t k = 1; k <= threads; k++)
         check(system, run_of(method, k));
     }
-    hooke_system_destroy(system);
   }
 }
 
-static void test_ways(void **unused) {
-  (void)unused;
+TEST(test_ways) {
   for_every_method(check_ways);
 }
 
@@ -234,15 +231,13 @@ static void check_particles(const hooke_system *system, struct run run) {
   loop_end(&loop);
 }
 
-static void test_particles(void **unused) {
-  (void)unused;
+TEST(test_particles) {
   for_every_method(check_particles);
 }
 
 /* A pinned particle is held where it is put, with zero velocity. */
-static void test_pinned(void **unused) {
-  (void)unused;
-  hooke_system *system = moving_system(&moving_scenes[0]);
+TEST(test_pinned) {
+  owned_system *system = moving_system(&moving_scenes[0]);
   struct loop loop = loop_start(system, run_of("symplectic-euler", 1));
   const int64_t pinned = 1;
   const double q[] = {0.25, 0.5, -0.75}, v[] = {1, 2, 3}, rest[3] = {0};
@@ -254,7 +249,6 @@ static void test_pinned(void **unused) {
   check_same_bits(3, found, q);
   check_same_bits(3, found + 3, rest);
   loop_end(&loop);
-  hooke_system_destroy(system);
 }
 
 /* ---- observers ---- */
@@ -299,8 +293,7 @@ static void check_watched(const hooke_system *system, struct run run) {
   loop_end(&alone);
 }
 
-static void test_watched(void **unused) {
-  (void)unused;
+TEST(test_watched) {
   for_every_method(check_watched);
 }
 
@@ -311,9 +304,8 @@ static struct loop start_wild(const hooke_system *system, double step) {
 }
 
 /* Each call of a step checks for non-finite numbers, and leaves the state of the previous call. */
-static void test_steps_diverge(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(10.0);
+TEST(test_steps_diverge) {
+  owned_system *system = small_oscillator(10.0);
   struct loop loop = start_wild(system, 10.0);
   hooke_state *before = start_state(system), *recent = start_state(system);
   int32_t status = HOOKE_OK;
@@ -338,15 +330,13 @@ static void test_steps_diverge(void **unused) {
   hooke_state_destroy(recent);
   hooke_state_destroy(before);
   loop_end(&loop);
-  hooke_system_destroy(system);
 }
 
 /* Without a state the check is made every 1000 steps, and when the state is requested. */
-static void test_motion_diverges(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(10.0);
+TEST(test_motion_diverges) {
+  owned_system *system = small_oscillator(10.0);
   struct loop loop = start_wild(system, 0.01);
-  hooke_state *start = start_state(system);
+  owned_state *start = start_state(system);
   check_ok(hooke_integrator_step(loop.integrator, loop.state, 0));
   check_ok(hooke_integrator_advance(loop.integrator, 999));
   check_status(hooke_integrator_advance(loop.integrator, 1), HOOKE_DIVERGED); /* by its energy */
@@ -365,14 +355,11 @@ static void test_motion_diverges(void **unused) {
   check_same_state(loop.state, start);
   check_status(hooke_integrator_advance(loop.integrator, 1), HOOKE_BAD_CALL);
   loop_end(&loop);
-  hooke_state_destroy(start);
-  hooke_system_destroy(system);
 }
 
 /* Moving particles may add any energy. */
-static void test_put_brings_energy(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(10.0);
+TEST(test_put_brings_energy) {
+  owned_system *system = small_oscillator(10.0);
   const int64_t particle = 1;
   for (int put = 0; put < 2; put++) {
     struct loop loop = loop_start(system, (struct run){.method = "symplectic-euler", .step = 0.01});
@@ -383,7 +370,6 @@ static void test_put_brings_energy(void **unused) {
     check_ok(hooke_integrator_sync(loop.integrator, loop.state));
     loop_end(&loop);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- misuse ---- */
@@ -398,9 +384,8 @@ static void check_no_motion(struct loop *loop) {
   check_status(hooke_integrator_put(loop->integrator, 1, &particle, q, NULL), HOOKE_BAD_CALL);
 }
 
-static void test_misuse(void **unused) {
-  (void)unused;
-  hooke_system *system = moving_system(&moving_scenes[0]), *other = small_oscillator(1.0);
+TEST(test_misuse) {
+  owned_system *system = moving_system(&moving_scenes[0]), *other = small_oscillator(1.0);
   struct loop loop = loop_start(system, run_of("verlet", 1));
   hooke_state *before = start_state(system), *small = start_state(other);
   const int64_t n = hooke_system_particle_count(system), particle[] = {2, n}, below[] = {-1};
@@ -422,8 +407,6 @@ static void test_misuse(void **unused) {
   hooke_state_destroy(small);
   hooke_state_destroy(before);
   loop_end(&loop);
-  hooke_system_destroy(other);
-  hooke_system_destroy(system);
 }
 
 /* ---- first-order problems ---- */
@@ -435,8 +418,7 @@ static int32_t turn(int64_t n, double t, const double *x, double *rate, void *ct
   return 0;
 }
 
-static void test_first_order(void **unused) {
-  (void)unused;
+TEST(test_first_order) {
   const char *const methods[] = {"forward-euler", "rk4", "cvode-adams"};
   for (int m = 0; m < 3; m++) {
     if (hooke_method_is_built(methods[m]) != 1) continue;
@@ -455,15 +437,4 @@ static void test_first_order(void **unused) {
     loop_end(&loop[0]);
     loop_end(&loop[1]);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_ways),          cmocka_unit_test(test_particles),
-      cmocka_unit_test(test_pinned),        cmocka_unit_test(test_watched),
-      cmocka_unit_test(test_steps_diverge), cmocka_unit_test(test_motion_diverges),
-      cmocka_unit_test(test_misuse),        cmocka_unit_test(test_put_brings_energy),
-      cmocka_unit_test(test_first_order),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,8 +41,8 @@ static void keep(const hooke_integrator *integrator, const hooke_state *state, s
 
 /* Stopped repeatedly, each time after more calls. */
 static void run_by_pieces(const hooke_system *system, struct run run, struct end *end, int64_t *stops) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   struct listener listener = {.method = run.method, .stop_at = 1};
   check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
   int32_t status = hooke_integrator_run(integrator, state);
@@ -54,28 +54,23 @@ static void run_by_pieces(const hooke_system *system, struct run run, struct end
   }
   check_status(status, HOOKE_OK);
   keep(integrator, state, end);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 static void run_alone(const hooke_system *system, struct run run, struct end *end) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   keep(integrator, state, end);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 /* A solve of the cloth takes many products: stops occur within steps, too. */
-static void test_a_stopped_run_goes_on(void **unused) {
-  (void)unused;
+TEST(test_a_stopped_run_goes_on) {
   static struct end whole, pieces;
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (!is_fixed_step(method)) continue;
     const int implicit = is_implicit(method);
-    hooke_system *system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
+    owned_system *system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
     const double step = implicit ? 0.02 : 1e-3;
     const struct run run = {.method = method, .step = step, .duration = 8.0 * step, .every = 4.0 * step};
     int64_t stops;
@@ -86,14 +81,12 @@ static void test_a_stopped_run_goes_on(void **unused) {
     check_same_bits(6 * hooke_system_particle_count(system), pieces.numbers, whole.numbers);
     for (int c = 0; c < COUNTS; c++)
       if (c == 0 || implicit) assert_int_equal(pieces.count[c], whole.count[c]);
-    hooke_system_destroy(system);
   }
 }
 
 /* Between frames, in steps by hand, and with error control. */
-static void test_every_method_is_heard(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(1.0);
+TEST(test_every_method_is_heard) {
+  owned_system *system = small_oscillator(1.0);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct listener listener = {.method = hooke_method_name(k), .stop_at = 3};
     if (!hooke_method_is_built(listener.method)) continue;
@@ -101,7 +94,7 @@ static void test_every_method_is_heard(void **unused) {
     hooke_integrator *integrator = start_run(
         system,
         (struct run){.method = listener.method, .step = 0.01, .duration = duration, .every = duration});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_message("the progress callback asked to stop at t = ");
@@ -112,15 +105,12 @@ static void test_every_method_is_heard(void **unused) {
     check_ok(hooke_integrator_on_progress(integrator, 0.0, NULL, NULL));
     check_ok(hooke_integrator_step(integrator, state, 3));
     assert_int_equal(listener.calls, 3);
-    hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
 }
 
-static void test_seconds(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(1.0);
+TEST(test_seconds) {
+  owned_system *system = small_oscillator(1.0);
   struct listener listener = {.method = "verlet"};
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 10.0});
@@ -138,14 +128,4 @@ static void test_seconds(void **unused) {
   check_between((double)listener.calls, 1.0, 10000.0);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_a_stopped_run_goes_on),
-      cmocka_unit_test(test_every_method_is_heard),
-      cmocka_unit_test(test_seconds),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,6 @@
 #include "sanitized.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -207,7 +206,7 @@ static const char *const references[] = {"rk8pd", "arkode-esdirk"};
 
 static void check_scene(const struct moving_scene *scene, int64_t tries) {
   struct random_source random = {(uint64_t)(scene - moving_scenes) + 1};
-  hooke_system *system = moving_system(scene);
+  owned_system *system = moving_system(scene);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     if (hooke_method_is_built(hooke_method_name(m)))
       check_method(scene, system, hooke_method_name(m), tries, &random);
@@ -215,23 +214,20 @@ static void check_scene(const struct moving_scene *scene, int64_t tries) {
   for (int m = 0; m < 2; m++) {
     if (hooke_method_is_built(references[m])) check_method(scene, system, references[m], tries, &random);
   }
-  hooke_system_destroy(system);
 }
 
-static void resumed_runs_end_in_the_same_bits(void **state) {
-  (void)state;
+TEST(resumed_runs_end_in_the_same_bits) {
   for (int k = 0; k < MOVING_SCENES; k++) {
     if (!left_out(k, 3)) check_scene(&moving_scenes[k], getenv("HOOKE_LONG") ? 100 : 4);
   }
 }
 
 /* Alternately with two threads and with one. */
-static void threads_change_nothing(void **state) {
-  (void)state;
+TEST(threads_change_nothing) {
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
   const struct moving_scene *scene = &moving_scenes[MOVING_LARGE];
   struct random_source random = {17};
-  hooke_system *system = moving_system(scene);
+  owned_system *system = moving_system(scene);
   for (int m = 0; m < 4; m++) {
     if (!hooke_method_is_built(methods[m]) || left_out(m, 3)) continue;
     struct run run = run_of(scene, methods[m], 0);
@@ -241,16 +237,14 @@ static void threads_change_nothing(void **state) {
       check_stops(system, run, &whole, calls, &random, methods[m]);
     free(whole.row);
   }
-  hooke_system_destroy(system);
 }
 
 /* In the same process, from the state where an observer stopped it, repeatedly. */
-static void fixed_steps_go_on_where_they_stopped(void **state) {
-  (void)state;
+TEST(fixed_steps_go_on_where_they_stopped) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    hooke_system *system = moving_system(&moving_scenes[2]);
+    owned_system *system = moving_system(&moving_scenes[2]);
     const struct run run = run_of(&moving_scenes[2], method, 0);
     struct trace whole = trace_create(system), trace = trace_create(system);
     const int64_t calls = run_whole(system, run, &whole);
@@ -269,18 +263,16 @@ static void fixed_steps_go_on_where_they_stopped(void **state) {
     hooke_state_destroy(at);
     free(trace.row);
     free(whole.row);
-    hooke_system_destroy(system);
   }
 }
 
 /* Before, at and after the last whole multiple of `every`, and at the end, before its frame was shown. */
-static void the_last_short_interval_goes_on(void **state) {
-  (void)state;
+TEST(the_last_short_interval_goes_on) {
   static const int64_t stops[] = {STEPS - 5, STEPS - 4, STEPS - 3, STEPS - 1, STEPS};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    hooke_system *system = moving_system(&moving_scenes[1]);
+    owned_system *system = moving_system(&moving_scenes[1]);
     const struct run run = run_of(&moving_scenes[1], method, 1);
     struct trace whole = trace_create(system), trace = trace_create(system);
     run_whole(system, run, &whole);
@@ -298,23 +290,22 @@ static void the_last_short_interval_goes_on(void **state) {
     }
     free(trace.row);
     free(whole.row);
-    hooke_system_destroy(system);
   }
 }
 
 /* Loops of the caller's own: some steps, a checkpoint, the other half in another integrator. */
-static void single_steps_go_on_from_a_checkpoint(void **state) {
-  (void)state;
+TEST(single_steps_go_on_from_a_checkpoint) {
   char path[64];
   snprintf(path, sizeof path, "%s/hooke-steps-%ld", memory_folder(), (long)getpid());
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    hooke_system *system = moving_system(&moving_scenes[1]);
+    owned_system *system = moving_system(&moving_scenes[1]);
     const struct run run = {.method = method, .step = 1e-3};
-    hooke_integrator *whole = start_run(system, run), *half = start_run(system, run),
-                     *rest = start_run(system, run);
-    hooke_state *expected = start_state(system), *before = start_state(system), *found = start_state(system);
+    owned_integrator *whole = start_run(system, run), *half = start_run(system, run);
+    owned_integrator *rest = start_run(system, run);
+    owned_state *expected = start_state(system), *before = start_state(system);
+    owned_state *found = start_state(system);
     check_ok(hooke_integrator_step(whole, expected, 20));
     check_ok(hooke_integrator_step(half, before, 11));
     check_ok(hooke_checkpoint_write(path, half, before, NULL));
@@ -326,13 +317,6 @@ static void single_steps_go_on_from_a_checkpoint(void **state) {
     check_same_bits(hooke_state_size(found), hooke_state_velocity(found), hooke_state_velocity(expected));
     for (int k = 0; k < COUNTS; k++)
       assert_int_equal(hooke_integrator_count(rest, counts[k]), hooke_integrator_count(whole, counts[k]));
-    hooke_state_destroy(expected);
-    hooke_state_destroy(before);
-    hooke_state_destroy(found);
-    hooke_integrator_destroy(whole);
-    hooke_integrator_destroy(half);
-    hooke_integrator_destroy(rest);
-    hooke_system_destroy(system);
   }
   remove_files(path);
 }
@@ -350,8 +334,7 @@ static int32_t stop_once(int64_t step, const hooke_state *state, void *ctx) {
   return --*(int64_t *)ctx == 0;
 }
 
-static void first_order_problems_go_on(void **state) {
-  (void)state;
+TEST(first_order_problems_go_on) {
   static const char *const methods[] = {"forward-euler", "rk4",   "cvode-bdf",
                                         "cvode-adams",   "rk8pd", "arkode-esdirk"};
   char path[64];
@@ -386,8 +369,7 @@ static void first_order_problems_go_on(void **state) {
 
 /* Restarts are part of the method: without the option there are none, and with it an observer changes
  * nothing. */
-static void the_option_decides_and_nobody_else(void **state) {
-  (void)state;
+TEST(the_option_decides_and_nobody_else) {
   const struct moving_scene *scene = &moving_scenes[0];
   if (!hooke_method_is_built("cvode-adams")) return;
   hooke_system *system = moving_system(scene);
@@ -414,17 +396,4 @@ static void the_option_decides_and_nobody_else(void **state) {
   free(without);
   free(trace.row);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(resumed_runs_end_in_the_same_bits),
-      cmocka_unit_test(threads_change_nothing),
-      cmocka_unit_test(fixed_steps_go_on_where_they_stopped),
-      cmocka_unit_test(the_last_short_interval_goes_on),
-      cmocka_unit_test(single_steps_go_on_from_a_checkpoint),
-      cmocka_unit_test(first_order_problems_go_on),
-      cmocka_unit_test(the_option_decides_and_nobody_else),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

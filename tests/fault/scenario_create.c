@@ -1,5 +1,6 @@
 /* Systems by hand and by parts, drives, commit, and queries that need scratch. */
 #include "scenarios.h"
+#include "small.h"
 
 #include <string.h>
 
@@ -27,22 +28,16 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   const double stiffness[] = {100, 90, 80, 70, 60, 50, 40, 30, 20, 10};
   const int64_t triples[] = {0, 1, 2, 1, 2, 3}, tetrahedra[] = {0, 1, 2, 6, 1, 2, 3, 6};
   const double coefficient = 0.5;
-  hooke_options *springs = NULL, *altitude = NULL, *anchors = NULL;
-  TRY(a, hooke_options_create("springs", &springs));
+  hooke_options *springs = make_options(a, "springs", "damping=0.5 rest_length=initial"),
+                *altitude = make_options(a, "altitude", "stiffness=5"),
+                *anchors = make_options(a, "anchors", "stiffness=5");
+  if (anchors == NULL) goto end;
   TRY(a, hooke_options_set_numbers(springs, "stiffness", 10, stiffness));
-  TRY(a, hooke_options_set_number(springs, "damping", 0.5));
-  TRY(a, hooke_options_set_text(springs, "rest_length", "initial"));
   TRY(a, hooke_system_add_springs(system, "edges", 10, ends, springs));
-  TRY(a, hooke_options_set_text(springs, "law", "length"));
-  TRY(a, hooke_options_set_number(springs, "stiffness", 3));
-  TRY(a, hooke_options_set_number(springs, "compression", 0));
+  TRY(a, try_words(springs, "law=length stiffness=3 compression=false"));
   TRY(a, hooke_system_add_springs(system, "cables", 3, ends, springs));
   TRY(a, hooke_system_add_bending(system, "beam", 2, triples, 1, &coefficient));
-  TRY(a, hooke_options_create("altitude", &altitude));
-  TRY(a, hooke_options_set_number(altitude, "stiffness", 5));
   TRY(a, hooke_system_add_altitude(system, "volume", 2, tetrahedra, altitude));
-  TRY(a, hooke_options_create("anchors", &anchors));
-  TRY(a, hooke_options_set_number(anchors, "stiffness", 5));
   TRY(a, hooke_system_add_anchors(system, "wall", 3, triples, anchors));
 end:
   hooke_options_destroy(springs);
@@ -119,31 +114,22 @@ static int32_t hold(int64_t n, double t, const double *q, const double *v, doubl
 
 static void lend_force(struct attempt *a, const hooke_system *system) {
   const double *held = NULL;
-  hooke_system *with = NULL;
-  hooke_options *run = NULL;
-  hooke_integrator *integrator = NULL;
-  hooke_state *state = NULL;
-  TRY(a, hooke_system_with_force(system, hold, NULL, &held, &with));
-  TRY(a, hooke_options_create("run", &run));
-  TRY(a, hooke_options_set_text(run, "method", "symplectic-euler"));
-  TRY(a, hooke_options_set_number(run, "step", 1e-3));
-  TRY(a, hooke_integrator_create(with, run, &integrator));
-  TRY(a, hooke_state_create(with, &state));
+  struct made m = {.run = make_options(a, "run", "method=symplectic-euler step=1e-3")};
+  if (m.run == NULL) goto end;
+  TRY(a, hooke_system_with_force(system, hold, NULL, &held, &m.system));
+  TRY(a, hooke_integrator_create(m.system, m.run, &m.integrator));
+  TRY(a, hooke_state_create(m.system, &m.state));
   for (int k = 0; k < 3; k++)
-    TRY(a, hooke_integrator_step(integrator, state, 1));
-  attempt_numbers(a, 3 * COUNT, hooke_state_position(state));
+    TRY(a, hooke_integrator_step(m.integrator, m.state, 1));
+  attempt_numbers(a, 3 * COUNT, hooke_state_position(m.state));
 end:
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(run);
-  hooke_system_destroy(with);
+  release(&m);
   hooke_rows_hold(held, -1);
 }
 
-static void by_hand(struct attempt *a, const void *with) {
+SCENARIO(by_hand) {
   const double mass[COUNT] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   hooke_system *system = NULL;
-  (void)with;
   TRY(a, hooke_system_create(&system));
   TRY(a, hooke_system_add_particles(system, COUNT - 1, position, velocity, COUNT - 1, mass, NULL));
   TRY(a, hooke_system_add_particles(system, 1, position + 3 * (COUNT - 1), NULL, 1, mass, NULL));
@@ -158,74 +144,37 @@ end:
   hooke_system_destroy(system);
 }
 
-struct part {
-  const char *kind;
-  const char *setting[12][2];
-};
-
-static const struct part parts[] = {
-    {"rope",
-     {{"from", "0,0,0"},
-      {"to", "1,0,0"},
-      {"segments", "5"},
-      {"density", "0.1"},
-      {"stretch.stiffness", "20"},
-      {"bend.stiffness", "1"},
-      {"bending", "0.01"},
-      {"pinned", "start,end"}}},
-    {"cloth",
-     {{"origin", "0,1,0"},
-      {"edges", "1,0,0,0,0,1"},
-      {"size", "5,4"},
-      {"mass", "0.3"},
-      {"structural.stiffness", "20"},
-      {"shear.stiffness", "5"},
-      {"bend.stiffness", "1"},
-      {"pinned", "top-corners"}}},
-    {"lattice",
-     {{"origin", "0,2,0"},
-      {"edges", "1,0,0,0,1,0,0,0,1"},
-      {"size", "3,3,3"},
-      {"mass", "0.3"},
-      {"structural.stiffness", "20"},
-      {"shear.stiffness", "5"},
-      {"bend.stiffness", "1"},
-      {"pinned", "bottom"}}},
-    {"strand",
-     {{"from", "0,4,0"},
-      {"to", "1,4,0"},
-      {"segments", "4"},
-      {"mass", "0.01"},
-      {"stretch.stiffness", "20"},
-      {"bend.stiffness", "5"},
-      {"twist.stiffness", "1"},
-      {"altitude.stiffness", "1"},
-      {"pinned", "start"}}},
+static const struct {
+  const char *kind, *words;
+} parts[] = {
+    {"rope", "from=0,0,0 to=1,0,0 segments=5 density=0.1 stretch.stiffness=20 bend.stiffness=1 bending=0.01 "
+             "pinned=start,end"},
+    {"cloth", "origin=0,1,0 edges=1,0,0,0,0,1 size=5,4 mass=0.3 structural.stiffness=20 shear.stiffness=5 "
+              "bend.stiffness=1 pinned=top-corners"},
+    {"lattice", "origin=0,2,0 edges=1,0,0,0,1,0,0,0,1 size=3,3,3 mass=0.3 structural.stiffness=20 "
+                "shear.stiffness=5 bend.stiffness=1 pinned=bottom"},
+    {"strand", "from=0,4,0 to=1,4,0 segments=4 mass=0.01 stretch.stiffness=20 bend.stiffness=5 "
+               "twist.stiffness=1 altitude.stiffness=1 pinned=start"},
 };
 
 static void set_mesh(struct attempt *a, hooke_options *options) {
   const double vertices[] = {0, 6, 0, 1, 6, 0, 0, 7, 0, 1, 7, 0, 1, 6, 0};
   const int64_t triangles[] = {0, 1, 2, 4, 3, 2};
   TRY(a, hooke_mesh_set(options, 5, vertices, 2, triangles));
-  TRY(a, hooke_options_set_number(options, "mass", 0.1));
-  TRY(a, hooke_options_set_number(options, "weld", 1e-6));
-  TRY(a, hooke_options_set_number(options, "structural.stiffness", 10));
-  TRY(a, hooke_options_set_number(options, "bend.damping_ratio", 0.1));
-  TRY(a, hooke_options_set_number(options, "bend.stiffness", 1));
+  TRY(a, try_words(options,
+                   "mass=0.1 weld=1e-6 structural.stiffness=10 bend.damping_ratio=0.1 bend.stiffness=1"));
 end:
   return;
 }
 
-static void by_parts(struct attempt *a, const void *with) {
+SCENARIO(by_parts) {
   hooke_system *system = NULL;
   hooke_options *options = NULL, *copy = NULL;
   hooke_state *state = NULL;
-  (void)with;
   TRY(a, hooke_system_create(&system));
   for (size_t p = 0; p < sizeof parts / sizeof parts[0]; p++) {
-    TRY(a, hooke_options_create(parts[p].kind, &options));
-    for (int k = 0; parts[p].setting[k][0]; k++)
-      TRY(a, hooke_options_set_text(options, parts[p].setting[k][0], parts[p].setting[k][1]));
+    options = make_options(a, parts[p].kind, "%s", parts[p].words);
+    if (options == NULL) goto end;
     TRY(a, hooke_options_copy(options, &copy));
     TRY(a, hooke_system_add_part(system, parts[p].kind, p == 0 ? "line" : NULL, copy, NULL, NULL));
     TRY(a, hooke_options_unset(options, "mass"));

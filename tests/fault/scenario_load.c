@@ -1,5 +1,6 @@
 /* Scenes of every kind, from files and from text. */
 #include "scenarios.h"
+#include "small.h"
 
 #include "check.h"
 #include "file_copy.h"
@@ -139,7 +140,7 @@ end:
 }
 
 /* `with` is the name of the file. */
-static void load(struct attempt *a, const void *with) {
+SCENARIO(load) {
   hooke_scene *scene = NULL;
   char path[PATH_SIZE];
   snprintf(path, sizeof path, "%s/%s", a->folder, (const char *)with);
@@ -149,9 +150,8 @@ end:
   hooke_scene_destroy(scene);
 }
 
-static void parse(struct attempt *a, const void *with) {
+SCENARIO(parse) {
   hooke_scene *scene = NULL;
-  (void)with;
   for (size_t k = 0; k < 2; k++) {
     TRY(a, hooke_scene_parse(scenes[k].text, (int64_t)strlen(scenes[k].text), "text", NULL, NULL, &scene));
     take_scene(a, scene);
@@ -164,7 +164,7 @@ end:
 }
 
 /* Faulty scenes are refused as such, unless memory is missing to detect the fault. */
-static void refuse(struct attempt *a, const void *with) {
+SCENARIO(refuse) {
   static const char *const wrong[] = {
       "{\"hooke\": 1, \"parts\": [{\"kind\": \"rope\", \"colour\": 3}]}",
       "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0]], \"mass\": [1, -2]}}",
@@ -174,7 +174,6 @@ static void refuse(struct attempt *a, const void *with) {
       "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1,0,0]], }}",
   };
   hooke_scene *scene = NULL;
-  (void)with;
   for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
     TRY_FOR(a, hooke_scene_parse(wrong[k], (int64_t)strlen(wrong[k]), "text", NULL, NULL, &scene),
             HOOKE_BAD_VALUE);
@@ -184,15 +183,14 @@ end:
   hooke_scene_destroy(scene);
 }
 
-static void read_mesh(struct attempt *a, const void *with) {
+SCENARIO(read_mesh) {
   hooke_options *options = NULL;
   hooke_system *system = NULL;
   char path[PATH_SIZE];
-  (void)with;
   snprintf(path, sizeof path, "%s/sheet.obj", a->folder);
   TRY(a, hooke_options_create("mesh", &options));
   TRY(a, hooke_mesh_read(path, options));
-  TRY(a, hooke_options_set_number(options, "mass", 0.5));
+  TRY(a, try_words(options, "mass=0.5"));
   TRY(a, hooke_system_create(&system));
   TRY(a, hooke_system_add_part(system, "mesh", NULL, options, NULL, NULL));
   TRY(a, hooke_system_commit(system));

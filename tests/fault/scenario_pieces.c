@@ -1,5 +1,7 @@
 #include "scenarios.h"
+#include "small.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,18 +19,25 @@ int32_t scenario_is_built(const struct scenario *scenario) {
   return 1;
 }
 
+void release(struct made *made) {
+  hooke_measurement_destroy(made->second);
+  hooke_measurement_destroy(made->measurement);
+  hooke_state_destroy(made->other);
+  hooke_state_destroy(made->state);
+  hooke_integrator_destroy(made->integrator);
+  hooke_options_destroy(made->options);
+  hooke_options_destroy(made->run);
+  hooke_system_destroy(made->system);
+}
+
 hooke_system *make_rope(struct attempt *a, double segments) {
   hooke_system *system = NULL;
-  hooke_options *options = NULL;
+  hooke_options *options = make_options(a, "rope",
+                                        "from=0,0,0 to=1,0.1,0 segments=%.17g mass=0.5 stretch.stiffness=30 "
+                                        "stretch.damping=0.01 pinned=start",
+                                        segments);
+  if (options == NULL) return NULL;
   TRY(a, hooke_system_create(&system));
-  TRY(a, hooke_options_create("rope", &options));
-  TRY(a, hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  TRY(a, hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  TRY(a, hooke_options_set_number(options, "segments", segments));
-  TRY(a, hooke_options_set_number(options, "mass", 0.5));
-  TRY(a, hooke_options_set_number(options, "stretch.stiffness", 30));
-  TRY(a, hooke_options_set_number(options, "stretch.damping", 0.01));
-  TRY(a, hooke_options_set_text(options, "pinned", "start"));
   TRY(a, hooke_system_add_part(system, "rope", "line", options, NULL, NULL));
   TRY(a, hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   TRY(a, hooke_system_commit(system));
@@ -40,74 +49,50 @@ end:
   return NULL;
 }
 
-hooke_options *make_run(struct attempt *a, const char *method, double step, double duration, double every) {
+hooke_system *make_oscillator(struct attempt *a) {
+  const double position[] = {0, 0, 0, 1.1, 0, 0}, mass = 1.0;
+  const int64_t ends[] = {0, 1}, first = 0;
+  hooke_system *system = NULL;
+  hooke_options *springs = make_options(a, "springs", "stiffness=100 damping=0.5 rest_length=1");
+  if (springs == NULL) return NULL;
+  TRY(a, hooke_system_create(&system));
+  TRY(a, hooke_system_add_particles(system, 2, position, NULL, 1, &mass, NULL));
+  TRY(a, hooke_system_pin(system, 1, &first));
+  TRY(a, hooke_system_add_springs(system, "spring", 1, ends, springs));
+  TRY(a, hooke_system_commit(system));
+  hooke_options_destroy(springs);
+  return system;
+end:
+  hooke_options_destroy(springs);
+  hooke_system_destroy(system);
+  return NULL;
+}
+
+hooke_options *make_options(struct attempt *a, const char *name, const char *words, ...) {
+  char text[256];
+  va_list values;
   hooke_options *options = NULL;
-  TRY(a, hooke_options_create("run", &options));
-  if (method) TRY(a, hooke_options_set_text(options, "method", method));
-  if (step > 0.0) TRY(a, hooke_options_set_number(options, "step", step));
-  TRY(a, hooke_options_set_number(options, "duration", duration));
-  if (every > 0.0) TRY(a, hooke_options_set_number(options, "every", every));
+  va_start(values, words);
+  vsnprintf(text, sizeof text, words, values);
+  va_end(values);
+  if (a->gave_up) return NULL;
+  TRY(a, hooke_options_create(name, &options));
+  TRY(a, try_words(options, text));
   return options;
 end:
   hooke_options_destroy(options);
   return NULL;
 }
 
-hooke_measurement *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                              const char *methods) {
-  hooke_options *options = NULL;
-  hooke_measurement *study = NULL;
-  if (run == NULL) return NULL;
-  TRY(a, hooke_options_create("study", &options));
-  TRY(a, hooke_options_set_text(options, "methods", methods));
-  TRY(a, hooke_options_set_number(options, "points", 6));
-  TRY(a, hooke_measurement_create("study", system, run, options, &study));
+hooke_measurement *make_measurement(struct attempt *a, const char *kind, const hooke_system *system,
+                                    const hooke_options *run, const char *words) {
+  hooke_options *options = make_options(a, kind, "%s", words);
+  hooke_measurement *measurement = NULL;
+  if (options == NULL) return NULL;
+  TRY(a, hooke_measurement_create(kind, system, run, options, &measurement));
 end:
   hooke_options_destroy(options);
-  return study;
-}
-
-hooke_measurement *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                                   const char *methods) {
-  hooke_options *options = NULL;
-  hooke_measurement *comparison = NULL;
-  if (run == NULL) return NULL;
-  TRY(a, hooke_options_create("study", &options));
-  TRY(a, hooke_options_set_text(options, "methods", methods));
-  TRY(a, hooke_options_set_number(options, "once", 1));
-  TRY(a, hooke_measurement_create("study", system, run, options, &comparison));
-end:
-  hooke_options_destroy(options);
-  return comparison;
-}
-
-hooke_measurement *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                              int32_t refine) {
-  hooke_options *options = NULL;
-  hooke_measurement *needs = NULL;
-  if (run == NULL) return NULL;
-  TRY(a, hooke_options_create("needs", &options));
-  TRY(a, hooke_options_set_number(options, "want", 1e-2));
-  TRY(a, hooke_options_set_number(options, "refine", refine));
-  TRY(a, hooke_measurement_create("needs", system, run, options, &needs));
-end:
-  hooke_options_destroy(options);
-  return needs;
-}
-
-hooke_measurement *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                              const char *flag) {
-  hooke_options *options = NULL;
-  hooke_measurement *limit = NULL;
-  if (system == NULL) return NULL;
-  TRY(a, hooke_options_create("limit", &options));
-  if (flag) TRY(a, hooke_options_set_number(options, flag, 1));
-  TRY(a, hooke_options_set_number(options, "accuracy", 0.1));
-  TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4"));
-  TRY(a, hooke_measurement_create("limit", system, run, options, &limit));
-end:
-  hooke_options_destroy(options);
-  return limit;
+  return measurement;
 }
 
 void take_state(struct attempt *a, const hooke_state *state) {

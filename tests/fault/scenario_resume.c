@@ -7,30 +7,24 @@ enum { FRAMES = 5, FRAMES_BEFORE = 3, PATH_SIZE = 512 };
 
 /* ---- a checkpoint alone ---- */
 
-static void checkpoint(struct attempt *a, const void *with) {
-  hooke_system *system = make_rope(a, 6);
-  hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 4e-3, 1e-3) : NULL;
-  hooke_integrator *integrator = NULL, *other = NULL;
-  hooke_state *state = NULL, *again = NULL;
-  (void)with;
-  if (run == NULL) goto end;
-  TRY(a, hooke_integrator_create(system, run, &integrator));
-  TRY(a, hooke_integrator_create(system, run, &other));
-  TRY(a, hooke_state_create(system, &state));
-  TRY(a, hooke_state_create(system, &again));
-  TRY_ONCE(a, hooke_integrator_run(integrator, state));
+SCENARIO(checkpoint) {
+  struct made m = {.system = make_rope(a, 6)};
+  hooke_integrator *other = NULL;
+  m.run = make_options(a, "run", "method=symplectic-euler step=1e-3 duration=4e-3 every=1e-3");
+  if (m.run == NULL) goto end;
+  TRY(a, hooke_integrator_create(m.system, m.run, &m.integrator));
+  TRY(a, hooke_integrator_create(m.system, m.run, &other));
+  TRY(a, hooke_state_create(m.system, &m.state));
+  TRY(a, hooke_state_create(m.system, &m.other));
+  TRY_ONCE(a, hooke_integrator_run(m.integrator, m.state));
   /* the second one keeps the first */
-  TRY(a, hooke_checkpoint_write(path_of(a, "out.checkpoint"), integrator, state, "a run"));
-  TRY(a, hooke_checkpoint_write(path_of(a, "out.checkpoint"), integrator, state, "a run"));
-  TRY(a, hooke_checkpoint_read(path_of(a, "out.checkpoint"), "a run", other, again));
-  take_state(a, again);
+  TRY(a, hooke_checkpoint_write(path_of(a, "out.checkpoint"), m.integrator, m.state, "a run"));
+  TRY(a, hooke_checkpoint_write(path_of(a, "out.checkpoint"), m.integrator, m.state, "a run"));
+  TRY(a, hooke_checkpoint_read(path_of(a, "out.checkpoint"), "a run", other, m.other));
+  take_state(a, m.other);
 end:
-  hooke_state_destroy(again);
-  hooke_state_destroy(state);
   hooke_integrator_destroy(other);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
+  release(&m);
 }
 
 /* ---- continuing a run ---- */
@@ -83,7 +77,7 @@ static int32_t end_trajectory(struct going *going, int32_t outcome) {
   return hooke_trajectory_close(trajectory, outcome);
 }
 
-static void release(struct going *going) {
+static void release_going(struct going *going) {
   hooke_trajectory_close(going->trajectory, HOOKE_STOPPED);
   hooke_state_destroy(going->state);
   hooke_integrator_destroy(going->integrator);
@@ -99,7 +93,7 @@ static void stop_halfway(struct attempt *a, const char *path, const hooke_system
   TRY_ONCE(a, hooke_trajectory_checkpoint(going.trajectory, going.integrator, going.state));
   TRY_ONCE(a, end_trajectory(&going, HOOKE_STOPPED));
 end:
-  release(&going);
+  release_going(&going);
 }
 
 static void go_on(struct attempt *a, const char *path, const hooke_system *system, const hooke_options *run) {
@@ -112,23 +106,21 @@ static void go_on(struct attempt *a, const char *path, const hooke_system *syste
   take_state(a, going.state);
   TRY_ONCE(a, end_trajectory(&going, HOOKE_OK));
 end:
-  release(&going);
+  release_going(&going);
 }
 
-static void stop_and_go_on(struct attempt *a, const void *with) {
+SCENARIO(stop_and_go_on) {
   char path[PATH_SIZE];
-  hooke_system *system = make_rope(a, 6);
-  hooke_options *run = system ? make_run(a, "verlet", 1e-3, 1e-3 * (FRAMES - 1), 1e-3) : NULL;
-  (void)with;
+  struct made m = {.system = make_rope(a, 6)};
+  m.run = make_options(a, "run", "method=verlet step=1e-3 duration=%.17g every=1e-3", 1e-3 * (FRAMES - 1));
   snprintf(path, sizeof path, "%s", path_of(a, "out.h5"));
-  if (run == NULL) goto end;
+  if (m.run == NULL) goto end;
   a->planned = FRAMES;
-  stop_halfway(a, path, system, run);
-  if (!a->gave_up) go_on(a, path, system, run);
-  if (!a->gave_up) read_back(a, path, system, FRAMES);
+  stop_halfway(a, path, m.system, m.run);
+  if (!a->gave_up) go_on(a, path, m.system, m.run);
+  if (!a->gave_up) read_back(a, path, m.system, FRAMES);
 end:
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
+  release(&m);
 }
 
 const struct scenario resuming[] = {

@@ -46,75 +46,63 @@ static void check_threads(struct attempt *a, int32_t wanted) {
     attempt_wrong(a, "%d threads were asked for, and %lld are there", (int)wanted, (long long)entries - 2);
 }
 
-static void run(struct attempt *a, const void *with) {
+SCENARIO(run) {
   const struct with *w = with;
-  const double segments = w->threads > 1 ? 17500 : 6;
-  hooke_system *system = make_rope(a, segments);
+  struct made m = {.system = make_rope(a, w->threads > 1 ? 17500 : 6)};
   const double step = w->step > 0.0 ? w->step : w->threads > 1 ? 1e-7 : 1e-4;
-  const double duration = w->threads > 1 ? 2.0 * step : 4.0 * step, every = w->threads > 1 ? duration : 0.0;
-  hooke_options *options = system ? make_run(a, w->method, step, duration, every) : NULL;
-  hooke_integrator *integrator = NULL;
-  hooke_state *start = NULL, *state = NULL;
-  if (options == NULL) goto end;
-  TRY(a, hooke_options_set_number(options, "threads", w->threads));
-  TRY(a, hooke_options_set_number(options, "rtol", 1e-4));
-  if (w->linear_solver) TRY(a, hooke_options_set_text(options, "linear_solver", w->linear_solver));
-  if (w->newton) TRY(a, hooke_options_set_text(options, "newton", w->newton));
-  TRY(a, hooke_integrator_create(system, options, &integrator));
+  const double duration = w->threads > 1 ? 2.0 * step : 4.0 * step;
+  m.run = make_options(a, "run", "method=%s step=%.17g duration=%.17g threads=%d rtol=1e-4", w->method, step,
+                       duration, (int)w->threads);
+  if (m.run == NULL) goto end;
+  if (w->threads > 1) TRY(a, hooke_options_set_number(m.run, "every", duration));
+  if (w->linear_solver) TRY(a, hooke_options_set_text(m.run, "linear_solver", w->linear_solver));
+  if (w->newton) TRY(a, hooke_options_set_text(m.run, "newton", w->newton));
+  TRY(a, hooke_integrator_create(m.system, m.run, &m.integrator));
   check_threads(a, w->threads);
-  TRY(a, hooke_integrator_on_frame(integrator, see, a));
-  TRY(a, hooke_integrator_on_step(integrator, 2, see, a));
-  TRY(a, hooke_integrator_on_warning(integrator, hear, a));
-  TRY(a, hooke_state_create(system, &start));
-  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_integrator_on_frame(m.integrator, see, a));
+  TRY(a, hooke_integrator_on_step(m.integrator, 2, see, a));
+  TRY(a, hooke_integrator_on_warning(m.integrator, hear, a));
+  TRY(a, hooke_state_create(m.system, &m.other));
+  TRY(a, hooke_state_create(m.system, &m.state));
   const uint64_t before = a->hash;
-  TRY(a, run_from_start(a, integrator, start, state, before));
-  TRY(a, hooke_integrator_step(integrator, state, 2));
-  take_state(a, state);
-  if (hooke_integrator_count(integrator, "recent") > 0) TRY(a, hooke_integrator_recent(integrator, 0, start));
-  take_state(a, start);
+  TRY(a, run_from_start(a, m.integrator, m.other, m.state, before));
+  TRY(a, hooke_integrator_step(m.integrator, m.state, 2));
+  take_state(a, m.state);
+  if (hooke_integrator_count(m.integrator, "recent") > 0)
+    TRY(a, hooke_integrator_recent(m.integrator, 0, m.other));
+  take_state(a, m.other);
   const int64_t second = 1;
   const double velocity[] = {0.1, 0.0, -0.1};
-  TRY_ONCE(a, hooke_integrator_advance(integrator, 2));
-  TRY_ONCE(a, hooke_integrator_put(integrator, 1, &second, NULL, velocity));
-  TRY_ONCE(a, hooke_integrator_advance(integrator, 1));
-  TRY(a, hooke_integrator_sync(integrator, state));
-  take_state(a, state);
+  TRY_ONCE(a, hooke_integrator_advance(m.integrator, 2));
+  TRY_ONCE(a, hooke_integrator_put(m.integrator, 1, &second, NULL, velocity));
+  TRY_ONCE(a, hooke_integrator_advance(m.integrator, 1));
+  TRY(a, hooke_integrator_sync(m.integrator, m.state));
+  take_state(a, m.state);
 end:
-  hooke_state_destroy(state);
-  hooke_state_destroy(start);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
+  release(&m);
 }
 
+#define SHORT_RUN "method=%s step=1e-3 duration=4e-3 every=1e-3"
+
 /* Three particles in a rigid body that another pulls at. */
-static void run_body(struct attempt *a, const void *method) {
+SCENARIO(run_body) {
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2, 2}, v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0},
                mass = 1.0;
   const int64_t ends[] = {0, 1, 2, 3}, body[] = {0, 1, 2};
-  hooke_system *system = NULL;
-  hooke_integrator *integrator = NULL;
-  hooke_options *springs = NULL, *options = make_run(a, method, 1e-3, 4e-3, 1e-3);
-  hooke_state *state = NULL;
-  if (options == NULL) goto end;
-  TRY(a, hooke_options_create("springs", &springs));
-  TRY(a, hooke_options_set_number(springs, "stiffness", 10.0));
-  TRY(a, hooke_system_create(&system));
-  TRY(a, hooke_system_add_particles(system, 4, q, v, 1, &mass, NULL));
-  TRY(a, hooke_system_add_springs(system, "springs", 2, ends, springs));
-  TRY(a, hooke_system_add_body(system, "body", 3, body, 1));
-  TRY(a, hooke_system_commit(system));
-  TRY(a, hooke_integrator_create(system, options, &integrator));
-  TRY(a, hooke_state_create(system, &state));
-  TRY(a, hooke_integrator_run(integrator, state));
-  take_state(a, state);
+  struct made m = {.run = make_options(a, "run", SHORT_RUN, (const char *)with)};
+  m.options = make_options(a, "springs", "stiffness=10");
+  if (m.options == NULL) goto end;
+  TRY(a, hooke_system_create(&m.system));
+  TRY(a, hooke_system_add_particles(m.system, 4, q, v, 1, &mass, NULL));
+  TRY(a, hooke_system_add_springs(m.system, "springs", 2, ends, m.options));
+  TRY(a, hooke_system_add_body(m.system, "body", 3, body, 1));
+  TRY(a, hooke_system_commit(m.system));
+  TRY(a, hooke_integrator_create(m.system, m.run, &m.integrator));
+  TRY(a, hooke_state_create(m.system, &m.state));
+  TRY(a, hooke_integrator_run(m.integrator, m.state));
+  take_state(a, m.state);
 end:
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(springs);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
+  release(&m);
 }
 
 static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
@@ -124,22 +112,18 @@ static int32_t decay(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void run_first_order(struct attempt *a, const void *with) {
-  hooke_integrator *integrator = NULL;
-  hooke_state *state = NULL;
-  hooke_options *options = make_run(a, with, 1e-3, 4e-3, 1e-3);
-  if (options == NULL) goto end;
-  TRY(a, hooke_integrator_create_first_order(3, decay, NULL, options, &integrator));
-  TRY(a, hooke_state_create_first_order(3, &state));
+SCENARIO(run_first_order) {
+  struct made m = {.run = make_options(a, "run", SHORT_RUN, (const char *)with)};
+  if (m.run == NULL) goto end;
+  TRY(a, hooke_integrator_create_first_order(3, decay, NULL, m.run, &m.integrator));
+  TRY(a, hooke_state_create_first_order(3, &m.state));
   for (int k = 0; k < 3; k++)
-    hooke_state_position(state)[k] = 1.0;
-  hooke_state_set_time(state, 0.0);
-  TRY(a, hooke_integrator_run(integrator, state));
-  take_state(a, state);
+    hooke_state_position(m.state)[k] = 1.0;
+  hooke_state_set_time(m.state, 0.0);
+  TRY(a, hooke_integrator_run(m.integrator, m.state));
+  take_state(a, m.state);
 end:
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
+  release(&m);
 }
 
 #define RUN(m, ...)                                                                                          \

@@ -104,7 +104,7 @@ static void take_printed(struct attempt *a) {
     if (*at != ' ') attempt_number(a, (double)(unsigned char)*at);
 }
 
-static void type(struct attempt *a, const void *with) {
+SCENARIO(type) {
   const struct line *line = with;
   for (int turn = 0; turn < 2; turn++) {
     const int code = run_program(a, line);

@@ -5,6 +5,9 @@
 #include "attempt.h"
 
 #include "hooke.h"
+#include "small.h"
+
+#include <stddef.h>
 
 struct scenario {
   const char *name;
@@ -24,21 +27,31 @@ int32_t scenario_is_built(const struct scenario *scenario);
 /* Input files of scenarios, created once in `folder`. */
 void prepare_scenes(const char *folder);
 
+/* One of them; it need not look at `with`. */
+#define SCENARIO(name) static void name(struct attempt *a, __attribute__((unused)) const void *with)
+
 /* ---- pieces ---- */
 
-/* A committed rope of `segments` that hangs from its start. NULL if the attempt is over. */
-hooke_system *make_rope(struct attempt *a, double segments);
-hooke_options *make_run(struct attempt *a, const char *method, double step, double duration, double every);
+/* What a scenario has made so far, NULL for the rest. */
+struct made {
+  hooke_system *system;
+  hooke_options *run, *options;
+  hooke_integrator *integrator;
+  hooke_state *state, *other;
+  hooke_measurement *measurement, *second;
+};
+void release(struct made *made);
 
-/* A measurement before its run; system and run may be NULL if the attempt is over. */
-hooke_measurement *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                              const char *methods);
-hooke_measurement *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                                   const char *methods);
-hooke_measurement *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                              int32_t refine);
-hooke_measurement *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                              const char *flag);
+/* A committed rope of `segments` that hangs from its start. All of these give NULL if the attempt is over. */
+hooke_system *make_rope(struct attempt *a, double segments);
+/* A mass that swings on a spring along x, the other end pinned. */
+hooke_system *make_oscillator(struct attempt *a);
+/* Options of that name, set by words (small.h), which are a format. */
+__attribute__((format(printf, 3, 4))) hooke_options *make_options(struct attempt *a, const char *name,
+                                                                  const char *words, ...);
+/* A measurement before its run. */
+hooke_measurement *make_measurement(struct attempt *a, const char *kind, const hooke_system *system,
+                                    const hooke_options *run, const char *words);
 void take_state(struct attempt *a, const hooke_state *state);
 
 /* Path of an input file or, for names in "out.", of an output file. Valid until the next call but one. */

@@ -212,8 +212,15 @@ static void sweep_writers(int32_t with_program) {
   if (with_program || getenv("HOOKE_LONG")) sweep_all(&sweep, typing_to_files, try_point);
 }
 
-static void writes_fail(void **unused) {
-  (void)unused;
+/* A write that takes only half of its bytes has not failed. */
+TEST(short_writes_are_gone_on_with) {
+  fault = &faults[0];
+  file_faults_only_shorten(1);
+  sweep_writers(0);
+  file_faults_only_shorten(0);
+}
+
+TEST(writes_fail) {
   for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {
     fault = &faults[k];
     sweep.first_point = (int32_t)(3 * k); /* different ones for each */
@@ -222,17 +229,9 @@ static void writes_fail(void **unused) {
   }
 }
 
-/* A write that takes only half of its bytes has not failed. */
-static void short_writes_are_gone_on_with(void **unused) {
-  (void)unused;
-  fault = &faults[0];
-  file_faults_only_shorten(1);
-  sweep_writers(0);
-  file_faults_only_shorten(0);
-}
-
 static int set_up(void **unused) {
   (void)unused;
+  hooke_io_own_process();
   if (sweep_open(&sweep) != 0) return -1;
   snprintf(folder, sizeof folder, "%s/out", sweep.folder);
   file_faults_in(folder);
@@ -245,11 +244,4 @@ static int tear_down(void **unused) {
   return rmdir(folder) == 0 ? sweep_close(&sweep) : -1;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(short_writes_are_gone_on_with),
-      cmocka_unit_test(writes_fail),
-  };
-  hooke_io_own_process();
-  return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+AROUND_ALL(set_up, tear_down)

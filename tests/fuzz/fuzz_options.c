@@ -15,7 +15,7 @@
 #include "describe.h"
 #include "hooke.h"
 #include "report.h"
-#include "words.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdarg.h>

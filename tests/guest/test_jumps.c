@@ -163,15 +163,13 @@ static int64_t jump_everywhere(const char *method, int64_t links, int32_t thread
   return at;
 }
 
-static void test_every_call_of_every_method(void **unused) {
-  (void)unused;
+TEST(test_every_call_of_every_method) {
   for (int64_t m = 0; m < hooke_method_count(); m++)
     if (hooke_method_is_built(hooke_method_name(m)))
       assert_true(jump_everywhere(hooke_method_name(m), SMALL, 1, HOOKE_SANITIZED ? 11 : 2) > 12);
 }
 
-static void test_with_a_crew(void **unused) {
-  (void)unused;
+TEST(test_with_a_crew) {
   const struct {
     const char *method;
     int64_t stride;
@@ -192,12 +190,11 @@ static int32_t decay(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void test_rates(void **unused) {
-  (void)unused;
+TEST(test_rates) {
   const char *const methods[] = {"rk4", "cvode-adams"};
   for (int m = 0; m < 2; m++) {
     if (!hooke_method_is_built(methods[m])) continue;
-    hooke_state *state;
+    owned_state *state = NULL;
     check_ok(hooke_state_create_first_order(2, &state));
     hooke_integrator *integrator = start_first_order(
         2, decay, NULL,
@@ -214,7 +211,6 @@ static void test_rates(void **unused) {
     assert_int_equal(run_until(integrator, state, 0), 0);
     check_same_bits(2, hooke_state_position(state), expected);
     hooke_integrator_destroy(integrator);
-    hooke_state_destroy(state);
   }
 }
 
@@ -224,8 +220,7 @@ static void test_rates(void **unused) {
 
 static const char path[] = "guest_jumps.h5";
 
-static void test_while_frames_are_written(void **unused) {
-  (void)unused;
+TEST(test_while_frames_are_written) {
   hooke_system *system = make_rope(LARGE);
   hooke_state *state = start_state(system), *read = start_state(system);
   hooke_integrator *integrator = start_run(
@@ -255,8 +250,7 @@ static void test_while_frames_are_written(void **unused) {
 
 #else
 
-static void test_while_frames_are_written(void **unused) {
-  (void)unused;
+TEST(test_while_frames_are_written) {
   skip();
 }
 
@@ -264,16 +258,13 @@ static void test_while_frames_are_written(void **unused) {
 
 /* ---- calls that create temporary objects, which leak with their memory ---- */
 
-static void test_studies_can_be_run_again(void **unused) {
-  (void)unused;
+TEST(test_studies_can_be_run_again) {
 #if HOOKE_HAVE_SUNDIALS && !HOOKE_SANITIZED
   hooke_system *system = make_rope(SMALL);
   hooke_options *run = run_options((struct run){.method = "verlet", .duration = 1.0, .every = 0.25}),
                 *options;
   hooke_measurement *study;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", "verlet"));
-  check_ok(hooke_options_set_text(options, "steps", "0.125,0.0625"));
+  options = options_with("study", "methods=verlet steps=0.125,0.0625");
   check_ok(hooke_measurement_create("study", system, run, options, &study));
   hooke_measurement_on_progress(study, progress, NULL);
   jump.calls = 2;
@@ -293,15 +284,4 @@ static void test_studies_can_be_run_again(void **unused) {
   (void)progress;
   skip();
 #endif
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_call_of_every_method),
-      cmocka_unit_test(test_with_a_crew),
-      cmocka_unit_test(test_rates),
-      cmocka_unit_test(test_while_frames_are_written),
-      cmocka_unit_test(test_studies_can_be_run_again),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,6 @@
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- a locale with a comma, created here: a machine need not have one ---- */
@@ -84,10 +83,8 @@ static void add_file(struct output *out, const char *path) {
 }
 
 static void refusals(struct output *out) {
-  hooke_options *options;
-  hooke_system *system;
   const double q[] = {0, 0, 0}, bad[] = {0.5, NAN, 1.5};
-  check_ok(hooke_options_create("run", &options));
+  hooke_options *options = new_options("run");
   check_status(hooke_options_set_text(options, "step", "-1.25e-3"), HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
   check_status(hooke_options_set_text(options, "step", "1,5"), HOOKE_BAD_VALUE);
@@ -103,19 +100,18 @@ static void refusals(struct output *out) {
     add(out, hooke_options_row(options, row, "allowed"));
   }
   hooke_options_destroy(options);
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_status(hooke_system_set_drag(system, -0.5), HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
   check_status(hooke_system_add_particles(system, 1, bad, NULL, 1, q, NULL), HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
-  hooke_system_destroy(system);
 }
 
 static void divergence(struct output *out) {
-  hooke_system *system = small_oscillator(100.0);
+  owned_system *system = small_oscillator(100.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "forward-euler", .step = 0.0625, .duration = 100.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   add(out, hooke_last_error());
 #if HOOKE_HAVE_LAPACK
@@ -128,9 +124,7 @@ static void divergence(struct output *out) {
   }
   hooke_measurement_destroy(why);
 #endif
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #if HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS && HOOKE_HAVE_HDF5
@@ -166,8 +160,7 @@ static void scenes(struct output *out) {
   add_file(out, "guest_locale.json");
 
   hooke_measurement *limit;
-  check_ok(hooke_options_create("limit", &options));
-  check_ok(hooke_options_set_number(options, "predict", 1));
+  options = options_with("limit", "predict=1");
   check_ok(hooke_measurement_create("limit", system, run, options, &limit));
   check_ok(hooke_measurement_run(limit, state));
   for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
@@ -177,9 +170,7 @@ static void scenes(struct output *out) {
   hooke_options_destroy(options);
 
   hooke_measurement *study;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_text(options, "methods", "verlet"));
-  check_ok(hooke_options_set_text(options, "steps", "0.0005,0.00025"));
+  options = options_with("study", "methods=verlet steps=0.0005,0.00025");
   check_ok(hooke_measurement_create("study", system, run, options, &study));
   check_ok(hooke_measurement_run(study, NULL));
   check_ok(hooke_study_recommend(study, 1e-13));
@@ -254,8 +245,7 @@ static void check_same_output(const struct output *found, const struct output *e
                expected->text + from);
 }
 
-static void test_locale_of_the_process(void **unused) {
-  (void)unused;
+TEST(test_locale_of_the_process) {
   const struct output expected = everything();
   if (setlocale(LC_NUMERIC, name) == NULL) {
     free(expected.text);
@@ -271,8 +261,7 @@ static void test_locale_of_the_process(void **unused) {
   free(expected.text);
 }
 
-static void test_locale_of_the_thread(void **unused) {
-  (void)unused;
+TEST(test_locale_of_the_thread) {
   const locale_t comma = newlocale(LC_NUMERIC_MASK, name, (locale_t)0);
   if (comma == (locale_t)0) skip();
   const struct output expected = everything();
@@ -287,8 +276,4 @@ static void test_locale_of_the_thread(void **unused) {
   free(expected.text);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_locale_of_the_process),
-                                     cmocka_unit_test(test_locale_of_the_thread)};
-  return cmocka_run_group_tests(tests, make_locale, remove_locale);
-}
+AROUND_ALL(make_locale, remove_locale)

@@ -17,7 +17,6 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -196,10 +195,10 @@ static void tour_methods(void) {
 }
 
 static void tour_divergence(void) {
-  hooke_system *system = small_oscillator(100.0);
+  owned_system *system = small_oscillator(100.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "forward-euler", .step = 0.5, .duration = 500.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   REFUSED(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
 #if HOOKE_HAVE_LAPACK
   hooke_measurement *why = NULL;
@@ -208,9 +207,7 @@ static void tour_divergence(void) {
   ASK(hooke_measurement_text(why, "why", 0, "sentence"));
   ASK(hooke_measurement_destroy(why));
 #endif
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #if HOOKE_HAVE_HDF5 && HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS
@@ -354,8 +351,7 @@ static void tour(void) {
 
 /* ---- in usual and unusual states ---- */
 
-static void test_as_usual(void **unused) {
-  (void)unused;
+TEST(test_as_usual) {
   tour();
 }
 
@@ -365,8 +361,7 @@ static void on_signal(int number) {
 
 /* Sets everything to non-default values. Results are not checked here: in another rounding mode they are the
  * caller's responsibility. */
-static void test_in_odd_surroundings(void **unused) {
-  (void)unused;
+TEST(test_in_odd_surroundings) {
   sigset_t mask, kept;
   sigemptyset(&mask);
   sigaddset(&mask, SIGUSR1);
@@ -393,8 +388,7 @@ static void test_in_odd_surroundings(void **unused) {
 }
 
 /* The first tour may make libraries open files that they keep; a second one adds none. */
-static void test_nothing_stays_open(void **unused) {
-  (void)unused;
+TEST(test_nothing_stays_open) {
   count_all(&start);
   if (start.files < 0) skip();
   tour();
@@ -402,13 +396,4 @@ static void test_nothing_stays_open(void **unused) {
   count_all(&end);
   assert_int_equal(end.files, start.files);
   assert_int_equal(end.threads, start.threads);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_as_usual),
-      cmocka_unit_test(test_nothing_stays_open),
-      cmocka_unit_test(test_in_odd_surroundings),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -144,10 +144,8 @@ static int32_t create_needs(hooke_options *o) {
 
 static int32_t create_needs_of_run(hooke_options *o) {
   hooke_system *system = committed();
-  hooke_options *options;
   hooke_measurement *made = NULL;
-  check_ok(hooke_options_create("needs", &options));
-  check_ok(hooke_options_set_text(options, "want", "0.1"));
+  hooke_options *options = options_with("needs", "want=0.1");
   hooke_options_set_number(o, "duration", 0.1);
   const int32_t status = hooke_measurement_create("needs", system, o, options, &made);
   if (status == HOOKE_OK) hooke_measurement_destroy(made);
@@ -193,12 +191,11 @@ static const struct {
                  {"study_pick", "run", pick},
                  {"scene_of_system", "run", write_scene}};
 
-static void test_other_options_are_refused(void **unused) {
-  (void)unused;
+TEST(test_other_options_are_refused) {
   int64_t taken = 0, bad = 0;
   for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
     for (int t = 0; t < TABLES; t++) {
-      hooke_options *options = NULL;
+      owned_options *options = NULL;
       if (hooke_options_create(tables[t], &options) == HOOKE_NOT_BUILT) continue;
       hooke_options_set_number(options, "step", 0.01); /* of a run; others have none */
       const int32_t status = functions[f].take(options);
@@ -212,7 +209,6 @@ static void test_other_options_are_refused(void **unused) {
         bad++;
       }
       taken += right && status == HOOKE_OK;
-      hooke_options_destroy(options);
     }
   }
   assert_int_equal(bad, 0);
@@ -220,8 +216,7 @@ static void test_other_options_are_refused(void **unused) {
 }
 
 /* NULL options are the defaults if the header says so; otherwise they are refused. */
-static void test_missing_options_are_refused(void **unused) {
-  (void)unused;
+TEST(test_missing_options_are_refused) {
   static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",
                                                "cost_create",      "study_create", "scene_of_system"};
   for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
@@ -235,10 +230,4 @@ static void test_missing_options_are_refused(void **unused) {
     if (may || status != HOOKE_BAD_VALUE || strstr(hooke_last_error(), word) == NULL)
       check_failed("%s without options: %d: %s", functions[f].name, (int)status, hooke_last_error());
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_other_options_are_refused),
-                                     cmocka_unit_test(test_missing_options_are_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

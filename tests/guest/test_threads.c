@@ -300,8 +300,7 @@ static hooke_system *make_chain(void) {
   return system;
 }
 
-static void test_threads_get_what_one_gets(void **unused) {
-  (void)unused;
+TEST(test_threads_get_what_one_gets) {
   random_scene_create((struct random_scene_request){.seed = 31,
                                                     .particles = PARTICLES,
                                                     .springs = 3 * PARTICLES,
@@ -329,9 +328,4 @@ static void test_threads_get_what_one_gets(void **unused) {
   hooke_system_destroy(chain);
   hooke_system_destroy(oscillator);
   random_scene_destroy(&shared);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_threads_get_what_one_gets)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* Every public function with odd arguments of every kind: NULL, sizes that are no sizes or overflow, numbers
  * that are none, states of another size and kind, and in builds that check handles, objects of another type.
- * Each call answers what its header says, reads nothing beyond an array, and comes back. The functions are
- * those of the headers. */
+ * Each call answers what its header says, reads nothing beyond an array, leaves no old object where it could
+ * make none, and comes back. The functions are those of the headers. */
 #include "check.h"
 #include "public_calls.h"
 #include "random.h"
@@ -31,7 +31,7 @@ enum { MIXED = 40, SECONDS = 60 };
 /* What the child does, for the parent to read when it has ended. */
 static struct told {
   char call[400], wrong[600];
-  int64_t calls;
+  int64_t calls, refused;
 } * told;
 
 /* ---- one call ---- */
@@ -64,6 +64,8 @@ static void complain(const char *what, int64_t status) {
            hooke_last_error(), told->call);
 }
 
+static char left_over; /* its address stands for an old object where a function puts a new one */
+
 /* `bad`: 1 if something is missing that has to be there, or does not fit. */
 static void check_result(const struct function *f, const union value *result, void *const *made, int bad) {
   const int64_t status = (int32_t)result->whole;
@@ -75,9 +77,24 @@ static void check_result(const struct function *f, const union value *result, vo
     complain("it is taken", status);
   for (int32_t k = 0; k < f->count; k++) {
     if (f->parameter[k].kind != MADE || made[k] == NULL) continue;
+    if (made[k] == &left_over) {
+      complain("an output is left as it was", status);
+      continue;
+    }
     if (status < 0) complain("an object besides a failure", status);
     destroy_object(f->parameter[k].type, made[k]);
   }
+}
+
+/* Of a call in which the handle `p` alone is bad, which the result and the message say. */
+static void check_refusal(const struct function *f, const struct parameter *p, const union value *result) {
+  const char *message = hooke_last_error();
+  const size_t length = strlen(p->name);
+  told->refused++;
+  if (memcmp(result, &f->refusal, sizeof *result) != 0) complain("a bad handle is taken", result->whole);
+  if (strncmp(message, p->name, length) != 0 || message[length] != ':' || strstr(message, p->type) == NULL ||
+      strstr(message, f->name) == NULL)
+    complain("the message is not of the handle", result->whole);
 }
 
 static int is_left_out(const struct function *f, int32_t place, int32_t choice) {
@@ -95,16 +112,22 @@ static int is_left_out(const struct function *f, int32_t place, int32_t choice) 
 }
 
 static void call(const struct pool *pool, const struct function *f, const int32_t *choice) {
-  union value argument[MOST_PARAMETERS], result = {.whole = 0};
+  union value argument[MOST_PARAMETERS] = {{0}}, result = {.whole = 0};
   void *made[MOST_PARAMETERS] = {NULL};
-  int bad = 0, objects = 0, odd_ones = 0, misfits = 0;
+  int bad = 0, objects = 0, odd_ones = 0, misfits = 0, missing = 0;
+  const struct parameter *bad_handle = NULL;
   for (int32_t k = 0; k < f->count; k++) {
     const struct parameter *p = &f->parameter[k];
     if (is_left_out(f, k, choice[k])) return;
     choose(pool, f, k, choice[k], &made[k], &argument[k]);
+    if (p->kind == MADE && argument[k].address) made[k] = &left_over;
     objects += p->kind == HANDLE && strcmp(p->type, "hooke_options") != 0;
     odd_ones += choice[k] != 0;
     misfits += is_misfit(pool, p, choice[k]);
+    if (is_bad_handle(p, choice[k]))
+      bad_handle = p;
+    else
+      missing += p->kind == HANDLE && !p->may_be_null && argument[k].address == NULL;
     const int pointer = p->kind != SHORT && p->kind != WHOLE && p->kind != NUMBER && p->kind != ADDRESS;
     /* an array may be missing where its count is 0 */
     const int of_count = p->kind == NUMBERS || p->kind == WHOLES;
@@ -113,7 +136,9 @@ static void call(const struct pool *pool, const struct function *f, const int32_
   bad |= objects > 1 && misfits == 1 && odd_ones == 1;
   tell_call(f, choice, argument);
   told->calls++;
+  hooke_options_create("no such kind", &(hooke_options *){NULL}); /* another message */
   f->call(argument, &result);
+  if (bad_handle && odd_ones == 1 && !missing) check_refusal(f, bad_handle, &result);
   check_result(f, &result, made, bad);
 }
 
@@ -151,11 +176,13 @@ const char *__asan_default_options(void) {
   return "allocator_may_return_null=1:max_allocation_size_mb=2000";
 }
 
-static int64_t walk_apart(const struct function *f) {
-  memset(told, 0, sizeof *told);
+static void walk_apart(const struct function *f) {
+  told->call[0] = told->wrong[0] = '\0';
   int end;
   const pid_t child = fork();
   if (child == 0) {
+    signal(SIGSEGV, SIG_DFL); /* cmocka would go on with its next test */
+    signal(SIGBUS, SIG_DFL);
     limit_memory();
     alarm(SECONDS);
     walk(f);
@@ -165,19 +192,44 @@ static int64_t walk_apart(const struct function *f) {
   if (WIFSIGNALED(end)) check_failed("signal %d in %s", WTERMSIG(end), told->call);
   if (WEXITSTATUS(end)) check_failed("exit %d in %s", WEXITSTATUS(end), told->call);
   if (told->wrong[0]) check_failed("%s", told->wrong);
-  return told->calls;
 }
 
-static void test_every_function(void **unused) {
-  (void)unused;
+TEST(test_every_function) {
   const char *only = getenv("HOOKE_WALK_ONLY");
-  int64_t calls = 0;
   pool_begin(&pool);
   for (int32_t k = 0; k < public_function_count; k++)
-    if (only == NULL || strstr(public_functions[k].name, only)) calls += walk_apart(&public_functions[k]);
+    if (only == NULL || strstr(public_functions[k].name, only)) walk_apart(&public_functions[k]);
   pool_end(&pool);
-  if (only == NULL) assert_true(public_function_count > 150 && calls > 8000);
-  print_message("%lld calls of %d functions\n", (long long)calls, (int)public_function_count);
+  if (only == NULL) assert_true(public_function_count > 150 && told->calls > 8000);
+  if (only == NULL) assert_true(told->refused > (HOOKE_CHECK_HANDLES ? 450 : 120));
+  print_message("%lld calls of %d functions, %lld of them with a bad handle\n", (long long)told->calls,
+                (int)public_function_count, (long long)told->refused);
+}
+
+/* Every function with objects that are gone, each in its turn. */
+TEST(test_destroyed_objects) {
+  if (!HOOKE_CHECK_HANDLES) skip();
+  pool_begin(&pool);
+  pool_add_trajectory(&pool);
+  const struct pool gone = pool;
+  pool_end(&pool);
+  memset(told, 0, sizeof *told);
+  for (int32_t k = 0; k < public_function_count; k++) {
+    const struct function *f = &public_functions[k];
+    union value argument[MOST_PARAMETERS] = {{0}}, result = {.whole = 0};
+    const struct parameter *first = NULL;
+    void *made[MOST_PARAMETERS] = {NULL};
+    for (int32_t p = f->count - 1; p >= 0; p--) {
+      choose(&gone, f, p, 0, &made[p], &argument[p]);
+      if (f->parameter[p].kind == HANDLE && argument[p].address != NULL) first = &f->parameter[p];
+    }
+    if (first == NULL) continue;
+    tell_call(f, (const int32_t[MOST_PARAMETERS]){0}, argument);
+    f->call(argument, &result);
+    check_refusal(f, first, &result);
+    if (told->wrong[0]) check_failed("%s", told->wrong);
+  }
+  assert_true(told->refused > 120);
 }
 
 /* ---- a folder of its own ---- */
@@ -199,7 +251,4 @@ static int leave(void **unused) {
   return chdir("..") != 0 || system(command) != 0;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_every_function)};
-  return cmocka_run_group_tests(tests, enter, leave);
-}
+AROUND_ALL(enter, leave)

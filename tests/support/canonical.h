@@ -40,6 +40,8 @@ struct canonical {
  * caller fills in gravity, drag and callback. */
 void canonical_create(const hooke_system *system, struct canonical *canonical);
 void canonical_destroy(struct canonical *canonical);
+/* Destroyed where its block ends. */
+#define owned_canonical __attribute__((cleanup(canonical_destroy))) struct canonical
 
 /* A = n.n of the seven altitudes of a tetrahedron with these corners, each of three numbers: six times the
  * volume over the root of A is the altitude. */

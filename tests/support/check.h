@@ -12,6 +12,25 @@
 #include "hooke.h"
 #include "owned.h"
 
+/* A test of the program, which runs all that its file has, in their order. */
+#define TEST(name)                                                                                           \
+  static void name(void **prepared);                                                                         \
+  __attribute__((constructor)) static void add_##name(void) {                                                \
+    check_add_test(__COUNTER__, #name, name);                                                                \
+  }                                                                                                          \
+  static void name(__attribute__((unused)) void **prepared)
+
+/* What goes before and after every test of the program, which finds what `set_up` made in `*prepared`. */
+#define AROUND_EACH(set_up, tear_down)                                                                       \
+  __attribute__((constructor)) static void add_around_each(void) {                                           \
+    check_around_each((set_up), (tear_down));                                                                \
+  }
+
+/* What goes before the first test and after the last. */
+#define AROUND_ALL(set_up, tear_down)                                                                        \
+  __attribute__((constructor)) static void add_around_all(void) {                                            \
+    check_around_all((set_up), (tear_down));                                                                 \
+  }
 /* The parameter of a test that is set up by itself. */
 #define no_state __attribute__((unused)) void **unused
 
@@ -32,6 +51,12 @@
 /* Two arrays are the same to the bit; names the first number that differs. */
 #define check_same_bits(count, found, expected)                                                              \
   check_same_bits_at((count), (found), (expected), #found, __FILE__, __LINE__)
+
+void check_add_test(int32_t place, const char *name, CMUnitTestFunction test);
+void check_around_each(CMFixtureFunction set_up, CMFixtureFunction tear_down);
+void check_around_all(CMFixtureFunction set_up, CMFixtureFunction tear_down);
+/* For a program with a main() of its own; 0 if all passed. */
+int check_run_tests(void);
 
 void check_status_at(int32_t found, int32_t expected, const char *call, const char *file, int line);
 void check_between_at(double value, double low, double high, const char *what, const char *file, int line);

@@ -1,6 +1,7 @@
 #include "extreme.h"
 
 #include "check.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -39,11 +40,9 @@ static int32_t set(hooke_options *options, const char *name, double value) {
 
 static int32_t make_integrator(const hooke_system *system, struct extreme_run run,
                                struct extreme_outcome *outcome, hooke_integrator **integrator) {
-  hooke_options *options = NULL;
   const int64_t frame_steps = run.frame_steps ? run.frame_steps : 1;
   const double duration = (double)run.steps * run.step, every = (double)frame_steps * run.step;
-  check_ok(hooke_options_create("run", &options));
-  check_ok(hooke_options_set_text(options, "method", run.method));
+  hooke_options *options = options_with("run", "method=%s", run.method);
   int32_t status = set(options, "duration", duration);
   if (status == HOOKE_OK) status = set(options, "every", every);
   if (status == HOOKE_OK) status = set(options, "rtol", run.rtol);

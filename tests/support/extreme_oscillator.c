@@ -1,6 +1,7 @@
 #include "extreme.h"
 
 #include "check.h"
+#include "small.h"
 #include "oscillator.h"
 
 #include <math.h>
@@ -25,14 +26,11 @@ static void build(const struct extreme_oscillator *o, struct model *model) {
   const double position[] = {o->distance, 0, 0, o->distance + (rest + amplitude), 0, 0};
   const double velocity[] = {0, 0, 0, 0.5 * amplitude * omega, 0, 0};
   const int64_t first = 0, ends[] = {0, 1};
-  hooke_options *options = NULL;
   check_ok(hooke_system_create(&model->system));
   check_ok(hooke_system_add_particles(model->system, 2, position, velocity, 2, mass, NULL));
   if (o->partner == 0.0) check_ok(hooke_system_pin(model->system, 1, &first));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", o->law));
-  check_ok(hooke_options_set_number(options, "stiffness", o->stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", rest));
+  hooke_options *options =
+      options_with("springs", "law=%s stiffness=%.17g rest_length=%.17g", o->law, o->stiffness, rest);
   if (!o->drag) check_ok(hooke_options_set_number(options, "damping", brake));
   check_ok(hooke_system_add_springs(model->system, "spring", 1, ends, options));
   hooke_options_destroy(options);

@@ -1,6 +1,7 @@
 #include "law_scene.h"
 
 #include "check.h"
+#include "small.h"
 #include "random.h"
 #include "random_scene.h"
 
@@ -78,9 +79,7 @@ static void draw_spring(struct random_source *source, const struct law *law, int
 }
 
 static void add_springs(const struct law *law, const struct material *material, struct law_scene *scene) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", law->law));
+  hooke_options *options = options_with("springs", "law=%s", law->law);
   check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material->stiffness));
   if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_SPRINGS, material->damping));
   check_ok(hooke_options_set_numbers(options, "rest_length", LAW_SPRINGS, material->rest_length));
@@ -136,8 +135,7 @@ static void add_altitude(const struct law *law, struct random_source *source, co
       stiffness[k] = random_between(source, 15.0, 30.0);
       damping[k++] = law->pull_only ? random_between(source, 0.02, 0.08) : random_between(source, 0.1, 2.0);
     }
-    hooke_options *options = NULL;
-    check_ok(hooke_options_create("altitude", &options));
+    hooke_options *options = new_options("altitude");
     check_ok(hooke_options_set_numbers(options, "stiffness", LAW_TETRAHEDRA, stiffness));
     if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_TETRAHEDRA, damping));
     if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
@@ -160,8 +158,7 @@ static void add_anchors(const struct law *law, struct random_source *source, con
     damping[k] = random_between(source, 0.1, 2.0);
     rest[k] = k % 2 ? random_between(source, 0.4, 1.5) : 0.0;
   }
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("anchors", &options));
+  hooke_options *options = new_options("anchors");
   check_ok(hooke_options_set_numbers(options, "points", 3 * LAW_ANCHORS, points));
   check_ok(hooke_options_set_numbers(options, "stiffness", LAW_ANCHORS, stiffness));
   if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_ANCHORS, damping));

@@ -13,6 +13,9 @@
 #define owned_state       __attribute__((cleanup(release_state))) hooke_state
 #define owned_integrator  __attribute__((cleanup(release_integrator))) hooke_integrator
 #define owned_measurement __attribute__((cleanup(release_measurement))) hooke_measurement
+#define owned_record      __attribute__((cleanup(release_record))) hooke_record
+#define owned_text        __attribute__((cleanup(release_text))) char
+#define owned_wholes      __attribute__((cleanup(release_wholes))) int64_t
 #define owned_doubles     __attribute__((cleanup(release_doubles))) double
 
 static inline void release_system(hooke_system **system) {
@@ -37,6 +40,18 @@ static inline void release_integrator(hooke_integrator **integrator) {
 
 static inline void release_measurement(hooke_measurement **measurement) {
   hooke_measurement_destroy(*measurement);
+}
+
+static inline void release_record(hooke_record **record) {
+  hooke_record_close(*record);
+}
+
+static inline void release_text(char **text) {
+  free(*text);
+}
+
+static inline void release_wholes(int64_t **numbers) {
+  free(*numbers);
 }
 
 static inline void release_doubles(double **numbers) {

@@ -326,6 +326,11 @@ static const union value *find_good(const struct good *list, size_t count, const
 static char no_object[256];
 enum { NULL_OBJECT = 1, BAD_OBJECTS = HOOKE_CHECK_HANDLES ? 2 : 0, FIRST_OBJECT = 2 + BAD_OBJECTS };
 
+int32_t is_bad_handle(const struct parameter *p, int32_t choice) {
+  return p->kind == HANDLE && choice > 0 && choice < FIRST_OBJECT &&
+         (choice > NULL_OBJECT || !p->may_be_null);
+}
+
 int32_t choices_of(const struct pool *pool, const struct parameter *p) {
   static const int32_t choices[] = {[SHORT] = 1 + WHOLE_COUNT,
                                     [WHOLE] = 1 + WHOLE_COUNT,

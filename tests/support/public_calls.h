@@ -40,6 +40,7 @@ struct function {
   const char *name;
   int32_t is_status, count;
   void (*call)(const union value *arguments, union value *result);
+  union value refusal; /* its result for a bad handle; 0 if it has none */
   struct parameter parameter[MOST_PARAMETERS];
 };
 
@@ -82,6 +83,8 @@ int32_t choices_of(const struct pool *pool, const struct parameter *parameter);
 /* The argument. `made` receives what a function makes. */
 void choose(const struct pool *pool, const struct function *function, int32_t parameter, int32_t choice,
             void **made, union value *argument);
+/* 1 if the choice is NULL where that is none, of another type, or no object at all. */
+int32_t is_bad_handle(const struct parameter *parameter, int32_t choice);
 /* 1 if the choice is an object that does not fit the good ones: a state of another size or kind. */
 int32_t is_misfit(const struct pool *pool, const struct parameter *parameter, int32_t choice);
 

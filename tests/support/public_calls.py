@@ -47,8 +47,10 @@ def row(function, types, callbacks):
     into = RESULTS.get(result, "constant")
     call = f"result->{into} = {name}({inside})" if into else f"{name}({inside})"
     rows = ", ".join(f'{{{k}, {int(may_be_null(k, of, what))}, "{of}", "{what}"}}' for (k, of), (_, what) in zip(kinds, parameters))
+    refusal = guard.refused(result, name)
+    field = {"NULL": "constant", "NAN": "number"}.get(refusal, "whole")
     return (f"static void call_{name}(const union value *a, union value *result) {{\n  (void)a, (void)result;\n  {call};\n}}",
-            f'{{"{name}", {int(headers.is_status(result, name))}, {len(parameters)}, call_{name}, {{{rows or "{0}"}}}}},')
+            f'{{"{name}", {int(headers.is_status(result, name))}, {len(parameters)}, call_{name}, {{.{field} = {refusal or 0}}}, {{{rows or "{0}"}}}}},')
 
 
 def text():

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "random.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -182,13 +183,11 @@ static void add_group(struct random_source *source, struct random_scene_request 
   int64_t *ends = wanted->ends + 2 * wanted->count;
   double *kappa = wanted->kappa + wanted->count, *gamma = wanted->gamma + wanted->count,
          *rest = wanted->rest_length + wanted->count;
-  hooke_options *options = NULL;
   char name[32];
   const int length_law = (int)random_whole(source, 0, 1);
   const int pulls = (request.features & SCENE_PULL_ONLY) && random_whole(source, 0, 1);
   draw_ends(source, request.particles, count, ends);
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", length_law ? "length" : "strain"));
+  hooke_options *options = options_with("springs", "law=%s", length_law ? "length" : "strain");
   set_random(source, options, "stiffness", count, 0.0, 50.0, kappa);
   if ((request.features & SCENE_DAMPING) && random_whole(source, 0, 3)) {
     set_random(source, options, "damping", count, 0.0, 0.5, gamma);
@@ -339,7 +338,6 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
   int64_t *corners = new_block(4 * request.tetrahedra, (int64_t)sizeof(int64_t));
   double *stiffness = new_doubles(request.tetrahedra), *damping = new_doubles(request.tetrahedra);
   for (int64_t done = 0, count; done < request.tetrahedra; done += count) {
-    hooke_options *options = NULL;
     count = random_whole(source, 1, request.tetrahedra - done);
     for (int64_t k = 0; k < count; k++) {
       draw_corners(source, request.particles, position, corners + 4 * k);
@@ -347,7 +345,7 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
       damping[k] = random_whole(source, 0, 3) ? random_between(source, 0.0, 0.2) : 0.0;
     }
     const int pulls = request.features & SCENE_PULL_ONLY && random_whole(source, 0, 1);
-    check_ok(hooke_options_create("altitude", &options));
+    hooke_options *options = new_options("altitude");
     check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
     if (request.features & SCENE_DAMPING)
       check_ok(hooke_options_set_numbers(options, "damping", count, damping));
@@ -367,7 +365,6 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
 static void add_anchors(struct random_source *source, struct random_scene_request request,
                         const double *position, hooke_system *system) {
   for (int64_t done = 0, count; done < request.anchors; done += count) {
-    hooke_options *options = NULL;
     count = random_whole(source, 1, request.anchors - done);
     int64_t *particles = new_block(count, (int64_t)sizeof(int64_t));
     double *number = new_doubles(6 * count), *stiffness = number + 3 * count, *damping = stiffness + count;
@@ -379,7 +376,7 @@ static void add_anchors(struct random_source *source, struct random_scene_reques
       damping[k] = random_whole(source, 0, 3) ? random_between(source, 0.0, 0.2) : 0.0;
       damping[count + k] = random_whole(source, 0, 1) ? random_between(source, 0.1, 1.0) : 0.0;
     }
-    check_ok(hooke_options_create("anchors", &options));
+    hooke_options *options = new_options("anchors");
     if (random_whole(source, 0, 2)) check_ok(hooke_options_set_numbers(options, "points", 3 * count, number));
     check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
     if (request.features & SCENE_DAMPING)
@@ -429,9 +426,8 @@ static void set_shape(struct random_scene_request request, const char *kind, hoo
 
 static void add_part(struct random_source *source, struct random_scene_request request, const char *kind,
                      hooke_system *system) {
-  hooke_options *options = NULL;
   const int rope = strcmp(kind, "rope") == 0;
-  check_ok(hooke_options_create(kind, &options));
+  hooke_options *options = new_options(kind);
   check_ok(hooke_options_set_number(options, "mass", random_between(source, 1.0, 5.0)));
   set_shape(request, kind, options);
   const char *family[2][3] = {{"structural", "shear", "bend"}, {"stretch", "bend", NULL}};
@@ -519,8 +515,7 @@ void random_scene_destroy(struct random_scene *scene) {
 void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v) {
   struct random_source source = {seed};
   const double *w = scene->canonical.inverse_mass;
-  hooke_state *state = NULL;
-  check_ok(hooke_state_create(scene->system, &state));
+  hooke_state *state = start_state(scene->system);
   const double *q0 = hooke_state_position(state), *v0 = hooke_state_velocity(state);
   for (int64_t p = 0; p < scene->canonical.particle_count; p++) {
     const int copy = p > 0 && w[p] != 0.0 && memcmp(q0 + 3 * p, q0 + 3 * p - 3, 3 * sizeof(double)) == 0;

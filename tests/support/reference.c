@@ -1,6 +1,7 @@
 #include "reference.h"
 
 #include "check.h"
+#include "small.h"
 
 #include <string.h>
 
@@ -35,12 +36,8 @@ const struct reference *find_reference(const char *name) {
 }
 
 static void add_group(hooke_system *system, const struct reference_group *group) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", group->law));
-  check_ok(hooke_options_set_number(options, "stiffness", group->stiffness));
-  check_ok(hooke_options_set_number(options, "damping", group->damping));
-  check_ok(hooke_options_set_number(options, "rest_scale", group->rest_scale));
+  hooke_options *options = options_with("springs", "law=%s stiffness=%.17g damping=%.17g rest_scale=%.17g",
+                                        group->law, group->stiffness, group->damping, group->rest_scale);
   if (group->rest_length < 0.0)
     check_ok(hooke_options_set_text(options, "rest_length", "initial"));
   else
@@ -50,8 +47,7 @@ static void add_group(hooke_system *system, const struct reference_group *group)
 }
 
 hooke_system *build_reference(const struct reference *reference) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, reference->particle_count, reference->position, NULL,
                                       reference->mass_count, reference->mass, NULL));
   check_ok(hooke_system_pin(system, reference->pinned_count, reference->pinned));

@@ -1,4 +1,5 @@
 #include "run.h"
+#include "small.h"
 
 #include "check.h"
 #include "small.h"
@@ -65,9 +66,7 @@ void run_to_end(const hooke_system *system, struct run run, double *q, double *v
 }
 
 static int32_t create_why(const hooke_integrator *integrator, hooke_measurement **why) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("why", &options));
-  check_ok(hooke_options_set_number(options, "budget", 1e300));
+  hooke_options *options = options_with("why", "budget=1e300");
   const int32_t status = hooke_why_create(integrator, options, why);
   hooke_options_destroy(options);
   return status;

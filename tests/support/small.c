@@ -43,13 +43,44 @@ void set_options(hooke_options *options, const char *words, ...) {
   va_end(arguments);
 }
 
-void small_part(hooke_system *system, const char *kind, const char *name, const char *words, ...) {
+hooke_system *small_part(hooke_system *system, const char *kind, const char *name, const char *words, ...) {
   owned_options *options = new_options(kind);
   va_list arguments;
   va_start(arguments, words);
   set_words(options, words, arguments);
   va_end(arguments);
+  if (system == NULL) system = new_system();
   check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
+  return system;
+}
+
+void small_group(hooke_system *system, const char *kind, const char *name, int64_t count,
+                 const int64_t *members, const char *words, ...) {
+  owned_options *options = new_options(kind);
+  va_list arguments;
+  va_start(arguments, words);
+  set_words(options, words, arguments);
+  va_end(arguments);
+  const int anchors = strcmp(kind, "anchors") == 0, altitude = strcmp(kind, "altitude") == 0;
+  check_ok((anchors    ? hooke_system_add_anchors
+            : altitude ? hooke_system_add_altitude
+                       : hooke_system_add_springs)(system, name, count, members, options));
+}
+
+hooke_system *small_falling(hooke_system *system) {
+  const double down[] = {0, -9.81, 0};
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+int32_t try_words(hooke_options *options, const char *words) {
+  char name[64], value[128];
+  int length;
+  int32_t status = HOOKE_OK;
+  for (; status == HOOKE_OK && sscanf(words, " %63[^=]=%127s%n", name, value, &length) == 2; words += length)
+    status = hooke_options_set_text(options, name, value);
+  return status == HOOKE_OK && words[strspn(words, " ")] != '\0' ? HOOKE_BAD_VALUE : status;
 }
 
 hooke_system *new_system(void) {
@@ -93,13 +124,10 @@ hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin
     stiffness[k] = pow(10.0, random_between(&source, 0.0, 3.0));
     gamma[k] = damping * pow(10.0, random_between(&source, -1.0, 1.0));
   }
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, gamma));
   check_ok(hooke_system_add_springs(system, "net", SPRINGS, ends, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
@@ -114,47 +142,19 @@ hooke_system *small_oscillator(double omega) {
 }
 
 hooke_system *small_crumpling_cloth(int64_t side) {
-  hooke_system *system;
-  hooke_options *cloth;
-  const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {1.0, 0.05, 0.0, 0.0, 0.0, 1.0},
-               size[2] = {(double)side, (double)side};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_text(cloth, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "mass", 1.0));
-  check_ok(hooke_options_set_text(cloth, "pinned", "0"));
-  check_ok(hooke_options_set_number(cloth, "structural.stiffness", 500.0));
-  check_ok(hooke_options_set_number(cloth, "shear.stiffness", 300.0));
-  check_ok(hooke_options_set_number(cloth, "bend.stiffness", 20.0));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, cloth, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(cloth);
-  return system;
+  return small_falling(
+      small_part(NULL, "cloth", NULL,
+                 "origin=0,0,0 edges=1,0.05,0,0,0,1 size=%d,%d mass=1 pinned=0 structural.stiffness=500 "
+                 "shear.stiffness=300 bend.stiffness=20",
+                 (int)side, (int)side));
 }
 
 hooke_system *small_cloth(int64_t side, double stiffness, double damping) {
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {(double)side, (double)side};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 0.2));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "structural.damping", damping));
-  check_ok(hooke_options_set_number(options, "shear.damping", damping));
-  check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  return system;
+  return small_falling(small_part(
+      NULL, "cloth", NULL,
+      "origin=0,0,0 edges=1,0,0,0,0,1 size=%d,%d mass=0.2 pinned=top-corners "
+      "structural.stiffness=%.17g shear.stiffness=%.17g structural.damping=%.17g shear.damping=%.17g",
+      (int)side, (int)side, stiffness, stiffness, damping, damping));
 }
 
 double volume_of(const double *q, const int64_t *p) {

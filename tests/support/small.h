@@ -10,9 +10,17 @@ hooke_options *new_options(const char *table);
 __attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *table, const char *words, ...);
 __attribute__((format(printf, 2, 3))) void set_options(hooke_options *options, const char *words, ...);
 
-/* Adds a part, with its options likewise. */
-__attribute__((format(printf, 4, 5))) void small_part(hooke_system *system, const char *kind,
-                                                      const char *name, const char *words, ...);
+/* Adds a part, with its options likewise, to a system, NULL for a new one, and returns that. */
+__attribute__((format(printf, 4, 5))) hooke_system *small_part(hooke_system *system, const char *kind,
+                                                               const char *name, const char *words, ...);
+/* Adds a group of "springs", "altitude" springs or "anchors", likewise. */
+__attribute__((format(printf, 6, 7))) void small_group(hooke_system *system, const char *kind,
+                                                       const char *name, int64_t count,
+                                                       const int64_t *members, const char *words, ...);
+/* Commits a system that falls at 9.81 m/s^2 along -y, and returns it. */
+hooke_system *small_falling(hooke_system *system);
+/* Sets options by such words, which are no format; the status of the first that is refused. */
+int32_t try_words(hooke_options *options, const char *words);
 
 /* An open system without particles. */
 hooke_system *new_system(void);

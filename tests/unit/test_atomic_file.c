@@ -77,8 +77,7 @@ static void *look_often(void *unused) {
   return unused;
 }
 
-static void one_name_takes_many_writers(void **state) {
-  (void)state;
+TEST(one_name_takes_many_writers) {
   pthread_t thread[THREADS], reader;
   check_saved(path);
   writing = THREADS;
@@ -96,8 +95,7 @@ static void one_name_takes_many_writers(void **state) {
 
 /* ---- names ---- */
 
-static void the_longest_name_will_do(void **state) {
-  (void)state;
+TEST(the_longest_name_will_do) {
   char at[PATH_SIZE];
   const int length = snprintf(at, sizeof at, "%s/", folder);
   memset(at + length, 'x', LONGEST_NAME);
@@ -119,8 +117,7 @@ static struct stat facts(const char *at) {
   return there;
 }
 
-static void a_replaced_file_keeps_its_mode(void **state) {
-  (void)state;
+TEST(a_replaced_file_keeps_its_mode) {
   static const mode_t modes[] = {0600, 0640, 0444, 0666, 0755};
   for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++) {
     check_saved(path);
@@ -130,8 +127,7 @@ static void a_replaced_file_keeps_its_mode(void **state) {
   }
 }
 
-static void a_new_file_follows_the_mask(void **state) {
-  (void)state;
+TEST(a_new_file_follows_the_mask) {
   static const mode_t masks[] = {0, 022, 027, 077};
   for (size_t k = 0; k < sizeof masks / sizeof masks[0]; k++) {
     unlink(path);
@@ -143,8 +139,7 @@ static void a_new_file_follows_the_mask(void **state) {
   }
 }
 
-static void a_replaced_file_keeps_its_owner(void **state) {
-  (void)state;
+TEST(a_replaced_file_keeps_its_owner) {
   check_saved(path);
   if (geteuid() != 0) skip(); /* only root may give files away */
   assert_int_equal(chown(path, 1234, 5678), 0);
@@ -159,8 +154,7 @@ static void a_replaced_file_keeps_its_owner(void **state) {
 /* ---- links ---- */
 
 /* A link remains one, also if its target does not exist yet. */
-static void a_link_is_written_through(void **state) {
-  (void)state;
+TEST(a_link_is_written_through) {
   char link[PATH_SIZE], second[PATH_SIZE];
   struct stat there;
   snprintf(link, sizeof link, "%s/link", folder);
@@ -182,11 +176,4 @@ static void a_link_is_written_through(void **state) {
   assert_int_equal(unlink(second), 0);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_name_takes_many_writers),     cmocka_unit_test(the_longest_name_will_do),
-      cmocka_unit_test(a_replaced_file_keeps_its_mode),  cmocka_unit_test(a_new_file_follows_the_mask),
-      cmocka_unit_test(a_replaced_file_keeps_its_owner), cmocka_unit_test(a_link_is_written_through),
-  };
-  return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+AROUND_ALL(set_up, tear_down)

@@ -2,6 +2,8 @@
  * does not if the power is wrong. */
 #include "hooke.h"
 #include "check.h"
+#include "run.h"
+#include "small.h"
 
 #include "measure/trial/balance.h"
 #include "model/system.h"
@@ -12,19 +14,10 @@
 enum { FRAMES = 8 };
 
 static hooke_system *damped_chain(int driven) {
-  hooke_system *system;
-  hooke_options *options;
   const double place[] = {0, 0, 0, 1.1, 0.1, 0, 2, 0.3, 0, 3.2, 0, 0.2}, mass = 0.5;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, first = 0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "stiffness", 40.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.3));
-  check_ok(hooke_options_set_number(options, "rest_length", 1.0));
-  check_ok(hooke_system_add_springs(system, "", 3, ends, options));
-  hooke_options_destroy(options);
+  hooke_system *system = small_system(4, place, NULL, mass, 0);
+  small_group(system, "springs", "", 3, ends, "law=length stiffness=40 damping=0.3 rest_length=1");
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   check_ok(hooke_system_set_drag(system, 0.2));
   if (driven)
@@ -65,26 +58,16 @@ static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void run(struct watch *watch, const char *method, double step) {
-  hooke_options *options;
-  hooke_integrator *integrator;
-  hooke_state *state;
+static void run_watched(struct watch *watch, const char *method, double step) {
   watch->count = 0;
-  check_ok(hooke_options_create("run", &options));
-  check_ok(hooke_options_set_text(options, "method", method));
-  check_ok(hooke_options_set_number(options, "step", step));
-  check_ok(hooke_options_set_number(options, "duration", 0.8));
-  check_ok(hooke_options_set_number(options, "every", 0.1));
-  check_ok(hooke_integrator_create(watch->system, options, &integrator));
+  const struct run run = {.method = method, .step = step, .duration = 0.8, .every = 0.1};
+  owned_integrator *integrator = start_run(watch->system, run);
   check_ok(hooke_integrator_on_step(integrator, 1, on_step, watch));
   check_ok(hooke_integrator_on_frame(integrator, on_frame, watch));
-  check_ok(hooke_state_create(watch->system, &state));
+  owned_state *state = start_state(watch->system);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(watch->count, FRAMES);
   hk_balance_release(&watch->balance);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
 }
 
 static int32_t holds(const char *method, int driven,
@@ -93,8 +76,8 @@ static int32_t holds(const char *method, int driven,
   hooke_system *system = damped_chain(driven);
   struct watch coarse = {.system = system, .power = power}, fine = coarse;
   double largest, bound, smaller, other;
-  run(&coarse, method, 1e-3);
-  run(&fine, method, 5e-4);
+  run_watched(&coarse, method, 1e-3);
+  run_watched(&fine, method, 5e-4);
   const double floor = hk_balance_floor(&fine.balance);
   const int32_t kept = hk_balance_holds(FRAMES, coarse.residual, fine.residual, floor, &largest, &bound);
   hk_balance_holds(FRAMES, fine.residual, fine.residual, floor, &smaller, &other);
@@ -114,8 +97,7 @@ static const struct {
                {"implicit-midpoint", 3.6, 4.4},
                {"rk4", 3.6, 4.4}}; /* the trapezoidal rule is of second order */
 
-static void what_is_left_over_is_the_error_of_the_method(void **unused) {
-  (void)unused;
+TEST(what_is_left_over_is_the_error_of_the_method) {
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     for (int driven = 0; driven < 2; driven++) {
       double ratio;
@@ -135,8 +117,7 @@ static double none(const hooke_system *system, const double *q, const double *v)
   return 0.0;
 }
 
-static void wrong_heat_is_seen(void **unused) {
-  (void)unused;
+TEST(wrong_heat_is_seen) {
   double ratio;
   for (int driven = 0; driven < 2; driven++) {
     assert_false(holds("verlet", driven, a_fiftieth_too_much, &ratio));
@@ -147,13 +128,12 @@ static void wrong_heat_is_seen(void **unused) {
 }
 
 /* Missing work is detected, too. */
-static void wrong_work_is_seen(void **unused) {
-  (void)unused;
-  hooke_system *system = damped_chain(1);
+TEST(wrong_work_is_seen) {
+  owned_system *system = damped_chain(1);
   struct watch coarse = {.system = system}, fine = coarse;
   double largest, bound;
-  run(&coarse, "verlet", 1e-3);
-  run(&fine, "verlet", 5e-4);
+  run_watched(&coarse, "verlet", 1e-3);
+  run_watched(&fine, "verlet", 5e-4);
   assert_true(fabs(coarse.balance.work) > 0.1);
   for (int k = 0; k < FRAMES; k++) {
     coarse.residual[k] += 0.05 * coarse.balance.work;
@@ -162,14 +142,4 @@ static void wrong_work_is_seen(void **unused) {
   assert_false(hk_balance_holds(FRAMES, coarse.residual, fine.residual, hk_balance_floor(&fine.balance),
                                 &largest, &bound));
   check_between(largest, bound, INFINITY);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_left_over_is_the_error_of_the_method),
-      cmocka_unit_test(wrong_heat_is_seen),
-      cmocka_unit_test(wrong_work_is_seen),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

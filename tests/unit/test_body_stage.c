@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "run.h"
+#include "small.h"
 #include "model/coordinates/body.h"
 
 #include <math.h>
@@ -18,22 +19,15 @@ static hooke_system *two_bodies(int pinned) {
   const double mass[ALL] = {0.5, 1.0, 0.4, 0.7, 0.6, 0.9, 0.3, 1, 1, 1};
   const int64_t block[] = {0, 1, 2, 3}, bar[] = {4, 5, 6}, posts[] = {7, 8, 9, 4},
                 ends[] = {0, 7, 1, 8, 2, 5, 3, 6, 6, 9};
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
   for (int k = 0; k < 3 * ALL; k++)
     q[k] = sin(1.0 + 2.3 * k) + 0.3 * (k / 3 % 4);
   for (int a = 0; a < 3; a++)
     q[18 + a] = q[12 + a] + 1.7 * (q[15 + a] - q[12 + a]);
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, ALL, q, NULL, ALL, mass, NULL));
   check_ok(hooke_system_pin(system, 3 + pinned, posts));
   check_ok(hooke_system_set_gravity(system, (double[]){1.0, -9.81, 2.0}));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 40.0));
-  check_ok(hooke_options_set_number(options, "damping", 1.0));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.4));
-  check_ok(hooke_system_add_springs(system, NULL, 5, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", NULL, 5, ends, "stiffness=40 damping=1 rest_length=0.4");
   check_ok(hooke_system_add_body(system, "block", 4, block, 0));
   check_ok(hooke_system_add_body(system, "bar", 3, bar, 0));
   check_ok(hooke_system_commit(system));
@@ -48,11 +42,10 @@ static void find_right(struct hk_stage *stage, const double *v, double *right) {
 }
 
 /* The solution for the change of `right` is the change of the unknowns, far from where the stage begins. */
-static void matrix_is_the_derivative(void **unused) {
-  (void)unused;
+TEST(matrix_is_the_derivative) {
   const double small = 1e-6, still[3 * ALL] = {0.0};
   for (int pinned = 0; pinned < 2; pinned++) {
-    hooke_system *system = two_bodies(pinned);
+    owned_system *system = two_bodies(pinned);
     hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = 0.1});
     struct hk_stage *stage = it->own;
     const int64_t size = 3 * ALL + UNKNOWNS;
@@ -85,11 +78,5 @@ static void matrix_is_the_derivative(void **unused) {
     for (int k = 0; k < UNKNOWNS; k++)
       check_close(stage->change[3 * ALL + k], by[k], 1e-7);
     hooke_integrator_destroy(it);
-    hooke_system_destroy(system);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_is_the_derivative)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

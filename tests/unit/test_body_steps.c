@@ -2,12 +2,12 @@
  * bodies of every kind among other particles, which are driven in every way. */
 #include "canonical_body.h"
 #include "check.h"
+#include "small.h"
 #include "random.h"
 #include "run.h"
 
 #include "model/system.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Bodies: a free one, a bar, a pair, a single particle, one about a pin, a bar about its end, one about an
@@ -46,7 +46,7 @@ static void add_particles(struct random_source *random, hooke_system *system) {
 }
 
 static void add_forces(struct random_source *random, struct features with, hooke_system *system) {
-  hooke_options *springs = NULL, *anchors = NULL;
+  owned_options *springs = NULL, *anchors = NULL;
   int64_t ends[2 * SPRINGS], anchored[ANCHORS];
   double point[3 * ANCHORS];
   for (int k = 0; k < SPRINGS; k++) {
@@ -67,8 +67,6 @@ static void add_forces(struct random_source *random, struct features with, hooke
   if (with.damped) check_ok(hooke_options_set_number(anchors, "damping", 0.2));
   check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));
   check_ok(hooke_system_add_anchors(system, "anchors", ANCHORS, anchored, anchors));
-  hooke_options_destroy(springs);
-  hooke_options_destroy(anchors);
 }
 
 static int32_t wave(int64_t count, double t, double *q, double *v, void *ctx) {
@@ -99,19 +97,17 @@ static void drive(hooke_system *system) {
 static void place(double t, double *q, double *v, void *ctx) {
   const hooke_system *system = ctx;
   hooke_integrator *driver = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   hooke_state_set_time(state, t);
   check_ok(hooke_integrator_step(driver, state, 0));
   memcpy(q + 3 * (N - 3), hooke_state_position(state) + 3 * (N - 3), 9 * sizeof *q);
   memcpy(v + 3 * (N - 3), hooke_state_velocity(state) + 3 * (N - 3), 9 * sizeof *v);
-  hooke_state_destroy(state);
   hooke_integrator_destroy(driver);
 }
 
 static hooke_system *mixed_system(uint64_t seed, struct features with, const double gravity[3]) {
   struct random_source random = {seed};
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   add_particles(&random, system);
   add_forces(&random, with, system);
   int64_t p = 0, members[8];
@@ -151,7 +147,7 @@ static void fill_bodies(const hooke_system *system, struct canonical_body *body)
 static void compare(uint64_t seed, struct features with, const char *method) {
   const int exactly = strcmp(method, "symplectic-euler") == 0 || strcmp(method, "verlet") == 0;
   const double gravity[3] = {0.3, -9.81, 0.7}, h = 0.0009765; /* no binary fraction */
-  hooke_system *system = mixed_system(seed, with, gravity);
+  owned_system *system = mixed_system(seed, with, gravity);
   struct canonical canonical;
   struct canonical_body body[BODIES];
   canonical_create(system, &canonical);
@@ -178,11 +174,9 @@ static void compare(uint64_t seed, struct features with, const char *method) {
   hooke_integrator_destroy(integrator);
   hooke_state_destroy(state);
   canonical_destroy(&canonical);
-  hooke_system_destroy(system);
 }
 
-static void steps_are_the_plain_loops(void **unused) {
-  (void)unused;
+TEST(steps_are_the_plain_loops) {
   for (int features = 0; features < 16; features++) {
     const struct features with = {features & 1, features >> 1 & 1, features >> 2 & 1, features >> 3};
     for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -192,9 +186,4 @@ static void steps_are_the_plain_loops(void **unused) {
         compare(10 * (uint64_t)features + seed, with, method);
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_the_plain_loops)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

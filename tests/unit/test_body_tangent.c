@@ -5,9 +5,9 @@
 #include "model/vector3.h"
 
 #include "check.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { CORNERS = 5, ALL = 2 * CORNERS };
@@ -21,8 +21,6 @@ static hooke_system *hung_body(int pinned, double stiffness) {
   double q[3 * ALL];
   const double mass[ALL] = {1.0, 0.5, 2.0, 0.7, 0.3, 1, 1, 1, 1, 1};
   int64_t body[CORNERS], posts[CORNERS], ends[2 * CORNERS];
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
   for (int p = 0; p < CORNERS; p++) {
     for (int a = 0; a < 3; a++) {
       q[3 * p + a] = CORNER[3 * p + a];
@@ -33,15 +31,11 @@ static hooke_system *hung_body(int pinned, double stiffness) {
     ends[2 * p] = p;
     ends[2 * p + 1] = CORNERS + p;
   }
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, ALL, q, NULL, ALL, mass, NULL));
   check_ok(hooke_system_pin(system, CORNERS, posts));
   if (pinned) check_ok(hooke_system_pin(system, 1, body));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.2));
-  check_ok(hooke_system_add_springs(system, NULL, CORNERS, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", NULL, CORNERS, ends, "stiffness=%.17g rest_length=0.2", stiffness);
   check_ok(hooke_system_set_gravity(system, (double[]){1.0, -9.81, 2.0}));
   check_ok(hooke_system_add_body(system, "body", CORNERS, body, 0));
   check_ok(hooke_system_commit(system));
@@ -73,10 +67,9 @@ static void pushed(const hooke_system *system, const struct hk_body_tangent *t, 
   hk_body_tangents_release(&moved);
 }
 
-static void derivative_is_that_of_differences(void **unused) {
-  (void)unused;
+TEST(derivative_is_that_of_differences) {
   for (int pinned = 0; pinned <= 1; pinned++) {
-    hooke_system *system = hung_body(pinned, 40.0);
+    owned_system *system = hung_body(pinned, 40.0);
     struct hk_body_tangents tangents;
     struct hk_rigid rigid;
     double force[3 * ALL], x[3 * ALL] = {0.0}, change[3 * ALL];
@@ -105,15 +98,13 @@ static void derivative_is_that_of_differences(void **unused) {
     }
     hk_rigid_release(&rigid);
     hk_body_tangents_release(&tangents);
-    hooke_system_destroy(system);
   }
 }
 
 /* Of springs that factors make stiffer as of springs that are. */
-static void stiffer_springs_turn_more(void **unused) {
-  (void)unused;
+TEST(stiffer_springs_turn_more) {
   const double twice[CORNERS] = {2.0, 2.0, 2.0, 2.0, 2.0};
-  hooke_system *soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
+  owned_system *soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
   struct hk_rigid factors, found;
   check_ok(hk_rigid_create(soft, soft->position, twice, &factors));
   check_ok(hk_rigid_create(stiff, stiff->position, NULL, &found));
@@ -123,14 +114,4 @@ static void stiffer_springs_turn_more(void **unused) {
               1e-12);
   hk_rigid_release(&factors);
   hk_rigid_release(&found);
-  hooke_system_destroy(soft);
-  hooke_system_destroy(stiff);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(derivative_is_that_of_differences),
-      cmocka_unit_test(stiffer_springs_turn_more),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,6 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -95,16 +94,14 @@ static int32_t stop_at(int64_t step, const hooke_state *state, void *ctx) {
 
 /* A run that was stopped after `stop` steps; the file is that of the run "first". */
 static void write_stopped(const hooke_system *system, struct run run, int64_t stop, double *numbers) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_step(integrator, 1, stop_at, &stop));
   check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
   check_ok(hooke_checkpoint_write(path, integrator, state, "first"));
   numbers[0] = hooke_state_time(state);
   memcpy(numbers + 1, hooke_state_position(state), SIZE * sizeof(double));
   memcpy(numbers + 1 + SIZE, hooke_state_velocity(state), SIZE * sizeof(double));
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 struct reader {
@@ -146,8 +143,7 @@ static void check_refused(const struct reader *reader, const char *run, const ch
 
 /* ---- tests ---- */
 
-static void every_byte_is_watched(void **state) {
-  (void)state;
+TEST(every_byte_is_watched) {
   const int all = getenv("HOOKE_LONG") != NULL;
   double numbers[NUMBERS];
   struct reader reader = reader_of(none, fixed);
@@ -169,8 +165,7 @@ static void every_byte_is_watched(void **state) {
   drop(&reader);
 }
 
-static void every_length_is_watched(void **state) {
-  (void)state;
+TEST(every_length_is_watched) {
   double numbers[NUMBERS];
   struct reader reader = reader_of(none, fixed);
   write_stopped(reader.system, fixed, STOP, numbers);
@@ -193,8 +188,7 @@ static void put_check_value(struct bytes *bytes) {
     bytes->at[bytes->count - 4 + k] = (unsigned char)(value >> 8 * k);
 }
 
-static void impossible_numbers_are_refused(void **state) {
-  (void)state;
+TEST(impossible_numbers_are_refused) {
   struct random_source random = {7};
   double numbers[NUMBERS];
   struct reader reader = reader_of(none, fixed);
@@ -221,8 +215,7 @@ static void impossible_numbers_are_refused(void **state) {
   drop(&reader);
 }
 
-static void other_problems_are_refused(void **state) {
-  (void)state;
+TEST(other_problems_are_refused) {
   struct change other[] = {none, none, none, none, none, none, none, none, none};
   other[0].mass = 1.1;
   other[1].stiffness = 21.0;
@@ -267,8 +260,7 @@ static void other_problems_are_refused(void **state) {
   drop(&reader);
 }
 
-static void the_one_before_stands_in(void **state) {
-  (void)state;
+TEST(the_one_before_stands_in) {
   double before[NUMBERS], newest[NUMBERS];
   struct reader reader = reader_of(none, fixed);
   remove(path);
@@ -307,8 +299,7 @@ static void the_one_before_stands_in(void **state) {
   drop(&reader);
 }
 
-static void only_a_place_of_the_run_is_written(void **state) {
-  (void)state;
+TEST(only_a_place_of_the_run_is_written) {
   const struct run adaptive = {.method = "cvode-adams", .duration = 0.2};
   struct reader reader = reader_of(none, fixed);
   remove(path);
@@ -338,8 +329,7 @@ static void only_a_place_of_the_run_is_written(void **state) {
 }
 
 /* The older file stays, and no other file is left. */
-static void a_failed_write_harms_nothing(void **state) {
-  (void)state;
+TEST(a_failed_write_harms_nothing) {
   double numbers[NUMBERS];
   struct reader writer = reader_of(none, fixed), reader = reader_of(none, fixed);
   write_stopped(writer.system, fixed, STOP, numbers);
@@ -367,8 +357,7 @@ static void *look_often(void *unused) {
 }
 
 /* The name always exists while one file replaces the other. */
-static void there_is_one_at_all_times(void **state) {
-  (void)state;
+TEST(there_is_one_at_all_times) {
   double numbers[NUMBERS];
   pthread_t watcher;
   struct reader writer = reader_of(none, fixed);
@@ -385,8 +374,7 @@ static void there_is_one_at_all_times(void **state) {
   drop(&writer);
 }
 
-static void a_pipe_is_not_waited_for(void **state) {
-  (void)state;
+TEST(a_pipe_is_not_waited_for) {
   struct reader reader = reader_of(none, fixed);
   remove(path);
   remove(previous);
@@ -395,13 +383,4 @@ static void a_pipe_is_not_waited_for(void **state) {
   drop(&reader);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_byte_is_watched),          cmocka_unit_test(every_length_is_watched),
-      cmocka_unit_test(impossible_numbers_are_refused), cmocka_unit_test(other_problems_are_refused),
-      cmocka_unit_test(the_one_before_stands_in),       cmocka_unit_test(only_a_place_of_the_run_is_written),
-      cmocka_unit_test(there_is_one_at_all_times),      cmocka_unit_test(a_failed_write_harms_nothing),
-      cmocka_unit_test(a_pipe_is_not_waited_for),
-  };
-  return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+AROUND_ALL(set_up, tear_down)

@@ -14,8 +14,7 @@ static uint32_t by_definition(uint32_t start, const unsigned char *bytes, int64_
   return ~rest;
 }
 
-static void agrees_with_the_definition(void **state) {
-  (void)state;
+TEST(agrees_with_the_definition) {
   enum { MOST = 300 };
   struct random_source random = {1};
   unsigned char bytes[MOST + 8];
@@ -29,8 +28,7 @@ static void agrees_with_the_definition(void **state) {
   }
 }
 
-static void goes_on_where_it_stopped(void **state) {
-  (void)state;
+TEST(goes_on_where_it_stopped) {
   enum { COUNT = 100 };
   unsigned char bytes[COUNT];
   for (int k = 0; k < COUNT; k++)
@@ -38,12 +36,4 @@ static void goes_on_where_it_stopped(void **state) {
   const uint32_t whole = hk_crc32(0, bytes, COUNT);
   for (int64_t cut = 0; cut <= COUNT; cut++)
     assert_int_equal(hk_crc32(hk_crc32(0, bytes, cut), bytes + cut, COUNT - cut), whole);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(agrees_with_the_definition),
-      cmocka_unit_test(goes_on_where_it_stopped),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

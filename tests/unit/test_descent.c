@@ -3,6 +3,7 @@
 
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,18 +17,12 @@ static int32_t nothing(int64_t n, double t, const double *q, const double *v, do
 
 /* A free particle on a spring of 1 m from the origin, with drag 1. */
 static hooke_system *make_pair(int calls_back) {
-  hooke_system *system = NULL;
-  hooke_options *springs = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_set_drag(system, 1.0));
   check_ok(hooke_system_add_particles(system, 2, (double[]){0, 0, 0, START, 0, 0}, NULL, 0, NULL, NULL));
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
-  check_ok(hooke_options_create("springs", &springs));
-  check_ok(hooke_options_set_number(springs, "stiffness", KAPPA));
-  check_ok(hooke_options_set_number(springs, "rest_length", 1.0));
-  check_ok(hooke_system_add_springs(system, NULL, 1, (int64_t[]){0, 1}, springs));
-  hooke_options_destroy(springs);
+  small_group(system, "springs", NULL, 1, (int64_t[]){0, 1}, "stiffness=%.17g rest_length=1", KAPPA);
   if (calls_back) check_ok(hooke_system_set_force(system, nothing, NULL, NULL));
   check_ok(hooke_system_commit(system));
   return system;
@@ -42,11 +37,10 @@ static double potential_at(struct hk_descent *descent, const hooke_integrator *i
   return found;
 }
 
-static void test_wrong_solution(void **unused) {
-  (void)unused;
-  hooke_system *system = make_pair(0);
+TEST(test_wrong_solution) {
+  owned_system *system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   struct hk_stage *stage = it->own;
   double slack = 0.0;
   check_ok(hooke_integrator_step(it, state, 1));
@@ -57,9 +51,7 @@ static void test_wrong_solution(void **unused) {
   check_between(slack, 0.0, 1e-14);
   assert_true(potential_at(&stage->descent, it, right, &slack) < start);
   assert_true(potential_at(&stage->descent, it, wrong, &slack) > start + 0.1);
-  hooke_state_destroy(state);
   hooke_integrator_destroy(it);
-  hooke_system_destroy(system);
 }
 
 static int32_t plant(struct hk_stage *stage) {
@@ -74,9 +66,8 @@ static int32_t plant(struct hk_stage *stage) {
 }
 
 /* A first solution on the other side: the stage ends at the right one. */
-static void test_planted(void **unused) {
-  (void)unused;
-  hooke_system *system = make_pair(0);
+TEST(test_planted) {
+  owned_system *system = make_pair(0);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   const double start[6] = {0.0, 0.0, 0.0, START, 0.0, 0.0}, still[6] = {0}, place[6] = {0.0, START};
   const struct hk_equations equations = {0.0, STEP, place, still, STEP};
@@ -84,20 +75,11 @@ static void test_planted(void **unused) {
   check_ok(hk_stage_solve_by(it->own, &equations, plant));
   check_close(it->motion->q[0][1], START - STEP * KAPPA * (START - 1.0) / (1.0 + KAPPA * STEP), 1e-9);
   hooke_integrator_destroy(it);
-  hooke_system_destroy(system);
 }
 
-static void test_no_potential(void **unused) {
-  (void)unused;
-  hooke_system *system = make_pair(1);
+TEST(test_no_potential) {
+  owned_system *system = make_pair(1);
   hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
   assert_null(((struct hk_stage *)it->own)->descent.rows);
   hooke_integrator_destroy(it);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_wrong_solution), cmocka_unit_test(test_planted),
-                                     cmocka_unit_test(test_no_potential)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,8 +30,7 @@ static void rotated(const double value[3], double angle, double matrix[6]) {
   }
 }
 
-static void test_three_by_three(void **unused) {
-  (void)unused;
+TEST(test_three_by_three) {
   static const double values[][3] = {{3, 1, 2},         {5, 5, 1},           {5, 1, 1},      {2, 2, 2},
                                      {-1, -2, -3},      {0, 0, 0},           {1e-9, 1, 1},   {1, 1 + 1e-9, 1},
                                      {1e200, 1, 1e-20}, {1e-200, 3e-200, 0}, {0, -4e150, 0}, {7, 0, 0}};
@@ -68,8 +67,7 @@ static void fill_chain(double *matrix) {
   }
 }
 
-static void test_chain(void **unused) {
-  (void)unused;
+TEST(test_chain) {
   static double matrix[CHAIN * CHAIN], vector[CHAIN * CHAIN], value[CHAIN], diagonal[CHAIN], beside[CHAIN];
   fill_chain(matrix);
   const int32_t status = hk_dense_symmetric(CHAIN, matrix, value, NULL);
@@ -104,8 +102,7 @@ static void test_chain(void **unused) {
 }
 
 /* With C = b K a mode of the chain has lambda^2 + b w lambda + w = 0. */
-static void test_damped_chain(void **unused) {
-  (void)unused;
+TEST(test_damped_chain) {
   static double stiffness[CHAIN * CHAIN], damping[CHAIN * CHAIN];
   const double b = 1.1; /* some modes oscillate, some are overdamped */
   struct hk_damped_modes modes;
@@ -146,8 +143,7 @@ static void test_damped_chain(void **unused) {
   hk_damped_modes_release(&modes);
 }
 
-static void test_not_finite(void **unused) {
-  (void)unused;
+TEST(test_not_finite) {
   static const double bad[] = {NAN, INFINITY};
   for (int k = 0; k < 2; k++) {
     double matrix[4] = {1.0, bad[k], bad[k], 1.0}, value[2], unit[4] = {1.0, 0.0, 0.0, 1.0};
@@ -162,8 +158,7 @@ static void test_not_finite(void **unused) {
 
 /* Errors h^2 times exp(+d), exp(-2 d), exp(+d) at three steps: slope 2, its half width 12.7062 sqrt(6 d^2/(2
  * L^2)). */
-static void test_line(void **unused) {
-  (void)unused;
+TEST(test_line) {
   enum { ROWS = 3 };
   const double d = 0.01;
   struct hk_study_row row[ROWS] = {{.method = 0}};
@@ -183,8 +178,7 @@ static void test_line(void **unused) {
   assert_true(fabs(2.0 - study.order[0].low - half) < 1e-11 * half);
 }
 
-static void test_reach(void **unused) {
-  (void)unused;
+TEST(test_reach) {
   const double real = 2.785293563405282; /* z^3 + 4 z^2 + 12 z + 24 = 0 */
   assert_true(fabs(hk_rk4_reach(0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
   assert_true(fabs(hk_rk4_reach(-3.0, 0.0) - real) < 2e-15);
@@ -200,13 +194,4 @@ static void test_reach(void **unused) {
     const double complex z = reach / hypot(x, y) * (x + y * I);
     assert_true(fabs(cabs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) - 1.0) < 1e-13);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_three_by_three), cmocka_unit_test(test_chain),
-      cmocka_unit_test(test_damped_chain),   cmocka_unit_test(test_not_finite),
-      cmocka_unit_test(test_line),           cmocka_unit_test(test_reach),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

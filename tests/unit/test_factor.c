@@ -8,7 +8,6 @@
 #include "model/system.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct bench {
@@ -142,8 +141,7 @@ static void needs_factor(void) {
   if (!hk_factor_is_built()) skip();
 }
 
-static void solves_s(void **unused) {
-  (void)unused;
+TEST(solves_s) {
   needs_factor();
   static const double weights[][2] = {{1e-4, 1e-2}, {0.0, 0.3}, {1.0, 1.0}, {1e-8, 1e-4}};
   for (int k = 0; k < 24; k++) {
@@ -183,8 +181,7 @@ static void solves_s(void **unused) {
 }
 
 /* A matrix that is not positive is reported, and the blocks are used again. */
-static void not_positive(void **unused) {
-  (void)unused;
+TEST(not_positive) {
   needs_factor();
   struct bench b;
   set_up((struct random_scene_request){.seed = 3, .particles = 60, .springs = 150, .features = SCENE_DAMPING},
@@ -205,8 +202,7 @@ static void not_positive(void **unused) {
 }
 
 /* A chain has a small factor, and too large a factor is not computed. */
-static void sizes(void **unused) {
-  (void)unused;
+TEST(sizes) {
   needs_factor();
   struct bench b;
   struct hk_factor *factor = NULL;
@@ -222,8 +218,7 @@ static void sizes(void **unused) {
 }
 
 /* A build without factors reports none. */
-static void not_built(void **unused) {
-  (void)unused;
+TEST(not_built) {
   if (hk_factor_is_built()) skip();
   struct bench b;
   set_up((struct random_scene_request){.seed = 3, .particles = 60, .springs = 150}, 1e-4, 1e-2, &b);
@@ -235,8 +230,7 @@ static void not_built(void **unused) {
 
 /* Dq - gamma dv = b_q and M dv - gamma (K dq + D dv) = M b_v, with the model's own derivative; by blocks and
  * by a factor. */
-static void implicit_equation(void **unused) {
-  (void)unused;
+TEST(implicit_equation) {
   for (int k = 0; k < 12; k++) {
     struct bench b;
     const double gamma = k % 2 ? 1e-2 : 1e-3;
@@ -301,11 +295,10 @@ static int32_t apply(void *ctx, const double *x, double *out) {
   return HOOKE_OK;
 }
 
-static void minimal(void **unused) {
-  (void)unused;
+TEST(minimal) {
   struct random_source source = {41};
   double *a = new_doubles(SIZE * SIZE), *x = new_doubles(3 * SIZE), *b = x + SIZE, *found = b + SIZE;
-  double *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
+  owned_doubles *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
   const struct hk_operator operator= {SIZE, apply, a};
   for (int k = 0; k < SIZE * SIZE; k++)
     a[k] = random_between(&source, -0.19, 0.19) + (k % (SIZE + 1) == 0 ? 2.0 : 0.0);
@@ -334,12 +327,4 @@ static void minimal(void **unused) {
   assert_int_equal(solution.converged, 0);
   free(a);
   free(x);
-  free(scratch);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(solves_s),  cmocka_unit_test(not_positive),      cmocka_unit_test(sizes),
-      cmocka_unit_test(not_built), cmocka_unit_test(implicit_equation), cmocka_unit_test(minimal)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,8 +39,7 @@ static double largest(const hooke_system *system, double a, double b) {
   return value;
 }
 
-static void a_quotient_is_below_the_largest_eigenvalue_and_comes_near(void **unused) {
-  (void)unused;
+TEST(a_quotient_is_below_the_largest_eigenvalue_and_comes_near) {
   for (uint64_t seed = 1; seed <= SCENES; seed++) {
     struct random_scene scene = build(seed);
     const hooke_system *system = scene.system;
@@ -70,8 +69,7 @@ static int32_t refuse(double done, const char *what, void *ctx) {
   return --*(int *)ctx < 0;
 }
 
-static void turns_end(void **unused) {
-  (void)unused;
+TEST(turns_end) {
   struct random_scene scene = build(5);
   const hooke_system *system = scene.system;
   int calls = 3;
@@ -86,12 +84,4 @@ static void turns_end(void **unused) {
   hk_growing_release(&growing);
   free(still);
   random_scene_destroy(&scene);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_quotient_is_below_the_largest_eigenvalue_and_comes_near),
-      cmocka_unit_test(turns_end),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,8 +6,7 @@
 
 #include <math.h>
 
-static void handy_steps(void **unused) {
-  (void)unused;
+TEST(handy_steps) {
   const struct {
     double step, limit, every, duration, expected;
   } rows[] = {
@@ -33,9 +32,4 @@ static void handy_steps(void **unused) {
       check_failed("row %d: %.17g in place of %.17g", (int)k, step, rows[k].expected);
     assert_true(step <= rows[k].limit);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(handy_steps)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,23 +40,21 @@ static void *open_often(void *arg) {
   snprintf(path, sizeof path, "unit_hdf5_alone_%d.h5", reader->number);
   pthread_barrier_wait(&together);
   for (int k = 0; k < OPENINGS; k++) {
-    hooke_record *record = NULL;
+    owned_record *record = NULL;
     if (hooke_record_open(path, &record) != HOOKE_OK) continue;
     const int fine = hooke_record_size(record, "time", &rows, &columns) == HOOKE_OK && rows == 1 &&
                      hooke_record_numbers(record, "time", time) == HOOKE_OK && time[0] == reader->number;
     reader->fine_count += fine;
-    hooke_record_close(record);
   }
   return NULL;
 }
 
-static void test_files_at_once(void **unused) {
-  (void)unused;
+TEST(test_files_at_once) {
   struct reader reader[THREADS];
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = 0.125, .duration = 0.25});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   char path[64];
   for (int t = 0; t < THREADS; t++) {
     hooke_trajectory *trajectory;
@@ -80,21 +78,13 @@ static void test_files_at_once(void **unused) {
     remove(path);
     assert_int_equal(reader[t].fine_count, OPENINGS);
   }
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 #else
 
-static void test_files_at_once(void **unused) {
-  (void)unused;
+TEST(test_files_at_once) {
   skip();
 }
 
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_files_at_once)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

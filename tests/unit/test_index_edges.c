@@ -202,8 +202,7 @@ static void at_edge(struct world *found, struct world *expected) {
   }
 }
 
-static void large_numbers_are_as_small_ones(void **unused) {
-  (void)unused;
+TEST(large_numbers_are_as_small_ones) {
   draw(&drawn);
   struct world expected, found;
   open_world(0, &expected);
@@ -213,9 +212,4 @@ static void large_numbers_are_as_small_ones(void **unused) {
     close_world(&found);
   }
   close_world(&expected);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(large_numbers_are_as_small_ones)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

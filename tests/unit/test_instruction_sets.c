@@ -95,15 +95,13 @@ static void check_scene(const struct scene *scene, int k) {
   }
 }
 
-static void test_same_bits(void **unused) {
-  (void)unused;
+TEST(test_same_bits) {
   for (int k = 0; k < SCENES; k++)
     check_scene(&scenes[k], k);
 }
 
 /* The compiler's own library, where it has one, knows the processor as well. */
-static void test_best_set(void **unused) {
-  (void)unused;
+TEST(test_best_set) {
 #if defined(__x86_64__) && defined(__GNUC__)
   const int avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
@@ -114,17 +112,9 @@ static void test_best_set(void **unused) {
 }
 
 /* A new method needs its row. */
-static void test_methods_are_complete(void **unused) {
-  (void)unused;
+TEST(test_methods_are_complete) {
   int64_t rows = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++)
     rows += is_fixed_step(hooke_method_name(m));
   assert_int_equal(rows, sizeof expected / sizeof expected[0]);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_best_set),
-                                     cmocka_unit_test(test_methods_are_complete),
-                                     cmocka_unit_test(test_same_bits)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -362,8 +362,7 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
   free(found);
 }
 
-static void test_lanes_agree(void **unused) {
-  (void)unused;
+TEST(test_lanes_agree) {
   struct random_source source = {1234};
   struct lane_trial *trial = new_block(2, (int64_t)sizeof *trial);
   for (int round = 0; round < 120; round++)
@@ -372,8 +371,7 @@ static void test_lanes_agree(void **unused) {
 }
 
 /* Moves of whole units from any of them on, under forces that are given. */
-static void test_moves_agree(void **unused) {
-  (void)unused;
+TEST(test_moves_agree) {
   static double f[3][STRIDED_PARTICLES];
   struct random_source source = {99};
   struct lane_trial *trial = new_block(3, (int64_t)sizeof *trial), *expected = trial + 1, *found = trial + 2;
@@ -497,8 +495,7 @@ static void check_sums(const struct hk_tiled_loops *loops, struct random_source 
   }
 }
 
-static void test_nets_agree(void **unused) {
-  (void)unused;
+TEST(test_nets_agree) {
   struct random_source source = {31};
   struct trial *trial = new_block(1, (int64_t)sizeof *trial);
   struct net_trial *tiled = hk_new(1, sizeof *tiled);
@@ -530,8 +527,7 @@ static void test_nets_agree(void **unused) {
   hk_free(tiled);
 }
 
-static void test_sets_agree(void **unused) {
-  (void)unused;
+TEST(test_sets_agree) {
   struct random_source source = {4711};
   struct trial *trial = new_block(1, (int64_t)sizeof *trial);
   const int64_t counts[] = {1,  2,  3,  4,  5,   7,   8,   9,   15,  16,  17,
@@ -591,8 +587,7 @@ static void compare_bending(struct random_source *source, int32_t shape, int64_t
   }
 }
 
-static void test_bending_agrees(void **unused) {
-  (void)unused;
+TEST(test_bending_agrees) {
   struct random_source source = {815};
   for (int32_t shape = 0; shape < HOOKE_BENDING_SHAPES; shape++) {
     for (int64_t count = 1; count <= 777; count += count < 20 ? 1 : 59) {
@@ -640,8 +635,7 @@ static void add_tetrahedron(const struct hk_tetrahedron *t, const struct trial *
 }
 
 /* Compared with one at a time. */
-static void test_tetrahedra_agree(void **unused) {
-  (void)unused;
+TEST(test_tetrahedra_agree) {
   static double expected[3][PARTICLES], found[3][PARTICLES];
   static struct hk_tetrahedron tetrahedra[LONGEST];
   struct random_source source = {77};
@@ -664,8 +658,7 @@ static void test_tetrahedra_agree(void **unused) {
   free(trial);
 }
 
-static void test_sets_have_names(void **unused) {
-  (void)unused;
+TEST(test_sets_have_names) {
   int32_t count = 0;
   while (hk_spring_set(count) != NULL)
     count++;
@@ -675,13 +668,4 @@ static void test_sets_have_names(void **unused) {
   assert_string_equal(hk_spring_set(0)->name, hk_kernel_instructions());
   for (int32_t k = 0; k < count; k++)
     print_message("instruction set: %s\n", hk_spring_set(k)->name);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_sets_have_names), cmocka_unit_test(test_sets_agree),
-      cmocka_unit_test(test_nets_agree),      cmocka_unit_test(test_lanes_agree),
-      cmocka_unit_test(test_moves_agree),     cmocka_unit_test(test_bending_agrees),
-      cmocka_unit_test(test_tetrahedra_agree)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

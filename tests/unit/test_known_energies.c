@@ -2,6 +2,7 @@
  * were not checked have none, and neither has a state that is no frame. */
 #include "check.h"
 #include "run.h"
+#include "small.h"
 
 #include "model/state.h"
 
@@ -15,22 +16,13 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 }
 
 static hooke_system *hanging_rope(int outside) {
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", SEGMENTS));
-  check_ok(hooke_options_set_number(options, "mass", 0.5));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 20));
-  check_ok(hooke_options_set_number(options, "stretch.damping", 0.01));
-  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
+  hooke_system *system = small_part(
+      NULL, "rope", NULL,
+      "from=0,0,0 to=1,0.1,0 segments=%d mass=0.5 stretch.stiffness=20 stretch.damping=0.01", SEGMENTS);
   check_ok(hooke_system_pin(system, 1, &(const int64_t){0}));
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   if (outside) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
@@ -75,9 +67,8 @@ static struct watch watch_run(const hooke_system *system, const char *method, do
   return watch;
 }
 
-static void every_checked_frame_has_its_own(void **unused) {
-  (void)unused;
-  hooke_system *system = hanging_rope(0);
+TEST(every_checked_frame_has_its_own) {
+  owned_system *system = hanging_rope(0);
   const char *const methods[] = {"symplectic-euler", "rk4", "backward-euler"};
   for (int k = 0; k < 3; k++) {
     const struct watch watch = watch_run(system, methods[k], 1e-3, HOOKE_OK);
@@ -86,30 +77,18 @@ static void every_checked_frame_has_its_own(void **unused) {
   }
   if (hooke_method_is_built("cvode-adams"))
     assert_int_equal(watch_run(system, "cvode-adams", 0.0, HOOKE_OK).known, FRAMES);
-  hooke_system_destroy(system);
 }
 
-static void frames_after_divergence_have_none(void **unused) {
-  (void)unused;
-  hooke_system *system = hanging_rope(0);
+TEST(frames_after_divergence_have_none) {
+  owned_system *system = hanging_rope(0);
   const struct watch watch = watch_run(system, "symplectic-euler", 0.02, HOOKE_DIVERGED);
   assert_in_range(watch.known, 1, FRAMES - 2);
   assert_true(watch.frames > watch.known);
-  hooke_system_destroy(system);
 }
 
-static void energy_from_outside_is_not_followed(void **unused) {
-  (void)unused;
-  hooke_system *system = hanging_rope(1);
+TEST(energy_from_outside_is_not_followed) {
+  owned_system *system = hanging_rope(1);
   const struct watch watch = watch_run(system, "symplectic-euler", 1e-3, HOOKE_OK);
   assert_int_equal(watch.frames, FRAMES);
   assert_int_equal(watch.known, 0);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_checked_frame_has_its_own),
-                                     cmocka_unit_test(frames_after_divergence_have_none),
-                                     cmocka_unit_test(energy_from_outside_is_not_followed)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,8 +102,7 @@ static void compare(solver *solve, struct dense *dense, uint64_t seed, int64_t m
   check_between(largest_difference(SIZE, x, expected), 0.0, 1e-9 * largest(SIZE, expected));
 }
 
-static void symmetric_and_positive(void **unused) {
-  (void)unused;
+TEST(symmetric_and_positive) {
   struct dense dense;
   for (uint64_t seed = 1; seed <= 20; seed++) {
     fill(&dense, seed, 1.0, 1.0, 0);
@@ -112,8 +111,7 @@ static void symmetric_and_positive(void **unused) {
   }
 }
 
-static void without_symmetry(void **unused) {
-  (void)unused;
+TEST(without_symmetry) {
   struct dense dense;
   for (uint64_t seed = 1; seed <= 20; seed++) {
     fill(&dense, seed, 8.0, -0.5, 0);
@@ -124,8 +122,7 @@ static void without_symmetry(void **unused) {
 }
 
 /* Zero right-hand side, and convergence in one step. */
-static void trivial_sides(void **unused) {
-  (void)unused;
+TEST(trivial_sides) {
   solver *const solvers[] = {hk_solve_symmetric, hk_solve_general};
   struct dense dense;
   memset(&dense, 0, sizeof dense);
@@ -150,8 +147,7 @@ static void trivial_sides(void **unused) {
 }
 
 /* Conjugate gradients end at the first direction of negative curvature, pointing along b. */
-static void descends(void **unused) {
-  (void)unused;
+TEST(descends) {
   for (int flip = 1; flip <= 9; flip += 4) {
     struct dense dense;
     double b[SIZE], x[SIZE], along = 0.0;
@@ -166,8 +162,7 @@ static void descends(void **unused) {
   }
 }
 
-static void limits_and_stops(void **unused) {
-  (void)unused;
+TEST(limits_and_stops) {
   solver *const solvers[] = {hk_solve_symmetric, hk_solve_general};
   for (int s = 0; s < 2; s++) {
     struct dense dense;
@@ -188,13 +183,4 @@ static void limits_and_stops(void **unused) {
     check_ok(run_solver(solvers[s], &dense, b, 20, x, &solution));
     assert_false(solution.converged);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(symmetric_and_positive), cmocka_unit_test(without_symmetry),
-      cmocka_unit_test(trivial_sides),          cmocka_unit_test(descends),
-      cmocka_unit_test(limits_and_stops),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

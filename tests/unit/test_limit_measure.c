@@ -5,6 +5,7 @@
 #include "measure/limit/limit_measure.h"
 
 #include "check.h"
+#include "run.h"
 #include "small.h"
 
 #include <math.h>
@@ -15,11 +16,9 @@
 /* Unit masses on springs of 1 m to pins, apart from each other: mode k is the motion of mass k along its
  * spring. */
 static hooke_system *oscillators(int64_t count, const double *stiffness, const double *damping, double far) {
-  hooke_system *system;
-  hooke_options *options;
   const double mass = 1.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("springs", &options));
+  hooke_system *system = new_system();
+  hooke_options *options = new_options("springs");
   for (int64_t k = 0; k < count; k++) {
     const double place[6] = {far, (double)k, 0.0, far + 1.0, (double)k, 0.0};
     const int64_t pinned = 2 * k;
@@ -56,13 +55,12 @@ static double symplectic_euler(double zeta) {
   return 2.0 * (sqrt(1.0 + zeta * zeta) - zeta);
 }
 
-static void one_oscillator(void **unused) {
-  (void)unused;
+TEST(one_oscillator) {
   const double zeta[] = {0.1, 0.5, 1.0, 5.0}, omega = 30.0;
   const double rk4[] = {2.95085, 2.62254, 2.78529, 0.28137}; /* |R(h lambda)| = 1 */
   for (int k = 0; k < 4; k++) {
     const double stiffness = omega * omega, damping = 2.0 * zeta[k] * omega;
-    hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
+    owned_system *system = oscillators(1, &stiffness, &damping, 0.0);
     const struct {
       const char *method;
       double limit;
@@ -80,14 +78,12 @@ static void one_oscillator(void **unused) {
         assert_int_equal(out.never_stable, 0);
       }
     }
-    hooke_system_destroy(system);
   }
 }
 
-static void undamped_oscillator(void **unused) {
-  (void)unused;
+TEST(undamped_oscillator) {
   const double stiffness = 49.0, damping = 0.0;
-  hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
+  owned_system *system = oscillators(1, &stiffness, &damping, 0.0);
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "verlet", 0.3, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "rk4", 0.4, NULL, 1e-4).step, 2.0 * sqrt(2.0) / 7.0, 1e-4);
@@ -103,61 +99,51 @@ static void undamped_oscillator(void **unused) {
   /* predictions of no step and of every step are put to the test */
   check_close(measure(system, "symplectic-euler", 0.0, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);
   check_close(measure(system, "symplectic-euler", INFINITY, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);
-  hooke_system_destroy(system);
 }
 
-static void far_from_the_origin(void **unused) {
-  (void)unused;
+TEST(far_from_the_origin) {
   const double stiffness = 49.0, damping = 1.0, far = 1048576.0;
-  hooke_system *system = oscillators(1, &stiffness, &damping, far);
+  owned_system *system = oscillators(1, &stiffness, &damping, far);
   const double zeta = 1.0 / 14.0;
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-3).step, symplectic_euler(zeta) / 7.0,
               1e-3 / 7.0);
-  hooke_system_destroy(system);
 }
 
 /* ---- a mode that was not predicted ---- */
 
-static void hidden_mode_is_found(void **unused) {
-  (void)unused;
+TEST(hidden_mode_is_found) {
   const double stiffness[2] = {49.0, 64.0}, damping[2] = {0.3, 0.3};
-  hooke_system *system = oscillators(2, stiffness, damping, 0.0);
+  owned_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
   mode[3] = 1.0;
   const char *const methods[] = {"symplectic-euler", "verlet", "rk4"};
   for (int m = 0; m < 3; m++) {
     /* the prediction of the slower mode alone, started in it */
-    hooke_system *slow = oscillators(1, stiffness, damping, 0.0),
-                 *fast = oscillators(1, stiffness + 1, damping, 0.0);
+    owned_system *slow = oscillators(1, stiffness, damping, 0.0);
+    owned_system *fast = oscillators(1, stiffness + 1, damping, 0.0);
     const double wrong = measure(slow, methods[m], NAN, NULL, 1e-3).step;
     const double right = measure(fast, methods[m], NAN, NULL, 1e-3).step;
     check_between(wrong / right, 1.1, 1.2);
     check_close(measure(system, methods[m], wrong, mode, 1e-3).step, right, 2e-3 * right);
-    hooke_system_destroy(slow);
-    hooke_system_destroy(fast);
   }
-  hooke_system_destroy(system);
 }
 
 /* ---- the linear twin ---- */
 
 /* Springs between the same ends, in any order and among others, are one spring in the twin, of the same
  * force. */
-static void parallel_springs_are_one(void **unused) {
-  (void)unused;
+TEST(parallel_springs_are_one) {
   enum { MANY = 6 };
   const double place[9] = {0, 0, 0, 1, 0.25, 0, 0.5, 1, 0}, still[9] = {0.0},
                dq[9] = {0, 0, 0, 0.3, -0.2, 0.5, 0.1, 0.4, -0.3};
   const int64_t ends[2 * MANY] = {0, 1, 1, 2, 1, 0, 0, 1, 2, 1, 0, 1}, none = 0;
   const double stiffness[MANY] = {20, 3, 0.5, 7, 11, 0}, damping[MANY] = {0, 0.1, 0.3, 0, 0, 0.2},
                rest[MANY] = {0.7, 0.5, 0.2, 1.5, 0.4, 1};
-  hooke_system *system = small_system(3, place, NULL, 0.5, 0);
-  hooke_options *options;
+  owned_system *system = small_system(3, place, NULL, 0.5, 0);
   struct hk_twin twin;
   double product[9], of_twin[9], energy = 0.0, there[9];
   check_ok(hooke_system_pin(system, 1, &none));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  hooke_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", MANY, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", MANY, damping));
   check_ok(hooke_options_set_numbers(options, "rest_length", MANY, rest));
@@ -182,25 +168,18 @@ static void parallel_springs_are_one(void **unused) {
   }
   check_close(hk_twin_energy(&twin, there, still), energy, 1e-6 * energy);
   hk_twin_release(&twin);
-  hooke_system_destroy(system);
 }
 
-static void frozen_system_rests(void **unused) {
-  (void)unused;
+TEST(frozen_system_rests) {
   /* a triangle under tension and compression, hung at its first corner, with a driven and a coincident
    * particle */
   const double position[15] = {0, 0, 0, 1, 0, 0, 0.3, 0.8, 0, 2, 0.1, 0.2, 2, 0.1, 0.2};
   const int64_t ends[10] = {0, 1, 1, 2, 2, 0, 1, 3, 3, 4}, pinned = 0, driven = 3;
   const double rest[5] = {0.7, 1.5, 0.6, 0.9, 0.5}, amplitude[3] = {0, 0.1, 0}, mass = 0.5;
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 5, position, NULL, 1, &mass, NULL));
+  owned_system *system = small_system(5, position, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
   check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "stiffness", 20.0));
+  hooke_options *options = options_with("springs", "law=length stiffness=20");
   check_ok(hooke_options_set_numbers(options, "rest_length", 5, rest));
   check_ok(hooke_system_add_springs(system, NULL, 5, ends, options));
   hooke_options_destroy(options);
@@ -245,12 +224,10 @@ static void frozen_system_rests(void **unused) {
   const struct hk_measured_limit out = measure(system, "verlet", NAN, NULL, 1e-3);
   check_between(out.step, 0.1, 1.0);
   assert_string_equal(out.note, "");
-  hooke_system_destroy(system);
 }
 
 /* Drag alone: x'' = -c/m x'. */
-static void drag_alone(void **unused) {
-  (void)unused;
+TEST(drag_alone) {
   const double place[3] = {3.0, 0.0, 0.0};
   hooke_system *system = small_system(1, place, NULL, 2.0, 0);
   check_ok(hooke_system_set_drag(system, 5.0));
@@ -259,10 +236,9 @@ static void drag_alone(void **unused) {
   check_close(measure(system, "forward-euler", NAN, NULL, 1e-3).step, 0.8, 1e-3);
   assert_true(isinf(measure(system, "verlet", INFINITY, NULL, 1e-3).step));
   hooke_system_destroy(system);
-  hooke_system *nothing = small_system(1, place, NULL, 2.0, 0);
+  owned_system *nothing = small_system(1, place, NULL, 2.0, 0);
   check_ok(hooke_system_commit(nothing));
   assert_true(isinf(measure(nothing, "symplectic-euler", NAN, NULL, 1e-3).step));
-  hooke_system_destroy(nothing);
 }
 
 static int32_t refuse(double done, const char *what, void *ctx) {
@@ -272,10 +248,9 @@ static int32_t refuse(double done, const char *what, void *ctx) {
   return 1;
 }
 
-static void what_is_refused(void **unused) {
-  (void)unused;
+TEST(what_is_refused) {
   const double stiffness = 49.0, damping = 1.0;
-  hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
+  owned_system *system = oscillators(1, &stiffness, &damping, 0.0);
   struct hk_measured_limit out;
   const double *q = system->position;
   check_status(hk_limit_measure(system, q, NULL, "no-such", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
@@ -294,22 +269,19 @@ static void what_is_refused(void **unused) {
   check_ok(hk_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, 0.0, NULL, NULL, &out));
   assert_true(isnan(out.step));
   assert_non_null(strstr(out.note, "budget"));
-  hooke_system_destroy(system);
 }
 
 /* Damped along a motion that has no direction yet: stiff and damped in all directions, which explicit damping
  * of symplectic Euler shows. */
-static void damping_of_a_spring_of_no_length(void **unused) {
-  (void)unused;
+TEST(damping_of_a_spring_of_no_length) {
   const double place[6] = {0.0};
   const int64_t ends[2] = {0, 1};
-  hooke_system *system = small_system(2, place, NULL, 1.0, 1);
+  owned_system *system = small_system(2, place, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 49.0, .damping = 3.0});
   check_ok(hooke_system_commit(system));
   check_close(measure(system, "verlet", NAN, NULL, 1e-3).step, 2.0 / 7.0, 1e-3 * 2.0 / 7.0);
   const double explicit = 4.0 / (3.0 + sqrt(9.0 + 4.0 * 49.0));
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-3).step, explicit, 1e-3 * explicit);
-  hooke_system_destroy(system);
 }
 
 /* ---- the scene itself ---- */
@@ -334,12 +306,10 @@ static const double OMEGA = 10.0, BRIEF = 40.0, LONG = 12000.0;
 static int32_t measure_scene(const hooke_system *system, const char *method, double duration,
                              double predicted, double budget, hooke_progress *progress,
                              struct hk_measured_limit *out) {
-  hooke_options *run = NULL;
-  hooke_state *start = NULL;
-  check_ok(hooke_options_create("run", &run));
+  hooke_options *run = new_options("run");
   if (duration > 0.0) check_ok(hooke_options_set_number(run, "duration", duration));
   check_ok(hooke_options_set_number(run, "every", 1.0)); /* which allows few steps, and is not used here */
-  check_ok(hooke_state_create(system, &start));
+  hooke_state *start = start_state(system);
   const int32_t status =
       hk_limit_measure_nonlinear(system, start, run, method, predicted, 1e-2, budget, progress, NULL, out);
   check_close(hooke_options_number(run, "every"), 1.0, 0.0);
@@ -348,9 +318,8 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
   return status;
 }
 
-static void the_scene_itself(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
+TEST(the_scene_itself) {
+  owned_system *system = small_oscillator(OMEGA);
   struct hk_measured_limit out;
   /* with a = h omega energy swells by up to (1 + a/2)/(1 - a/2), which is 100 at a = 1.9604 */
   const double guess[] = {NAN, 0.0, INFINITY, 0.1, 0.3};
@@ -363,7 +332,6 @@ static void the_scene_itself(void **unused) {
   check_ok(measure_scene(system, "symplectic-euler", 0.01, 0.2, 100.0, NULL, &out));
   assert_true(isinf(out.step));
   assert_non_null(strstr(out.note, "single step"));
-  hooke_system_destroy(system);
 }
 
 static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
@@ -376,22 +344,18 @@ static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
   return system;
 }
 
-static void scenes_that_no_step_helps(void **unused) {
-  (void)unused;
+TEST(scenes_that_no_step_helps) {
   struct hk_measured_limit out;
   struct spoiler not_a_number = {0.5, 0}, stop = {0.5, 1};
-  hooke_system *diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
+  owned_system *diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
   check_ok(measure_scene(diverges, "verlet", 1.0, 0.2, 100.0, NULL, &out));
   assert_true(out.step == 0.0 && out.never_stable);
   assert_non_null(strstr(out.note, "diverged at every step"));
   check_status(measure_scene(stops, "verlet", 1.0, 0.2, 100.0, NULL, &out), HOOKE_STOPPED);
-  hooke_system_destroy(stops);
-  hooke_system_destroy(diverges);
 }
 
-static void scenes_that_take_too_long(void **unused) {
-  (void)unused;
-  hooke_system *system = small_oscillator(OMEGA);
+TEST(scenes_that_take_too_long) {
+  owned_system *system = small_oscillator(OMEGA);
   struct hk_measured_limit out;
   check_ok(measure_scene(system, "verlet", LONG, 0.19, 0.0, NULL, &out));
   assert_true(isnan(out.step));
@@ -402,13 +366,10 @@ static void scenes_that_take_too_long(void **unused) {
   check_status(measure_scene(system, "verlet", 0.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
   check_message("duration");
   check_status(measure_scene(system, "no-such", 1.0, 0.19, 100.0, NULL, &out), HOOKE_BAD_VALUE);
-  hooke_state *start = NULL;
-  check_ok(hooke_state_create(system, &start));
+  owned_state *start = start_state(system);
   check_status(hk_limit_measure_nonlinear(system, start, NULL, "verlet", 0.19, 1e-2, 100.0, NULL, NULL, &out),
                HOOKE_BAD_VALUE);
   check_message("give the time to run");
-  hooke_state_destroy(start);
-  hooke_system_destroy(system);
 }
 
 /* ---- the bracket ---- */
@@ -425,8 +386,7 @@ static int32_t try_edge(void *ctx, double step, enum hk_trial_end *end) {
   return HOOKE_OK;
 }
 
-static void bracket_closes_from_both_sides(void **unused) {
-  (void)unused;
+TEST(bracket_closes_from_both_sides) {
   const double edges[] = {1e-5, 0.37, 0.9995, 1.0, 1.0005, 1.4, 2e4};
   for (int k = 0; k < 7; k++) {
     struct edge edge = {edges[k], 0};
@@ -451,10 +411,9 @@ static void bracket_closes_from_both_sides(void **unused) {
 /* ---- limiting springs ---- */
 
 /* Two oscillators and a mode in which both move: shares by hand. */
-static void shares_are_those_of_the_mode(void **unused) {
-  (void)unused;
+TEST(shares_are_those_of_the_mode) {
   const double stiffness[2] = {100.0, 400.0}, damping[2] = {3.0, 1.0};
-  hooke_system *system = oscillators(2, stiffness, damping, 0.0);
+  owned_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
   mode[3] = 1.0, mode[9] = 0.5, mode[0] = 7.0; /* the last one is pinned */
   struct hk_participation participation;
@@ -474,11 +433,9 @@ static void shares_are_those_of_the_mode(void **unused) {
   check_ok(hk_participation_find(system, system->position, NULL, 1.0, 0.0, &participation));
   assert_int_equal(participation.spring_count + participation.particle_count, 0);
   hk_participation_release(&participation);
-  hooke_system_destroy(system);
 }
 
-static void most_shares_are_kept_in_order(void **unused) {
-  (void)unused;
+TEST(most_shares_are_kept_in_order) {
   enum { COUNT = 150 };
   double stiffness[COUNT], damping[COUNT], mode[6 * COUNT];
   for (int k = 0; k < COUNT; k++) {
@@ -486,7 +443,7 @@ static void most_shares_are_kept_in_order(void **unused) {
     damping[k] = 0.0;
     memcpy(mode + 6 * k, (const double[6]){0, 0, 0, 1, 0, 0}, 6 * sizeof(double));
   }
-  hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
+  owned_system *system = oscillators(COUNT, stiffness, damping, 0.0);
   struct hk_participation participation;
   check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
   assert_int_equal(participation.spring_count, HOOKE_MOST_LIMITING);
@@ -496,11 +453,9 @@ static void most_shares_are_kept_in_order(void **unused) {
     assert_int_equal(participation.particle[k].particle, 2 * k + 1); /* equal shares: in their order */
   }
   hk_participation_release(&participation);
-  hooke_system_destroy(system);
 }
 
-static void remedy_is_what_it_costs(void **unused) {
-  (void)unused;
+TEST(remedy_is_what_it_costs) {
   /* one of twelve is 100 times stiffer: alone it costs a factor 10 */
   enum { COUNT = 12 };
   double stiffness[COUNT], damping[COUNT] = {0.0}, mode[6 * COUNT] = {0.0};
@@ -528,8 +483,7 @@ static void remedy_is_what_it_costs(void **unused) {
                       "100 allows a step 10 times larger");
 }
 
-static void no_remedy_where_all_are_alike(void **unused) {
-  (void)unused;
+TEST(no_remedy_where_all_are_alike) {
   enum { COUNT = 12 };
   double stiffness[COUNT], damping[COUNT] = {0.0}, mode[6 * COUNT] = {0.0};
   for (int k = 0; k < COUNT; k++)
@@ -549,27 +503,4 @@ static void no_remedy_where_all_are_alike(void **unused) {
   assert_null(suggestion.kind);
   assert_true(isnan(suggestion.gain) && suggestion.count == 0);
   assert_non_null(strstr(suggestion.sentence, "group `other` has 100 %"));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_oscillator),
-      cmocka_unit_test(undamped_oscillator),
-      cmocka_unit_test(far_from_the_origin),
-      cmocka_unit_test(hidden_mode_is_found),
-      cmocka_unit_test(frozen_system_rests),
-      cmocka_unit_test(parallel_springs_are_one),
-      cmocka_unit_test(drag_alone),
-      cmocka_unit_test(what_is_refused),
-      cmocka_unit_test(damping_of_a_spring_of_no_length),
-      cmocka_unit_test(the_scene_itself),
-      cmocka_unit_test(scenes_that_no_step_helps),
-      cmocka_unit_test(scenes_that_take_too_long),
-      cmocka_unit_test(bracket_closes_from_both_sides),
-      cmocka_unit_test(shares_are_those_of_the_mode),
-      cmocka_unit_test(most_shares_are_kept_in_order),
-      cmocka_unit_test(remedy_is_what_it_costs),
-      cmocka_unit_test(no_remedy_where_all_are_alike),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

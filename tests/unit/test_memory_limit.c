@@ -2,6 +2,8 @@
  * and of memory; stated needs are compared with the memory used. */
 #include "hooke.h"
 #include "check.h"
+#include "run.h"
+#include "small.h"
 #include "sanitized.h"
 
 #include "core/memory.h"
@@ -12,7 +14,6 @@
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -21,9 +22,8 @@
 
 static const double LITTLE = 1e6; /* bytes, too few for any scene at the limits */
 
-static hooke_system *new_system(double limit) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+static hooke_system *limited_system(double limit) {
+  hooke_system *system = new_system();
   check_ok(hooke_system_limit_memory(system, limit));
   return system;
 }
@@ -31,40 +31,28 @@ static hooke_system *new_system(double limit) {
 /* ---- parts ---- */
 
 static hooke_options *part_options(const char *kind, int64_t size[3]) {
-  hooke_options *options;
-  check_ok(hooke_options_create(kind, &options));
-  check_ok(hooke_options_set_number(options, "mass", 1.0));
-  const int grid = strcmp(kind, "cloth") == 0 ? 2 : strcmp(kind, "lattice") == 0 ? 3 : 0;
-  const double edges[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  const double sizes[] = {(double)size[0], (double)size[1], (double)size[2]};
-  if (grid) {
-    check_ok(hooke_options_set_numbers(options, "edges", 3 * grid, edges));
-    check_ok(hooke_options_set_numbers(options, "size", grid, sizes));
-  } else {
-    check_ok(hooke_options_set_numbers(options, "from", 3, edges + 1));
-    check_ok(hooke_options_set_numbers(options, "to", 3, edges));
-    check_ok(hooke_options_set_number(options, "segments", sizes[0]));
-  }
-  return options;
+  const double a = (double)size[0], b = (double)size[1], c = (double)size[2];
+  if (strcmp(kind, "cloth") == 0)
+    return options_with(kind, "mass=1 edges=1,0,0,0,1,0 size=%.17g,%.17g", a, b);
+  if (strcmp(kind, "lattice") == 0)
+    return options_with(kind, "mass=1 edges=1,0,0,0,1,0,0,0,1 size=%.17g,%.17g,%.17g", a, b, c);
+  return options_with(kind, "mass=1 from=0,0,0 to=1,0,0 segments=%.17g", a);
 }
 
 /* Up to 2^31 - 1 of everything memory is the limit, beyond it the numbers. */
 static void check_part(const char *kind, const char *family, int64_t a, int64_t b, int64_t c,
                        int32_t expected, const char *count) {
-  hooke_system *system = new_system(LITTLE);
+  owned_system *system = limited_system(LITTLE);
   int64_t size[3] = {a, b, c};
-  hooke_options *options = part_options(kind, size);
+  owned_options *options = part_options(kind, size);
   if (family) check_ok(hooke_options_set_number(options, family, 1.0));
   check_status(hooke_system_add_part(system, kind, "", options, NULL, NULL), expected);
   check_message("of memory");
   check_message(count);
   assert_int_equal(hooke_system_particle_count(system), 0);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void parts_stop_at_the_edge_of_32_bits(void **unused) {
-  (void)unused;
+TEST(parts_stop_at_the_edge_of_32_bits) {
   check_part("rope", NULL, 2147483645, 0, 0, HOOKE_NO_MEMORY, "601 GB");
   check_part("rope", NULL, 2147483646, 0, 0, HOOKE_NO_MEMORY, "601 GB");
   check_part("rope", NULL, 2147483647, 0, 0, HOOKE_BAD_VALUE, "2147483648 particles");
@@ -85,41 +73,33 @@ static void parts_stop_at_the_edge_of_32_bits(void **unused) {
   check_part("strand", NULL, 1073741822, 0, 0, HOOKE_NO_MEMORY, "601 GB");
 }
 
-static void a_mesh_stops_at_the_edge_of_32_bits(void **unused) {
-  (void)unused;
-  hooke_options *options;
+TEST(a_mesh_stops_at_the_edge_of_32_bits) {
   const double vertex[3] = {0};
   const int64_t triangle[3] = {0};
-  check_ok(hooke_options_create("mesh", &options));
+  owned_options *options = new_options("mesh");
   const int64_t counts[] = {2147483648, 2147483649, INT64_MAX / 3 + 1, INT64_MAX};
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
     check_status(hooke_mesh_set(options, counts[k], vertex, 1, triangle), HOOKE_BAD_VALUE);
     check_status(hooke_mesh_set(options, 1, vertex, counts[k], triangle), HOOKE_BAD_VALUE);
   }
-  hooke_options_destroy(options);
 }
 
 /* ---- systems by hand ---- */
 
 static hooke_options *spring_options(void) {
-  hooke_options *options;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  hooke_options *options = options_with("springs", "stiffness=1");
   return options;
 }
 
 static hooke_options *altitude_options(void) {
-  hooke_options *options;
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  hooke_options *options = options_with("altitude", "stiffness=1");
   return options;
 }
 
 /* The arrays have one element: nothing of them is read. */
-static void systems_stop_at_the_edge_of_32_bits(void **unused) {
-  (void)unused;
-  hooke_system *system = new_system(LITTLE);
-  hooke_options *spring = spring_options(), *altitude = altitude_options();
+TEST(systems_stop_at_the_edge_of_32_bits) {
+  owned_system *system = limited_system(LITTLE);
+  owned_options *spring = spring_options(), *altitude = altitude_options();
   const double one = 1.0, place[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const int64_t ends[4] = {0, 1, 2, 3};
   check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &one, NULL));
@@ -157,17 +137,13 @@ static void systems_stop_at_the_edge_of_32_bits(void **unused) {
   check_status(hooke_system_add_particles(system, 1, place, NULL, 1, &one, NULL), HOOKE_NO_MEMORY);
   check_status(hooke_system_limit_memory(system, -1.0), HOOKE_BAD_VALUE);
   check_status(hooke_system_limit_memory(system, (double)NAN), HOOKE_BAD_VALUE);
-  hooke_options_destroy(spring);
-  hooke_options_destroy(altitude);
-  hooke_system_destroy(system);
 }
 
 /* A part that fails leaves the counts unchanged. */
-static void what_is_taken_back_does_not_count(void **unused) {
-  (void)unused;
-  hooke_system *system = new_system(0.0);
+TEST(what_is_taken_back_does_not_count) {
+  owned_system *system = limited_system(0.0);
   int64_t size[3] = {10, 10, 0};
-  hooke_options *options = part_options("cloth", size);
+  owned_options *options = part_options("cloth", size);
   check_ok(hooke_options_set_number(options, "structural.stiffness", 1.0));
   check_ok(hooke_options_set_number(options, "bending", 1.0));
   check_ok(hooke_system_add_part(system, "cloth", "", options, NULL, NULL));
@@ -177,8 +153,6 @@ static void what_is_taken_back_does_not_count(void **unused) {
   check_ok(hooke_options_set_number(options, "pinned", 100.0));
   check_status(hooke_system_add_part(system, "cloth", "", options, NULL, NULL), HOOKE_BAD_VALUE);
   check_close(hk_system_needed_bytes(system, (struct hk_more){0}), before, 0.0);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* ---- stated needs ---- */
@@ -192,9 +166,7 @@ static double peak(void) {
 /* Builds, commits and runs one step; returns the fraction of the stated memory that was used. */
 static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, const char *const *families) {
   const double before = peak();
-  hooke_system *system = new_system(0.0);
-  hooke_options *run;
-  hooke_state *state;
+  hooke_system *system = limited_system(0.0);
   hooke_integrator *integrator;
   int64_t size[3] = {a, b, c};
   hooke_options *options = part_options(kind, size);
@@ -203,11 +175,8 @@ static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, cons
   check_ok(hooke_system_add_part(system, kind, "", options, NULL, NULL));
   const double needed = hk_system_needed_bytes(system, (struct hk_more){0});
   check_ok(hooke_system_commit(system));
-  check_ok(hooke_state_create(system, &state));
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_text(run, "method", "symplectic-euler"));
-  check_ok(hooke_options_set_number(run, "step", 1e-9));
-  check_ok(hooke_options_set_number(run, "duration", 1e-9));
+  hooke_state *state = start_state(system);
+  hooke_options *run = options_with("run", "method=symplectic-euler step=1e-9 duration=1e-9");
   check_ok(hooke_integrator_create(system, run, &integrator));
   check_ok(hooke_integrator_run(integrator, state));
   hooke_integrator_destroy(integrator);
@@ -235,8 +204,7 @@ static const struct {
 };
 
 /* Each in its own process, since a peak stays. */
-static void a_scene_takes_what_it_is_said_to_need(void **unused) {
-  (void)unused;
+TEST(a_scene_takes_what_it_is_said_to_need) {
   if (short_of_time()) return; /* and memory is counted differently there */
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     const pid_t child = fork();
@@ -255,8 +223,7 @@ static void a_scene_takes_what_it_is_said_to_need(void **unused) {
   }
 }
 
-static void bytes_are_shown_in_three_digits(void **unused) {
-  (void)unused;
+TEST(bytes_are_shown_in_three_digits) {
   char shown[HOOKE_BYTES_SHOWN];
   const struct {
     double bytes;
@@ -274,8 +241,7 @@ static void bytes_are_shown_in_three_digits(void **unused) {
 }
 
 /* The limit on the address space is read each time. */
-static void a_limit_on_the_address_space_counts(void **unused) {
-  (void)unused;
+TEST(a_limit_on_the_address_space_counts) {
   struct rlimit before;
   const char *which = NULL;
   assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
@@ -296,24 +262,20 @@ static void a_limit_on_the_address_space_counts(void **unused) {
 /* ---- the text of a scene ---- */
 
 static hooke_options *limits(double gigabytes, int32_t outside) {
-  hooke_options *options;
-  check_ok(hooke_options_create("limits", &options));
+  hooke_options *options = new_options("limits");
   if (gigabytes > 0.0) check_ok(hooke_options_set_number(options, "memory", gigabytes));
   check_ok(hooke_options_set_number(options, "outside", outside));
   return options;
 }
 
 static void check_parse(const char *text, double gigabytes, int32_t expected, const char *message) {
-  hooke_scene *scene = NULL;
-  hooke_options *options = limits(gigabytes, 0);
+  owned_scene *scene = NULL;
+  owned_options *options = limits(gigabytes, 0);
   check_status(hooke_scene_parse(text, (int64_t)strlen(text), "s", NULL, options, &scene), expected);
   if (message) check_message(message);
-  hooke_scene_destroy(scene);
-  hooke_options_destroy(options);
 }
 
-static void scenes_that_are_too_large_are_refused(void **unused) {
-  (void)unused;
+TEST(scenes_that_are_too_large_are_refused) {
   check_parse("{\"hooke\":1,\"parts\":[{\"kind\":\"cloth\",\"size\":[100000,100000],"
               "\"edges\":[[1,0,0],[0,1,0]],\"mass\":1}]}",
               0.0, HOOKE_BAD_VALUE,
@@ -333,8 +295,7 @@ static void scenes_that_are_too_large_are_refused(void **unused) {
   check_parse(many, 1e-5, HOOKE_NO_MEMORY, "s: this scene needs");
 }
 
-static void equal_names_are_found_among_many(void **unused) {
-  (void)unused;
+TEST(equal_names_are_found_among_many) {
   enum { PARTS = 3000 };
   char *text = new_block(PARTS * 128 + 256, 1), *at = text;
   at += sprintf(at, "{\"hooke\":1,\"parts\":[");
@@ -364,17 +325,14 @@ static void write_text(const char *path, const char *text) {
 }
 
 static void check_load(const char *path, int32_t outside, int32_t expected, const char *message) {
-  hooke_scene *scene = NULL;
-  hooke_options *options = limits(0.0, outside);
+  owned_scene *scene = NULL;
+  owned_options *options = limits(0.0, outside);
   check_status(hooke_scene_load(path, options, &scene), expected);
   if (message) check_message(message);
-  hooke_scene_destroy(scene);
-  hooke_options_destroy(options);
 }
 
 /* The pipe has no writer: the alarm ends a process that waits for it. */
-static void nothing_waits_for_a_pipe(void **unused) {
-  (void)unused;
+TEST(nothing_waits_for_a_pipe) {
   char folder[] = "/tmp/hooke-room-XXXXXX";
   assert_non_null(mkdtemp(folder));
   const int back = open(".", O_RDONLY);
@@ -409,8 +367,7 @@ static void check_named(const char *file, int32_t outside, int32_t expected, con
   check_load("inside/scene.json", outside, expected, message);
 }
 
-static void files_stay_in_the_folder_unless_allowed(void **unused) {
-  (void)unused;
+TEST(files_stay_in_the_folder_unless_allowed) {
   char folder[] = "/tmp/hooke-room-XXXXXX", absolute[128];
   assert_non_null(mkdtemp(folder));
   const int back = open(".", O_RDONLY);
@@ -461,15 +418,11 @@ static int32_t no_force(int64_t n, double time, const double *q, const double *v
 
 /* Problems without particles have as many numbers as systems may have, and sizes that overflow are
  * refused. */
-static void problems_stop_where_systems_do(void **unused) {
-  (void)unused;
+TEST(problems_stop_where_systems_do) {
   const int64_t most = 3 * (int64_t)INT32_MAX,
                 bad[] = {INT64_MIN, -1, 0, most + 1, INT64_C(1) << 62, INT64_MAX};
   const double mass = 1.0;
-  hooke_options *run;
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_text(run, "method", "rk4"));
-  check_ok(hooke_options_set_number(run, "step", 0.1));
+  hooke_options *run = options_with("run", "method=rk4 step=0.1");
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
     hooke_state *state = NULL;
     hooke_integrator *made = NULL;
@@ -488,28 +441,8 @@ static void problems_stop_where_systems_do(void **unused) {
 }
 
 /* No allocator has that much, and that of a sanitizer is not asked. */
-static void a_failed_allocation_keeps_errno(void **unused) {
-  (void)unused;
+TEST(a_failed_allocation_keeps_errno) {
   errno = EDOM;
   assert_null(hk_new(HOOKE_SANITIZED ? INT64_MAX / 4 : INT64_MAX / 64, sizeof(double)));
   assert_int_equal(errno, EDOM);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parts_stop_at_the_edge_of_32_bits),
-      cmocka_unit_test(a_mesh_stops_at_the_edge_of_32_bits),
-      cmocka_unit_test(systems_stop_at_the_edge_of_32_bits),
-      cmocka_unit_test(problems_stop_where_systems_do),
-      cmocka_unit_test(a_failed_allocation_keeps_errno),
-      cmocka_unit_test(what_is_taken_back_does_not_count),
-      cmocka_unit_test(a_scene_takes_what_it_is_said_to_need),
-      cmocka_unit_test(bytes_are_shown_in_three_digits),
-      cmocka_unit_test(a_limit_on_the_address_space_counts),
-      cmocka_unit_test(scenes_that_are_too_large_are_refused),
-      cmocka_unit_test(equal_names_are_found_among_many),
-      cmocka_unit_test(nothing_waits_for_a_pipe),
-      cmocka_unit_test(files_stay_in_the_folder_unless_allowed),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

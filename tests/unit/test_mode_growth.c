@@ -12,10 +12,7 @@ static double measure(const char *method, double h, double w, double d, int rigi
   const double q[] = {0.7, 0, 0}, point[] = {0, 0, 0};
   const int64_t particle = 0;
   hooke_system *system = small_system(1, q, NULL, 1.0, 0);
-  hooke_options *anchor;
-  check_ok(hooke_options_create("anchors", &anchor));
-  check_ok(hooke_options_set_number(anchor, "stiffness", w * w));
-  check_ok(hooke_options_set_number(anchor, "rest_length", 0.0));
+  hooke_options *anchor = options_with("anchors", "stiffness=%.17g rest_length=0", w * w);
   check_ok(hooke_options_set_numbers(anchor, "points", 3, point));
   check_ok(hooke_system_add_anchors(system, "anchor", 1, &particle, anchor));
   hooke_options_destroy(anchor);
@@ -26,14 +23,13 @@ static double measure(const char *method, double h, double w, double d, int rigi
   double m[2][2];
   for (int k = 0; k < 2; k++) {
     hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
-    hooke_state *state = start_state(system);
+    owned_state *state = start_state(system);
     double *x = hooke_state_position(state), *v = hooke_state_velocity(state);
     *x = k == 0 ? 0.7 : 0.0; /* an anchor of no length, in its point, pulls nowhere */
     *v = k == 1 ? 0.7 : 0.0;
     check_ok(hooke_integrator_step(integrator, state, 1));
     m[0][k] = *x / 0.7;
     m[1][k] = *v / 0.7;
-    hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);
   }
   hooke_system_destroy(system);
@@ -42,8 +38,7 @@ static double measure(const char *method, double h, double w, double d, int rigi
 }
 
 /* Of every method whose steps may grow. */
-static void it_is_that_of_the_method(void **unused) {
-  (void)unused;
+TEST(it_is_that_of_the_method) {
   static const double modes[][3] = {{0.1, 10, 0}, {0.05, 10, 2}, {0.21, 10, 0.1}, {0.3, 10, 1},
                                     {0.1, 3, 25}, {0.01, 7, 3},  {0.5, 10, 30}};
   int64_t seen = 0;
@@ -63,8 +58,7 @@ static void it_is_that_of_the_method(void **unused) {
 }
 
 /* 1 just at the limit that hooke_limit_of_mode() has. */
-static void it_is_1_at_the_limit(void **unused) {
-  (void)unused;
+TEST(it_is_1_at_the_limit) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     const double limit = hooke_limit_of_mode(method, 10.0, 3.0);
@@ -76,12 +70,4 @@ static void it_is_1_at_the_limit(void **unused) {
     check_close(hk_mode_growth(stability, limit, 10.0, 3.0), 1.0, 1e-6);
   }
   assert_true(isnan(hk_mode_growth(hk_method_stability("no-method"), 0.1, 10.0, 0.0)));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(it_is_that_of_the_method),
-      cmocka_unit_test(it_is_1_at_the_limit),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

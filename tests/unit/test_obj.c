@@ -1,10 +1,10 @@
 /* OBJ files: every form that is read, and every fault with its line. */
 #include "check.h"
+#include "small.h"
 
 #include "io/scene/obj.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -31,8 +31,7 @@ static void check_faces(const char *text, int64_t count, const int64_t *triangle
 
 #define FOUR "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
-static void faces_come_in_many_forms(void **unused) {
-  (void)unused;
+TEST(faces_come_in_many_forms) {
   const int64_t one[] = {0, 1, 2}, quad[] = {0, 1, 2, 0, 2, 3}, back[] = {3, 2, 1};
   check_faces(FOUR "f 1 2 3\n", 1, one);
   check_faces(FOUR "f 1 2 3", 1, one);
@@ -48,15 +47,13 @@ static void faces_come_in_many_forms(void **unused) {
   check_faces(FOUR "f 1 \\\r\n2 3\r\n", 1, one);
 }
 
-static void five_corners_make_three_triangles(void **unused) {
-  (void)unused;
+TEST(five_corners_make_three_triangles) {
   const int64_t fan[] = {4, 0, 1, 4, 1, 2, 4, 2, 3};
   check_faces(FOUR "v -1 0.5 0\nf 5 1 2 3 4\n", 3, fan);
 }
 
 /* Lines are counted in the same way for all line ends. */
-static void lines_end_in_three_ways(void **unused) {
-  (void)unused;
+TEST(lines_end_in_three_ways) {
   static const char *const ends[] = {"\n", "\r\n", "\r"};
   for (int k = 0; k < 3; k++) {
     char text[512];
@@ -79,8 +76,7 @@ static void lines_end_in_three_ways(void **unused) {
 }
 
 /* More than the first blocks hold. */
-static void lists_grow(void **unused) {
-  (void)unused;
+TEST(lists_grow) {
   enum { COUNT = 5000 };
   char *text = malloc(64 * COUNT), *at = text;
   struct hk_obj obj;
@@ -100,8 +96,7 @@ static void lists_grow(void **unused) {
   free(text);
 }
 
-static void faults_have_their_line(void **unused) {
-  (void)unused;
+TEST(faults_have_their_line) {
   static const struct {
     const char *text;
     int64_t line;
@@ -162,20 +157,17 @@ static int32_t read_file(const char *text, double weld, hooke_options **options)
   return status;
 }
 
-static void a_file_is_its_numbers(void **unused) {
-  (void)unused;
-  hooke_options *options;
+TEST(a_file_is_its_numbers) {
+  owned_options *options = NULL;
   check_ok(read_file(FOUR "f 1 2 3 4\n", 0.0, &options));
   assert_int_equal(hooke_options_number_count(options, "vertices"), 12);
   check_same_bits(6, hooke_options_numbers(options, "triangles"), ((double[]){0, 1, 2, 0, 2, 3}));
   assert_false(hooke_options_is_set(options, "file"));
   check_status(hooke_mesh_read("other.obj", options), HOOKE_BAD_VALUE);
   check_message("a file, or vertices and triangles");
-  hooke_options_destroy(options);
 }
 
-static void faults_of_the_surface_have_their_line(void **unused) {
-  (void)unused;
+TEST(faults_of_the_surface_have_their_line) {
   static const struct {
     const char *text;
     const char *message;
@@ -193,37 +185,19 @@ static void faults_of_the_surface_have_their_line(void **unused) {
       {FOUR "f 1 2 3 4\n", "its corners", 1.0},
   };
   for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {
-    hooke_options *options;
+    owned_options *options = NULL;
     check_status(read_file(faults[k].text, faults[k].weld, &options), HOOKE_BAD_VALUE);
     check_message(faults[k].message);
     check_message("/tmp/hooke-mesh-");
     assert_false(hooke_options_is_set(options, "vertices"));
-    hooke_options_destroy(options);
   }
 }
 
-static void a_file_has_to_be_there(void **unused) {
-  (void)unused;
-  hooke_options *options;
-  check_ok(hooke_options_create("mesh", &options));
+TEST(a_file_has_to_be_there) {
+  owned_options *options = new_options("mesh");
   check_status(hooke_mesh_read("/tmp/hooke-no-such.obj", options), HOOKE_BAD_VALUE);
   check_message("/tmp/hooke-no-such.obj: cannot be opened: No such file");
   check_status(hooke_mesh_read("/tmp", options), HOOKE_BAD_VALUE);
   check_message("directory");
   check_status(hooke_mesh_read(NULL, options), HOOKE_BAD_VALUE);
-  hooke_options_destroy(options);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(faces_come_in_many_forms),
-      cmocka_unit_test(five_corners_make_three_triangles),
-      cmocka_unit_test(lines_end_in_three_ways),
-      cmocka_unit_test(lists_grow),
-      cmocka_unit_test(faults_have_their_line),
-      cmocka_unit_test(a_file_is_its_numbers),
-      cmocka_unit_test(faults_of_the_surface_have_their_line),
-      cmocka_unit_test(a_file_has_to_be_there),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,6 @@
 
 #include <locale.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const struct hk_option_row family_rows[] = {
@@ -72,8 +71,7 @@ static enum hk_number_result parse(const char *text, double *value) {
   return hk_number_parse(text, (int64_t)strlen(text), value);
 }
 
-static void decimal_numbers_are_read(void **state) {
-  (void)state;
+TEST(decimal_numbers_are_read) {
   static const struct {
     const char *text;
     double value;
@@ -99,8 +97,7 @@ static void decimal_numbers_are_read(void **state) {
   }
 }
 
-static void other_texts_are_no_numbers(void **state) {
-  (void)state;
+TEST(other_texts_are_no_numbers) {
   static const char *const junk[] = {"",    "-",   ".",    "e5",       "1e",    "1e+",   "nan",
                                      "NaN", "inf", "-inf", "infinity", "0x10",  "1,5",   "1.2.3",
                                      "1 ",  " 1",  "1f",   "--1",      "1e5.5", "1_000", "0x1p3"};
@@ -114,8 +111,7 @@ static void other_texts_are_no_numbers(void **state) {
   assert_true(value == 7);
 }
 
-static void printed_numbers_read_back(void **state) {
-  (void)state;
+TEST(printed_numbers_read_back) {
   static const double values[] = {
       0.1, 1.0 / 3, 1e22, 123456789012345680, 5e-324, -2.5, 1.7976931348623157e308};
   char text[HOOKE_NUMBER_SIZE];
@@ -130,8 +126,7 @@ static void printed_numbers_read_back(void **state) {
 }
 
 /* With a comma locale, if the machine has one, nothing changes. */
-static void locale_does_not_matter(void **state) {
-  (void)state;
+TEST(locale_does_not_matter) {
   static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "nl_NL.UTF-8"};
   const char *found = NULL;
   for (size_t k = 0; !found && k < sizeof names / sizeof names[0]; k++)
@@ -150,8 +145,8 @@ static void locale_does_not_matter(void **state) {
 
 /* ---- values ---- */
 
-static void defaults_are_there_and_unset(void **state) {
-  hooke_options *o = *state;
+TEST(defaults_are_there_and_unset) {
+  hooke_options *o = *prepared;
   assert_string_equal(hooke_options_text(o, "law"), "strain");
   assert_string_equal(hooke_options_text(o, "rest_length"), "initial");
   assert_int_equal(hooke_options_number_count(o, "rest_length"), 0);
@@ -169,8 +164,8 @@ static void defaults_are_there_and_unset(void **state) {
   check_status(hooke_options_unset(o, "ordr"), HOOKE_BAD_VALUE);
 }
 
-static void texts_set_every_type(void **state) {
-  hooke_options *o = *state;
+TEST(texts_set_every_type) {
+  hooke_options *o = *prepared;
   check_ok(hooke_options_set_text(o, "step", "1e-3"));
   check_close(hooke_options_number(o, "step"), 1e-3, 0);
   check_ok(hooke_options_set_text(o, "gravity", "0,-9.81, 0"));
@@ -188,8 +183,8 @@ static void texts_set_every_type(void **state) {
   check_close(hooke_options_number(o, "quick"), 0, 0);
 }
 
-static void a_text_may_name_units(void **state) {
-  hooke_options *o = *state;
+TEST(a_text_may_name_units) {
+  hooke_options *o = *prepared;
   static const struct {
     const char *text;
     double step;
@@ -211,8 +206,8 @@ static void a_text_may_name_units(void **state) {
   assert_null(hk_options_unit_given(o, "shear.damping"));
 }
 
-static void a_word_and_numbers_replace_each_other(void **state) {
-  hooke_options *o = *state;
+TEST(a_word_and_numbers_replace_each_other) {
+  hooke_options *o = *prepared;
   const double lengths[] = {1, 2};
   check_ok(hooke_options_set_numbers(o, "rest_length", 2, lengths));
   assert_string_equal(hooke_options_text(o, "rest_length"), "");
@@ -223,8 +218,8 @@ static void a_word_and_numbers_replace_each_other(void **state) {
   assert_string_equal(hooke_options_text(o, "rest_length"), "initial");
 }
 
-static void words_and_numbers_mix_where_allowed(void **state) {
-  hooke_options *o = *state;
+TEST(words_and_numbers_mix_where_allowed) {
+  hooke_options *o = *prepared;
   check_ok(hooke_options_set_text(o, "pinned", "start, 3 end"));
   assert_string_equal(hooke_options_text(o, "pinned"), "start end");
   assert_int_equal(hooke_options_number_count(o, "pinned"), 1);
@@ -243,10 +238,10 @@ static void words_and_numbers_mix_where_allowed(void **state) {
   assert_string_equal(hooke_options_text(o, "pinned"), "");
 }
 
-static void large_arrays_are_copied(void **state) {
-  hooke_options *o = *state;
+TEST(large_arrays_are_copied) {
+  hooke_options *o = *prepared;
   enum { COUNT = 1000000 };
-  double *values = new_doubles(COUNT);
+  owned_doubles *values = new_doubles(COUNT);
   for (int k = 0; k < COUNT; k++)
     values[k] = 1 + k;
   check_ok(hooke_options_set_numbers(o, "rest_length", COUNT, values));
@@ -255,7 +250,6 @@ static void large_arrays_are_copied(void **state) {
   check_status(hooke_options_set_numbers(o, "rest_length", COUNT, values), HOOKE_BAD_VALUE);
   check_message("rest_length[999999]: -1 is not allowed");
   check_close(hooke_options_numbers(o, "rest_length")[COUNT - 1], COUNT, 0);
-  free(values);
 }
 
 /* ---- refusals ---- */
@@ -265,8 +259,8 @@ static void refuse_text(hooke_options *o, const char *name, const char *text, co
   assert_string_equal(hooke_last_error(), message);
 }
 
-static void refusals_give_value_and_allowed(void **state) {
-  hooke_options *o = *state;
+TEST(refusals_give_value_and_allowed) {
+  hooke_options *o = *prepared;
   refuse_text(o, "step", "0", "step: 0 is not allowed; allowed: a number > 0 and <= 10 [s]");
   refuse_text(o, "step", "10.5", "step: 10.5 is not allowed; allowed: a number > 0 and <= 10 [s]");
   refuse_text(o, "step", "fast", "step: \"fast\" is not allowed; allowed: a number > 0 and <= 10 [s]");
@@ -302,8 +296,8 @@ static void refusals_give_value_and_allowed(void **state) {
   assert_int_equal(hk_options_has_family(o, "structural"), 0);
 }
 
-static void numbers_are_checked_like_texts(void **state) {
-  hooke_options *o = *state;
+TEST(numbers_are_checked_like_texts) {
+  hooke_options *o = *prepared;
   const double gravity[] = {0, NAN, 0};
   check_status(hooke_options_set_numbers(o, "gravity", 3, gravity), HOOKE_BAD_VALUE);
   check_message("gravity[1]: ");
@@ -320,8 +314,8 @@ static void numbers_are_checked_like_texts(void **state) {
   check_status(hooke_options_set_text(NULL, "step", "1"), HOOKE_BAD_VALUE);
 }
 
-static void a_refused_value_changes_nothing(void **state) {
-  hooke_options *o = *state;
+TEST(a_refused_value_changes_nothing) {
+  hooke_options *o = *prepared;
   check_ok(hooke_options_set_text(o, "step", "0.5"));
   check_status(hooke_options_set_text(o, "step", "-1"), HOOKE_BAD_VALUE);
   check_close(hooke_options_number(o, "step"), 0.5, 0);
@@ -329,8 +323,8 @@ static void a_refused_value_changes_nothing(void **state) {
   assert_int_equal(hooke_options_is_set(o, "pinned"), 0);
 }
 
-static void unknown_names_are_answered_with_names(void **state) {
-  hooke_options *o = *state;
+TEST(unknown_names_are_answered_with_names) {
+  hooke_options *o = *prepared;
   check_status(hooke_options_set_number(o, "setp", 1), HOOKE_BAD_VALUE);
   assert_string_equal(
       hooke_last_error(),
@@ -349,8 +343,8 @@ static void unknown_names_are_answered_with_names(void **state) {
 
 /* ---- families, required, copies, reference ---- */
 
-static void a_member_makes_its_family_present(void **state) {
-  hooke_options *o = *state;
+TEST(a_member_makes_its_family_present) {
+  hooke_options *o = *prepared;
   assert_int_equal(hk_options_has_family(o, "structural"), 0);
   check_ok(hooke_options_set_number(o, "structural.stiffness", 50));
   assert_int_equal(hk_options_has_family(o, "structural"), 1);
@@ -364,8 +358,8 @@ static void a_member_makes_its_family_present(void **state) {
   assert_int_equal(hk_options_has_family(o, "shear"), 1);
 }
 
-static void required_members_are_missed_only_where_present(void **state) {
-  hooke_options *o = *state;
+TEST(required_members_are_missed_only_where_present) {
+  hooke_options *o = *prepared;
   check_ok(hk_options_check_required(o));
   check_ok(hooke_options_set_text(o, "shear", ""));
   check_status(hk_options_check_required(o), HOOKE_BAD_VALUE);
@@ -375,8 +369,8 @@ static void required_members_are_missed_only_where_present(void **state) {
   check_ok(hk_options_check_required(o));
 }
 
-static void a_copy_is_equal_and_separate(void **state) {
-  hooke_options *o = *state, *copy = NULL;
+TEST(a_copy_is_equal_and_separate) {
+  hooke_options *o = *prepared, *copy = NULL;
   const double stiffness[] = {1, 2, 3};
   check_ok(hooke_options_set_numbers(o, "structural.stiffness", 3, stiffness));
   check_ok(hooke_options_set_text(o, "pinned", "end, 4"));
@@ -391,8 +385,8 @@ static void a_copy_is_equal_and_separate(void **state) {
   hooke_options_destroy(copy);
 }
 
-static void the_table_describes_itself(void **state) {
-  hooke_options *o = *state;
+TEST(the_table_describes_itself) {
+  hooke_options *o = *prepared;
   assert_int_equal(hooke_options_row_count(o), 17);
   assert_string_equal(hooke_options_row(o, 0, "name"), "step");
   assert_string_equal(hooke_options_row(o, 0, "type"), "number");
@@ -417,8 +411,8 @@ static void the_table_describes_itself(void **state) {
   assert_string_equal(hooke_options_row(o, 1, "example"), "");
 }
 
-static void the_table_tells_its_numbers(void **state) {
-  hooke_options *o = *state;
+TEST(the_table_tells_its_numbers) {
+  hooke_options *o = *prepared;
   check_close(hooke_options_row_number(o, 0, "low"), 0, 0);
   check_close(hooke_options_row_number(o, 0, "high"), 10, 0);
   check_close(hooke_options_row_number(o, 0, "above_low"), 1, 0);
@@ -437,8 +431,7 @@ static void the_table_tells_its_numbers(void **state) {
   assert_true(isnan(hooke_options_row_number(o, 17, "low")));
 }
 
-static void a_wrong_default_is_noticed(void **state) {
-  (void)state;
+TEST(a_wrong_default_is_noticed) {
   static const struct hk_option_row bad_rows[] = {
       {.name = "step", .type = HOOKE_OPTION_NUMBER, .high = 1, .fallback = "2"}};
   static const struct hk_option_table bad = {"bad", HOOKE_OPTION_ROWS(bad_rows)};
@@ -457,8 +450,7 @@ static void check_shown(const char *text, const char *wanted) {
 #define TWENTY "aaaaaaaaaaaaaaaaaaaa"
 
 /* Text from a file may be anything; messages stay printable. */
-static void what_is_shown_is_text(void **state) {
-  (void)state;
+TEST(what_is_shown_is_text) {
   check_shown("", "");
   check_shown("a\nb\x1b[2J\x7f", "a?b?[2J?");
   check_shown("\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80", "\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80");
@@ -473,31 +465,4 @@ static void what_is_shown_is_text(void **state) {
   check_shown(TWENTY TWENTY "aaaaaaaaaaaaaaaaaaa\xc3\xa9", TWENTY TWENTY "aaaaaaaaaaaaaaaaaaa...");
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      TEST(decimal_numbers_are_read),
-      TEST(other_texts_are_no_numbers),
-      TEST(printed_numbers_read_back),
-      TEST(locale_does_not_matter),
-      TEST(defaults_are_there_and_unset),
-      TEST(texts_set_every_type),
-      TEST(a_text_may_name_units),
-      TEST(a_word_and_numbers_replace_each_other),
-      TEST(words_and_numbers_mix_where_allowed),
-      TEST(large_arrays_are_copied),
-      TEST(refusals_give_value_and_allowed),
-      TEST(numbers_are_checked_like_texts),
-      TEST(a_refused_value_changes_nothing),
-      TEST(unknown_names_are_answered_with_names),
-      TEST(a_member_makes_its_family_present),
-      TEST(required_members_are_missed_only_where_present),
-      TEST(a_copy_is_equal_and_separate),
-      TEST(the_table_describes_itself),
-      TEST(the_table_tells_its_numbers),
-      TEST(a_wrong_default_is_noticed),
-      TEST(what_is_shown_is_text),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+AROUND_EACH(setup, teardown)

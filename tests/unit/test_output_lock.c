@@ -11,7 +11,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/wait.h>
@@ -80,18 +79,16 @@ static void write_frames(hooke_trajectory *trajectory, int64_t from, int64_t to)
 }
 
 static void check_frames(int64_t count) {
-  hooke_record *record;
+  owned_record *record = NULL;
   check_ok(hooke_record_open(path, &record));
   assert_int_equal(hooke_record_count(record, "frames"), count);
   for (int64_t k = 0; k < count; k++)
     check_ok(hooke_record_check(record, k));
-  hooke_record_close(record);
 }
 
 /* ---- during a run ---- */
 
-static void nothing_else_takes_its_place(void **state) {
-  (void)state;
+TEST(nothing_else_takes_its_place) {
   char link[PATH_SIZE];
   hooke_trajectory *first = create();
   snprintf(link, sizeof link, "%s/link.h5", folder);
@@ -112,8 +109,7 @@ static void nothing_else_takes_its_place(void **state) {
   assert_int_equal(unlink(link), 0);
 }
 
-static void readers_come_and_go(void **state) {
-  (void)state;
+TEST(readers_come_and_go) {
   hooke_trajectory *first = create();
   write_frames(first, 0, 2);
   const int reader = open(path, O_RDONLY);
@@ -125,10 +121,9 @@ static void readers_come_and_go(void **state) {
   check_ok(hooke_trajectory_close(first, HOOKE_OK));
 }
 
-static void one_alone_goes_on_with_it(void **state) {
-  (void)state;
-  hooke_integrator *other = start_run(cloth, fixed), *third = start_run(cloth, fixed);
-  hooke_state *standing = start_state(cloth);
+TEST(one_alone_goes_on_with_it) {
+  owned_integrator *other = start_run(cloth, fixed), *third = start_run(cloth, fixed);
+  owned_state *standing = start_state(cloth);
   hooke_trajectory *first = create(), *second = NULL, *none;
   write_frames(first, 0, 3);
   check_status(hooke_trajectory_resume(path, cloth, other, standing, &none), HOOKE_IO_FAILED);
@@ -140,9 +135,6 @@ static void one_alone_goes_on_with_it(void **state) {
   check_taken(path);
   check_ok(hooke_trajectory_close(second, HOOKE_STOPPED));
   check_frames(3);
-  hooke_state_destroy(standing);
-  hooke_integrator_destroy(third);
-  hooke_integrator_destroy(other);
 }
 
 /* ---- processes ---- */
@@ -191,16 +183,14 @@ static void race(void) {
 }
 
 /* Without a file, and with an older one. */
-static void of_many_at_once_one_begins(void **state) {
-  (void)state;
+TEST(of_many_at_once_one_begins) {
   for (int k = 0; k < 4; k++) {
     if (k % 2 == 0) unlink(path);
     race();
   }
 }
 
-static void a_lock_dies_with_its_process(void **state) {
-  (void)state;
+TEST(a_lock_dies_with_its_process) {
   int told[2];
   char unused;
   assert_int_equal(pipe(told), 0);
@@ -229,8 +219,7 @@ static int is_refused_in_a_fork(hooke_trajectory *trajectory) {
 
 /* The child exits through functions that would close the file, whose writing thread is its parent's, and
  * lives longer. */
-static void a_fork_leaves_the_file_alone(void **state) {
-  (void)state;
+TEST(a_fork_leaves_the_file_alone) {
   int end[2], told[2], how;
   char refused = 0;
   hooke_trajectory *trajectory = create();
@@ -260,8 +249,7 @@ static void a_fork_leaves_the_file_alone(void **state) {
 
 /* ---- locks that would keep readers out ---- */
 
-static void readers_come_first(void **state) {
-  (void)state;
+TEST(readers_come_first) {
   one_kind_of_lock = 1;
   hooke_trajectory *first = create();
   hooke_trajectory *second = create();
@@ -271,15 +259,7 @@ static void readers_come_first(void **state) {
   check_message("another file has taken this name");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nothing_else_takes_its_place), cmocka_unit_test(readers_come_and_go),
-      cmocka_unit_test(one_alone_goes_on_with_it),    cmocka_unit_test(of_many_at_once_one_begins),
-      cmocka_unit_test(a_lock_dies_with_its_process), cmocka_unit_test(a_fork_leaves_the_file_alone),
-      cmocka_unit_test(readers_come_first),
-  };
-  return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+AROUND_ALL(set_up, tear_down)
 
 #else
 

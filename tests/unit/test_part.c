@@ -1,20 +1,21 @@
 /* Parts: the contents of rope and cloth, their order, and that rest lengths are equal to the bit. */
 #include "hooke.h"
 #include "check.h"
+#include "run.h"
+#include "small.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* All queries of a committed system about its springs. */
-struct springs {
+struct members {
   int64_t count;
   int64_t *ends;
   double *kappa, *gamma, *rest_length;
 };
 
-static struct springs springs_of(const hooke_system *system) {
-  struct springs s = {.count = hooke_system_count(system, "springs")};
+static struct members springs_of(const hooke_system *system) {
+  struct members s = {.count = hooke_system_count(system, "springs")};
   s.ends = new_block(2 * s.count, sizeof(int64_t));
   s.kappa = new_doubles(s.count);
   s.gamma = new_doubles(s.count);
@@ -24,50 +25,31 @@ static struct springs springs_of(const hooke_system *system) {
   return s;
 }
 
-static void release(struct springs *s) {
+static void release(struct members *s) {
   free(s->ends);
   free(s->kappa);
   free(s->gamma);
   free(s->rest_length);
 }
 
-static hooke_system *new_system(void) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
-  return system;
-}
-
 static hooke_options *rope_options(double segments) {
-  hooke_options *options;
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0.1, 0.2, 0.3}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1.3, 0.2, -0.6}));
-  check_ok(hooke_options_set_number(options, "segments", segments));
-  check_ok(hooke_options_set_number(options, "mass", 0.7));
-  return options;
+  return options_with("rope", "from=0.1,0.2,0.3 to=1.3,0.2,-0.6 segments=%.17g mass=0.7", segments);
 }
 
 static hooke_options *cloth_options(double nu, double nv) {
-  hooke_options *options;
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_numbers(options, "origin", 3, (double[]){0.1, 0.7, 0.3}));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, (double[]){1.1, 0.0, 0.2, 0.1, 0.0, 0.9}));
-  check_ok(hooke_options_set_numbers(options, "size", 2, (double[]){nu, nv}));
-  check_ok(hooke_options_set_number(options, "mass", 0.3));
-  return options;
+  return options_with("cloth", "origin=0.1,0.7,0.3 edges=1.1,0,0.2,0.1,0,0.9 size=%.17g,%.17g mass=0.3", nu,
+                      nv);
 }
 
 static void check_position(const hooke_system *system, int64_t particle, double x, double y, double z) {
-  hooke_state *state;
-  check_ok(hooke_state_create(system, &state));
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state) + 3 * particle;
   check_close(q[0], x, 1e-15);
   check_close(q[1], y, 1e-15);
   check_close(q[2], z, 1e-15);
-  hooke_state_destroy(state);
 }
 
-static void check_spring(const struct springs *s, int64_t k, int64_t first, int64_t second) {
+static void check_spring(const struct members *s, int64_t k, int64_t first, int64_t second) {
   assert_in_range(k, 0, s->count - 1);
   if (s->ends[2 * k] == first && s->ends[2 * k + 1] == second) return;
   check_failed("spring %lld joins %lld and %lld, not %lld and %lld", (long long)k, (long long)s->ends[2 * k],
@@ -75,15 +57,14 @@ static void check_spring(const struct springs *s, int64_t k, int64_t first, int6
 }
 
 /* Springs begin..end-1 have exactly this rest length. */
-static void check_equal_bits(const struct springs *s, int64_t begin, int64_t end, double rest_length) {
+static void check_equal_bits(const struct members *s, int64_t begin, int64_t end, double rest_length) {
   for (int64_t k = begin; k < end; k++)
     check_same_bits(1, &s->rest_length[k], &rest_length);
 }
 
-static void a_rope_is_a_line(void **unused) {
-  (void)unused;
-  hooke_system *system = new_system();
-  hooke_options *options = rope_options(7);
+TEST(a_rope_is_a_line) {
+  owned_system *system = new_system();
+  owned_options *options = rope_options(7);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 100));
   check_ok(hooke_options_set_number(options, "stretch.damping", 0.5));
   check_ok(hooke_options_set_number(options, "bend.stiffness", 3));
@@ -103,7 +84,7 @@ static void a_rope_is_a_line(void **unused) {
     check_close(hooke_system_mass(system)[k], 0.7 / 8, 0.0);
     check_position(system, k, 0.1 + 1.2 * k / 7, 0.2, 0.3 - 0.9 * k / 7);
   }
-  struct springs s = springs_of(system);
+  struct members s = springs_of(system);
   for (int k = 0; k < 7; k++)
     check_spring(&s, k, k, k + 1);
   for (int k = 0; k < 6; k++)
@@ -117,24 +98,17 @@ static void a_rope_is_a_line(void **unused) {
   check_close(s.kappa[7], 3 / piece, 1e-13);
   check_close(s.gamma[7], 0.0, 0.0);
   release(&s);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void a_rope_ends_where_it_is_told(void **unused) {
-  (void)unused;
+TEST(a_rope_ends_where_it_is_told) {
   for (int segments = 1; segments < 60; segments++) {
-    hooke_system *system = new_system();
-    hooke_options *options = rope_options(segments);
+    owned_system *system = new_system();
+    owned_options *options = rope_options(segments);
     check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    hooke_state *state;
-    check_ok(hooke_state_create(system, &state));
+    owned_state *state = start_state(system);
     check_same_bits(3, hooke_state_position(state) + 3 * segments, hooke_options_numbers(options, "to"));
     check_same_bits(3, hooke_state_position(state), hooke_options_numbers(options, "from"));
-    hooke_state_destroy(state);
-    hooke_options_destroy(options);
-    hooke_system_destroy(system);
   }
 }
 
@@ -152,10 +126,9 @@ static hooke_options *full_cloth(void) {
   return options;
 }
 
-static void a_cloth_has_its_springs_in_order(void **unused) {
-  (void)unused;
-  hooke_system *system = new_system();
-  hooke_options *options = full_cloth();
+TEST(a_cloth_has_its_springs_in_order) {
+  owned_system *system = new_system();
+  owned_options *options = full_cloth();
   check_ok(hooke_system_add_part(system, "cloth", "flag", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_particle_count(system), NU * NV);
@@ -163,7 +136,7 @@ static void a_cloth_has_its_springs_in_order(void **unused) {
   assert_string_equal(hooke_system_group_name(system, "springs", 1), "flag.shear");
   assert_string_equal(hooke_system_group_name(system, "springs", 2), "flag.bend");
 
-  struct springs s = springs_of(system);
+  struct members s = springs_of(system);
   int64_t k = 0;
   for (int r = 0; r < NV; r++)
     for (int c = 0; c + 1 < NU; c++)
@@ -192,8 +165,7 @@ static void a_cloth_has_its_springs_in_order(void **unused) {
   assert_int_equal(k, s.count);
 
   /* every spring at rest initially, and one number for each family and direction */
-  hooke_state *state;
-  check_ok(hooke_state_create(system, &state));
+  hooke_state *state = start_state(system);
   const double *q = hooke_state_position(state);
   for (k = 0; k < s.count; k++) {
     const double *a = q + 3 * s.ends[2 * k], *b = q + 3 * s.ends[2 * k + 1];
@@ -210,22 +182,17 @@ static void a_cloth_has_its_springs_in_order(void **unused) {
   check_position(system, NU * NV - 1, 1.3, 0.7, 1.4);
   hooke_state_destroy(state);
   release(&s);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void a_family_that_is_absent_has_no_springs(void **unused) {
-  (void)unused;
-  hooke_system *system = new_system();
-  hooke_options *options = cloth_options(3, 3);
+TEST(a_family_that_is_absent_has_no_springs) {
+  owned_system *system = new_system();
+  owned_options *options = cloth_options(3, 3);
   check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_group_count(system, "springs"), 1);
   assert_int_equal(hooke_system_count(system, "springs"), 8);
   assert_string_equal(hooke_system_group_name(system, "springs", 0), "cloth0.shear");
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* Constrained particles of a system as text: "x..x". */
@@ -238,19 +205,16 @@ static void held(const hooke_system *system, char *text) {
 
 static void check_pinned(const char *kind, const char *pinned, const char *expected) {
   char found[64];
-  hooke_system *system = new_system();
-  hooke_options *options = strcmp(kind, "rope") == 0 ? rope_options(4) : cloth_options(4, 3);
+  owned_system *system = new_system();
+  owned_options *options = strcmp(kind, "rope") == 0 ? rope_options(4) : cloth_options(4, 3);
   check_ok(hooke_options_set_text(options, "pinned", pinned));
   check_ok(hooke_system_add_part(system, kind, NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   held(system, found);
   assert_string_equal(found, expected);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void pinned_particles_have_names(void **unused) {
-  (void)unused;
+TEST(pinned_particles_have_names) {
   check_pinned("rope", "start", "x....");
   check_pinned("rope", "end", "....x");
   check_pinned("rope", "start, end", "x...x");
@@ -262,10 +226,9 @@ static void pinned_particles_have_names(void **unused) {
   check_pinned("cloth", "6", "......x.....");
 }
 
-static void parts_come_after_groups_and_are_counted(void **unused) {
-  (void)unused;
-  hooke_system *system = new_system();
-  hooke_options *options = rope_options(2), *explicit_group;
+TEST(parts_come_after_groups_and_are_counted) {
+  owned_system *system = new_system();
+  owned_options *options = rope_options(2);
   check_ok(hooke_options_set_number(options, "stretch.stiffness", 1));
   check_ok(hooke_options_set_text(options, "pinned", "start"));
   const double position[] = {5, 0, 0, 6, 0, 0}, mass = 2;
@@ -277,16 +240,14 @@ static void parts_come_after_groups_and_are_counted(void **unused) {
   assert_int_equal(first, 5);
   check_ok(hooke_system_add_part(system, "rope", NULL, options, &first, NULL));
   assert_int_equal(first, 8);
-  check_ok(hooke_options_create("springs", &explicit_group));
-  check_ok(hooke_options_set_number(explicit_group, "stiffness", 9));
-  check_ok(hooke_system_add_springs(system, "tie", 1, (int64_t[]){1, 4}, explicit_group));
+  small_group(system, "springs", "tie", 1, (int64_t[]){1, 4}, "stiffness=9");
   check_ok(hooke_system_commit(system));
 
   const char *const names[] = {"tie", "rope0.stretch", "named.stretch", "rope2.stretch"};
   assert_int_equal(hooke_system_group_count(system, "springs"), 4);
   for (int k = 0; k < 4; k++)
     assert_string_equal(hooke_system_group_name(system, "springs", k), names[k]);
-  struct springs s = springs_of(system);
+  struct members s = springs_of(system);
   check_spring(&s, 0, 1, 4);
   check_spring(&s, 1, 2, 3);
   check_spring(&s, 3, 5, 6);
@@ -295,14 +256,11 @@ static void parts_come_after_groups_and_are_counted(void **unused) {
   held(system, found);
   assert_string_equal(found, "..x..x..x..");
   release(&s);
-  hooke_options_destroy(explicit_group);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 /* A refused part leaves no trace: the system is then built as if it had never been tried. */
 static void check_refused(const char *kind, hooke_options *options, int32_t status, const char *message) {
-  hooke_system *system = new_system();
+  owned_system *system = new_system();
   const double position[] = {0, 0, 0}, mass = 1;
   check_ok(hooke_system_add_particles(system, 1, position, NULL, 1, &mass, NULL));
   int64_t first = -7, count = -7;
@@ -311,7 +269,7 @@ static void check_refused(const char *kind, hooke_options *options, int32_t stat
   assert_int_equal(first, -7);
   assert_int_equal(count, -7);
   assert_int_equal(hooke_system_particle_count(system), 1);
-  hooke_options *good = rope_options(3);
+  owned_options *good = rope_options(3);
   check_ok(hooke_options_set_number(good, "stretch.stiffness", 1));
   check_ok(hooke_system_add_part(system, "rope", NULL, good, &first, &count));
   assert_int_equal(first, 1);
@@ -321,13 +279,10 @@ static void check_refused(const char *kind, hooke_options *options, int32_t stat
   char found[32];
   held(system, found);
   assert_string_equal(found, ".....");
-  hooke_options_destroy(good);
   hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void bad_parts_are_refused(void **unused) {
-  (void)unused;
+TEST(bad_parts_are_refused) {
   hooke_options *options = rope_options(3);
   check_ok(hooke_options_set_text(options, "stretch", ""));
   check_refused("rope", options, HOOKE_BAD_VALUE, "stretch.stiffness");
@@ -356,14 +311,13 @@ static void bad_parts_are_refused(void **unused) {
                 "no kind of part called \"sail\"; allowed: rope, cloth, lattice, mesh, strand");
 }
 
-static void impossible_sizes_are_refused_before_anything_is_allocated(void **unused) {
-  (void)unused;
+TEST(impossible_sizes_are_refused_before_anything_is_allocated) {
   check_refused("cloth", cloth_options(1e6, 1e6), HOOKE_BAD_VALUE,
                 "size: a cloth of 1000000 x 1000000 particles needs 280 TB of memory for 1e+12 particles");
   check_refused("cloth", cloth_options(2147483647, 2147483647), HOOKE_BAD_VALUE, "2147483647 x 2147483647");
   check_refused("rope", rope_options(2147483647), HOOKE_BAD_VALUE, "segments: a rope of 2147483647 segments");
 
-  hooke_options *options = cloth_options(2, 2);
+  owned_options *options = cloth_options(2, 2);
   check_status(hooke_options_set_numbers(options, "size", 2, (double[]){1, 5}), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_numbers(options, "size", 2, (double[]){2.5, 5}), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_numbers(options, "size", 3, (double[]){2, 2, 2}), HOOKE_BAD_VALUE);
@@ -372,22 +326,17 @@ static void impossible_sizes_are_refused_before_anything_is_allocated(void **unu
   check_status(hooke_options_set_number(options, "structural.stiffness", -1), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_text(options, "pinned", "start"), HOOKE_BAD_VALUE);
   check_status(hooke_options_set_number(options, "pinned", -1), HOOKE_BAD_VALUE);
-  hooke_options_destroy(options);
 }
 
-static void a_committed_system_takes_no_part(void **unused) {
-  (void)unused;
-  hooke_system *system = new_system();
-  hooke_options *options = rope_options(1);
+TEST(a_committed_system_takes_no_part) {
+  owned_system *system = new_system();
+  owned_options *options = rope_options(1);
   check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   check_status(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL), HOOKE_BAD_CALL);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
-static void kinds_can_be_listed(void **unused) {
-  (void)unused;
+TEST(kinds_can_be_listed) {
   assert_string_equal(hooke_part_kind(0, "name"), "rope");
   assert_string_equal(hooke_part_kind(1, "name"), "cloth");
   assert_string_equal(hooke_part_kind(2, "name"), "lattice");
@@ -400,8 +349,7 @@ static void kinds_can_be_listed(void **unused) {
   assert_null(options);
 }
 
-static void particles_of_a_part_are_counted(void **state) {
-  (void)state;
+TEST(particles_of_a_part_are_counted) {
   hooke_system *system;
   hooke_options *options = full_cloth();
   int64_t first[2], count[2];
@@ -418,21 +366,4 @@ static void particles_of_a_part_are_counted(void **state) {
   assert_int_equal(hooke_system_part_count(system, "a", "springs"), -1);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_rope_is_a_line),
-      cmocka_unit_test(a_rope_ends_where_it_is_told),
-      cmocka_unit_test(a_cloth_has_its_springs_in_order),
-      cmocka_unit_test(a_family_that_is_absent_has_no_springs),
-      cmocka_unit_test(pinned_particles_have_names),
-      cmocka_unit_test(parts_come_after_groups_and_are_counted),
-      cmocka_unit_test(bad_parts_are_refused),
-      cmocka_unit_test(impossible_sizes_are_refused_before_anything_is_allocated),
-      cmocka_unit_test(a_committed_system_takes_no_part),
-      cmocka_unit_test(kinds_can_be_listed),
-      cmocka_unit_test(particles_of_a_part_are_counted),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,8 +4,7 @@
 #include "run.h"
 #include "small.h"
 
-static void choices_are_by_counted_work(void **unused) {
-  (void)unused;
+TEST(choices_are_by_counted_work) {
   hooke_system *system = small_net(3, 0.02, 1.0, 1);
   hooke_options *run = run_options((struct run){.duration = 0.1, .every = 0.01});
   struct hk_pick pick[2];
@@ -23,9 +22,4 @@ static void choices_are_by_counted_work(void **unused) {
     hk_pick_release(&pick[k]);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(choices_are_by_counted_work)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

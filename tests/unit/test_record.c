@@ -2,41 +2,25 @@
 #include "check.h"
 #include "hooke/trajectory.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 enum { N = 12, SPRINGS = 17, FRAMES = 5, PATH_SIZE = 256 };
 
 static hooke_system *cloth(void) {
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  assert_int_equal(hooke_options_is_set(options, "origin"), 0);
-  check_ok(hooke_options_set_text(options, "edges", "1,0,0,0,0,1"));
-  check_ok(hooke_options_set_text(options, "size", "4,3"));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(options, "mass", 6));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 5));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
-  hooke_options_destroy(options);
-  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return small_falling(small_part(
+      NULL, "cloth", NULL, "edges=1,0,0,0,0,1 size=4,3 pinned=top-corners mass=6 structural.stiffness=5"));
 }
 
-static void a_cloth_without_origin_begins_at_zero(void **unused) {
-  (void)unused;
-  hooke_system *system = cloth();
-  hooke_state *state = start_state(system);
+TEST(a_cloth_without_origin_begins_at_zero) {
+  owned_system *system = cloth();
+  owned_state *state = start_state(system);
   assert_memory_equal(hooke_state_position(state), ((double[]){0, 0, 0}), 3 * sizeof(double));
   assert_true(hooke_state_position(state)[9] == 1.0);
-  hooke_state_destroy(state);
-  hooke_system_destroy(system);
 }
 
 #if HOOKE_HAVE_HDF5
@@ -90,8 +74,7 @@ static double *numbers(const struct fixture *f, const char *what, int64_t rows, 
   return values;
 }
 
-static void arrays_are_those_of_the_run(void **unused) {
-  (void)unused;
+TEST(arrays_are_those_of_the_run) {
   struct fixture f = record(FRAMES);
   double *time = numbers(&f, "time", FRAMES, 1), *step = numbers(&f, "step", FRAMES, 1);
   double *kinetic = numbers(&f, "kinetic_energy", FRAMES, 1), *momentum = numbers(&f, "momentum", FRAMES, 3);
@@ -116,8 +99,7 @@ static void arrays_are_those_of_the_run(void **unused) {
 }
 
 /* For a finished run, and for one that was truncated to its frames. */
-static void frames_lie_where_it_says(void **unused) {
-  (void)unused;
+TEST(frames_lie_where_it_says) {
   const int64_t frames[] = {FRAMES, 3};
   for (int k = 0; k < 2; k++) {
     struct fixture f = record(frames[k]);
@@ -139,8 +121,7 @@ static void frames_lie_where_it_says(void **unused) {
   }
 }
 
-static void other_words_are_refused(void **unused) {
-  (void)unused;
+TEST(other_words_are_refused) {
   struct fixture f = record(1);
   int64_t rows = 7, columns = 7;
   double none;
@@ -155,8 +136,7 @@ static void other_words_are_refused(void **unused) {
 
 #else
 
-static void it_is_not_in_this_build(void **unused) {
-  (void)unused;
+TEST(it_is_not_in_this_build) {
   int64_t rows = 7, columns = 7;
   double none;
   check_status(hooke_record_size(NULL, "mass", &rows, &columns), HOOKE_BAD_CALL); /* there can be no record */
@@ -165,17 +145,3 @@ static void it_is_not_in_this_build(void **unused) {
 }
 
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_cloth_without_origin_begins_at_zero),
-#if HOOKE_HAVE_HDF5
-    cmocka_unit_test(arrays_are_those_of_the_run),
-    cmocka_unit_test(frames_lie_where_it_says),
-    cmocka_unit_test(other_words_are_refused),
-#else
-    cmocka_unit_test(it_is_not_in_this_build),
-#endif
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

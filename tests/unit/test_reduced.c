@@ -7,7 +7,6 @@
 #include "run.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Rows of x y z and x, y, z apart. */
@@ -50,7 +49,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
                            double beta, double rounding) {
   const int64_t n = hooke_system_particle_count(system), size = 3 * n;
   struct random_source source = {17};
-  double *b = new_doubles(size), *x = new_doubles(size);
+  owned_doubles *b = new_doubles(size), *x = new_doubles(size);
   hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
   struct hk_reduced reduced;
   struct hk_solution solution;
@@ -81,16 +80,13 @@ static void check_solution(const hooke_system *system, const double *q, const do
   free(found);
   hk_reduced_release(&reduced);
   hooke_integrator_destroy(integrator);
-  free(b);
-  free(x);
 }
 
 static const double weights[][2] = {{0.0, 0.01},  {0.0, 0.5},  {1e-4, 1e-2},
                                     {4e-4, 2e-2}, {1e-3, 0.0}, {0.0, 0.0}};
 enum { WEIGHTS = sizeof weights / sizeof weights[0] };
 
-static void every_law(void **unused) {
-  (void)unused;
+TEST(every_law) {
   for (int l = 0; l < LAW_COUNT; l++) {
     struct law_scene scene;
     law_scene_create(&laws[l], 31, &scene);
@@ -102,10 +98,9 @@ static void every_law(void **unused) {
   }
 }
 
-static void random_scenes(void **unused) {
-  (void)unused;
+TEST(random_scenes) {
   for (int32_t k = 0; k < 40; k++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + k),
                                                       .particles = 20 + 13 * k,
                                                       .springs = 60 + 20 * k,
@@ -123,11 +118,5 @@ static void random_scenes(void **unused) {
     check_solution(scene.system, q, v, 1e-6, 1e-3, 1e-10);
     free(q);
     free(v);
-    random_scene_destroy(&scene);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_law), cmocka_unit_test(random_scenes)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

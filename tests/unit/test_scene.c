@@ -1,5 +1,6 @@
 /* The scene loader: the system of a valid scene, and the position of the fault in an invalid one. */
 #include "check.h"
+#include "run.h"
 
 #include "core/memory.h"
 #include "io/scene/json.h"
@@ -7,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -39,8 +39,7 @@ static void check_place(const char *path, int32_t key, int64_t line, int64_t col
   hk_free(text);
 }
 
-static void paths_are_found(void **state) {
-  (void)state;
+TEST(paths_are_found) {
   check_place("", 0, 1, 1);
   check_place("a", 0, 1, 8);
   check_place("a", 1, 1, 3);
@@ -56,8 +55,7 @@ static void paths_are_found(void **state) {
 }
 
 /* A missing path has the position of its longest existing prefix. */
-static void missing_paths_are_found_as_far_as_they_go(void **state) {
-  (void)state;
+TEST(missing_paths_are_found_as_far_as_they_go) {
   check_place("b", 0, 1, 1);
   check_place("a[3]", 0, 1, 8);
   check_place("a[99999999999]", 0, 1, 8);
@@ -79,8 +77,7 @@ static void check_tokens(const char *quoted, const char *message, int64_t column
   hk_free(text);
 }
 
-static void numbers_that_would_change_are_refused(void **state) {
-  (void)state;
+TEST(numbers_that_would_change_are_refused) {
   check_tokens(
       "{'a': [1e-300, 0e-999, 9223372036854775807, -9223372036854775808, true, 'NaN 1e999 \\' 1e-999']}",
       NULL, 0);
@@ -101,8 +98,7 @@ static void numbers_that_would_change_are_refused(void **state) {
 }
 
 /* What JSON says of texts: all escapes, and characters of one to four bytes, by their bytes. */
-static void texts_are_decoded_where_they_are(void **state) {
-  (void)state;
+TEST(texts_are_decoded_where_they_are) {
   static const char text[] = "{\"\\u0061\\n\": [\"\", \"\\\"\\\\\\/\\b\\f\\r\\t\", "
                              "\"\\u00E9\\u20ac\\uD83D\\ude00\xc3\xa4\"], \"b\": -0.5e1 }";
   char *opened = NULL;
@@ -132,8 +128,7 @@ static void texts_are_decoded_where_they_are(void **state) {
 }
 
 /* Integers have a single 0; all other numbers are those of strtod(). */
-static void numbers_are_read_to_the_bit(void **state) {
-  (void)state;
+TEST(numbers_are_read_to_the_bit) {
   static const char *const words[] = {"-0",
                                       "-0.0",
                                       "9223372036854775807",
@@ -160,8 +155,7 @@ static void numbers_are_read_to_the_bit(void **state) {
   }
 }
 
-static void what_is_not_utf8_is_refused(void **state) {
-  (void)state;
+TEST(what_is_not_utf8_is_refused) {
   static const struct {
     const char *bytes;
     int64_t length, at; /* at -1: valid */
@@ -192,8 +186,7 @@ static void what_is_not_utf8_is_refused(void **state) {
   }
 }
 
-static void brackets_are_counted_outside_of_texts(void **state) {
-  (void)state;
+TEST(brackets_are_counted_outside_of_texts) {
   char deep[64] = "{\"a\":\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\\\"[[[\"}", *opened = NULL;
   const char *at;
   check_ok(hk_json_open(deep, (int64_t)strlen(deep), &opened, &at));
@@ -205,8 +198,7 @@ static void brackets_are_counted_outside_of_texts(void **state) {
 }
 
 /* They are never valid, and a text that goes on with many of them must not be read to its end. */
-static void empty_brackets_in_arrays_are_refused(void **state) {
-  (void)state;
+TEST(empty_brackets_in_arrays_are_refused) {
   check_tokens("{'a': [], 'b': {}}", NULL, 0);
   check_tokens("{'a': [{'b': [ ]}, [1], '[', [']']]}", NULL, 0);
   check_tokens("{'a': [[ \n]]}", "nothing between", 11);
@@ -215,8 +207,7 @@ static void empty_brackets_in_arrays_are_refused(void **state) {
 }
 
 /* Cut anywhere, a valid text may still go on; with a fault well before its end no text is valid. */
-static void hopeless_texts_are_known_by_their_beginning(void **state) {
-  (void)state;
+TEST(hopeless_texts_are_known_by_their_beginning) {
   static const char text[] = "{\"hooke\": 1, \"\xe2\x82\xac\\ud83d\\ude00\": [-1.25e-3, true, "
                              "12345678901234567890123456789.5], \"b\": {\"c\": null}} ";
   char cut[sizeof text] = "";
@@ -249,8 +240,7 @@ static void check_file(const char *folder, const char *file, const char *message
   hk_free(path);
 }
 
-static void files_stay_in_the_folder_of_the_scene(void **state) {
-  (void)state;
+TEST(files_stay_in_the_folder_of_the_scene) {
   char outer[] = "hooke_scene_XXXXXX", folder[64], link[96];
   assert_non_null(mkdtemp(outer));
   snprintf(folder, sizeof folder, "%s/scene", outer);
@@ -292,9 +282,8 @@ static hooke_scene *parse(const char *quoted) {
   return scene;
 }
 
-static void a_whole_scene_becomes_a_system(void **state) {
-  (void)state;
-  hooke_scene *scene = parse(
+TEST(a_whole_scene_becomes_a_system) {
+  static const char text[] =
       "{'hooke': 1, 'title': 'net', 'gravity': [0, -9.81, 0], 'drag': 0.25,"
       " 'particles': {'position': [[0,0,0],[1,0,0.5],[2,0.25,0]], 'velocity': [[0,0,0],[1,2,3],[4,5,6]],"
       "               'mass': [1,2,4], 'pinned': [0]},"
@@ -302,7 +291,8 @@ static void a_whole_scene_becomes_a_system(void **state) {
       "              'rest_length': 2, 'rest_scale': 0.5},"
       "             {'between': [[2,0]], 'law': 'length', 'stiffness': 7, 'rest_length': 0, 'compression': "
       "false}],"
-      " 'run': {'method': 'forward-euler', 'step': 1e-3, 'every': 0.5}}");
+      " 'run': {'method': 'forward-euler', 'step': 1e-3, 'every': 0.5}}";
+  owned_scene *scene = parse(text);
   hooke_system *system = hooke_scene_system(scene);
   assert_string_equal(hooke_scene_text(scene, "title"), "net");
   assert_int_equal(hooke_system_is_committed(system), 0);
@@ -327,9 +317,8 @@ static void a_whole_scene_becomes_a_system(void **state) {
   check_same_bits(3, gamma, wanted_gamma);
   check_same_bits(3, length, wanted_length);
 
-  hooke_state *initial = NULL;
   const double position[] = {0, 0, 0, 1, 0, 0.5, 2, 0.25, 0}, velocity[] = {0, 0, 0, 1, 2, 3, 4, 5, 6};
-  check_ok(hooke_state_create(system, &initial));
+  hooke_state *initial = start_state(system);
   check_same_bits(9, hooke_state_position(initial), position);
   check_same_bits(9, hooke_state_velocity(initial), velocity);
   hooke_state_destroy(initial);
@@ -340,12 +329,10 @@ static void a_whole_scene_becomes_a_system(void **state) {
   assert_int_equal(hooke_options_is_set(run, "every"), 1);
   assert_int_equal(hooke_options_is_set(run, "duration"), 0);
   assert_int_equal(hooke_options_is_set(run, "rtol"), 0);
-  hooke_scene_destroy(scene);
 }
 
-static void what_is_not_named_is_not_computed(void **state) {
-  (void)state;
-  hooke_scene *scene = parse("{'hooke': 1, " TWO "}");
+TEST(what_is_not_named_is_not_computed) {
+  owned_scene *scene = parse("{'hooke': 1, " TWO "}");
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   assert_int_equal(hooke_system_count(system, "forces"), 0);
@@ -353,18 +340,14 @@ static void what_is_not_named_is_not_computed(void **state) {
   assert_int_equal(hooke_system_count(system, "free"), 2);
   assert_string_equal(hooke_scene_text(scene, "title"), "");
   assert_int_equal(hooke_options_is_set(hooke_scene_run_options(scene), "method"), 0);
-  hooke_state *initial = NULL;
-  check_ok(hooke_state_create(system, &initial));
+  owned_state *initial = start_state(system);
   for (int k = 0; k < 6; k++)
     check_close(hooke_state_velocity(initial)[k], 0, 0);
-  hooke_state_destroy(initial);
-  hooke_scene_destroy(scene);
 }
 
 /* Explicit particles come first, then those of parts in order; explicit springs first, then those of parts.
  */
-static void parts_follow_what_is_listed(void **state) {
-  (void)state;
+TEST(parts_follow_what_is_listed) {
   hooke_scene *scene = parse(
       "{'hooke': 1, " TWO ","
       " 'springs': [{'name': 'tie', 'between': [[1, ['line', 0]], [['line', 2], ['cloth1', 3]], [0, 5]], "
@@ -396,8 +379,7 @@ static void parts_follow_what_is_listed(void **state) {
   hooke_scene_destroy(scene);
 }
 
-static void driven_particles_move(void **state) {
-  (void)state;
+TEST(driven_particles_move) {
   hooke_scene *scene =
       parse("{'hooke': 1, " TWO
             ", 'parts': [{'kind': 'rope', 'from': [0,1,0], 'to': [1,1,0], 'segments': 1, 'mass': 1}],"
@@ -408,8 +390,7 @@ static void driven_particles_move(void **state) {
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   assert_int_equal(hooke_system_count(system, "free"), 2);
-  hooke_state *initial = NULL;
-  check_ok(hooke_state_create(system, &initial));
+  hooke_state *initial = start_state(system);
   check_close(hooke_state_position(initial)[4], 2, 1e-15);
   check_close(hooke_state_position(initial)[3], 1, 0);
   hooke_state_destroy(initial);
@@ -428,8 +409,7 @@ static void check_refused(hooke_system *system, const char *key, const char *tab
   hooke_options_destroy(options);
 }
 
-static void members_are_added_by_key(void **state) {
-  (void)state;
+TEST(members_are_added_by_key) {
   const double place[6] = {0, 0, 0, 1, 0, 0};
   hooke_system *system;
   hooke_options *particles, *springs;
@@ -478,8 +458,7 @@ static void refuse(const char *quoted, const char *message) {
   hk_free(wanted);
 }
 
-static void messages_give_file_line_column_and_path(void **state) {
-  (void)state;
+TEST(messages_give_file_line_column_and_path) {
   refuse("{\n 'hooke': 1,\n 'particles': {'position': [[0,0,0],[1,0,0]],\n   'mass': [1,\n    -2]}}",
          "t.json:5:5: particles.mass[1]: -2 is not allowed; allowed: one or more numbers > 0 [kg]");
   refuse(
@@ -504,8 +483,7 @@ static void messages_give_file_line_column_and_path(void **state) {
          "t.json:2:18: run.step: '1e-3' is not allowed; allowed: a number > 0 [s]");
 }
 
-static void indices_are_whole_numbers(void **state) {
-  (void)state;
+TEST(indices_are_whole_numbers) {
   refuse("{'hooke': 1, " TWO ", 'springs': [{'between': [[0, 1.0]], 'stiffness': 1}]}",
          "t.json:1:100: springs[0].between[0][1]: 1.0 is not allowed; allowed: the number of a particle, or "
          "['part', index]");
@@ -515,8 +493,7 @@ static void indices_are_whole_numbers(void **state) {
          "t.json:1:11: hooke: 1.0 is not allowed; allowed: 1, the version of the format");
 }
 
-static void parts_are_named_and_counted(void **state) {
-  (void)state;
+TEST(parts_are_named_and_counted) {
   static const char rope[] = "'kind': 'rope', 'from': [0,0,0], 'to': [1,0,0], 'segments': 2, 'mass': 1";
   char text[1024];
   snprintf(text, sizeof text,
@@ -538,8 +515,7 @@ static void parts_are_named_and_counted(void **state) {
 }
 
 /* Words between the numbers of a list do not shift the position. */
-static void mixed_lists_give_the_place_in_the_text(void **state) {
-  (void)state;
+TEST(mixed_lists_give_the_place_in_the_text) {
   static const char rope[] =
       "{'hooke': 1,\n'parts': [{'kind': 'rope', 'from': [0,0,0], 'to': [1,0,0], 'segments': 2, 'mass': 1,\n"
       "'pinned': %s}]}";
@@ -562,8 +538,7 @@ static void mixed_lists_give_the_place_in_the_text(void **state) {
   }
 }
 
-static void drives_take_the_keys_of_their_motion(void **state) {
-  (void)state;
+TEST(drives_take_the_keys_of_their_motion) {
   refuse("{'hooke': 1, " TWO ",\n'driven': [{'particles': [0], 'motion': 'table', 'phase': 1, 'time': [0,1],"
          " 'position': [[0,0,0],[0,0,0]]}]}",
          "t.json:2:59: driven[0].phase: belongs to motion 'harmonic'; allowed with 'table': time, position");
@@ -575,8 +550,7 @@ static void drives_take_the_keys_of_their_motion(void **state) {
          "t.json:2:77: driven[0].position: 1 row given; allowed: 2 or more rows of 3 numbers each [m]");
 }
 
-static void syntax_errors_give_line_and_column(void **state) {
-  (void)state;
+TEST(syntax_errors_give_line_and_column) {
   char *text = json("{'hooke': 1,\n 'title': 'a'\n 'gravity': [0,0,0]}");
   hooke_scene *scene = NULL;
   check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, NULL, &scene), HOOKE_BAD_VALUE);
@@ -586,17 +560,15 @@ static void syntax_errors_give_line_and_column(void **state) {
 }
 
 /* Commit finds faults that the parser does not; its message still has a position in the text. */
-static void commit_gives_the_place_too(void **state) {
-  (void)state;
-  hooke_scene *scene = parse("{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
-                             " 'velocity': [[0,0,3]]}}");
+TEST(commit_gives_the_place_too) {
+  static const char text[] = "{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
+                             " 'velocity': [[0,0,3]]}}";
+  owned_scene *scene = parse(text);
   check_status(hooke_scene_commit(scene), HOOKE_BAD_VALUE);
   check_message("test.json:2:20: particles.velocity[0][2]: ");
-  hooke_scene_destroy(scene);
 }
 
-static void files_need_a_folder(void **state) {
-  (void)state;
+TEST(files_need_a_folder) {
   refuse("{'hooke': 1,\n'particles': {'mass': 1, 'position': {'file': 'a.h5', 'dataset': '/q'}}}",
          "t.json:2:47: particles.position.file: 'a.h5' is not allowed; this scene has no folder to take "
          "files from");
@@ -604,8 +576,7 @@ static void files_need_a_folder(void **state) {
          "t.json:2:38: particles.position.dataset: is required but missing; allowed: a text");
 }
 
-static void files_that_are_none_are_bad_input(void **state) {
-  (void)state;
+TEST(files_that_are_none_are_bad_input) {
   hooke_scene *scene = NULL;
   check_status(hooke_scene_load("no/such/scene.json", NULL, &scene), HOOKE_BAD_VALUE);
   check_message("no/such/scene.json: cannot be opened: No such file or directory");
@@ -622,8 +593,7 @@ static void files_that_are_none_are_bad_input(void **state) {
 }
 
 /* A file is read in pieces: its end is read at any length. */
-static void files_of_every_length_are_read_whole(void **state) {
-  (void)state;
+TEST(files_of_every_length_are_read_whole) {
   static const char before[] = "{\"hooke\": 1,",
                     after[] = "\"particles\": {\"mass\": 1, \"position\": [[0, 0, 7]]}}";
   static const int64_t lengths[] = {200, 65534, 65535, 65536, 65537, 131070, 131071, 131072, 500000};
@@ -632,7 +602,7 @@ static void files_of_every_length_are_read_whole(void **state) {
   snprintf(path, sizeof path, "%s/scene.json", folder);
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
     const int gap = (int)(lengths[k] - (int64_t)(sizeof before + sizeof after - 2));
-    hooke_scene *scene = NULL;
+    owned_scene *scene = NULL;
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_int_equal(fprintf(file, "%s%*s%s", before, gap, "", after), lengths[k]);
@@ -642,15 +612,13 @@ static void files_of_every_length_are_read_whole(void **state) {
     assert_string_equal(hooke_scene_text(scene, "text") + lengths[k] - (int64_t)sizeof after + 1, after);
     check_ok(hooke_scene_commit(scene));
     assert_int_equal(hooke_system_particle_count(hooke_scene_system(scene)), 1);
-    hooke_scene_destroy(scene);
   }
   assert_int_equal(unlink(path), 0);
   assert_int_equal(rmdir(folder), 0);
 }
 
 /* Every truncation and every changed byte of a valid scene gives a scene or a message, never a crash. */
-static void damaged_scenes_are_survived(void **state) {
-  (void)state;
+TEST(damaged_scenes_are_survived) {
   char *text =
       json("{'hooke':1,'particles':{'position':[[0,0,0],[1,0,0]],'mass':[1,2],'pinned':[0]},"
            "'springs':[{'between':[[0,1]],'stiffness':1e2,'rest_length':'initial'}],'run':{'step':1e-3}}");
@@ -675,36 +643,4 @@ static void damaged_scenes_are_survived(void **state) {
   }
   check_between((double)refused, 1000, 2900);
   hk_free(text);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paths_are_found),
-      cmocka_unit_test(missing_paths_are_found_as_far_as_they_go),
-      cmocka_unit_test(numbers_that_would_change_are_refused),
-      cmocka_unit_test(texts_are_decoded_where_they_are),
-      cmocka_unit_test(numbers_are_read_to_the_bit),
-      cmocka_unit_test(what_is_not_utf8_is_refused),
-      cmocka_unit_test(brackets_are_counted_outside_of_texts),
-      cmocka_unit_test(empty_brackets_in_arrays_are_refused),
-      cmocka_unit_test(hopeless_texts_are_known_by_their_beginning),
-      cmocka_unit_test(files_stay_in_the_folder_of_the_scene),
-      cmocka_unit_test(a_whole_scene_becomes_a_system),
-      cmocka_unit_test(what_is_not_named_is_not_computed),
-      cmocka_unit_test(parts_follow_what_is_listed),
-      cmocka_unit_test(driven_particles_move),
-      cmocka_unit_test(members_are_added_by_key),
-      cmocka_unit_test(messages_give_file_line_column_and_path),
-      cmocka_unit_test(indices_are_whole_numbers),
-      cmocka_unit_test(parts_are_named_and_counted),
-      cmocka_unit_test(mixed_lists_give_the_place_in_the_text),
-      cmocka_unit_test(drives_take_the_keys_of_their_motion),
-      cmocka_unit_test(syntax_errors_give_line_and_column),
-      cmocka_unit_test(commit_gives_the_place_too),
-      cmocka_unit_test(files_need_a_folder),
-      cmocka_unit_test(files_that_are_none_are_bad_input),
-      cmocka_unit_test(files_of_every_length_are_read_whole),
-      cmocka_unit_test(damaged_scenes_are_survived),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,29 +3,25 @@
 #include "model/force/drive.h"
 #include "model/variant/variant.h"
 #include "check.h"
+#include "small.h"
 #include "random_scene.h"
 
 #include "model/system.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 static void check_springs(const hooke_system *found, const hooke_system *expected) {
   const int64_t count = hooke_system_count(expected, "springs");
   assert_int_equal(hooke_system_count(found, "springs"), count);
-  double *a = new_doubles(3 * count), *b = new_doubles(3 * count);
-  int64_t *ends = new_block(2 * count, sizeof *ends), *other = new_block(2 * count, sizeof *other);
+  owned_doubles *a = new_doubles(3 * count), *b = new_doubles(3 * count);
+  owned_wholes *ends = new_block(2 * count, sizeof *ends), *other = new_block(2 * count, sizeof *other);
   check_ok(hooke_system_members(found, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(expected, "springs", other, NULL, NULL, NULL));
   assert_memory_equal(ends, other, (size_t)(2 * count) * sizeof *ends);
   check_ok(hooke_system_members(found, "springs", NULL, a, a + count, a + 2 * count));
   check_ok(hooke_system_members(expected, "springs", NULL, b, b + count, b + 2 * count));
   check_same_bits(3 * count, a, b);
-  free(a);
-  free(b);
-  free(ends);
-  free(other);
 }
 
 static void check_same_system(const hooke_system *found, const hooke_system *expected) {
@@ -49,23 +45,19 @@ static void check_same_system(const hooke_system *found, const hooke_system *exp
 /* A scene that is made in memory has the text that is written. */
 static void check_in_memory(const hooke_system *system, const hooke_options *run,
                             const hooke_scene *written) {
-  hooke_scene *made;
+  owned_scene *made = NULL;
   check_ok(hooke_scene_of_system(system, hooke_scene_text(written, "title"), run, "memory", NULL, &made));
   assert_string_equal(hooke_scene_text(made, "text"), hooke_scene_text(written, "text"));
   check_ok(hooke_scene_commit(made));
   check_same_system(hooke_scene_system(made), system);
-  hooke_scene_destroy(made);
 }
 
 static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   char path[] = "/tmp/hooke-scene-XXXXXX";
-  hooke_options *run;
   const int descriptor = mkstemp(path);
   assert_true(descriptor >= 0);
   close(descriptor);
-  check_ok(hooke_options_create("run", &run));
-  check_ok(hooke_options_set_number(run, "step", 0.1));
-  check_ok(hooke_options_set_text(run, "method", "rk4"));
+  hooke_options *run = options_with("run", "step=0.1 method=rk4");
   check_ok(hooke_scene_write(path, system, "a \"title\" \\ <b> \xc3\xa4", run));
   check_ok(hooke_scene_load(path, NULL, scene));
   check_ok(hooke_scene_commit(*scene));
@@ -78,11 +70,10 @@ static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   unlink(path);
 }
 
-static void random_systems_come_back(void **state) {
-  (void)state;
+TEST(random_systems_come_back) {
   for (uint64_t seed = 1; seed <= 64; seed++) {
     const int32_t features = (int32_t)(seed * 29) & SCENE_EVERYTHING & ~(SCENE_CALLBACK | SCENE_DRIVEN);
-    struct random_scene scene;
+    owned_random_scene scene;
     hooke_scene *read;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 20,
@@ -96,39 +87,23 @@ static void random_systems_come_back(void **state) {
     write_and_read(scene.system, &read);
     check_same_system(hooke_scene_system(read), scene.system);
     hooke_scene_destroy(read);
-    random_scene_destroy(&scene);
   }
 }
 
 /* A lattice and a mesh from a file, with pins beyond those of their options: the mesh is written with its
  * numbers, so that the scene needs no file. */
-static void lattice_and_mesh_come_back(void **state) {
-  (void)state;
-  const double edges[9] = {1.1, 0.1, 0, 0, 0.7, 0, 0.2, 0, 0.3}, origin[3] = {0.1, 0.2, 0.3},
-               size[3] = {4, 3, 5};
-  const double moved[3] = {1.0 / 3.0, 5, -2}, amplitude[3] = {0, 0.1, 0};
+TEST(lattice_and_mesh_come_back) {
+  const double amplitude[3] = {0, 0.1, 0};
   const int64_t pinned[2] = {5, 65}, driven = 61;
-  hooke_system *system;
-  hooke_options *lattice, *mesh;
-  hooke_scene *read;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("lattice", &lattice));
-  check_ok(hooke_options_set_numbers(lattice, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(lattice, "edges", 9, edges));
-  check_ok(hooke_options_set_numbers(lattice, "size", 3, size));
-  check_ok(hooke_options_set_number(lattice, "density", 3));
-  check_ok(hooke_options_set_text(lattice, "pinned", "top, 3"));
-  check_ok(hooke_options_set_number(lattice, "shear.stiffness", 7));
-  check_ok(hooke_options_set_number(lattice, "shear.damping_ratio", 0.1));
-  check_ok(hooke_system_add_part(system, "lattice", "block", lattice, NULL, NULL));
-  check_ok(hooke_options_create("mesh", &mesh));
-  check_ok(hooke_options_set_number(mesh, "mass", 0.7));
-  check_ok(hooke_options_set_number(mesh, "transform.scale", 0.1));
-  check_ok(hooke_options_set_numbers(mesh, "transform.translate", 3, moved));
-  check_ok(hooke_options_set_number(mesh, "weld", 1e-5));
-  check_ok(hooke_options_set_number(mesh, "structural.stiffness", 3));
-  check_ok(hooke_options_set_number(mesh, "bend.stiffness", 2));
-  check_ok(hooke_options_set_number(mesh, "bend.damping_ratio", 0.2));
+  owned_scene *read = NULL;
+  hooke_system *system =
+      small_part(NULL, "lattice", "block",
+                 "origin=0.1,0.2,0.3 edges=1.1,0.1,0,0,0.7,0,0.2,0,0.3 size=4,3,5 density=3 pinned=top,3 "
+                 "shear.stiffness=7 shear.damping_ratio=0.1");
+  hooke_options *mesh = options_with("mesh",
+                                     "mass=0.7 transform.scale=0.1 transform.translate=%.17g,5,-2 weld=1e-5 "
+                                     "structural.stiffness=3 bend.stiffness=2 bend.damping_ratio=0.2",
+                                     1.0 / 3.0);
   check_ok(hooke_mesh_read(HOOKE_SOURCE_DIR "/examples/scenes/ball.obj", mesh));
   check_ok(hooke_system_add_part(system, "mesh", "ball", mesh, NULL, NULL));
   check_ok(hooke_system_pin(system, 2, pinned));
@@ -137,34 +112,20 @@ static void lattice_and_mesh_come_back(void **state) {
   assert_int_equal(system->particle_count, 60 + 42);
   write_and_read(system, &read);
   check_same_system(hooke_scene_system(read), system);
-  hooke_scene_destroy(read);
-  hooke_options_destroy(lattice);
   hooke_options_destroy(mesh);
   hooke_system_destroy(system);
 }
 
 static void add_strand(hooke_system *system, int curl) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("strand", &options));
-  check_ok(hooke_options_set_text(options, "from", "0.1,0.2,0.3"));
-  check_ok(hooke_options_set_text(options, "to", "1.7,0.1,-0.6"));
-  check_ok(hooke_options_set_number(options, "segments", 13));
-  check_ok(hooke_options_set_number(options, curl ? "curl" : "offset", 0.3));
-  if (curl) check_ok(hooke_options_set_number(options, "turns", -2.3));
-  check_ok(hooke_options_set_number(options, "density", 0.7));
-  check_ok(hooke_options_set_text(options, "pinned", "start,3"));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 3.0));
-  check_ok(hooke_options_set_number(options, "altitude.stiffness", 7.0));
-  check_ok(hooke_options_set_number(options, "altitude.damping_ratio", 0.3));
-  check_ok(hooke_options_set_number(options, "altitude.rest_scale", 0.9));
-  check_ok(hooke_options_set_number(options, "altitude.compression", curl));
-  check_ok(hooke_system_add_part(system, "strand", curl ? "curl" : NULL, options, NULL, NULL));
-  hooke_options_destroy(options);
+  small_part(
+      system, "strand", curl ? "curl" : NULL,
+      "from=0.1,0.2,0.3 to=1.7,0.1,-0.6 segments=13 %s density=0.7 pinned=start,3 bend.stiffness=3 "
+      "altitude.stiffness=7 altitude.damping_ratio=0.3 altitude.rest_scale=0.9 altitude.compression=%s",
+      curl ? "curl=0.3 turns=-2.3" : "offset=0.3", curl ? "true" : "false");
 }
 
 /* Tetrahedra of parts are equal to the bit; a scene cannot express explicit ones. */
-static void strands_come_back(void **state) {
-  (void)state;
+TEST(strands_come_back) {
   hooke_system *system;
   hooke_scene *read;
   check_ok(hooke_system_create(&system));
@@ -182,27 +143,21 @@ static void strands_come_back(void **state) {
   hooke_system_destroy(system);
 
   const int64_t corners[4] = {0, 1, 2, 3};
-  hooke_options *options = NULL;
   check_ok(hooke_system_create(&system));
   add_strand(system, 1);
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
-  check_ok(hooke_system_add_altitude(system, "mine", 1, corners, options));
+  small_group(system, "altitude", "mine", 1, corners, "stiffness=1");
   check_ok(hooke_system_commit(system));
   check_status(hooke_scene_write("/tmp/hooke-never-written.json", system, NULL, NULL), HOOKE_UNSUITED);
   check_message("tetrahedra of its own");
-  hooke_options_destroy(options);
   hooke_system_destroy(system);
 }
 
 /* Triples are equal to the bit, beside those of parts; an empty group keeps its place. */
-static void bending_comes_back(void **state) {
-  (void)state;
+TEST(bending_comes_back) {
   const double coefficient[2] = {0.1 + 0.2, 1.0 / 3.0}, zero = 0.0;
   const int64_t triples[6] = {3, 1, 0, 2, 4, 5};
-  hooke_system *system;
-  hooke_scene *read;
-  check_ok(hooke_system_create(&system));
+  owned_scene *read = NULL;
+  owned_system *system = new_system();
   add_strand(system, 1);
   check_ok(hooke_system_add_bending(system, "two", 2, triples, 2, coefficient));
   check_ok(hooke_system_add_bending(system, "none", 2, triples, 1, &zero));
@@ -212,26 +167,21 @@ static void bending_comes_back(void **state) {
   check_same_system(hooke_scene_system(read), system);
   assert_int_equal(hooke_system_count(hooke_scene_system(read), "bending"), 3);
   assert_int_equal(hk_system_groups_of(hooke_scene_system(read), &hk_force_bending), 3);
-  hooke_scene_destroy(read);
-  hooke_system_destroy(system);
 }
 
 /* Anchors are equal to the bit, in a variant that leaves a group out, too; an empty group keeps its place. */
-static void anchors_come_back(void **state) {
-  (void)state;
+TEST(anchors_come_back) {
   const double stiffness[2] = {0.1 + 0.2, 7.0}, point[6] = {1.0 / 3.0, 2, 3, 4, 5, 6};
   const int64_t tied[2] = {5, 3};
   int64_t particle[3];
   double points[9], number[3][3];
-  hooke_system *system, *made;
-  hooke_options *options = NULL;
+  owned_system *system = NULL, *made = NULL;
   hooke_scene *read;
   struct hk_variant variant;
   struct hk_variant_map map;
   check_ok(hooke_system_create(&system));
   add_strand(system, 1);
-  check_ok(hooke_options_create("anchors", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  hooke_options *options = options_with("anchors", "stiffness=0");
   check_ok(hooke_system_add_anchors(system, "nothing", 1, tied, options));
   check_ok(hooke_options_set_number(options, "stiffness", 3.0));
   check_ok(hooke_system_add_anchors(system, "one", 1, tied, options));
@@ -257,19 +207,15 @@ static void anchors_come_back(void **state) {
   assert_memory_equal(number[0], stiffness, sizeof stiffness);
   hk_variant_map_release(&map);
   hk_variant_release(&variant);
-  hooke_system_destroy(made);
-  hooke_system_destroy(system);
 }
 
 /* Driven as before: at some times, to the same positions to the bit. */
-static void drives_come_back(void **state) {
-  (void)state;
+TEST(drives_come_back) {
   const double at[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[3] = {1, 2, 3}, amplitude[3] = {0.1, 0, 0.2};
   const double time[3] = {0, 0.5, 2}, displacement[9] = {0, 0, 0, 0.1, 0.2, 0.3, 0, 1, 0};
   const int64_t first = 0, last = 2;
-  hooke_system *system;
-  hooke_scene *read;
-  check_ok(hooke_system_create(&system));
+  owned_scene *read = NULL;
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 3, at, NULL, 3, mass, NULL));
   check_ok(hooke_system_drive_harmonic(system, 1, &first, amplitude, 1.5, 0.25));
   check_ok(hooke_system_drive_table(system, 1, &last, 3, time, displacement));
@@ -284,45 +230,29 @@ static void drives_come_back(void **state) {
       check_same_bits(6, b, a);
     }
   }
-  hooke_scene_destroy(read);
-  hooke_system_destroy(system);
 }
 
-static void zeros_keep_their_sign(void **state) {
-  (void)state;
+TEST(zeros_keep_their_sign) {
   const double at[6] = {-0.0, 0, 0, 1, -0.0, 0}, still[6] = {0, 0, -0.0, 0, 0, 0}, mass = 1;
-  hooke_system *system;
-  hooke_scene *read;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 2, at, still, 1, &mass, NULL));
+  owned_scene *read = NULL;
+  owned_system *system = small_system(2, at, still, mass, 0);
   check_ok(hooke_system_commit(system));
   write_and_read(system, &read);
   check_same_system(hooke_scene_system(read), system);
-  hooke_scene_destroy(read);
-  hooke_system_destroy(system);
 }
 
 /* "-0" is an integer, too, and a scene cannot express the sign of one. */
-static void whole_numbers_have_one_zero(void **state) {
-  (void)state;
+TEST(whole_numbers_have_one_zero) {
   const double wanted[2] = {0.0, 1.0};
-  hooke_options *options;
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_text(options, "pinned", "-0,1"));
+  owned_options *options = options_with("rope", "pinned=-0,1");
   check_same_bits(2, hooke_options_numbers(options, "pinned"), wanted);
-  hooke_options_destroy(options);
 }
 
-static void keys_of_a_scene_are_applied(void **state) {
-  (void)state;
-  hooke_system *system;
+TEST(keys_of_a_scene_are_applied) {
   hooke_options *options, *other;
   const double origin[3] = {0, 0, 0}, gravity[3] = {0, -9.81, 0}, mass = 1;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("scene", &options));
-  check_ok(hooke_options_set_text(options, "gravity", "0,-9.81,0"));
-  check_ok(hooke_options_set_number(options, "drag", 0.25));
+  owned_system *system = small_system(1, origin, NULL, mass, 0);
+  options = options_with("scene", "gravity=0,-9.81,0 drag=0.25");
   check_ok(hooke_scene_options_apply(options, system));
   check_same_bits(3, system->gravity, gravity);
   assert_true(system->drag == 0.25);
@@ -339,7 +269,6 @@ static void keys_of_a_scene_are_applied(void **state) {
   check_ok(hooke_system_commit(system));
   check_status(hooke_scene_options_apply(options, system), HOOKE_BAD_CALL);
   hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 static void check_not_written(const hooke_system *system, const char *force) {
@@ -349,8 +278,7 @@ static void check_not_written(const hooke_system *system, const char *force) {
 }
 
 /* Forces that have no key: a callback, and one that only the inside knows. */
-static void forces_without_a_key_are_not_lost(void **state) {
-  (void)state;
+TEST(forces_without_a_key_are_not_lost) {
   static const struct hk_element element = {.count = 1, .weight = {1.0}, .k_along = 2.0, .over = 1.0};
   static const double place[3] = {0.0, 0.0, 0.0}, one = 1.0;
   struct random_scene scene;
@@ -359,27 +287,8 @@ static void forces_without_a_key_are_not_lost(void **state) {
       &scene);
   check_not_written(scene.system, "callbacks");
   random_scene_destroy(&scene);
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 1, place, NULL, 1, &one, NULL));
+  owned_system *system = small_system(1, place, NULL, one, 0);
   hk_system_set_linear(system, 1, &element, place);
   check_ok(hooke_system_commit(system));
   check_not_written(system, "\"linear\"");
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(random_systems_come_back),
-      cmocka_unit_test(lattice_and_mesh_come_back),
-      cmocka_unit_test(drives_come_back),
-      cmocka_unit_test(strands_come_back),
-      cmocka_unit_test(bending_comes_back),
-      cmocka_unit_test(anchors_come_back),
-      cmocka_unit_test(zeros_keep_their_sign),
-      cmocka_unit_test(whole_numbers_have_one_zero),
-      cmocka_unit_test(keys_of_a_scene_are_applied),
-      cmocka_unit_test(forces_without_a_key_are_not_lost),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

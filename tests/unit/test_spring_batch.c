@@ -1,11 +1,11 @@
 /* Batches contain every spring once, with its material to the bit, by runs or by the tiles of a tiled batch;
  * sums over them equal those over single springs. */
 #include "check.h"
+#include "small.h"
 #include "model/sum/spring_batch.h"
 #include "model/sum/tiled.h"
 #include "random.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 struct one {
@@ -117,23 +117,18 @@ static void add_group(const struct sheet *sheet, int group, int lawful, hooke_sy
     sheet->ends[2 * count] = sheet->number[p];
     sheet->ends[2 * count++ + 1] = sheet->number[p + ahead[group]];
   }
-  hooke_options *options;
-  check_ok(hooke_options_create("springs", &options));
+  owned_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", lawful ? 1 : count, sheet->stiffness));
   check_ok(hooke_options_set_number(options, "damping", group == 2 ? 0.0 : 0.5));
   check_ok(hooke_options_set_number(options, "rest_scale", 0.98));
   if (group == 1) check_ok(hooke_options_set_text(options, "compression", "false"));
   check_ok(hooke_system_add_springs(system, "net", count, sheet->ends, options));
-  hooke_options_destroy(options);
 }
 
 static void test_sheet(int64_t side, int shuffled, int lawful) {
   struct sheet sheet;
-  hooke_system *system;
-  const double mass = 1.0;
   draw_sheet(side, shuffled, &sheet);
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, sheet.particles, sheet.q, sheet.v, 1, &mass, NULL));
+  hooke_system *system = small_system(sheet.particles, sheet.q, sheet.v, 1.0, 0);
   for (int group = 0; group < 3; group++)
     add_group(&sheet, group, lawful, system);
   check_ok(hooke_system_commit(system));
@@ -150,21 +145,14 @@ static void test_sheet(int64_t side, int shuffled, int lawful) {
   free(sheet.stiffness);
 }
 
-static void test_runs(void **unused) {
-  (void)unused;
+TEST(test_runs) {
   test_sheet(30, 0, 1);
   test_sheet(30, 0, 0);
 }
 
 /* The large one has materials by a law, and none stored by spring. */
-static void test_tiled(void **unused) {
-  (void)unused;
+TEST(test_tiled) {
   test_sheet(30, 1, 1);
   test_sheet(30, 1, 0);
   test_sheet(220, 1, 1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_runs), cmocka_unit_test(test_tiled)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include "agree.h"
 #include "canonical.h"
 #include "check.h"
+#include "small.h"
 #include "workers.h"
 #include "random.h"
 
@@ -10,7 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { PARTICLES = 1500, MOST_STRETCH = 700 };
@@ -22,7 +22,8 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   const int pulls = random_whole(source, 0, 3) == 0, turned = random_whole(source, 0, 1) == 0;
   const int64_t offset = random_whole(source, 1, random_whole(source, 0, 1) ? 3 : particles / 4);
   int64_t *ends = malloc((size_t)(2 * particles) * sizeof *ends), count = 0;
-  double *kappa = new_doubles(particles), *gamma = new_doubles(particles), *rest = new_doubles(particles);
+  owned_doubles *kappa = new_doubles(particles), *gamma = new_doubles(particles),
+                *rest = new_doubles(particles);
   for (int64_t l = random_whole(source, 0, 20); l + 8 + offset < particles;
        l += sparse ? 90 : random_whole(source, 1, random_whole(source, 0, 1) ? 12 : 300)) {
     const int64_t length = random_whole(source, 8, sparse ? 20 : MOST_STRETCH);
@@ -38,25 +39,18 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   }
   char name[32];
   snprintf(name, sizeof name, "%s%d", pulls ? "pull" : "push", group);
-  hooke_options *options;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", count, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", count, gamma));
   check_ok(hooke_options_set_numbers(options, "rest_length", count, rest));
   check_ok(hooke_options_set_text(options, "compression", pulls ? "false" : "true"));
   check_ok(hooke_system_add_springs(system, name, count, ends, options));
-  hooke_options_destroy(options);
   free(ends);
-  free(kappa);
-  free(gamma);
-  free(rest);
 }
 
 static hooke_system *build(struct random_source *source, int64_t particles, int groups, int sparse, double *q,
                            double *v, double *gravity, double *drag) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   for (int64_t p = 0; p < particles; p++) {
     const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* coincides with its neighbour */
     for (int a = 0; a < 3; a++) {
@@ -91,20 +85,18 @@ static void compare(uint64_t seed, int *in_strided, int *most) {
       build(&source, particles, (int)random_whole(&source, 1, 9), seed % 5 == 0, q, v, gravity, &drag);
   *in_strided += system->strided->count > 0;
   if (system->strided->count > *most) *most = system->strided->count;
-  struct canonical c;
+  owned_canonical c;
   canonical_create(system, &c);
   c.gravity = gravity[1] != 0.0 ? gravity : NULL;
   c.drag = drag;
   check_agrees(system, &c, q, v);
   if (system->strided->count > 0 && seed % 4 == 0) check_members(system, q, v);
-  canonical_destroy(&c);
   hooke_system_destroy(system);
   free(q);
   free(v);
 }
 
-static void test_same_bits(void **unused) {
-  (void)unused;
+TEST(test_same_bits) {
   int in_strided = 0, most = 0;
   for (uint64_t seed = 1; seed <= 200; seed++)
     compare(seed, &in_strided, &most);
@@ -121,18 +113,14 @@ static int64_t spring_count(const hooke_system *system, int32_t k) {
 
 /* Parallel ropes are two strided batches, not two a rope; springs of the same offset that follow later are a
  * third. */
-static void test_lanes_of_ropes(void **unused) {
-  (void)unused;
-  hooke_system *system;
-  hooke_options *options;
+TEST(test_lanes_of_ropes) {
   double q[3 * 90];
   int64_t ends[2 * 29];
   const double stiffness = 10.0, mass = 1.0;
   for (int p = 0; p < 90; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7), q[3 * p + 2] = 0.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 90, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
+  owned_system *system = small_system(90, q, NULL, mass, 0);
+  hooke_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 1, &stiffness));
   for (int group = 0; group < 7; group++) {
     const int rope = group / 2 % 3, offset = group % 2 + 1;
@@ -146,21 +134,16 @@ static void test_lanes_of_ropes(void **unused) {
   assert_int_equal(spring_count(system, 0), 3 * 29);
   assert_int_equal(spring_count(system, 1), 3 * 28);
   assert_int_equal(spring_count(system, 2), 29);
-  hooke_system_destroy(system);
 }
 
 /* Ropes of one material are a strided batch that reads no parameters, those of several one that does. */
 static void check_materials(int ropes, int materials, int32_t shape) {
-  hooke_system *system;
-  hooke_options *options;
   double *q = new_doubles(3 * 30 * ropes), mass = 1.0;
   int64_t ends[2 * 29];
   for (int p = 0; p < 30 * ropes; p++)
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7);
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 30 * ropes, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.09));
+  owned_system *system = small_system(30 * ropes, q, NULL, mass, 0);
+  hooke_options *options = options_with("springs", "rest_length=0.09");
   for (int rope = 0; rope < ropes; rope++) {
     for (int k = 0; k < 29; k++)
       ends[2 * k] = 30 * rope + k, ends[2 * k + 1] = 30 * rope + k + 1;
@@ -173,17 +156,14 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   assert_int_equal(system->strided->count, 1);
   assert_int_equal(system->strided->batch[0].shape, shape);
   struct canonical c;
-  double *v = new_doubles(3 * 30 * ropes);
+  owned_doubles *v = new_doubles(3 * 30 * ropes);
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
   free(q);
-  free(v);
 }
 
-static void test_lanes_of_materials(void **unused) {
-  (void)unused;
+TEST(test_lanes_of_materials) {
   check_materials(30, 1, 0);
   check_materials(30, 30, HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED);
   check_materials(60, 2, HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED);
@@ -234,11 +214,10 @@ static int64_t list(struct random_source *source, const struct listing *listing,
 /* Random numbers up to `most`, or `most`. */
 static void set_each(struct random_source *source, hooke_options *options, const char *name, int64_t count,
                      double most, int own) {
-  double *value = new_doubles(count);
+  owned_doubles *value = new_doubles(count);
   for (int64_t k = 0; k < count; k++)
     value[k] = own ? random_between(source, 0.1, 1.0) * most : most;
   check_ok(hooke_options_set_numbers(options, name, own ? count : 1, value));
-  free(value);
 }
 
 /* Rest lengths of flat sheets are those of rounded positions. */
@@ -246,9 +225,6 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
                                   double *v) {
   static int64_t ends[2 * STEPS * MOST_LISTED];
   const int64_t particles = listing->sheets * SIDE * SIDE, count = list(source, listing, ends);
-  const double mass = 1.0;
-  hooke_system *system;
-  hooke_options *options;
   for (int64_t p = 0; p < particles; p++) {
     q[3 * p] = (double)(p % SIDE) / 7.0;
     q[3 * p + 1] = 0.0;
@@ -256,9 +232,8 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
     for (int a = 0; a < 3; a++)
       v[3 * p + a] = random_between(source, -1.0, 1.0);
   }
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, particles, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
+  hooke_system *system = small_system(particles, q, v, 1.0, 0);
+  hooke_options *options = new_options("springs");
   set_each(source, options, "stiffness", count, 80.0, listing->material >= STIFFNESS_OF_ITS_OWN);
   set_each(source, options, "damping", count, 0.1, listing->material == ALL_OF_ITS_OWN);
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
@@ -271,8 +246,8 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
  * order; springs in random order form no strided batches. */
 static void check_listing(uint64_t seed, struct listing listing) {
   struct random_source source = {seed};
-  double *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
-  hooke_system *system = build_listed(&source, &listing, q, v);
+  owned_doubles *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
+  owned_system *system = build_listed(&source, &listing, q, v);
   const int32_t strided = system->strided->count;
   if (listing.order == SAME) assert_int_equal(strided, STEPS);
   if (listing.order == ONE_OPPOSITE) assert_in_range(strided, STEPS + 1, 2 * STEPS);
@@ -282,13 +257,9 @@ static void check_listing(uint64_t seed, struct listing listing) {
   check_agrees(system, &c, q, v);
   check_members(system, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
-  free(q);
-  free(v);
 }
 
-static void test_listed_by_particle(void **unused) {
-  (void)unused;
+TEST(test_listed_by_particle) {
   uint64_t seed = 0;
   for (int sheets = 1; sheets <= MOST_SHEETS; sheets += 2) {
     for (int material = 0; material < LISTED_MATERIALS; material++) {
@@ -303,13 +274,11 @@ static void test_listed_by_particle(void **unused) {
 
 /* A chain whose springs to the second next particles come first, and then every second one to the next: in a
  * single strided batch ends would have to precede beginnings at one particle, and follow them at another. */
-static void test_every_second_first(void **unused) {
-  (void)unused;
+TEST(test_every_second_first) {
   enum { CHAIN = 150 };
   double q[3 * CHAIN] = {0.0}, v[3 * CHAIN];
   int64_t ends[4 * CHAIN], count = 0;
   struct random_source source = {31};
-  const double mass = 1.0;
   for (int k = 0; k < 3 * CHAIN; k++) {
     q[k] = random_between(&source, 0.0, 0.1) + (k % 3 ? 0.0 : 0.1 * (k / 3.0));
     v[k] = random_between(&source, -1.0, 1.0);
@@ -320,29 +289,20 @@ static void test_every_second_first(void **unused) {
     for (int64_t p = odd; p + 1 < CHAIN; p += 2, count++)
       ends[2 * count] = p, ends[2 * count + 1] = p + 1;
   }
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, CHAIN, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.09));
-  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
-  hooke_options_destroy(options);
+  owned_system *system = small_system(CHAIN, q, v, 1.0, 0);
+  small_group(system, "springs", NULL, count, ends, "stiffness=10 rest_length=0.09");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);
   struct canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
 }
 
 /* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are equal to the bit. */
-static void test_rounded_lengths(void **unused) {
-  (void)unused;
+TEST(test_rounded_lengths) {
   enum { EDGE = 24, EACH = EDGE * EDGE * EDGE };
-  double *q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
+  owned_doubles *q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
   int64_t *ends = new_block(6 * EACH, (int64_t)sizeof *ends), count = 0;
   for (int64_t p = 0; p < EACH; p++) {
     const int64_t at[3] = {p % EDGE, p / EDGE % EDGE, p / EDGE / EDGE}, next[3] = {1, EDGE, EDGE * EDGE};
@@ -353,15 +313,8 @@ static void test_rounded_lengths(void **unused) {
       ends[2 * count++ + 1] = p + next[a];
     }
   }
-  hooke_system *system;
-  hooke_options *options;
-  const double mass = 1.0;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, EACH, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
-  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
-  hooke_options_destroy(options);
+  owned_system *system = small_system(EACH, q, NULL, 1.0, 0);
+  small_group(system, "springs", NULL, count, ends, "stiffness=10");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->strided->count, 3);
   assert_true(system->strided->batch[0].shape & HOOKE_RUN_MIXED);
@@ -372,16 +325,5 @@ static void test_rounded_lengths(void **unused) {
     const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], r = sqrt((x * x + y * y) + z * z);
     check_same_bits(1, &length[s], &r);
   }
-  hooke_system_destroy(system);
-  free(q);
-  free(length);
   free(ends);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_same_bits),          cmocka_unit_test(test_lanes_of_ropes),
-      cmocka_unit_test(test_lanes_of_materials), cmocka_unit_test(test_listed_by_particle),
-      cmocka_unit_test(test_every_second_first), cmocka_unit_test(test_rounded_lengths)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -205,8 +205,7 @@ static void compare_set(const struct hk_tangent_set *set, const struct trial *tr
   check_same_bits(12 * PARTICLES, found.product[0], expected->product[0]);
 }
 
-static void springs(void **unused) {
-  (void)unused;
+TEST(springs) {
   static struct trial trial;
   static struct found expected;
   struct random_source source = {23};
@@ -259,8 +258,7 @@ static void change_one(const struct trial *trial, int64_t k, double change[3]) {
     change[a] = slack ? 0.0 : force * u[a] + tension / r * (w[a] - along * u[a]);
 }
 
-static void derivatives(void **unused) {
-  (void)unused;
+TEST(derivatives) {
   static struct trial trial;
   static double q[3 * PARTICLES], v[3 * PARTICLES], expected[3 * PARTICLES], found[3 * PARTICLES];
   const struct hk_derivative_rows rows = {q, v, v, q, found};
@@ -287,9 +285,4 @@ static void derivatives(void **unused) {
       check_same_bits(3 * PARTICLES, found, expected);
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(springs), cmocka_unit_test(derivatives)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

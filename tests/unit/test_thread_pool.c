@@ -46,8 +46,7 @@ static void add_up(int32_t worker, int32_t workers, void *ctx) {
   }
 }
 
-static void test_sums(void **unused) {
-  (void)unused;
+TEST(test_sums) {
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
     struct sums *sums = new_block(1, (int64_t)sizeof *sums);
     sums->pool = hk_pool_create(sizes[s]);
@@ -82,8 +81,7 @@ static void count_step(int32_t worker, int32_t workers, void *ctx) {
 }
 
 /* Many short tasks. */
-static void test_short_runs(void **unused) {
-  (void)unused;
+TEST(test_short_runs) {
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
     struct steps steps = {.pool = hk_pool_create(sizes[s])};
     const int64_t runs = sizes[s] <= 3 ? 5000 : 300;
@@ -116,8 +114,7 @@ static void come_late(int32_t worker, int32_t workers, void *ctx) {
   }
 }
 
-static void test_unequal_work(void **unused) {
-  (void)unused;
+TEST(test_unequal_work) {
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
     struct steps steps = {.pool = hk_pool_create(sizes[s])};
     for (int32_t run = 0; run < 4; run++) {
@@ -131,8 +128,7 @@ static void test_unequal_work(void **unused) {
   }
 }
 
-static void test_alone(void **unused) {
-  (void)unused;
+TEST(test_alone) {
   struct steps steps = {0};
   assert_int_equal(hk_pool_members(NULL), 1);
   hk_pool_run(NULL, count_step, &steps);
@@ -141,8 +137,7 @@ static void test_alone(void **unused) {
   assert_int_equal(steps.done[0], 1);
 }
 
-static void test_shares(void **unused) {
-  (void)unused;
+TEST(test_shares) {
   for (int64_t count = 0; count < 700; count += 13) {
     for (int32_t workers = 1; workers <= MOST; workers++) {
       assert_int_equal(hk_pool_share(count, 64, 0, workers), 0);
@@ -166,8 +161,7 @@ static void look_at_signals(int32_t worker, int32_t workers, void *ctx) {
 }
 
 /* The caller handles signals as before, the threads none. */
-static void test_signals(void **unused) {
-  (void)unused;
+TEST(test_signals) {
   int blocked[3] = {-1, -1, -1};
   struct hk_pool *pool = hk_pool_create(3);
   hk_pool_run(pool, look_at_signals, blocked);
@@ -175,11 +169,4 @@ static void test_signals(void **unused) {
   assert_int_equal(blocked[0], 0);
   assert_int_equal(blocked[1], 1);
   assert_int_equal(blocked[2], 1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_sums),         cmocka_unit_test(test_short_runs),
-                                     cmocka_unit_test(test_unequal_work), cmocka_unit_test(test_alone),
-                                     cmocka_unit_test(test_shares),       cmocka_unit_test(test_signals)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
  * and steps have the bits of the plain order, for any numbering of particles and springs. */
 #include "agree.h"
 #include "check.h"
+#include "small.h"
 #include "workers.h"
 #include "random.h"
 
@@ -9,7 +10,6 @@
 #include "model/sum/spring_batch.h"
 #include "model/sum/tiled.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Sides of sheets; only the springs of a large one are stored by the law that they follow. */
@@ -74,9 +74,8 @@ static void draw_sheet(struct random_source *source, int order, struct sheet *sh
 
 static void add_group(struct random_source *source, const struct sheet *sheet, hooke_system *system,
                       int64_t from, int64_t count, int material) {
-  hooke_options *options;
-  check_ok(hooke_options_create("springs", &options));
-  double *kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
+  owned_options *options = new_options("springs");
+  owned_doubles *kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
   const int pulls = random_whole(source, 0, 3) == 0, damped = random_whole(source, 0, 3) > 0;
   for (int64_t k = 0; k < count; k++) {
     const int own = k == 0 || material == OF_ITS_OWN;
@@ -90,16 +89,11 @@ static void add_group(struct random_source *source, const struct sheet *sheet, h
   check_ok(hooke_options_set_numbers(options, "rest_length", count, length));
   check_ok(hooke_options_set_text(options, "compression", pulls ? "false" : "true"));
   check_ok(hooke_system_add_springs(system, pulls ? "pull" : "push", count, sheet->ends + 2 * from, options));
-  hooke_options_destroy(options);
-  free(kappa);
-  free(gamma);
-  free(length);
 }
 
 static hooke_system *build(struct random_source *source, struct sheet *sheet, int groups, int material,
                            double *drag) {
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   const int64_t pinned[] = {3, sheet->particles - 1};
   for (int a = 0; a < 3; a++)
     sheet->v[3 * pinned[0] + a] = sheet->v[3 * pinned[1] + a] = 0.0;
@@ -156,9 +150,9 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   sheet->side = side;
   sheet->particles = side * side;
   draw_sheet(&source, order, sheet);
-  struct canonical c;
+  owned_canonical c;
   double drag;
-  hooke_system *system = build(&source, sheet, groups, material, &drag);
+  owned_system *system = build(&source, sheet, groups, material, &drag);
   const int listed = system->strided->count > 0;
   assert_int_equal(system->tiled->particles, listed ? 0 : sheet->particles);
   if (order != AS_BUILT || groups <= 3) assert_int_equal(listed, order == AS_BUILT);
@@ -171,13 +165,10 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   }
   check_agrees(system, &c, sheet->q, sheet->v);
   check_members(system, sheet->q, sheet->v);
-  canonical_destroy(&c);
-  hooke_system_destroy(system);
   free(sheet);
 }
 
-static void test_same_bits(void **unused) {
-  (void)unused;
+TEST(test_same_bits) {
   static const int groups[] = {1, 3, 20};
   uint64_t seed = 0;
   for (int order = AS_BUILT; order <= ALL_IN_NO_ORDER; order++) {
@@ -188,8 +179,7 @@ static void test_same_bits(void **unused) {
   }
 }
 
-static void test_same_bits_by_law(void **unused) {
-  (void)unused;
+TEST(test_same_bits_by_law) {
   compare(101, LARGE, ALL_IN_NO_ORDER, 1, STRAIN);
   compare(102, LARGE, SPRINGS_IN_NO_ORDER, 3, STRAIN);
   compare(104, LARGE, AS_BUILT, 3, STRAIN);
@@ -197,12 +187,11 @@ static void test_same_bits_by_law(void **unused) {
 }
 
 /* So many springs between neighbours that indices into the ring need more than 16 bits. */
-static void test_wide(void **unused) {
-  (void)unused;
+TEST(test_wide) {
   enum { CHAIN = 300, EACH = 150, COUNT = (CHAIN - 1) * EACH };
   struct random_source source = {5};
   double q[3 * CHAIN], v[3 * CHAIN], mass[CHAIN];
-  int64_t *ends = new_block(2 * COUNT, (int64_t)sizeof *ends);
+  owned_wholes *ends = new_block(2 * COUNT, (int64_t)sizeof *ends);
   for (int p = 0; p < CHAIN; p++) {
     mass[p] = random_between(&source, 100.0, 200.0);
     for (int a = 0; a < 3; a++) {
@@ -215,15 +204,9 @@ static void test_wide(void **unused) {
     ends[2 * s + turned] = low;
     ends[2 * s + 1 - turned] = low + 1;
   }
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
+  owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 3.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.01));
-  check_ok(hooke_system_add_springs(system, "net", COUNT, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", "net", COUNT, ends, "stiffness=3 damping=0.01");
   check_ok(hooke_system_commit(system));
   assert_int_equal(system->tiled->particles, CHAIN);
   assert_true(system->tiled->wide);
@@ -231,17 +214,12 @@ static void test_wide(void **unused) {
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   canonical_destroy(&c);
-  hooke_system_destroy(system);
-  free(ends);
 }
 
 enum { FEW = 6, PAIRS = FEW * (FEW - 1) / 2 };
 
 /* A spring for every pair of particles, from the last to the first. */
 static hooke_system *join_all(const double *q, const double *v, int64_t *ends) {
-  hooke_system *system;
-  hooke_options *options;
-  const double mass = 1.0;
   int64_t *end = ends;
   for (int64_t p = FEW - 1; p > 0; p--) {
     for (int64_t other = 0; other < p; other++) {
@@ -249,20 +227,14 @@ static hooke_system *join_all(const double *q, const double *v, int64_t *ends) {
       *end++ = other;
     }
   }
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, FEW, q, v, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.1));
-  check_ok(hooke_system_add_springs(system, "pairs", PAIRS, ends, options));
+  hooke_system *system = small_system(FEW, q, v, 1.0, 0);
+  small_group(system, "springs", "pairs", PAIRS, ends, "stiffness=50 damping=0.1");
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
 /* All that iterates over the springs of a small system keeps their order. */
-static void test_small(void **unused) {
-  (void)unused;
+TEST(test_small) {
   struct random_source source = {15};
   double q[3 * FEW], v[3 * FEW];
   int64_t ends[2 * PAIRS];
@@ -270,7 +242,7 @@ static void test_small(void **unused) {
     q[k] = random_between(&source, -1.0, 1.0);
     v[k] = random_between(&source, -1.0, 1.0);
   }
-  hooke_system *system = join_all(q, v, ends);
+  owned_system *system = join_all(q, v, ends);
   assert_int_equal(system->tiled->particles, FEW);
   struct canonical c;
   canonical_create(system, &c);
@@ -285,12 +257,4 @@ static void test_small(void **unused) {
     assert_true(batch.kappa[k] == c.kappa[k] && batch.gamma[k] == c.gamma[k]);
   }
   canonical_destroy(&c);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits),
-                                     cmocka_unit_test(test_same_bits_by_law), cmocka_unit_test(test_wide),
-                                     cmocka_unit_test(test_small)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

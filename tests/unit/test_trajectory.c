@@ -6,30 +6,17 @@
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 static hooke_system *new_rope(void) {
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", 6));
-  check_ok(hooke_options_set_number(options, "mass", 0.5));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 30));
-  check_ok(hooke_options_set_text(options, "pinned", "start"));
-  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
-  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  return system;
+  return small_falling(small_part(
+      NULL, "rope", NULL, "from=0,0,0 to=1,0.1,0 segments=6 mass=0.5 stretch.stiffness=30 pinned=start"));
 }
 
 #if HOOKE_HAVE_HDF5
@@ -158,8 +145,8 @@ static void check_text(const char *path, const char *expected) {
   assert_string_equal(text, expected);
 }
 
-static void all_frames_come_back(void **state) {
-  struct fixture *f = *state;
+TEST(all_frames_come_back) {
+  struct fixture *f = *prepared;
   create(f);
   run(f, HOOKE_OK);
   check_status(hooke_trajectory_write(f->trajectory, 101, f->state), HOOKE_BAD_CALL);
@@ -199,26 +186,24 @@ static void all_frames_come_back(void **state) {
 
 /* After each frame the bytes on the disk hold exactly the frames so far: nothing is cached in memory. */
 /* HDF5 fills texts beyond 1 MiB from beyond its buffer, which fails where the memory ends soon after. */
-static void scenes_of_any_length_come_back(void **state) {
-  struct fixture *f = *state;
+TEST(scenes_of_any_length_come_back) {
+  struct fixture *f = *prepared;
   static const int64_t lengths[] = {0,       1,       (1 << 20) - 1, 1 << 20, (1 << 20) + 1,
                                     1180000, 2300000, 3271701,       9000000};
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
-    hooke_record *record;
-    char *text = new_block(lengths[k] + 1, 1);
+    owned_record *record = NULL;
+    owned_text *text = new_block(lengths[k] + 1, 1);
     for (int64_t i = 0; i < lengths[k]; i++)
       text[i] = (char)('a' + (i * 7 + i / 1000) % 26);
     check_ok(hooke_trajectory_create(f->path, f->system, f->integrator, text, &f->trajectory));
     check_ok(close_file(f, HOOKE_STOPPED));
     check_ok(hooke_record_open(f->path, &record));
     assert_string_equal(hooke_record_text(record, "scene"), text);
-    hooke_record_close(record);
-    free(text);
   }
 }
 
-static void every_frame_is_in_the_file_at_once(void **state) {
-  struct fixture *f = *state;
+TEST(every_frame_is_in_the_file_at_once) {
+  struct fixture *f = *prepared;
   create(f);
   for (int64_t k = 0; k < FRAMES; k++) {
     copy_file(f->path, f->copy);
@@ -235,8 +220,8 @@ static void every_frame_is_in_the_file_at_once(void **state) {
   check_file(f, f->copy, FRAMES);
 }
 
-static void an_early_end_leaves_no_empty_frames(void **state) {
-  struct fixture *f = *state;
+TEST(an_early_end_leaves_no_empty_frames) {
+  struct fixture *f = *prepared;
   create(f);
   f->stop_after = 4;
   run(f, HOOKE_STOPPED);
@@ -249,15 +234,15 @@ static void an_early_end_leaves_no_empty_frames(void **state) {
   hk_free(column(f->copy, "/observables/total_energy/value", FRAMES));
 }
 
-static void a_run_without_a_frame_closes(void **state) {
-  struct fixture *f = *state;
+TEST(a_run_without_a_frame_closes) {
+  struct fixture *f = *prepared;
   create(f);
   check_ok(close_file(f, HOOKE_SOLVER_FAILED));
   check_no_frame(f->path, -1, "has no frames yet");
 }
 
-static void wrong_states_are_refused_and_do_no_harm(void **state) {
-  struct fixture *f = *state;
+TEST(wrong_states_are_refused_and_do_no_harm) {
+  struct fixture *f = *prepared;
   hooke_state *other;
   check_ok(hooke_state_create_first_order(4, &other));
   create(f);
@@ -277,8 +262,8 @@ static void check_not_created(struct fixture *f, const char *path, const char *m
   assert_null(f->trajectory);
 }
 
-static void only_regular_files_are_replaced(void **state) {
-  struct fixture *f = *state;
+TEST(only_regular_files_are_replaced) {
+  struct fixture *f = *prepared;
   struct stat device;
   check_not_created(f, "/dev/null", "is not a regular file");
   assert_int_equal(stat("/dev/null", &device), 0);
@@ -287,8 +272,8 @@ static void only_regular_files_are_replaced(void **state) {
   check_not_created(f, "/no/such/folder/out.h5", "No such file or directory");
 }
 
-static void a_link_stays_a_link(void **state) {
-  struct fixture *f = *state;
+TEST(a_link_stays_a_link) {
+  struct fixture *f = *prepared;
   struct stat there;
   write_file(f->copy, "old");
   assert_int_equal(symlink(f->copy, f->path), 0);
@@ -300,8 +285,8 @@ static void a_link_stays_a_link(void **state) {
   check_file(f, f->copy, FRAMES);
 }
 
-static void an_old_file_stays_until_there_is_room(void **state) {
-  struct fixture *f = *state;
+TEST(an_old_file_stays_until_there_is_room) {
+  struct fixture *f = *prepared;
   write_file(f->path, "precious");
   for (int64_t size = 0; size < 60000; size += 1500) {
     limit_files(size);
@@ -318,8 +303,8 @@ static void an_old_file_stays_until_there_is_room(void **state) {
   check_failed("a file of 60000 bytes is room enough");
 }
 
-static void a_failed_write_is_never_success(void **state) {
-  struct fixture *f = *state;
+TEST(a_failed_write_is_never_success) {
+  struct fixture *f = *prepared;
   create(f);
   f->stop_after = 3;
   run(f, HOOKE_STOPPED);
@@ -335,8 +320,8 @@ static void a_failed_write_is_never_success(void **state) {
   check_file(f, f->path, 3);
 }
 
-static void a_failed_shortening_keeps_the_long_file(void **state) {
-  struct fixture *f = *state;
+TEST(a_failed_shortening_keeps_the_long_file) {
+  struct fixture *f = *prepared;
   create(f);
   f->stop_after = 5;
   run(f, HOOKE_STOPPED);
@@ -348,8 +333,8 @@ static void a_failed_shortening_keeps_the_long_file(void **state) {
   check_file(f, f->path, 5);
 }
 
-static void arrays_are_refused_in_words(void **state) {
-  struct fixture *f = *state;
+TEST(arrays_are_refused_in_words) {
+  struct fixture *f = *prepared;
   double *values;
   int64_t rows, columns;
   create(f);
@@ -373,32 +358,13 @@ static void arrays_are_refused_in_words(void **state) {
   assert_null(values);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      TEST(all_frames_come_back),
-      TEST(scenes_of_any_length_come_back),
-      TEST(every_frame_is_in_the_file_at_once),
-      TEST(an_early_end_leaves_no_empty_frames),
-      TEST(a_run_without_a_frame_closes),
-      TEST(wrong_states_are_refused_and_do_no_harm),
-      TEST(only_regular_files_are_replaced),
-      TEST(a_link_stays_a_link),
-      TEST(an_old_file_stays_until_there_is_room),
-      TEST(a_failed_write_is_never_success),
-      TEST(a_failed_shortening_keeps_the_long_file),
-      TEST(arrays_are_refused_in_words),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+AROUND_EACH(set_up, tear_down)
 
 #else
 
 /* Without HDF5 every call says so. */
-static void trajectories_are_not_in_this_build(void **unused) {
-  (void)unused;
-  hooke_system *system = new_rope();
+TEST(trajectories_are_not_in_this_build) {
+  owned_system *system = new_rope();
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
   hooke_trajectory *trajectory;
@@ -410,12 +376,6 @@ static void trajectories_are_not_in_this_build(void **unused) {
   check_status(hk_array_read("out.h5", "/a", 0, 0, &values, &rows, &columns), HOOKE_NOT_BUILT);
   check_message("HDF5");
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(trajectories_are_not_in_this_build)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
 #endif

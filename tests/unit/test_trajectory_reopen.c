@@ -9,7 +9,6 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,22 +18,11 @@ enum { N = 7, FRAMES = 11, PATH_SIZE = 256 };
 /* `brace`: one more spring, from the first particle to the third. */
 static hooke_system *braced_rope(int particles, double mass, int brace) {
   const int64_t ends[] = {0, 2};
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", particles - 1));
-  check_ok(hooke_options_set_number(options, "mass", mass));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 30));
-  check_ok(hooke_options_set_text(options, "pinned", "start"));
-  check_ok(hooke_system_add_part(system, "rope", NULL, options, NULL, NULL));
+  hooke_system *system = small_part(
+      NULL, "rope", NULL, "from=0,0,0 to=1,0.1,0 segments=%d mass=%.17g stretch.stiffness=30 pinned=start",
+      particles - 1, mass);
   if (brace) small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 0.5});
-  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  return system;
+  return small_falling(system);
 }
 
 static hooke_system *rope(int particles) {
@@ -124,8 +112,8 @@ static void end_early(const struct fixture *f, int64_t frames) {
 
 /* Exactly these frames, each to the bit. */
 static void check_frames(const struct fixture *f, int64_t count, const char *status) {
-  hooke_record *record;
-  hooke_state *state = start_state(f->system);
+  owned_record *record = NULL;
+  owned_state *state = start_state(f->system);
   check_ok(hooke_record_open(f->path, &record));
   assert_int_equal(hooke_record_count(record, "frames"), count);
   assert_string_equal(hooke_record_text(record, "status"), status);
@@ -135,8 +123,6 @@ static void check_frames(const struct fixture *f, int64_t count, const char *sta
     check_same_bits(3 * N, hooke_state_velocity(state), hooke_state_velocity(f->frame[k]));
     assert_true(hooke_state_time(state) == hooke_state_time(f->frame[k]));
   }
-  hooke_state_destroy(state);
-  hooke_record_close(record);
 }
 
 static int64_t planned(const struct fixture *f) {
@@ -149,10 +135,9 @@ static int64_t planned(const struct fixture *f) {
 }
 
 static void read_run(const struct fixture *f, char run[64]) {
-  hooke_record *record;
+  owned_record *record = NULL;
   check_ok(hooke_record_open(f->path, &record));
   snprintf(run, 64, "%s", hooke_record_text(record, "run"));
-  hooke_record_close(record);
 }
 
 static char *bytes_of(const char *path, size_t *count) {
@@ -170,7 +155,7 @@ static char *bytes_of(const char *path, size_t *count) {
 /* Changes byte number `at` of a byte string in the file. */
 static void damage(const char *path, const void *found, size_t length, int64_t at) {
   size_t count;
-  char *bytes = bytes_of(path, &count);
+  owned_text *bytes = bytes_of(path, &count);
   FILE *file = fopen(path, "r+b");
   size_t k = 0;
   while (k + length <= count && memcmp(bytes + k, found, length) != 0)
@@ -179,11 +164,10 @@ static void damage(const char *path, const void *found, size_t length, int64_t a
   assert_int_equal(fseek(file, (long)(k + (size_t)at), SEEK_SET), 0);
   fputc(bytes[k + (size_t)at] ^ 1, file);
   assert_int_equal(fclose(file), 0);
-  free(bytes);
 }
 
-static void a_killed_run_ends_as_if_it_never_was(void **state) {
-  const struct fixture *f = *state;
+TEST(a_killed_run_ends_as_if_it_never_was) {
+  const struct fixture *f = *prepared;
   const int64_t killed_after[] = {0, 1, 4, 10, FRAMES};
   for (int k = 0; k < 5; k++) {
     const int64_t killed = killed_after[k];
@@ -205,20 +189,18 @@ static void a_killed_run_ends_as_if_it_never_was(void **state) {
       write_frames(f, trajectory, 0, FRAMES);
       memcpy(run, hooke_trajectory_text(trajectory, "run"), 33);
       check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
-      char *bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
+      owned_text *bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
       assert_int_equal(size, whole_size);
       int64_t different = 0;
       for (size_t at = 0; at < size; at++)
         different += bytes[at] != whole[at];
       assert_true(different <= 32); /* the name of the run */
-      free(bytes);
-      free(whole);
     }
   }
 }
 
-static void a_run_that_ended_early_goes_on(void **state) {
-  const struct fixture *f = *state;
+TEST(a_run_that_ended_early_goes_on) {
+  const struct fixture *f = *prepared;
   for (int64_t kept = 0; kept <= 6; kept += 3) {
     char run[64], now[64];
     end_early(f, 6);
@@ -237,8 +219,8 @@ static void a_run_that_ended_early_goes_on(void **state) {
 }
 
 /* A reported frame stays, also if the second run does not get as far as the first. */
-static void no_frame_is_lost(void **state) {
-  const struct fixture *f = *state;
+TEST(no_frame_is_lost) {
+  const struct fixture *f = *prepared;
   be_killed(f, 8, -1);
   hooke_trajectory *trajectory = reopen(f, 2);
   write_frames(f, trajectory, 2, 5);
@@ -253,19 +235,17 @@ static void no_frame_is_lost(void **state) {
 static void check_refused(const struct fixture *f, int64_t kept, const char *message) {
   size_t before_size, size;
   hooke_trajectory *trajectory;
-  char *before = bytes_of(f->path, &before_size);
+  owned_text *before = bytes_of(f->path, &before_size);
   check_status(hk_trajectory_reopen(f->path, f->system, f->integrator, kept, &trajectory), HOOKE_BAD_VALUE);
   check_message(message);
   assert_null(trajectory);
-  char *bytes = bytes_of(f->path, &size);
+  owned_text *bytes = bytes_of(f->path, &size);
   assert_int_equal(before_size, size);
   assert_memory_equal(before, bytes, size);
-  free(before);
-  free(bytes);
 }
 
-static void a_damaged_frame_is_refused_by_name(void **state) {
-  const struct fixture *f = *state;
+TEST(a_damaged_frame_is_refused_by_name) {
+  const struct fixture *f = *prepared;
   be_killed(f, 8, -1);
   damage(f->path, hooke_state_velocity(f->frame[3]), 3 * N * sizeof(double), 100);
   check_refused(f, 8, "frame 3 of ");
@@ -277,8 +257,8 @@ static void a_damaged_frame_is_refused_by_name(void **state) {
   check_frames(f, FRAMES, "finished");
 }
 
-static void frames_that_were_never_there_are_missed(void **state) {
-  const struct fixture *f = *state;
+TEST(frames_that_were_never_there_are_missed) {
+  const struct fixture *f = *prepared;
   be_killed(f, 5, -1);
   check_refused(f, 6, "frame 5 of ");
   end_early(f, 5);
@@ -297,8 +277,8 @@ static void check_other(struct fixture *f, int particles, double duration, const
   f->integrator = integrator;
 }
 
-static void other_files_are_refused(void **state) {
-  struct fixture *f = *state;
+TEST(other_files_are_refused) {
+  struct fixture *f = *prepared;
   hooke_trajectory *trajectory;
   be_killed(f, 5, -1);
   check_other(f, N + 1, 0.1, "is not there as a run of this system makes it");
@@ -314,8 +294,8 @@ static void other_files_are_refused(void **state) {
   }
 }
 
-static void without_room_the_short_file_stays(void **state) {
-  const struct fixture *f = *state;
+TEST(without_room_the_short_file_stays) {
+  const struct fixture *f = *prepared;
   hooke_trajectory *trajectory;
   end_early(f, 6);
   for (int64_t size = 0; size < 30000; size += 1500) {
@@ -336,8 +316,8 @@ static void without_room_the_short_file_stays(void **state) {
 
 /* ---- sync ---- */
 
-static void sync_brings_frames_to_the_disk(void **state) {
-  const struct fixture *f = *state;
+TEST(sync_brings_frames_to_the_disk) {
+  const struct fixture *f = *prepared;
   hooke_trajectory *trajectory = create(f, f->path);
   check_ok(hooke_trajectory_sync(trajectory));
   write_frames(f, trajectory, 0, 4);
@@ -354,8 +334,8 @@ static void sync_brings_frames_to_the_disk(void **state) {
 
 /* If another file takes the name during a run, it is neither written to nor replaced, and the run does not
  * report its frames as written. */
-static void another_file_of_the_name_is_left_alone(void **state) {
-  const struct fixture *f = *state;
+TEST(another_file_of_the_name_is_left_alone) {
+  const struct fixture *f = *prepared;
   for (int early = 0; early <= 1; early++) {
     for (int gone = 0; gone <= 1; gone++) {
       hooke_trajectory *trajectory = create(f, f->path), *second = NULL;
@@ -384,8 +364,8 @@ static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
 
 /* To the end of the run, which then equals an uninterrupted one. */
 static void check_goes_on(const struct fixture *f, const char *origin) {
-  hooke_integrator *integrator = integrator_of(f->system, 0.1);
-  hooke_state *state = start_state(f->system);
+  owned_integrator *integrator = integrator_of(f->system, 0.1);
+  owned_state *state = start_state(f->system);
   hooke_trajectory *trajectory = NULL;
   check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
   assert_non_null(trajectory);
@@ -400,12 +380,10 @@ static void check_goes_on(const struct fixture *f, const char *origin) {
   /* and nothing is left to do */
   check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
   assert_null(trajectory);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
-static void a_run_goes_on_where_its_file_ends(void **state) {
-  const struct fixture *f = *state;
+TEST(a_run_goes_on_where_its_file_ends) {
+  const struct fixture *f = *prepared;
   be_killed(f, 0, -1);
   check_goes_on(f, "the beginning, at t = 0 s");
   be_killed(f, 1, -1);
@@ -422,17 +400,15 @@ static void a_run_goes_on_where_its_file_ends(void **state) {
 static void check_not_resumed(const struct fixture *f, const hooke_system *system,
                               hooke_integrator *integrator, int32_t status, const char *message) {
   hooke_trajectory *trajectory = NULL;
-  hooke_state *state = start_state(system), *before = start_state(system);
+  owned_state *state = start_state(system), *before = start_state(system);
   check_status(hooke_trajectory_resume(f->path, system, integrator, state, &trajectory), status);
   check_message(message);
   assert_null(trajectory);
   check_same_bits(hooke_state_size(state), hooke_state_position(state), hooke_state_position(before));
-  hooke_state_destroy(before);
-  hooke_state_destroy(state);
 }
 
-static void other_runs_do_not_go_on(void **state) {
-  const struct fixture *f = *state;
+TEST(other_runs_do_not_go_on) {
+  const struct fixture *f = *prepared;
   struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01};
   be_killed(f, 5, -1);
   hooke_system *const systems[] = {rope(N + 1), braced_rope(N, 0.6, 0), braced_rope(N, 0.5, 1)};
@@ -450,9 +426,8 @@ static void other_runs_do_not_go_on(void **state) {
                                {.method = "symplectic-euler", .step = 1e-3, .duration = 0.2, .every = 0.01},
                                {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.02}};
   for (int k = 0; k < 4; k++) {
-    hooke_integrator *integrator = start_run(f->system, others[k]);
+    owned_integrator *integrator = start_run(f->system, others[k]);
     check_not_resumed(f, f->system, integrator, HOOKE_BAD_VALUE, "only threads may be changed");
-    hooke_integrator_destroy(integrator);
   }
   run.duration = 0.0;
   hooke_integrator *endless = start_run(f->system, run);
@@ -462,8 +437,8 @@ static void other_runs_do_not_go_on(void **state) {
 }
 
 /* An outcome each, in the file's own words. */
-static void files_say_how_the_run_ended(void **state) {
-  const struct fixture *f = *state;
+TEST(files_say_how_the_run_ended) {
+  const struct fixture *f = *prepared;
   const struct {
     int32_t outcome;
     const char *word;
@@ -479,8 +454,8 @@ static void files_say_how_the_run_ended(void **state) {
   }
 }
 
-static void nothing_to_verify(void **state) {
-  const struct fixture *f = *state;
+TEST(nothing_to_verify) {
+  const struct fixture *f = *prepared;
   hooke_measurement *verify = NULL;
   be_killed(f, 0, -1);
   check_status(hooke_verify_create(f->path, NULL, NULL, &verify), HOOKE_BAD_VALUE);
@@ -490,46 +465,19 @@ static void nothing_to_verify(void **state) {
   check_message("no path given");
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      TEST(a_killed_run_ends_as_if_it_never_was),
-      TEST(a_run_that_ended_early_goes_on),
-      TEST(no_frame_is_lost),
-      TEST(a_damaged_frame_is_refused_by_name),
-      TEST(frames_that_were_never_there_are_missed),
-      TEST(other_files_are_refused),
-      TEST(without_room_the_short_file_stays),
-      TEST(sync_brings_frames_to_the_disk),
-      TEST(another_file_of_the_name_is_left_alone),
-      TEST(a_run_goes_on_where_its_file_ends),
-      TEST(other_runs_do_not_go_on),
-      TEST(files_say_how_the_run_ended),
-      TEST(nothing_to_verify),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+AROUND_EACH(set_up, tear_down)
 
 #else
 
-static void it_is_not_in_this_build(void **unused) {
-  (void)unused;
-  hooke_system *system = rope(N);
-  hooke_integrator *integrator = integrator_of(system, 0.1);
+TEST(it_is_not_in_this_build) {
+  owned_system *system = rope(N);
+  owned_integrator *integrator = integrator_of(system, 0.1);
   hooke_trajectory *trajectory;
   check_status(hk_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
   assert_null(trajectory);
   check_status(hooke_trajectory_sync(NULL), HOOKE_BAD_CALL);
   check_status(hooke_record_check(NULL, 0), HOOKE_BAD_CALL);
   assert_null(hooke_trajectory_text(NULL, "run"));
-  hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_not_in_this_build)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
 #endif

@@ -24,8 +24,7 @@ static int is_control(uint32_t point) {
          point == 0x200F || (point >= 0x2028 && point <= 0x202E) || (point >= 0x2066 && point <= 0x2069);
 }
 
-static void only_control_characters_are_replaced(void **state) {
-  (void)state;
+TEST(only_control_characters_are_replaced) {
   for (uint32_t point = 1; point <= 0x10FFFF; point++) {
     if (point >= 0xD800 && point <= 0xDFFF) continue;
     char character[8], text[16], wanted[16];
@@ -37,8 +36,7 @@ static void only_control_characters_are_replaced(void **state) {
   }
 }
 
-static void bytes_of_no_character_are_replaced_one_by_one(void **state) {
-  (void)state;
+TEST(bytes_of_no_character_are_replaced_one_by_one) {
   static const char *const pairs[][2] = {{"\x9b", "?"},
                                          {"a\xc2", "a?"},
                                          {"\xe2\x80", "??"},
@@ -53,12 +51,4 @@ static void bytes_of_no_character_are_replaced_one_by_one(void **state) {
     hk_utf8_make_plain(text);
     assert_string_equal(text, pairs[k][1]);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(only_control_characters_are_replaced),
-      cmocka_unit_test(bytes_of_no_character_are_replaced_one_by_one),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

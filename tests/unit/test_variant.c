@@ -3,13 +3,13 @@
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
+#include "small.h"
 
 #include "model/group.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static hooke_system *make(const hooke_system *from, const struct hk_variant *variant,
@@ -40,21 +40,17 @@ static void release(struct hk_variant *variant, struct hk_variant_map *map, hook
 static void check_same_run(const hooke_system *a, const hooke_system *b) {
   const int64_t size = 3 * hooke_system_particle_count(a);
   const struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.02};
-  double *q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size), *v2 = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size),
+                *v2 = new_doubles(size);
   run_to_end(a, run, q, v);
   run_to_end(b, run, q2, v2);
   check_same_bits(size, q2, q);
   check_same_bits(size, v2, v);
-  free(q);
-  free(v);
-  free(q2);
-  free(v2);
 }
 
-static void a_variant_that_changes_nothing_has_the_same_bits(void **state) {
-  (void)state;
+TEST(a_variant_that_changes_nothing_has_the_same_bits) {
   for (uint64_t seed = 1; seed <= 64; seed++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = seed,
                                                       .particles = 30,
                                                       .springs = 60,
@@ -74,60 +70,26 @@ static void a_variant_that_changes_nothing_has_the_same_bits(void **state) {
       assert_int_equal(map.to[p], p);
     check_same_run(scene.system, made);
     release(&variant, &map, made);
-    random_scene_destroy(&scene);
   }
 }
 
 /* ---- a scene of two parts and a group that joins them ---- */
 
-static void add_family(hooke_options *options, const char *family, double stiffness, double damping) {
-  char name[64];
-  snprintf(name, sizeof name, "%s.stiffness", family);
-  check_ok(hooke_options_set_number(options, name, stiffness));
-  snprintf(name, sizeof name, "%s.damping", family);
-  check_ok(hooke_options_set_number(options, name, damping));
-}
-
 /* Particles 0 and 1 alone, a rope of 9 (2 to 10), a cloth of 7 x 5 (11 to 45). */
 static hooke_system *two_parts(void) {
-  hooke_system *system;
-  hooke_options *rope, *cloth, *ties;
-  const double alone[6] = {-1, 0, 0, 5, 5, 5}, mass = 0.5, gravity[3] = {0, -9.81, 0};
-  const double from[3] = {0, 0, 0}, to[3] = {2, 0, 0}, origin[3] = {0, 0, 1}, edges[6] = {3, 0, 0, 0, 0, 2};
-  const double size[2] = {7, 5}, held[2] = {0, 1};
+  const double alone[6] = {-1, 0, 0, 5, 5, 5};
   const int64_t ends[4] = {0, 2, 10, 11}, pinned = 1;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 2, alone, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_numbers(rope, "from", 3, from));
-  check_ok(hooke_options_set_numbers(rope, "to", 3, to));
-  check_ok(hooke_options_set_number(rope, "segments", 8));
-  check_ok(hooke_options_set_number(rope, "mass", 1));
-  check_ok(hooke_options_set_numbers(rope, "pinned", 2, held));
-  add_family(rope, "stretch", 100, 0.1);
-  add_family(rope, "bend", 10, 0);
-  check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
-  check_ok(hooke_options_set_number(cloth, "mass", 2));
-  check_ok(hooke_options_set_text(cloth, "pinned", "top"));
-  add_family(cloth, "structural", 50, 0.2);
-  add_family(cloth, "shear", 20, 0);
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  check_ok(hooke_options_create("springs", &ties));
-  check_ok(hooke_options_set_number(ties, "stiffness", 30));
-  check_ok(hooke_options_set_number(ties, "damping", 0.3));
-  check_ok(hooke_system_add_springs(system, "ties", 2, ends, ties));
+  hooke_system *system = small_system(2, alone, NULL, 0.5, 0);
+  small_part(system, "rope", "rope",
+             "from=0,0,0 to=2,0,0 segments=8 mass=1 pinned=0,1 stretch.stiffness=100 stretch.damping=0.1 "
+             "bend.stiffness=10 bend.damping=0");
+  small_part(system, "cloth", "cloth",
+             "origin=0,0,1 edges=3,0,0,0,0,2 size=7,5 mass=2 pinned=top structural.stiffness=50 "
+             "structural.damping=0.2 shear.stiffness=20 shear.damping=0");
+  small_group(system, "springs", "ties", 2, ends, "stiffness=30 damping=0.3");
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.1));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(rope);
-  hooke_options_destroy(cloth);
-  hooke_options_destroy(ties);
-  return system;
+  return small_falling(system);
 }
 
 enum { TIES = 0, STRETCH = 1, BEND = 2, STRUCTURAL = 3, SHEAR = 4, ROPE = 0, CLOTH = 1 };
@@ -146,8 +108,7 @@ static void check_sizes(const hooke_system *made, const int64_t size[5]) {
     assert_int_equal(size_of(made, names[k]), size[k]);
 }
 
-static void what_is_left_out_is_out(void **state) {
-  (void)state;
+TEST(what_is_left_out_is_out) {
   hooke_system *system = two_parts(), *made;
   struct hk_variant variant = nothing_of(system);
   struct hk_variant_map map;
@@ -187,9 +148,8 @@ static void what_is_left_out_is_out(void **state) {
 
 /* Two of the seven springs two apart in the rope; the rest is a group of its own, numbered among the explicit
  * ones. */
-static void single_springs_of_a_family_are_left_out(void **state) {
-  (void)state;
-  hooke_system *system = two_parts();
+TEST(single_springs_of_a_family_are_left_out) {
+  owned_system *system = two_parts();
   struct hk_variant variant = nothing_of(system);
   struct hk_variant_map map;
   variant.spring[2 + 8] = variant.spring[2 + 8 + 3] = variant.spring[1] = 1;
@@ -207,7 +167,6 @@ static void single_springs_of_a_family_are_left_out(void **state) {
     assert_true(kappa[1 + k] == full[2 + 8]);
   }
   release(&variant, &map, made);
-  hooke_system_destroy(system);
 }
 
 /* ---- resolution ---- */
@@ -215,7 +174,7 @@ static void single_springs_of_a_family_are_left_out(void **state) {
 /* Positions of the variant that are an affine function of the material are recovered at every particle. */
 static void check_affine(const hooke_system *system, const hooke_system *made,
                          const struct hk_variant_map *map) {
-  hooke_state *from, *to;
+  owned_state *from = NULL, *to = NULL;
   check_ok(hooke_state_create(system, &from));
   check_ok(hooke_state_create(made, &to));
   double *q = hooke_state_position(to);
@@ -233,16 +192,13 @@ static void check_affine(const hooke_system *system, const hooke_system *made,
     check_close(place[1], at[1] + 0.5 * at[0], 1e-14);
     check_close(place[2], 3.0 * at[2] - at[0], 1e-14);
   }
-  hooke_state_destroy(from);
-  hooke_state_destroy(to);
 }
 
 static int64_t pinned_count(const hooke_system *system) {
   return hooke_system_particle_count(system) - hooke_system_count(system, "free");
 }
 
-static void parts_at_another_resolution_stand_for_the_same_material(void **state) {
-  (void)state;
+TEST(parts_at_another_resolution_stand_for_the_same_material) {
   static const struct {
     double rope, cloth;
     int64_t particles, pinned;
@@ -254,7 +210,7 @@ static void parts_at_another_resolution_stand_for_the_same_material(void **state
       {1.0, 2.0, 2 + 9 + 13 * 9, 1 + 2 + 13},
       {0.3, 0.01, 2 + 3 + 4, 1 + 1 + 2}, /* 8 cells: 2; one cell is the minimum */
   };
-  hooke_system *system = two_parts();
+  owned_system *system = two_parts();
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     struct hk_variant variant = nothing_of(system);
     struct hk_variant_map map;
@@ -267,7 +223,6 @@ static void parts_at_another_resolution_stand_for_the_same_material(void **state
     check_affine(system, made, &map);
     release(&variant, &map, made);
   }
-  hooke_system_destroy(system);
 }
 
 static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
@@ -275,9 +230,8 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-static void a_callback_keeps_its_particles(void **state) {
-  (void)state;
-  struct random_scene scene;
+TEST(a_callback_keeps_its_particles) {
+  owned_random_scene scene;
   random_scene_create(
       (struct random_scene_request){.seed = 3, .particles = 12, .springs = 20, .cloth = {4, 4}}, &scene);
   struct hk_variant variant = nothing_of(scene.system);
@@ -286,10 +240,8 @@ static void a_callback_keeps_its_particles(void **state) {
   hooke_system_destroy(made);
   hk_variant_map_release(&map);
 
-  hooke_system *open;
   const double at[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0;
-  check_ok(hooke_system_create(&open));
-  check_ok(hooke_system_add_particles(open, 2, at, NULL, 1, &mass, NULL));
+  hooke_system *open = small_system(2, at, NULL, mass, 0);
   check_ok(hooke_system_set_force(open, no_force, NULL, NULL));
   check_ok(hooke_system_commit(open));
   struct hk_variant fewer = nothing_of(open);
@@ -302,7 +254,6 @@ static void a_callback_keeps_its_particles(void **state) {
   release(&fewer, &map, made);
   hk_variant_release(&variant);
   hooke_system_destroy(open);
-  random_scene_destroy(&scene);
 }
 
 /* ---- one within another ---- */
@@ -326,40 +277,19 @@ static struct single *next_single(const hooke_system *system, struct single *all
 
 /* Two parts, with springs, triples and tetrahedra of their own, and the same by hand. */
 static hooke_system *everything(void) {
-  const double place[] = {9, 0, 0, 9.3, 0, 0, 9.1, 0.28, 0, 9.12, 0.1, 0.26}, mass = 0.1, coefficient = 2;
+  const double place[] = {9, 0, 0, 9.3, 0, 0, 9.1, 0.28, 0, 9.12, 0.1, 0.26}, coefficient = 2;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
-  hooke_system *system;
-  hooke_options *strand, *cloth, *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("strand", &strand));
-  check_ok(hooke_options_set_numbers(strand, "from", 3, (double[]){0, 1, 0}));
-  check_ok(hooke_options_set_numbers(strand, "to", 3, (double[]){1, 1, 0}));
-  check_ok(hooke_options_set_number(strand, "segments", 4));
-  check_ok(hooke_options_set_number(strand, "mass", 0.1));
-  add_family(strand, "stretch", 20, 0);
-  add_family(strand, "bend", 2, 0);
-  check_ok(hooke_options_set_number(strand, "altitude.stiffness", 1));
-  check_ok(hooke_system_add_part(system, "strand", "strand", strand, NULL, NULL));
-  check_ok(hooke_options_create("cloth", &cloth));
-  check_ok(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0, 1}));
-  check_ok(hooke_options_set_numbers(cloth, "size", 2, (double[]){3, 3}));
-  check_ok(hooke_options_set_number(cloth, "mass", 0.2));
-  check_ok(hooke_options_set_number(cloth, "bending", 0.001));
-  add_family(cloth, "structural", 20, 0.1);
-  check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 30));
-  check_ok(hooke_system_add_springs(system, "ties", 3, ends, options));
-  hooke_options_destroy(options);
+  hooke_system *system = small_system(4, place, NULL, 0.1, 0);
+  small_part(system, "strand", "strand",
+             "from=0,1,0 to=1,1,0 segments=4 mass=0.1 stretch.stiffness=20 stretch.damping=0 "
+             "bend.stiffness=2 bend.damping=0 altitude.stiffness=1");
+  small_part(system, "cloth", "cloth",
+             "edges=1,0,0,0,0,1 size=3,3 mass=0.2 bending=0.001 structural.stiffness=20 "
+             "structural.damping=0.1");
+  small_group(system, "springs", "ties", 3, ends, "stiffness=30");
   check_ok(hooke_system_add_bending(system, "hinge", 1, triple, 1, &coefficient));
-  check_ok(hooke_options_create("altitude", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 3));
-  check_ok(hooke_system_add_altitude(system, "body", 1, corners, options));
-  hooke_options_destroy(options);
+  small_group(system, "altitude", "body", 1, corners, "stiffness=3");
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(strand);
-  hooke_options_destroy(cloth);
   return system;
 }
 
@@ -403,9 +333,8 @@ static int is_within(const struct single *all, int outer, int inner) {
 
 /* An omission is contained in itself, and in that of its group or part; and in the union of two if it is in
  * either. */
-static void variants_within_variants(void **state) {
-  (void)state;
-  hooke_system *system = everything();
+TEST(variants_within_variants) {
+  owned_system *system = everything();
   static struct single all[MOST_SINGLE];
   const int count = list_singles(system, all);
   struct hk_variant nothing = nothing_of(system);
@@ -434,17 +363,4 @@ static void variants_within_variants(void **state) {
   for (int i = 0; i < count; i++)
     hk_variant_release(&all[i].variant);
   hk_variant_release(&nothing);
-  hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_variant_that_changes_nothing_has_the_same_bits),
-      cmocka_unit_test(what_is_left_out_is_out),
-      cmocka_unit_test(single_springs_of_a_family_are_left_out),
-      cmocka_unit_test(parts_at_another_resolution_stand_for_the_same_material),
-      cmocka_unit_test(a_callback_keeps_its_particles),
-      cmocka_unit_test(variants_within_variants),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

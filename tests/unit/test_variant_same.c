@@ -9,7 +9,6 @@
 #include "model/system.h"
 #include "model/variant/variant.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* One of these is left out, or the group `group` (-1: none). */
@@ -66,19 +65,16 @@ static void check_same_loops(const hooke_system *found, const hooke_system *expe
 static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
   const struct run run = {.method = method, .step = 1e-4, .duration = 2e-3};
   const int64_t size = 3 * hooke_system_particle_count(expected);
-  double *a = new_doubles(2 * size), *b = new_doubles(2 * size);
+  owned_doubles *a = new_doubles(2 * size), *b = new_doubles(2 * size);
   run_to_end(found, run, a, a + size);
   run_to_end(expected, run, b, b + size);
   check_same_bits(2 * size, a, b);
-  free(a);
-  free(b);
 }
 
 /* All combinations of features, with parts and drives of every kind. */
-static void nothing_left_out_is_the_same(void **unused) {
-  (void)unused;
+TEST(nothing_left_out_is_the_same) {
   for (int32_t features = 0; features <= SCENE_EVERYTHING; features++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + features),
                                                       .particles = 40 + features % 50,
                                                       .springs = 3 * (features % 70),
@@ -92,7 +88,6 @@ static void nothing_left_out_is_the_same(void **unused) {
       if (is_fixed_step(hooke_method_name(m))) check_same_run(made, scene.system, hooke_method_name(m));
     }
     hooke_system_destroy(made);
-    random_scene_destroy(&scene);
   }
 }
 
@@ -104,9 +99,8 @@ static int has_force(const hooke_system *system, const char *name) {
 }
 
 /* One ingredient is gone and all others are unchanged. */
-static void one_is_left_out(void **unused) {
-  (void)unused;
-  struct random_scene scene;
+TEST(one_is_left_out) {
+  owned_random_scene scene;
   random_scene_create(
       (struct random_scene_request){
           .seed = 8, .particles = 50, .springs = 70, .features = SCENE_EVERYTHING, .cloth = {12, 9}},
@@ -130,14 +124,12 @@ static void one_is_left_out(void **unused) {
     check_groups(made, scene.system, g);
     hooke_system_destroy(made);
   }
-  random_scene_destroy(&scene);
 }
 
 /* ---- every force of the table ---- */
 
 static hooke_options *options_of(const char *table) {
-  hooke_options *options;
-  check_ok(hooke_options_create(table, &options));
+  hooke_options *options = new_options(table);
   check_ok(hooke_options_set_number(options, "stiffness", 3.0));
   return options;
 }
@@ -148,10 +140,9 @@ static hooke_system *with_every_force(int32_t overdamped) {
   static const int64_t ends[4] = {0, 1, 4, 5}, triple[3] = {1, 0, 2}, corners[4] = {0, 1, 2, 3}, tied = 5;
   static const struct hk_element element = {
       .count = 1, .particle = {4}, .weight = {1.0}, .k_along = 2.0, .k_across = 2.0, .over = 1.0};
-  hooke_system *system;
   hooke_options *spring = options_of("springs"), *altitude = options_of("altitude"),
                 *anchor = options_of("anchors");
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, overdamped ? "overdamped" : "inertial"));
   check_ok(hooke_system_add_particles(system, 6, at, NULL, 1, &one, NULL));
   check_ok(hooke_system_add_springs(system, "pair", 2, ends, spring));
@@ -175,8 +166,7 @@ static hooke_system *without_force(const hooke_system *system, const struct hk_f
   return without(system, (struct what){row == &hk_force_weight ? &hk_force_gravity : row, .group = -1});
 }
 
-static void every_force_survives_a_copy_and_is_missed(void **unused) {
-  (void)unused;
+TEST(every_force_survives_a_copy_and_is_missed) {
   uint8_t seen[HOOKE_FORCES] = {0};
   for (int32_t overdamped = 0; overdamped < 2; overdamped++) {
     hooke_system *system = with_every_force(overdamped), *made = without(system, (struct what){.group = -1});
@@ -220,8 +210,7 @@ static void check_refused(const hooke_system *system, const char *what) {
 }
 
 /* A copy makes springs from the options of their group, and particles of a part from those of the part. */
-static void what_a_copy_changes_is_named(void **unused) {
-  (void)unused;
+TEST(what_a_copy_changes_is_named) {
   hooke_system *system = with_every_force(0);
   hooke_options *options = system->group[0].options;
   check_ok(hooke_options_set_number(options, "stiffness", 4.0));
@@ -233,12 +222,4 @@ static void what_a_copy_changes_is_named(void **unused) {
   system->position[4] += 1e-9;
   check_refused(system, "changes its particles");
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_left_out_is_the_same),
-                                     cmocka_unit_test(one_is_left_out),
-                                     cmocka_unit_test(every_force_survives_a_copy_and_is_missed),
-                                     cmocka_unit_test(what_a_copy_changes_is_named)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,6 @@
 #include "kernel/vector_loops.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LONGEST = 301, LOOPS = 9 };
@@ -40,11 +39,10 @@ static void run_loops(const struct hk_vector_set *v, int64_t n, const double *x,
   sum[3] = v->largest(n, x);
 }
 
-static void vectors(void **unused) {
-  (void)unused;
+TEST(vectors) {
   struct random_source source = {11};
-  double *x = new_doubles(LONGEST), *y = new_doubles(LONGEST);
-  double *first = new_doubles(LOOPS * LONGEST + 4), *other = new_doubles(LOOPS * LONGEST + 4);
+  owned_doubles *x = new_doubles(LONGEST), *y = new_doubles(LONGEST);
+  owned_doubles *first = new_doubles(LOOPS * LONGEST + 4), *other = new_doubles(LOOPS * LONGEST + 4);
   for (int64_t n = 0; n < LONGEST; n += n < 70 ? 1 : 33) {
     draw(&source, n, x);
     draw(&source, n, y);
@@ -76,17 +74,12 @@ static void vectors(void **unused) {
     check_close(sum[2], squares, 1e-13);
     check_close(sum[3], most, 0.0);
   }
-  free(x);
-  free(y);
-  free(first);
-  free(other);
 }
 
 /* Rows are joined unchanged, and every bit of them counts. */
-static void rows(void **unused) {
-  (void)unused;
+TEST(rows) {
   struct random_source source = {13};
-  double *x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
+  owned_doubles *x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
   draw(&source, 3 * LONGEST, x);
   for (int32_t k = 0; hk_spring_set(k); k++) {
     const struct hk_vector_set *v = hk_spring_set(k)->vector;
@@ -101,8 +94,6 @@ static void rows(void **unused) {
       assert_true(v->differing_bits(n, x, x + n, x + 2 * n, joined) == UINT64_C(1) << 63);
     }
   }
-  free(joined);
-  free(x);
 }
 
 /* ---- blocks of particles, and loops that combine others ---- */
@@ -133,8 +124,7 @@ static void check_factor(int64_t n, const double *block, const double *factor) {
   }
 }
 
-static void blocks(void **unused) {
-  (void)unused;
+TEST(blocks) {
   struct random_source source = {13};
   enum { LONG = 3 * MOST_PARTICLES };
   double block[2 * LONG] = {0}, factor[2 * LONG], first[2 * LONG], x[LONG], y[LONG], d[MOST_PARTICLES];
@@ -237,8 +227,7 @@ static void check_triangle(const struct example *x, const double *right, const d
   }
 }
 
-static void triangles(void **unused) {
-  (void)unused;
+TEST(triangles) {
   struct random_source source = {12};
   enum { SIZE = 2 * (MOST_ROWS + HOOKE_TRIANGLE_SPARE) };
   struct example *x = calloc(1, sizeof *x);
@@ -257,10 +246,4 @@ static void triangles(void **unused) {
     }
   }
   free(x);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(vectors), cmocka_unit_test(rows),
-                                     cmocka_unit_test(blocks), cmocka_unit_test(triangles)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,6 @@
 #include "core/thread_pool.h"
 #include "integrate/integrator.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { SIDE = 108 }; /* 69984 numbers in a vector */
@@ -16,19 +15,16 @@ static const double DURATION = 4e-5;
 
 static void run_by(const hooke_system *system, struct run run, double *state) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *found = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *found = start_state(system);
   /* a thread pool of one would prove nothing */
   assert_true(run.threads <= 1 || hk_pool_members(integrator->pool) > 1);
   check_ok(hooke_integrator_run(integrator, found));
   memcpy(state, hooke_state_position(found), (size_t)size * sizeof(double));
   memcpy(state + size, hooke_state_velocity(found), (size_t)size * sizeof(double));
-  hooke_state_destroy(found);
-  hooke_integrator_destroy(integrator);
 }
 
-static void same_bits(void **unused) {
-  (void)unused;
+TEST(same_bits) {
   static const char *const methods[] = {"cvode-bdf", "cvode-adams"};
   if (hooke_method_is_built("cvode-bdf") != 1) skip();
   struct random_scene scene;
@@ -51,9 +47,4 @@ static void same_bits(void **unused) {
   }
   free(exact);
   random_scene_destroy(&scene);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

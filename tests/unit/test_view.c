@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -22,8 +21,7 @@ static void check_text(const char *bytes, const char *expected) {
 }
 
 /* The examples of RFC 4648, and bytes from the end of the alphabet. */
-static void bytes_as_text(void **unused) {
-  (void)unused;
+TEST(bytes_as_text) {
   check_text("", "");
   check_text("f", "Zg==");
   check_text("fo", "Zm8=");
@@ -35,8 +33,7 @@ static void bytes_as_text(void **unused) {
 }
 
 /* Longer than one chunk of the text. */
-static void long_text(void **unused) {
-  (void)unused;
+TEST(long_text) {
   enum { LONG = 10000 };
   uint8_t *bytes = new_block(LONG, 1);
   struct hk_text text = {.bytes = NULL};
@@ -62,14 +59,14 @@ struct fixture {
  */
 static void write_file(const struct fixture *f, double far, double duration) {
   const double q[] = {0, 0, 0, 3, 0, 0, 3, 0.5, 0, 0, 0, far};
-  hooke_system *system = small_system(PARTICLES, q, NULL, 1.0, 1);
+  owned_system *system = small_system(PARTICLES, q, NULL, 1.0, 1);
   small_springs(system, 1, (int64_t[]){0, 1}, (struct springs){.stiffness = 1e-6, .rest_length = 2});
   small_springs(system, 1, (int64_t[]){1, 2}, (struct springs){.law = "length", .stiffness = 1e-6});
   small_springs(system, 1, (int64_t[]){2, 1}, (struct springs){.stiffness = 1e-6, .rest_length = 1});
   check_ok(hooke_system_commit(system));
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = duration, .every = 1e-3});
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   hooke_trajectory *trajectory;
   check_ok(hooke_trajectory_create(f->path, system, integrator, NULL, &trajectory));
   for (int64_t k = 0; k < hooke_integrator_count(integrator, "frames"); k++) {
@@ -77,9 +74,7 @@ static void write_file(const struct fixture *f, double far, double duration) {
     check_ok(hooke_trajectory_write(trajectory, k, state));
   }
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
-  hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  hooke_system_destroy(system);
 }
 
 static int set_up(void **state) {
@@ -104,10 +99,9 @@ static int tear_down(void **state) {
 }
 
 static hooke_measurement *open_view(const struct fixture *f, double frames, hooke_record **record) {
-  hooke_options *options;
   hooke_measurement *view;
   check_ok(hooke_record_open(f->path, record));
-  check_ok(hooke_options_create("view", &options));
+  hooke_options *options = new_options("view");
   if (frames > 0) check_ok(hooke_options_set_number(options, "frames", frames));
   check_ok(hooke_view_create(*record, options, &view));
   hooke_options_destroy(options);
@@ -125,8 +119,8 @@ static double coordinate(const uint8_t *bytes, const struct hk_view_box *box, in
 }
 
 /* Coordinates to a 131070th of the extent; elongations 1, 0.5 and -0.5 as halves of floats. */
-static void a_frame_is_packed(void **state) {
-  const struct fixture *f = *state;
+TEST(a_frame_is_packed) {
+  const struct fixture *f = *prepared;
   const double far[] = {7.0, -1e-300, 1e308};
   for (int k = 0; k < 3; k++) {
     hooke_record *record;
@@ -146,16 +140,15 @@ static void a_frame_is_packed(void **state) {
   }
 }
 
-static void numbers_as_floats(void **unused) {
-  (void)unused;
+TEST(numbers_as_floats) {
   assert_int_equal(hk_view_float(1.0), 0x3f800000);
   assert_int_equal(hk_view_float(1e308), 0x7f800000);
   assert_int_equal(hk_view_float(-1e308), 0xff800000);
   check_between(hk_view_float(NAN) & 0x7fffffff, 0x7f800001, 0x7fffffff);
 }
 
-static void frames_are_thinned(void **state) {
-  const struct fixture *f = *state;
+TEST(frames_are_thinned) {
+  const struct fixture *f = *prepared;
   write_file(f, 1.0, 0.1);
   const int most[] = {2, 3, 7, 34, 51, 100, 101, 1000};
   for (int k = 0; k < (int)(sizeof most / sizeof most[0]); k++) {
@@ -173,8 +166,8 @@ static void frames_are_thinned(void **state) {
   }
 }
 
-static void views_are_refused_in_words(void **state) {
-  const struct fixture *f = *state;
+TEST(views_are_refused_in_words) {
+  const struct fixture *f = *prepared;
   hooke_record *record;
   hooke_options *options;
   hooke_measurement *view;
@@ -203,9 +196,9 @@ static void views_are_refused_in_words(void **state) {
 }
 
 /* Beside the trajectory it replaces an older companion, and nothing else. */
-static void a_companion_is_written(void **state) {
-  const struct fixture *f = *state;
-  hooke_record *record;
+TEST(a_companion_is_written) {
+  const struct fixture *f = *prepared;
+  owned_record *record = NULL;
   write_file(f, 1.0, 0.01);
   check_ok(hooke_record_open(f->path, &record));
   FILE *file = fopen(f->companion, "w");
@@ -217,11 +210,10 @@ static void a_companion_is_written(void **state) {
   check_ok(hooke_record_write_xdmf(record, f->companion));
   check_ok(hooke_record_write_xdmf(record, NULL));
   check_status(hooke_record_write_xdmf(record, "/nowhere/out.xdmf"), HOOKE_IO_FAILED);
-  hooke_record_close(record);
 }
 
-static void names_that_paraview_cannot_take(void **state) {
-  const struct fixture *f = *state;
+TEST(names_that_paraview_cannot_take) {
+  const struct fixture *f = *prepared;
   static const char *const names[] = {"a:b", "\xc3\xa9t\xc3\xa9", " a", "tab\t"};
   write_file(f, 1.0, 0.01);
   for (int k = 0; k < 4; k++) {
@@ -237,33 +229,16 @@ static void names_that_paraview_cannot_take(void **state) {
   }
 }
 
-#define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(bytes_as_text), cmocka_unit_test(long_text),
-      TEST(a_frame_is_packed),         cmocka_unit_test(numbers_as_floats),
-      TEST(frames_are_thinned),        TEST(views_are_refused_in_words),
-      TEST(a_companion_is_written),    TEST(names_that_paraview_cannot_take),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+AROUND_EACH(set_up, tear_down)
 
 #else
 
-static void views_are_not_in_this_build(void **unused) {
-  (void)unused;
+TEST(views_are_not_in_this_build) {
   hooke_measurement *view;
   check_status(hooke_view_create(NULL, NULL, &view), HOOKE_BAD_CALL);
 #if !HOOKE_HAVE_HDF5
   check_status(hooke_record_write_xdmf(NULL, "out.xdmf"), HOOKE_BAD_CALL);
 #endif
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(bytes_as_text), cmocka_unit_test(long_text),
-                                     cmocka_unit_test(views_are_not_in_this_build)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
 #endif

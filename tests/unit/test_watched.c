@@ -8,7 +8,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -20,28 +19,11 @@ static hooke_system *scene(void) {
   static const double q[] = {0, 0, 0, 1, 0.2, 0, 2, 0.5, 0.3};
   static const int64_t rods[] = {0, 1, 1, 2}, tie[] = {0, 2};
   const double mass = 1.0;
-  hooke_system *system;
-  hooke_options *options, *rope;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 50.0));
-  check_ok(hooke_options_set_number(options, "damping", 0.7));
-  check_ok(hooke_options_set_numbers(options, "rest_length", 2, (double[]){0.8, 1.5}));
-  check_ok(hooke_system_add_springs(system, "rods", 2, rods, options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.0));
-  check_ok(hooke_system_add_springs(system, "tie", 1, tie, options));
-  check_ok(hooke_options_create("rope", &rope));
-  check_ok(hooke_options_set_text(rope, "from", "5,0,0"));
-  check_ok(hooke_options_set_text(rope, "to", "6,0,0"));
-  check_ok(hooke_options_set_number(rope, "segments", 4));
-  check_ok(hooke_options_set_number(rope, "mass", 1));
-  check_ok(hooke_options_set_number(rope, "stretch.stiffness", 10));
-  check_ok(hooke_system_add_part(system, "rope", "line", rope, NULL, NULL));
+  hooke_system *system = small_system(3, q, NULL, mass, 0);
+  small_group(system, "springs", "rods", 2, rods, "stiffness=50 damping=0.7 rest_length=0.8,1.5");
+  small_group(system, "springs", "tie", 1, tie, "stiffness=50 damping=0.7 law=length rest_length=0");
+  small_part(system, "rope", "line", "from=5,0,0 to=6,0,0 segments=4 mass=1 stretch.stiffness=10");
   check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  hooke_options_destroy(rope);
   return system;
 }
 
@@ -89,9 +71,8 @@ static double check_springs(struct hk_watched_list *list, const double *q, const
 }
 
 /* Every quantity is its formula of q and v. */
-static void every_form_is_read(void **unused) {
-  (void)unused;
-  hooke_system *system = scene();
+TEST(every_form_is_read) {
+  owned_system *system = scene();
   struct hk_watched_list list = {.system = system};
   double q[24], v[24], kinetic = 0.0;
   for (int k = 0; k < 24; k++) {
@@ -112,11 +93,9 @@ static void every_form_is_read(void **unused) {
   check_ok(hk_watched_read(&list, "watch", "7.y, energy ,7.y"));
   assert_int_equal(list.count, count + 1);
   hk_watched_release(&list);
-  hooke_system_destroy(system);
 }
 
-static void what_is_nothing_is_refused(void **unused) {
-  (void)unused;
+TEST(what_is_nothing_is_refused) {
   static const struct {
     const char *text, *message;
   } bad[] = {{"", "nothing to watch"},
@@ -146,7 +125,7 @@ static void what_is_nothing_is_refused(void **unused) {
              {"line:0.length", "allowed: rods, tie, line.stretch"},
              {":0.length", "allowed: rods, tie, line.stretch"},
              {"tie:0.strain", "allowed: length, tension"}};
-  hooke_system *system = scene();
+  owned_system *system = scene();
   struct hk_watched_list list = {.system = system};
   check_ok(hk_watched_read(&list, "watch", "0.x"));
   for (size_t k = 0; k < COUNT(bad); k++) {
@@ -162,20 +141,14 @@ static void what_is_nothing_is_refused(void **unused) {
   assert_int_equal(list.count, 1);
   free(endless);
   hk_watched_release(&list);
-  hooke_system_destroy(system);
 }
 
 /* Indices into groups with dropped springs are refused. */
-static void springs_that_are_left_out_are_said(void **unused) {
-  (void)unused;
+TEST(springs_that_are_left_out_are_said) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, stiffness[] = {0.0, 10.0};
   static const int64_t ends[] = {0, 1, 1, 2};
-  const double mass = 1.0;
-  hooke_system *system;
-  hooke_options *options;
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
+  owned_system *system = small_system(3, q, NULL, 1.0, 0);
+  hooke_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
   hooke_options_destroy(options);
@@ -184,7 +157,6 @@ static void springs_that_are_left_out_are_said(void **unused) {
   check_status(hk_watched_read(&list, "watch", "some:0.length"), HOOKE_BAD_VALUE);
   check_message("neither stiffness nor damping");
   hk_watched_release(&list);
-  hooke_system_destroy(system);
 }
 
 /* ---- tension ---- */
@@ -219,15 +191,14 @@ static double pull(const hooke_system *system, double r, double rate) {
   return -force[3];
 }
 
-static void tension_is_the_slope_of_energy_and_the_force(void **unused) {
-  (void)unused;
+TEST(tension_is_the_slope_of_energy_and_the_force) {
   static const struct springs laws[] = {{NULL, 30.0, 0.0, 1.2, 0},     {"length", 30.0, 0.0, 1.2, 0},
                                         {"length", 30.0, 0.0, 0.0, 0}, {NULL, 30.0, 0.0, 1.2, 1},
                                         {NULL, 30.0, 2.0, 1.2, 0},     {"length", 30.0, 2.0, 1.2, 1},
                                         {"length", 30.0, 2.0, 1.2, 0}};
   static const double lengths[] = {0.7, 1.19, 1.3, 2.5}, rates[] = {-40.0, -0.1, 0.0, 3.0};
   for (size_t k = 0; k < COUNT(laws); k++) {
-    hooke_system *system = one_spring(laws[k]);
+    owned_system *system = one_spring(laws[k]);
     for (size_t i = 0; i < COUNT(lengths); i++) {
       const double r = lengths[i], h = 1e-5;
       check_close(tension(system, r, 0.0), (energy(system, r + h) - energy(system, r - h)) / (2.0 * h), 1e-7);
@@ -236,14 +207,12 @@ static void tension_is_the_slope_of_energy_and_the_force(void **unused) {
       /* a cable does not push, at any damping */
       assert_true(!laws[k].pull_only || tension(system, r, -40.0) >= 0.0);
     }
-    hooke_system_destroy(system);
   }
 }
 
 /* ---- periods ---- */
 
-static void periods_are_known(void **unused) {
-  (void)unused;
+TEST(periods_are_known) {
   enum { FRAMES = 200 };
   double time[FRAMES], value[FRAMES], flat[FRAMES], rising[FRAMES], noisy[FRAMES], coarse[FRAMES];
   const double period = 1.37;
@@ -267,12 +236,4 @@ static void periods_are_known(void **unused) {
   assert_true(isnan(hk_watched_period(1, time, value)));
   value[50] = NAN;
   assert_true(isnan(hk_watched_period(FRAMES, time, value)));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_form_is_read), cmocka_unit_test(what_is_nothing_is_refused),
-      cmocka_unit_test(springs_that_are_left_out_are_said),
-      cmocka_unit_test(tension_is_the_slope_of_energy_and_the_force), cmocka_unit_test(periods_are_known)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

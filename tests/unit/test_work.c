@@ -33,8 +33,7 @@ static double work_of(const struct random_scene *scene, struct run run, int64_t 
   return work;
 }
 
-static void test_every_cost_is_positive(void **unused) {
-  (void)unused;
+TEST(test_every_cost_is_positive) {
   int32_t forces = 0;
   while (hk_force_table(forces))
     forces++;
@@ -43,37 +42,32 @@ static void test_every_cost_is_positive(void **unused) {
   }
 }
 
-static void test_every_method_has_work(void **unused) {
-  (void)unused;
-  struct random_scene scene;
+TEST(test_every_method_has_work) {
+  owned_random_scene scene;
   random_scene_create(mixed, &scene);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (hooke_method_is_built(method))
       assert_true(work_of(&scene, (struct run){.method = method, .step = 1e-5}, 3) > 0.0);
   }
-  random_scene_destroy(&scene);
 }
 
-static void test_twice_the_steps_are_twice_the_work(void **unused) {
-  (void)unused;
+TEST(test_twice_the_steps_are_twice_the_work) {
   static const char *const methods[] = {
       "forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4"};
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(mixed, &scene);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     const struct run run = {.method = methods[k], .step = 1e-6};
     const double once = work_of(&scene, run, 200), twice = work_of(&scene, run, 400);
     assert_true(fabs(twice / once - 2.0) < 0.02);
   }
-  random_scene_destroy(&scene);
 }
 
 /* What it foretells is what is counted, where nothing is solved. */
-static void test_steps_are_foretold(void **unused) {
-  (void)unused;
+TEST(test_steps_are_foretold) {
   static const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet", "heun", "rk4"};
-  struct random_scene scene;
+  owned_random_scene scene;
   random_scene_create(large, &scene);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     const double counted = work_of(&scene, (struct run){.method = methods[k], .step = 1e-6}, 200);
@@ -86,11 +80,9 @@ static void test_steps_are_foretold(void **unused) {
   random_scene_destroy(&scene);
   random_scene_create(mixed, &scene);
   assert_true(isnan(hk_work_of_steps(scene.system, "verlet", 200))); /* it may solve for damping */
-  random_scene_destroy(&scene);
 }
 
-static void test_threads_do_not_count(void **unused) {
-  (void)unused;
+TEST(test_threads_do_not_count) {
   static const char *const methods[] = {"symplectic-euler", "rk4", "backward-euler", "cvode-bdf"};
   struct random_scene scene;
   random_scene_create(large, &scene);
@@ -105,10 +97,9 @@ static void test_threads_do_not_count(void **unused) {
 }
 
 /* An evaluation has every member of every force; what else is in it is below 2 % of that. */
-static void test_every_member_counts(void **unused) {
-  (void)unused;
+TEST(test_every_member_counts) {
   struct random_scene_request request = mixed;
-  struct random_scene scene;
+  owned_random_scene scene;
   request.springs = 9000;
   request.triples = 8000;
   request.tetrahedra = 3000;
@@ -125,12 +116,10 @@ static void test_every_member_counts(void **unused) {
                                : 0.0;
   const double work = hk_work_of_evaluation(scene.system);
   assert_true(work > sum && work < 1.02 * (sum + scattered));
-  random_scene_destroy(&scene);
 }
 
 /* A factor counts by its size, and a step that has one is dearer than its matrix alone. */
-static void test_factors_count(void **unused) {
-  (void)unused;
+TEST(test_factors_count) {
   struct random_scene scene;
   random_scene_create(large, &scene);
   hooke_options *options =
@@ -161,30 +150,14 @@ static int32_t slope(int64_t size, double t, const double *x, double *out, void 
   return 0;
 }
 
-static void test_first_order_problems_have_work(void **unused) {
-  (void)unused;
+TEST(test_first_order_problems_have_work) {
   hooke_integrator *it = start_first_order(6, slope, NULL, (struct run){.method = "rk4", .step = 0.01});
-  hooke_state *state = NULL;
+  owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(6, &state));
   check_ok(hooke_integrator_step(it, state, 10));
   const double once = hk_work_of(it);
   check_ok(hooke_integrator_step(it, state, 10));
   assert_true(once > 0.0);
   assert_true(fabs(hk_work_of(it) / once - 2.0) < 0.02);
-  hooke_state_destroy(state);
   hooke_integrator_destroy(it);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_cost_is_positive),
-      cmocka_unit_test(test_every_method_has_work),
-      cmocka_unit_test(test_twice_the_steps_are_twice_the_work),
-      cmocka_unit_test(test_steps_are_foretold),
-      cmocka_unit_test(test_threads_do_not_count),
-      cmocka_unit_test(test_every_member_counts),
-      cmocka_unit_test(test_factors_count),
-      cmocka_unit_test(test_first_order_problems_have_work),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
 #include "run.h"
+#include "small.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,19 +25,11 @@ struct fixture {
 };
 
 static void build(struct fixture *f, int n) {
-  hooke_options *options;
-  check_ok(hooke_system_create(&f->system));
-  check_ok(hooke_options_create("rope", &options));
-  check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
-  check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
-  check_ok(hooke_options_set_number(options, "segments", n - 1));
-  check_ok(hooke_options_set_number(options, "mass", 0.5));
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 1e-3));
-  check_ok(hooke_options_set_number(options, "stretch.damping", 1e-6));
-  check_ok(hooke_system_add_part(f->system, "rope", NULL, options, NULL, NULL));
+  f->system = small_part(
+      NULL, "rope", NULL,
+      "from=0,0,0 to=1,0.1,0 segments=%d mass=0.5 stretch.stiffness=1e-3 stretch.damping=1e-6", n - 1);
   check_ok(hooke_system_set_gravity(f->system, (double[]){0, -9.81, 0}));
   check_ok(hooke_system_commit(f->system));
-  hooke_options_destroy(options);
   f->integrator = start_run(
       f->system, (struct run){.method = "symplectic-euler", .step = 1e-4, .duration = 8e-3, .every = 1e-3});
   f->state = start_state(f->system);
@@ -114,8 +107,7 @@ static char *bytes_of(const char *path, size_t *count) {
   return bytes;
 }
 
-static void the_file_is_the_same(void **unused) {
-  (void)unused;
+TEST(the_file_is_the_same) {
   struct fixture f;
   build(&f, N);
   const int64_t frames[] = {FRAMES, 5, 1, 0};
@@ -123,14 +115,12 @@ static void the_file_is_the_same(void **unused) {
     size_t size, other_size;
     write_file(&f, f.path, 1, frames[k]);
     write_file(&f, f.other, 0, frames[k]);
-    char *bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
+    owned_text *bytes = bytes_of(f.path, &size), *other = bytes_of(f.other, &other_size);
     assert_int_equal(size, other_size);
     blank_run(f.path, bytes, size);
     blank_run(f.other, other, size);
     assert_true(size > (size_t)(48 * N * frames[k]));
     assert_memory_equal(bytes, other, size);
-    free(bytes);
-    free(other);
   }
   release(&f);
 }
@@ -143,8 +133,7 @@ static int64_t frames_in(const char *path) {
   return count;
 }
 
-static void small_frames_are_there_at_once(void **unused) {
-  (void)unused;
+TEST(small_frames_are_there_at_once) {
   struct fixture f;
   build(&f, 7);
   hooke_trajectory *trajectory = create(&f, f.path, 1);
@@ -165,8 +154,7 @@ static void small_frames_are_there_at_once(void **unused) {
 }
 
 /* A failed frame is reported by the next call, and by all after it. */
-static void a_failed_write_is_told(void **unused) {
-  (void)unused;
+TEST(a_failed_write_is_told) {
   struct fixture f;
   build(&f, N);
   for (int closes = 0; closes <= 1; closes++) {
@@ -192,8 +180,7 @@ static void a_failed_write_is_told(void **unused) {
 
 #else
 
-static void it_is_not_in_this_build(void **unused) {
-  (void)unused;
+TEST(it_is_not_in_this_build) {
   struct fixture f;
   build(&f, N);
   check_status(hooke_trajectory_write_behind(NULL), HOOKE_BAD_CALL);
@@ -201,16 +188,3 @@ static void it_is_not_in_this_build(void **unused) {
 }
 
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-#if HOOKE_HAVE_HDF5
-    cmocka_unit_test(the_file_is_the_same),
-    cmocka_unit_test(small_frames_are_there_at_once),
-    cmocka_unit_test(a_failed_write_is_told),
-#else
-    cmocka_unit_test(it_is_not_in_this_build),
-#endif
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

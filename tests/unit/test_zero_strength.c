@@ -9,7 +9,6 @@
 #include "model/system.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- scenes ---- */
@@ -55,7 +54,7 @@ static void add_part(const struct scene *scene, hooke_system *system) {
   static const double origin[] = {0, 0, 0}, edges[] = {1, 0.1, 0, 0, 0.2, 1}, size[] = {17, 13};
   static const double to[] = {2, 0.5, 0.1};
   const int cloth = scene->shape == CLOTH;
-  hooke_options *options;
+  owned_options *options = NULL;
   check_ok(hooke_options_create(cloth ? "cloth" : "rope", &options));
   check_ok(hooke_options_set_number(options, "mass", 1.0));
   if (cloth) {
@@ -73,7 +72,6 @@ static void add_part(const struct scene *scene, hooke_system *system) {
   if (is_zero(scene, FAMILY)) check_ok(hooke_options_set_number(options, "bend.stiffness", 0.0));
   if (is_full(scene, FAMILY)) check_ok(hooke_options_set_number(options, "bend.stiffness", 1.0));
   check_ok(hooke_system_add_part(system, cloth ? "cloth" : "rope", "part", options, NULL, NULL));
-  hooke_options_destroy(options);
 }
 
 struct network {
@@ -103,31 +101,22 @@ static void draw_network(int zeros, double damping, struct network *network) {
 static void add_network(const struct scene *scene, hooke_system *system) {
   const double mass = 0.1;
   struct network network;
-  hooke_options *options;
   draw_network(is_zero(scene, SOME_SPRINGS), is_full(scene, DAMPING) ? 0.01 : 0.0, &network);
   check_ok(hooke_system_add_particles(system, PARTICLES, network.position, NULL, 1, &mass, NULL));
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", network.count, network.stiffness));
   if (is_full(scene, DAMPING) || is_zero(scene, DAMPING))
     check_ok(hooke_options_set_numbers(options, "damping", network.count, network.damping));
   check_ok(hooke_options_set_number(options, "rest_length", REST));
   check_ok(hooke_system_add_springs(system, "network", network.count, network.ends, options));
-  hooke_options_destroy(options);
 }
 
 static void add_group(hooke_system *system, int64_t offset, double stiffness) {
   int64_t ends[2 * GROUP];
-  hooke_options *options;
   for (int64_t k = 0; k < GROUP; k++)
     ends[2 * k] = k, ends[2 * k + 1] = k + offset;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "rest_length", 0.3));
-  check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
-  check_ok(hooke_options_set_number(options, "compression", 0.0));
-  check_ok(hooke_system_add_springs(system, "group", GROUP, ends, options));
-  hooke_options_destroy(options);
+  small_group(system, "springs", "group", GROUP, ends,
+              "stiffness=%.17g rest_length=0.3 rest_scale=1.5 compression=false", stiffness);
 }
 
 static void add_bending(hooke_system *system, double coefficient) {
@@ -140,8 +129,7 @@ static void add_bending(hooke_system *system, double coefficient) {
 static hooke_system *build(struct scene scene) {
   static const double down[] = {0, 0, -9.81}, nothing[] = {0.0, -0.0, 0.0};
   static const int64_t pinned[] = {0, 16};
-  hooke_system *system;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   if (scene.shape == NETWORK)
     add_network(&scene, system);
   else
@@ -231,14 +219,12 @@ static void run(const hooke_system *system, const char *method, hooke_state *sta
 
 static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
   int64_t a[COUNTS], b[COUNTS];
-  hooke_state *x = start_state(found), *y = start_state(expected);
+  owned_state *x = start_state(found), *y = start_state(expected);
   run(found, method, x, a);
   run(expected, method, y, b);
   check_same_bits(hooke_state_size(y), hooke_state_position(x), hooke_state_position(y));
   check_same_bits(hooke_state_size(y), hooke_state_velocity(x), hooke_state_velocity(y));
   assert_memory_equal(a, b, sizeof a);
-  hooke_state_destroy(x);
-  hooke_state_destroy(y);
 }
 
 static int64_t zeros_of(enum shape shape, enum ingredient what) {
@@ -264,8 +250,7 @@ static void check_scene(enum shape shape, enum ingredient what, int32_t full) {
   hooke_system_destroy(without);
 }
 
-static void zero_strength_is_absence(void **unused) {
-  (void)unused;
+TEST(zero_strength_is_absence) {
   for (enum shape shape = CLOTH; shape < SHAPES; shape++) {
     for (enum ingredient what = GROUPS; what < INGREDIENTS; what++) {
       for (int32_t full = 0; full <= 1; full++)
@@ -275,8 +260,7 @@ static void zero_strength_is_absence(void **unused) {
 }
 
 /* The comparison can fail: with some strength, every ingredient affects the choice. */
-static void strength_is_seen(void **unused) {
-  (void)unused;
+TEST(strength_is_seen) {
   hooke_system *full = build((struct scene){CLOTH, INGREDIENTS, 1, 0});
   for (enum ingredient what = GROUPS; what < ALL; what++) {
     if (what == SOME_SPRINGS) continue;
@@ -296,13 +280,12 @@ static void strength_is_seen(void **unused) {
 
 /* The canonical sum over all springs, including those without strength, has the bits of the sum without
  * these. */
-static void canonical_sum_agrees(void **unused) {
-  (void)unused;
+TEST(canonical_sum_agrees) {
   struct network network;
   double found[3 * PARTICLES], expected[3 * PARTICLES], v[3 * PARTICLES] = {0.0};
   draw_network(1, 0.0, &network);
   hooke_system *system = build((struct scene){NETWORK, SOME_SPRINGS, 0, 1});
-  struct canonical c;
+  owned_canonical c;
   canonical_create(system, &c);
   struct canonical whole = c;
   whole.spring_count = network.count;
@@ -320,7 +303,6 @@ static void canonical_sum_agrees(void **unused) {
   check_same_bits(3 * PARTICLES, found, expected);
   free(whole.rest_length);
   free(whole.pull_only);
-  canonical_destroy(&c);
   hooke_system_destroy(system);
 }
 
@@ -328,16 +310,14 @@ static void canonical_sum_agrees(void **unused) {
 
 /* Four particles in a row; a spring 0-1 without strength, a spring 1-2 with damping only, and a group without
  * members. */
-static void numbers_are_of_what_is_there(void **unused) {
-  (void)unused;
+TEST(numbers_are_of_what_is_there) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
   static const int64_t ends[] = {0, 1, 1, 2}, last[] = {2, 3}, pinned[] = {0, 3};
   static const double stiffness[] = {0.0, 0.0}, damping[] = {0.0, 0.5};
-  hooke_system *system = small_system(4, q, NULL, 1.0, 0);
-  hooke_options *options;
+  owned_system *system = small_system(4, q, NULL, 1.0, 0);
   int64_t found[2];
   double gamma;
-  check_ok(hooke_options_create("springs", &options));
+  hooke_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", 2, damping));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
@@ -361,7 +341,6 @@ static void numbers_are_of_what_is_there(void **unused) {
   assert_true(found[0] == 1 && found[1] == 2);
   check_close(gamma, 0.5, 0.0);
   assert_int_equal(hooke_system_count(system, "idle"), 2);
-  hooke_system_destroy(system);
 }
 
 static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
@@ -371,29 +350,18 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 
 /* Not idle are: a pinned particle at the end of a spring, one of a triple with strength, one that a callback
  * may read, and a free one. */
-static void idle_is_what_nothing_touches(void **unused) {
-  (void)unused;
+TEST(idle_is_what_nothing_touches) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
   static const int64_t ends[] = {0, 1}, pinned[] = {0, 2}, triple[] = {1, 2, 3};
   for (int k = 0; k < 4; k++) {
     const int callback = k == 1;
     const double bending = k == 2 ? 1.0 : 0.0;
-    hooke_system *system = small_system(4, q, NULL, 1.0, 0);
+    owned_system *system = small_system(4, q, NULL, 1.0, 0);
     small_springs(system, 1, ends, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
     check_ok(hooke_system_pin(system, 2, pinned));
     if (k >= 2) check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &bending));
     if (callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
     assert_int_equal(hooke_system_count(system, "idle"), callback || bending > 0.0 ? 0 : 1);
-    hooke_system_destroy(system);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(zero_strength_is_absence),     cmocka_unit_test(strength_is_seen),
-      cmocka_unit_test(canonical_sum_agrees),         cmocka_unit_test(numbers_are_of_what_is_there),
-      cmocka_unit_test(idle_is_what_nothing_touches),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
