@@ -89,7 +89,6 @@ SCENARIO(comparison) {
 end:
   release(&m);
 }
-}
 
 /* ---- studies, limits and needs ---- */
 
