@@ -62,7 +62,7 @@ static double width_along(const double *q, const double n[3]) {
 
 /* The shortest altitude is the minimum width of the tetrahedron: no direction has a smaller one, and that of
  * the force has it. */
-static void the_shortest_is_the_least_width(no_state) {
+TEST(the_shortest_is_the_least_width) {
   struct random_source source = {3};
   const double still[12] = {0};
   for (int trial = 0; trial < 200; trial++) {
@@ -101,7 +101,7 @@ static void the_shortest_is_the_least_width(no_state) {
 
 /* Rest lengths are three volumes over the area of a face, or the volume over the parallelogram of two
  * edges. */
-static void rest_lengths_are_altitudes(no_state) {
+TEST(rest_lengths_are_altitudes) {
   const double q[12] = {0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0, 2}; /* at a corner of three right angles: 6 V = 24 */
   double rest[7];
   owned_system *system = commit(new_scene(4, q, 1, corners, 1.0, 0.0, 1.0));
@@ -115,7 +115,7 @@ static void rest_lengths_are_altitudes(no_state) {
 
 /* Pushed through the opposite face, the particle comes back; held by edges alone it stays on the wrong side.
  */
-static void what_is_inside_out_turns_back(no_state) {
+TEST(what_is_inside_out_turns_back) {
   const double q0[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.5};
   for (int with = 0; with <= 1; with++) {
     double q[12], v[12] = {0};
@@ -167,7 +167,7 @@ static double energy_error(double step) {
   return fabs(after - before) / before;
 }
 
-static void verlet_keeps_the_energy_to_its_order(no_state) {
+TEST(verlet_keeps_the_energy_to_its_order) {
   const double coarse = energy_error(5e-3), fine = energy_error(5e-4);
   check_between(coarse, 1e-6, 1e-2);
   check_between(fine / coarse, 0.005, 0.02);
@@ -175,7 +175,7 @@ static void verlet_keeps_the_energy_to_its_order(no_state) {
 
 /* At a change of the altitude the energy jumps by the difference due to the rest lengths, and momentum is
  * conserved. */
-static void the_energy_jumps_where_another_altitude_acts(no_state) {
+TEST(the_energy_jumps_where_another_altitude_acts) {
   double q[12], jump = 0.0, last = NAN, at = NAN;
   memcpy(q, pyramid, sizeof q);
   owned_system *system = commit(new_scene(4, q, 1, corners, 40.0, 0.0, 1.0));
@@ -193,7 +193,7 @@ static void the_energy_jumps_where_another_altitude_acts(no_state) {
 }
 
 /* Far from rest the jumps are a source of energy at any step; a run that they end reports it. */
-static void a_run_that_jumps_drive_is_explained(no_state) {
+TEST(a_run_that_jumps_drive_is_explained) {
   const double v[12] = {0.1, -0.1, 0.3, 0.1, -0.3, 0.2, 0.7, 0.5, -0.4, -0.6, -0.3, 0.0}, mass = 0.5;
   owned_system *system = small_system(4, pyramid, v, mass, 0);
   owned_options *options = options_with("altitude", "stiffness=40");
@@ -239,7 +239,7 @@ static hooke_system *new_curl(double turns, double twist, double altitude, doubl
   return system;
 }
 
-static void momenta_stay(no_state) {
+TEST(momenta_stay) {
   struct random_source source = {8};
   owned_system *system = commit(new_curl(2.0, 2.0, 1.0, 1e-5, NULL));
   double q[3 * CURL], v[3 * CURL], before[6], after[6];
@@ -258,7 +258,7 @@ static void momenta_stay(no_state) {
 }
 
 /* Every method agrees with Runge-Kutta with a fine step. */
-static void methods_agree(no_state) {
+TEST(methods_agree) {
   owned_system *system = new_curl(2.0, 2.0, 1.0, 1e-4, "0,1,2");
   const double gravity[3] = {0.0, -9.81, 0.0};
   check_ok(hooke_system_set_gravity(system, gravity));
@@ -311,7 +311,7 @@ static double share_kept(double turns, double twist, double altitude) {
 
 /* Released, a curl keeps its handedness by altitude and twist springs, for either hand; not without both of
  * them, nor by twist springs alone. */
-static void a_hanging_curl_stays_a_curl(no_state) {
+TEST(a_hanging_curl_stays_a_curl) {
   check_between(share_kept(2.0, 2.0, 1.0), 1.0, 1.0);
   check_between(share_kept(-2.0, 2.0, 1.0), 1.0, 1.0);
   check_between(share_kept(2.0, 0.0, 0.0), 0.0, 0.8);
@@ -320,7 +320,7 @@ static void a_hanging_curl_stays_a_curl(no_state) {
 
 /* ---- numbers ---- */
 
-static void groups_and_numbers(no_state) {
+TEST(groups_and_numbers) {
   double q[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
   const int64_t two[8] = {3, 2, 1, 0, 4, 1, 2, 3};
   owned_system *system = new_curl(2.0, 2.0, 1.0, 0.0, NULL);
@@ -361,7 +361,7 @@ static void groups_and_numbers(no_state) {
 }
 
 /* Altitude springs without stiffness and damping add no force and no memory, and change no bit. */
-static void no_strength_is_no_altitude_spring(no_state) {
+TEST(no_strength_is_no_altitude_spring) {
   double q[12], v[12] = {0.1, 0.2, 0.3}, other_q[12], other_v[12];
   memcpy(q, pyramid, sizeof q);
   owned_system *with = new_scene(4, q, 1, corners, 0.0, 0.0, 1.0),
@@ -382,7 +382,7 @@ static void no_strength_is_no_altitude_spring(no_state) {
 }
 
 /* All particles in one line, or at one point: no altitude, no force, no NaN. */
-static void a_line_has_no_altitude(no_state) {
+TEST(a_line_has_no_altitude) {
   double line[12], force[12], length = 1.0;
   const double still[12] = {0};
   owned_system *system = commit(new_scene(4, pyramid, 1, corners, 40.0, 1.0, 1.0));
@@ -397,7 +397,7 @@ static void a_line_has_no_altitude(no_state) {
   }
 }
 
-static void bad_tetrahedra_are_refused(no_state) {
+TEST(bad_tetrahedra_are_refused) {
   const double q[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1e-10, 0, 0, 1};
   const int64_t flat[8] = {0, 1, 2, 4, 0, 1, 2, 3}, far[4] = {0, 1, 5, 2}, twice[4] = {0, 4, 2, 4};
   owned_options *options = NULL, *springs = NULL;
@@ -422,23 +422,4 @@ static void bad_tetrahedra_are_refused(no_state) {
   check_message("3 values for 2 tetrahedra");
   check_status(hooke_options_set_number(options, "stiffness", -1.0), HOOKE_BAD_VALUE);
   assert_int_equal(hooke_system_group_count(system, "altitude"), 1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_shortest_is_the_least_width),
-      cmocka_unit_test(rest_lengths_are_altitudes),
-      cmocka_unit_test(what_is_inside_out_turns_back),
-      cmocka_unit_test(verlet_keeps_the_energy_to_its_order),
-      cmocka_unit_test(the_energy_jumps_where_another_altitude_acts),
-      cmocka_unit_test(a_run_that_jumps_drive_is_explained),
-      cmocka_unit_test(momenta_stay),
-      cmocka_unit_test(methods_agree),
-      cmocka_unit_test(a_hanging_curl_stays_a_curl),
-      cmocka_unit_test(groups_and_numbers),
-      cmocka_unit_test(no_strength_is_no_altitude_spring),
-      cmocka_unit_test(a_line_has_no_altitude),
-      cmocka_unit_test(bad_tetrahedra_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

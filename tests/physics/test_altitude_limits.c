@@ -16,7 +16,7 @@ static void add_altitude(hooke_system *system, int64_t count, const int64_t *tet
 }
 
 /* A particle over a fixed face: one spring of ks/h, whose whole weight is on it. */
-static void a_top_over_a_held_face(no_state) {
+TEST(a_top_over_a_held_face) {
   const double q[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3}, mass = 0.2;
   const int64_t corners[4] = {0, 1, 2, 3}, held[3] = {0, 1, 2};
   owned_system *system = small_system(4, q, NULL, mass, 0);
@@ -36,7 +36,7 @@ static void a_top_over_a_held_face(no_state) {
 
 /* Random tetrahedra, some with tension, with springs, drag, and particles of all masses, some of them
  * constrained. */
-static void random_tetrahedra_run_up_to_the_prediction(no_state) {
+TEST(random_tetrahedra_run_up_to_the_prediction) {
   for (uint64_t seed = 1; seed <= 12; seed++) {
     enum { N = 9, TETRAHEDRA = 6, SPRINGS = 8 };
     struct random_source source = {seed};
@@ -80,7 +80,7 @@ static hooke_system *new_strand(double altitude) {
   return system;
 }
 
-static void a_limit_by_altitude_names_it(no_state) {
+TEST(a_limit_by_altitude_names_it) {
   owned_system *system = new_strand(40.0);
   owned_measurement *limit = limits_of(system, "verlet", 1);
   const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
@@ -93,7 +93,7 @@ static void a_limit_by_altitude_names_it(no_state) {
     check_between(hooke_measurement_number(limit, "blame", k, "share"), 0.0, 0.02);
 }
 
-static void a_run_above_the_limit_is_explained(no_state) {
+TEST(a_run_above_the_limit_is_explained) {
   owned_system *system = new_strand(40.0);
   hooke_measurement *limit = limits_of(system, "verlet", 1);
   const double step = 1.05 * hooke_measurement_number(limit, "rows", 0, "predicted");
@@ -114,7 +114,7 @@ static void a_run_above_the_limit_is_explained(no_state) {
 
 /* ---- their cost, and variants without them ---- */
 
-static void they_are_an_ingredient(no_state) {
+TEST(they_are_an_ingredient) {
   owned_system *system = new_strand(0.5);
   owned_options *options = NULL, *run = NULL;
   owned_measurement *cost = NULL;
@@ -132,15 +132,4 @@ static void they_are_an_ingredient(no_state) {
     assert_true(isnan(hooke_measurement_number(cost, "rows", row, "springs")));
   }
   assert_int_equal(found, 1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_top_over_a_held_face),
-      cmocka_unit_test(random_tetrahedra_run_up_to_the_prediction),
-      cmocka_unit_test(a_limit_by_altitude_names_it),
-      cmocka_unit_test(a_run_above_the_limit_is_explained),
-      cmocka_unit_test(they_are_an_ingredient),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,7 +24,7 @@ static hooke_system *chain(double stiffness, double damping, double rest_length)
   return system;
 }
 
-static void the_force_is_that_of_a_spring_to_the_point(no_state) {
+TEST(the_force_is_that_of_a_spring_to_the_point) {
   owned_system *system = chain(30.0, 0.7, 0.5);
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, v[9] = {0, 0, 0, 0, 0, 0, 3, -1, 2};
   double force[9];
@@ -56,7 +56,7 @@ static hooke_system *oscillator(double stiffness) {
   return system;
 }
 
-static void without_points_they_hold_particles_where_they_are(no_state) {
+TEST(without_points_they_hold_particles_where_they_are) {
   owned_system *system = oscillator(100.0);
   owned_state *state = start_state(system);
   double *q = hooke_state_position(state), force[6];
@@ -73,7 +73,7 @@ static void without_points_they_hold_particles_where_they_are(no_state) {
 }
 
 #if HOOKE_HAVE_LAPACK
-static void limits_are_those_of_the_oscillator(no_state) {
+TEST(limits_are_those_of_the_oscillator) {
   const struct {
     const char *method;
     double limit;
@@ -105,7 +105,7 @@ static hooke_system *damped_at_its_place(double damping) {
   return system;
 }
 
-static void damping_at_its_place_limits_the_step(no_state) {
+TEST(damping_at_its_place_limits_the_step) {
   const double c = 1000.0, euler = 4.0 / (c + sqrt(c * c + 4.0)),
                fast = 2.0 / (c / 2.0 + sqrt(c * c / 4.0 - 1.0));
   const struct {
@@ -134,7 +134,7 @@ static void damping_at_its_place_limits_the_step(no_state) {
 }
 
 /* A run just below that limit ends, and one above it diverges and is blamed on the anchor. */
-static void damping_at_its_place_is_blamed_on_the_anchor(no_state) {
+TEST(damping_at_its_place_is_blamed_on_the_anchor) {
   owned_system *system = damped_at_its_place(1000.0);
   const double limit = 4.0 / (1000.0 + sqrt(1e6 + 4.0));
   for (int above = 0; above <= 1; above++) {
@@ -155,7 +155,7 @@ static void damping_at_its_place_is_blamed_on_the_anchor(no_state) {
 }
 
 /* The stiffest element of the scene is named, whatever its force. */
-static void a_run_that_diverges_by_one_blames_it(no_state) {
+TEST(a_run_that_diverges_by_one_blames_it) {
   owned_system *system = chain(5e5, 0.0, 0.0);
   owned_state *state = start_state(system);
   owned_integrator *run = start_run(
@@ -169,7 +169,7 @@ static void a_run_that_diverges_by_one_blames_it(no_state) {
 }
 #endif
 
-static void what_is_wrong_is_said(no_state) {
+TEST(what_is_wrong_is_said) {
   const double place[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0, three[3] = {1, 2, 3};
   const int64_t particles[2] = {0, 2}, twice[2] = {1, 1};
   owned_options *options, *spring;
@@ -197,19 +197,4 @@ static void what_is_wrong_is_said(no_state) {
   check_ok(hooke_system_add_anchors(system, NULL, 2, twice, options)); /* commit drops them */
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_count(system, "anchors"), 2);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_force_is_that_of_a_spring_to_the_point),
-    cmocka_unit_test(without_points_they_hold_particles_where_they_are),
-#if HOOKE_HAVE_LAPACK
-    cmocka_unit_test(limits_are_those_of_the_oscillator),
-    cmocka_unit_test(a_run_that_diverges_by_one_blames_it),
-    cmocka_unit_test(damping_at_its_place_limits_the_step),
-    cmocka_unit_test(damping_at_its_place_is_blamed_on_the_anchor),
-#endif
-    cmocka_unit_test(what_is_wrong_is_said),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@ static const char *const forms[] = {"converged", "one-iteration"};
 
 /* ---- linear scenes: both forms equal the formula ---- */
 
-static void one_step_is_the_formula(no_state) {
+TEST(one_step_is_the_formula) {
   const double omega = 3.0, zeta = 0.4, mass = 0.5, q[] = {0, 0, 0, 1, 0, 0}, down[] = {2.5, 0, 0};
   const int64_t ends[] = {0, 1};
   const double steps[] = {0.01, 0.3, 1e3 / 3.0};
@@ -69,7 +69,7 @@ static hooke_system *pulled(int with_product) {
 }
 
 /* Along one line springs of no length are linear, so one iteration solves the equations. */
-static void forms_agree_where_all_is_linear(no_state) {
+TEST(forms_agree_where_all_is_linear) {
   for (int with_product = 0; with_product < 2; with_product++) {
     owned_system *system = pulled(with_product);
     double q[2][9], v[2][9];
@@ -86,7 +86,7 @@ static void forms_agree_where_all_is_linear(no_state) {
   }
 }
 
-static void order_with_a_drive(no_state) {
+TEST(order_with_a_drive) {
   owned_system *system = pulled(1);
   double fine[9], error[4];
   run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 1.0}, fine, NULL);
@@ -108,7 +108,7 @@ static void order_with_a_drive(no_state) {
 
 /* A pendulum on a stiff rod, in steps of a fifth of its swing and of h omega = 2000 along the rod: energy
  * never rises. */
-static void strides_over_a_stiff_rod(no_state) {
+TEST(strides_over_a_stiff_rod) {
   const double q[] = {0, 0, 0, 1, 0, 0}, down[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
@@ -133,7 +133,7 @@ static void strides_over_a_stiff_rod(no_state) {
 }
 
 /* A hanging cloth that crumples, in steps at which Newton's matrix is no longer positive. */
-static void gets_through_compression(no_state) {
+TEST(gets_through_compression) {
   const double down[] = {0, -9.81, 0};
   owned_system *system = new_system();
   small_part(system, "cloth", NULL,
@@ -149,7 +149,7 @@ static void gets_through_compression(no_state) {
   check_between(energy, -9.81, -0.1); /* it has fallen, and gained nothing */
 }
 
-static void work_is_counted(no_state) {
+TEST(work_is_counted) {
   owned_system *system = build_reference(find_reference("six-particles"));
   int64_t force[2], newton[2], linear[2], products[2];
   for (int form = 0; form < 2; form++) {
@@ -187,7 +187,7 @@ static hooke_system *cable(double damping) {
 }
 
 /* The step has no solution, and parts of it have. */
-static void a_step_is_split(no_state) {
+TEST(a_step_is_split) {
   for (int form = 0; form < 2; form++) {
     owned_system *system = cable(1000);
     owned_integrator *integrator = start_run(
@@ -202,7 +202,7 @@ static void a_step_is_split(no_state) {
   }
 }
 
-static void a_step_without_solution(no_state) {
+TEST(a_step_without_solution) {
   const double q[] = {0, 0, 0, 0.9, 0, 0}, v[] = {0, 0, 0, 10, 0.5, 0};
   owned_system *system = cable(1e12);
   owned_integrator *integrator =
@@ -225,7 +225,7 @@ static int32_t decay(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void refusals(no_state) {
+TEST(refusals) {
   hooke_integrator *integrator = NULL;
   owned_options *options = run_options((struct run){.method = "backward-euler", .step = 0.1});
   check_status(hooke_integrator_create_first_order(1, decay, NULL, options, &integrator), HOOKE_UNSUITED);
@@ -234,19 +234,4 @@ static void refusals(no_state) {
   assert_string_equal(hooke_options_text(options, "newton"), "converged");
   check_status(hooke_options_set_text(options, "newton", "thrice"), HOOKE_BAD_VALUE);
   check_message("one-iteration");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_step_is_the_formula),
-      cmocka_unit_test(forms_agree_where_all_is_linear),
-      cmocka_unit_test(order_with_a_drive),
-      cmocka_unit_test(strides_over_a_stiff_rod),
-      cmocka_unit_test(gets_through_compression),
-      cmocka_unit_test(work_is_counted),
-      cmocka_unit_test(a_step_is_split),
-      cmocka_unit_test(a_step_without_solution),
-      cmocka_unit_test(refusals),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static hooke_system *commit(hooke_system *system) {
 }
 
 /* A straight line with equal distances has no bending force under any affine map; a bend has. */
-static void straight_lines_have_no_force(no_state) {
+TEST(straight_lines_have_no_force) {
   struct random_source source = {5};
   const double still[3 * N] = {0};
   owned_system *system = commit(new_line(3.0, 0.0, 0.0, 0));
@@ -64,7 +64,7 @@ static void straight_lines_have_no_force(no_state) {
 }
 
 /* Energies add up, and each counts its own force only. */
-static void energies_are_apart(no_state) {
+TEST(energies_are_apart) {
   double q[3 * N];
   owned_system *both = commit(new_line(3.0, 20.0, 0.0, 0)), *bends = commit(new_line(3.0, 0.0, 0.0, 0)),
                *springs = commit(new_line(0.0, 20.0, 0.0, 0));
@@ -112,14 +112,14 @@ static double energy_error(const hooke_system *system, double step) {
   return fabs(hooke_system_energy(system, "total", q, v) - before) / before;
 }
 
-static void verlet_keeps_the_energy(no_state) {
+TEST(verlet_keeps_the_energy) {
   owned_system *system = commit(new_line(3.0, 20.0, 0.0, 0));
   const double coarse = energy_error(system, 1e-3), fine = energy_error(system, 1e-4);
   check_between(coarse, 1e-6, 1e-2);
   check_between(fine / coarse, 0.001, 0.05);
 }
 
-static void momenta_stay(no_state) {
+TEST(momenta_stay) {
   double q[3 * N], v[3 * N], before[6], after[6];
   owned_system *system = commit(new_line(3.0, 20.0, 0.05, 0));
   kick(q, v);
@@ -134,7 +134,7 @@ static void momenta_stay(no_state) {
 }
 
 /* Every method agrees with Runge-Kutta with a fine step. */
-static void methods_agree(no_state) {
+TEST(methods_agree) {
   owned_system *system = commit(new_line(3.0, 20.0, 0.02, 2));
   double expected[3 * N], expected_v[3 * N];
   kick(expected, expected_v);
@@ -168,7 +168,7 @@ static void methods_agree(no_state) {
 
 /* ---- numbers ---- */
 
-static void explicit_triples_come_first(no_state) {
+TEST(explicit_triples_come_first) {
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 1.0, c[4] = {2.0, 0.0, 3.0, 0.0};
   const int64_t triples[12] = {2, 0, 1, 0, 1, 2, 1, 2, 0, 0, 1, 2};
   owned_system *system = small_system(3, q, NULL, mass, 0);
@@ -202,7 +202,7 @@ static void explicit_triples_come_first(no_state) {
 }
 
 /* Bending without stiffness adds no force and no memory, and changes no bit. */
-static void no_stiffness_is_no_bending(no_state) {
+TEST(no_stiffness_is_no_bending) {
   const double zero = 0.0;
   int64_t triples[3 * TRIPLES];
   for (int64_t k = 0; k < 3 * TRIPLES; k++)
@@ -226,7 +226,7 @@ static void no_stiffness_is_no_bending(no_state) {
   assert_true(hooke_system_count(bending, "memory") > hooke_system_count(with, "memory"));
 }
 
-static void bad_triples_are_refused(no_state) {
+TEST(bad_triples_are_refused) {
   owned_system *system = new_line(1.0, 0.0, 0.0, 0);
   const double one = 1.0, two[2] = {1.0, -2.0};
   const int64_t fine[6] = {0, 1, 2, 1, 2, 3}, far[3] = {0, 30, 1}, twice[6] = {0, 1, 2, 3, 4, 3};
@@ -243,18 +243,4 @@ static void bad_triples_are_refused(no_state) {
   assert_int_equal(hooke_system_group_count(system, "bending"), 1);
   commit(system);
   check_status(hooke_system_add_bending(system, "b", 2, fine, 1, &one), HOOKE_BAD_CALL);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(straight_lines_have_no_force),
-      cmocka_unit_test(energies_are_apart),
-      cmocka_unit_test(verlet_keeps_the_energy),
-      cmocka_unit_test(momenta_stay),
-      cmocka_unit_test(methods_agree),
-      cmocka_unit_test(explicit_triples_come_first),
-      cmocka_unit_test(no_stiffness_is_no_bending),
-      cmocka_unit_test(bad_triples_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

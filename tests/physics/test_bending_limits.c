@@ -23,7 +23,7 @@ static hooke_system *new_rope(int segments, double bending, double stiffness, do
 }
 
 /* The row sum of a particle far from the ends is 16 c, and a long beam comes arbitrarily close to it. */
-static void a_beam_is_bounded_by_its_middle(no_state) {
+TEST(a_beam_is_bounded_by_its_middle) {
   const double c = 0.5 / (0.1 * 0.1 * 0.1), slowest = 2.0 / sqrt(16.0 * c / 0.01);
   owned_system *beam = new_rope(100, 0.5, 0.0, 0.0, 0.0), *short_one = new_rope(2, 0.5, 0.0, 0.0, 0.0);
   check_close(bound_at_start(beam, "verlet"), slowest, 1e-12 * slowest);
@@ -35,7 +35,7 @@ static void a_beam_is_bounded_by_its_middle(no_state) {
 }
 
 /* Damped springs do not damp bending: forward Euler has only the drag. */
-static void forward_euler_needs_drag(no_state) {
+TEST(forward_euler_needs_drag) {
   owned_system *without = new_rope(20, 0.5, 5.0, 0.1, 0.0), *with = new_rope(20, 0.5, 5.0, 0.1, 0.3);
   check_between(bound_at_start(without, "forward-euler"), 0.0, 0.0);
   check_between(bound_at_start(with, "forward-euler"), 1e-9, 1.0);
@@ -43,7 +43,7 @@ static void forward_euler_needs_drag(no_state) {
 
 /* ---- predicted and measured ---- */
 
-static void limits_are_met(no_state) {
+TEST(limits_are_met) {
   check_limits_met(new_rope(3, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
   check_limits_met(new_rope(25, 0.5, 0.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
   check_limits_met(new_rope(25, 0.5, 40.0, 0.0, 0.0), "symplectic-euler,verlet,rk4");
@@ -53,7 +53,7 @@ static void limits_are_met(no_state) {
 }
 
 /* Random triples, with springs and particles of all masses, some of them constrained. */
-static void random_triples_run_up_to_the_prediction(no_state) {
+TEST(random_triples_run_up_to_the_prediction) {
   for (uint64_t seed = 1; seed <= 20; seed++) {
     enum { N = 9, TRIPLES = 10, SPRINGS = 8 };
     struct random_source source = {seed};
@@ -85,7 +85,7 @@ static void random_triples_run_up_to_the_prediction(no_state) {
 
 /* ---- limiting elements ---- */
 
-static void a_limit_by_bending_names_it(no_state) {
+TEST(a_limit_by_bending_names_it) {
   owned_system *system = new_rope(40, 0.5, 1.0, 0.0, 0.0);
   owned_measurement *limit = limits_of(system, "verlet", 1);
   const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
@@ -108,7 +108,7 @@ static int32_t hear(const char *kind, const char *sentence, double t, double lim
   return 0;
 }
 
-static void a_run_above_the_limit_is_explained(no_state) {
+TEST(a_run_above_the_limit_is_explained) {
   owned_system *system = new_rope(25, 0.5, 1.0, 0.0, 0.0);
   hooke_measurement *limit = limits_of(system, "verlet", 1);
   const double most = hooke_measurement_number(limit, "rows", 0, "predicted");
@@ -134,16 +134,4 @@ static void a_run_above_the_limit_is_explained(no_state) {
       check_close(hooke_measurement_number(why, "why", 0, "limit"), most, 0.02 * most);
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_beam_is_bounded_by_its_middle),
-      cmocka_unit_test(forward_euler_needs_drag),
-      cmocka_unit_test(limits_are_met),
-      cmocka_unit_test(random_triples_run_up_to_the_prediction),
-      cmocka_unit_test(a_limit_by_bending_names_it),
-      cmocka_unit_test(a_run_above_the_limit_is_explained),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

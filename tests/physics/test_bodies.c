@@ -126,7 +126,7 @@ static void check_refuses_a_body(const char *method) {
 }
 
 /* Every method refuses a body, or has its order with one. */
-static void free_body_has_the_order_of_its_method(no_state) {
+TEST(free_body_has_the_order_of_its_method) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *name = hooke_method_name(m);
     if (!hooke_method_is_built(name)) continue;
@@ -148,7 +148,7 @@ static void free_body_has_the_order_of_its_method(no_state) {
 }
 
 /* 100 turns about the axis of largest moment. */
-static void reference_follows_jacobi(no_state) {
+TEST(reference_follows_jacobi) {
   const char *const names[] = {"rk8pd", "cvode-adams", "cvode-bdf", "arkode-esdirk"};
   const double bound[] = {1e-8, 1e-6, 1e-6, 1e-5};
   for (int k = 0; k < 4; k++) {
@@ -190,7 +190,7 @@ static double turning_time_of_euler(void) {
   return euler(start, 0.0, rotation);
 }
 
-static void middle_axis_turns_in_time(no_state) {
+TEST(middle_axis_turns_in_time) {
   const double exact = turning_time_of_euler();
   double error[4];
   for (int k = 0; k < 4; k++)
@@ -225,7 +225,7 @@ static struct drift drift_of(const char *method, double step, int64_t blocks) {
 }
 
 /* 1e6 steps: the error of energy is bounded and of order 2, that of angular momentum is rounding. */
-static void verlet_conserves(no_state) {
+TEST(verlet_conserves) {
   if (left_out(1, 2)) skip(); /* the code is that of the next one */
   const struct drift coarse = drift_of("verlet", 0.2, 5000), fine = drift_of("verlet", 0.1, 10000),
                      euler_drift = drift_of("symplectic-euler", 0.1, 10000);
@@ -238,7 +238,7 @@ static void verlet_conserves(no_state) {
 
 /* Implicit methods keep the angular momentum of a free body to rounding at any tolerance. That of its energy is of
  * the order of the method: implicit midpoint does not lose or gain it steadily, the others lose it. */
-static void implicit_methods_conserve(no_state) {
+TEST(implicit_methods_conserve) {
   const char *const names[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
   for (int m = 0; m < 3; m++) {
     const struct drift coarse = drift_of(names[m], 0.2, 25), fine = drift_of(names[m], 0.1, 50);
@@ -290,7 +290,7 @@ static double angle_at_the_bottom(int count, int pins, const char *method, doubl
   return atan2(q[3 * (count - 1)], -q[3 * (count - 1) + 1]);
 }
 
-static void pendulum_has_its_period(no_state) {
+TEST(pendulum_has_its_period) {
   for (int pins = 1; pins <= 2; pins++) {
     double error[4];
     for (int k = 0; k < 4; k++)
@@ -307,7 +307,7 @@ static void pendulum_has_its_period(no_state) {
 }
 
 /* A body held at three points is still, and its free particle weighs on nothing. */
-static void three_pins_hold(no_state) {
+TEST(three_pins_hold) {
   const double place[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 1}, mass = 1.0;
   double q[12];
   owned_system *system = small_system(4, place, NULL, mass, 0);
@@ -323,7 +323,7 @@ static void three_pins_hold(no_state) {
 
 /* Steady precession: a wheel on an axle pinned at its end, horizontal, turns about the vertical at W with
  * m g d = W (I3 s) for a spin s, and the inclination stays. */
-static void top_precesses_steadily(no_state) {
+TEST(top_precesses_steadily) {
   enum { RIM = 8, ALL = RIM + 1 };
   const double d = 0.5, r = 0.3, g = 9.81, spin = 60.0, i3 = r * r, mass = 1.0 / RIM;
   const double w = g * d / (i3 * spin); /* of a horizontal axle: exact */
@@ -358,18 +358,4 @@ static void top_precesses_steadily(no_state) {
   }
   check_order("verlet", 4, error, 1.8, 2.2);
   check_between(error[3], 0.0, 1e-3);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(free_body_has_the_order_of_its_method),
-      cmocka_unit_test(reference_follows_jacobi),
-      cmocka_unit_test(middle_axis_turns_in_time),
-      cmocka_unit_test(verlet_conserves),
-      cmocka_unit_test(implicit_methods_conserve),
-      cmocka_unit_test(pendulum_has_its_period),
-      cmocka_unit_test(three_pins_hold),
-      cmocka_unit_test(top_precesses_steadily),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

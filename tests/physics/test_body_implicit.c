@@ -75,7 +75,7 @@ static double amplification(int method, double z) {
 }
 
 /* However stiff the spring: backward Euler and tr-bdf2 let the motion die, and midpoint keeps its energy. */
-static void unresolved_motion_dies_out(no_state) {
+TEST(unresolved_motion_dies_out) {
   for (double z = 0.1; z < 2e4; z *= 10.0) {
     for (int m = 0; m < METHODS; m++) {
       const double expected = amplification(m, z);
@@ -186,7 +186,7 @@ static void check_run(const hooke_system *system, const char *method, double ste
     check_between(hooke_system_energy(system, "total", q, v), -1e3, before + 1e-6 * fabs(before));
 }
 
-static void stiff_chains_are_solved(no_state) {
+TEST(stiff_chains_are_solved) {
   for (int how = 0; how < 4; how++) {
     for (double stiffness = 1e2; stiffness < 2e6; stiffness *= 100.0) {
       owned_system *system = chain(stiffness, how & 1 ? 10.0 : 0.0, how & 2);
@@ -206,7 +206,7 @@ static void stiff_chains_are_solved(no_state) {
 /* ---- one iteration ---- */
 
 /* It has the order of its method, for it solves the linearised equations. */
-static void one_iteration_has_the_order(no_state) {
+TEST(one_iteration_has_the_order) {
   hooke_system *system = chain(200.0, 0.1, 0);
   double exact[3 * CHAIN], q[3 * CHAIN], error[2];
   run_to_end(system, (struct run){.method = "rk4", .step = 1.0 / 65536, .duration = 0.125, .every = 0.125},
@@ -230,7 +230,7 @@ static void one_iteration_has_the_order(no_state) {
 
 /* Two turning bodies that two springs join, with nothing else: both momenta stay, by implicit midpoint the
  * angular one too. */
-static void momentum_is_kept(no_state) {
+TEST(momentum_is_kept) {
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0.2, 0, 2.5, 1, 0.5, 2, 0.5, 1},
                v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0, 0, 0, 0.2, 0, -0.5, 1, 0, -1, 0.5}, mass = 0.4;
   const int64_t one[] = {0, 1, 2}, other[] = {3, 4, 5, 6}, ends[] = {1, 3, 2, 6};
@@ -252,14 +252,4 @@ static void momentum_is_kept(no_state) {
     check_close(largest_difference(3, before, after), 0.0, 1e-11);
     check_between(largest_difference(3, before + 3, after + 3), m == 2 ? 0.0 : 1e-8, m == 2 ? 1e-10 : 1.0);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(unresolved_motion_dies_out),
-      cmocka_unit_test(stiff_chains_are_solved),
-      cmocka_unit_test(one_iteration_has_the_order),
-      cmocka_unit_test(momentum_is_kept),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

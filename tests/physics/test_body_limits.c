@@ -99,7 +99,7 @@ static void find_bar_frequencies(double frequency[2]) {
   frequency[1] = sqrt(half + root);
 }
 
-static void a_bar_has_its_two_modes(no_state) {
+TEST(a_bar_has_its_two_modes) {
   double expected[2];
   find_bar_frequencies(expected);
   check_frequencies(bar_on_springs(0.0, 0.0), 2, expected);
@@ -114,7 +114,7 @@ static double exact_limit(const char *method, double w, double beta) {
   return hooke_limit_of_mode(method, w, 0.5 * c);
 }
 
-static void bar_runs_up_to_its_limits(no_state) {
+TEST(bar_runs_up_to_its_limits) {
   const char *const methods[2] = {"symplectic-euler,verlet,rk4",
                                   "symplectic-euler,verlet,forward-euler,heun,rk4"};
   double frequency[2];
@@ -136,7 +136,7 @@ static void bar_runs_up_to_its_limits(no_state) {
 }
 
 /* Damping out of proportion. */
-static void bar_runs_up_to_its_limits_where_one_spring_is_damped_more(no_state) {
+TEST(bar_runs_up_to_its_limits_where_one_spring_is_damped_more) {
   owned_system *system = bar_on_springs(0.01, 8.0);
   owned_measurement *limit = limit_of(system, "symplectic-euler,verlet,forward-euler,rk4", 1);
   for (int64_t k = 0; k < 4; k++)
@@ -157,7 +157,7 @@ static hooke_system *pendulum(int pins, double angle) {
   return system;
 }
 
-static void a_pendulum_swings_by_gravity(no_state) {
+TEST(a_pendulum_swings_by_gravity) {
   const double w = sqrt(G), both[2] = {w, w}, tilted[2] = {sqrt(G * cos(0.4)), sqrt(G * cos(0.4))};
   for (int pins = 1; pins <= 2; pins++) {
     hooke_system *system = pendulum(pins, 0.0);
@@ -177,7 +177,7 @@ static void a_pendulum_swings_by_gravity(no_state) {
 }
 
 /* It falls by itself, at any step, and that is not a limit of the step. */
-static void a_pendulum_upside_down_is_said_to_tip(no_state) {
+TEST(a_pendulum_upside_down_is_said_to_tip) {
   owned_system *system = pendulum(1, 3.14159265358979323846);
   check_ok(hooke_system_commit(system));
   owned_measurement *limit = limit_of(system, "verlet", 1);
@@ -188,7 +188,7 @@ static void a_pendulum_upside_down_is_said_to_tip(no_state) {
 
 /* A bar of length 2a between two springs of length l and tension t, in a line: it moves along by 2 kappa/m,
  * across by 2t/(l m), and turns by 2 t a (1 + a/l) over its inertia m a^2; the second and the third twice. */
-static void tension_holds_a_bar(no_state) {
+TEST(tension_holds_a_bar) {
   const double a = 0.3, l = 0.5, kappa = 40.0, t = kappa * (l - 0.35), m = 2.0;
   const double q[12] = {-a, 0, 0, a, 0, 0, -a - l, 0, 0, a + l, 0, 0};
   const double across = sqrt(2.0 * t / (l * m)), turn = sqrt(2.0 * t * a * (1.0 + a / l) / (m * a * a));
@@ -220,7 +220,7 @@ static hooke_measurement *limit_at_spin(const hooke_system *system, double spin)
 }
 
 /* Known up to 1e-3 rad in the time in which the limiting mode swings by 1 rad; else not measured either. */
-static void spin_makes_a_limit_unknown(no_state) {
+TEST(spin_makes_a_limit_unknown) {
   owned_system *system = bar_on_springs(0.0, 0.0);
   hooke_measurement_destroy(limit_of(system, "verlet", 0)); /* skips without LAPACK */
   double frequency[2];
@@ -259,7 +259,7 @@ static double tetrahedron_limit(double stiffness) {
   return found;
 }
 
-static void limit_of_a_lattice_falls_and_that_of_its_body_stays(no_state) {
+TEST(limit_of_a_lattice_falls_and_that_of_its_body_stays) {
   const double body = tetrahedron_limit(0.0);
   double before = tetrahedron_limit(1e4);
   check_between(body, 10.0 * before, 100.0 * before);
@@ -272,7 +272,7 @@ static void limit_of_a_lattice_falls_and_that_of_its_body_stays(no_state) {
 
 /* ---- why ---- */
 
-static void why_names_the_spring_at_a_body(no_state) {
+TEST(why_names_the_spring_at_a_body) {
   double frequency[2];
   owned_system *system = bar_on_springs(0.0, 0.0);
   find_bar_frequencies(frequency);
@@ -290,19 +290,4 @@ static void why_names_the_spring_at_a_body(no_state) {
   check_close(hooke_measurement_number(why, "why", 0, "limit") * frequency[1], 2.0, 1e-3);
   assert_string_equal(hooke_measurement_text(why, "blame", 0, "group"), "feet");
   assert_true(hooke_measurement_row_count(why, "advice") > 0);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_bar_has_its_two_modes),
-      cmocka_unit_test(bar_runs_up_to_its_limits),
-      cmocka_unit_test(bar_runs_up_to_its_limits_where_one_spring_is_damped_more),
-      cmocka_unit_test(a_pendulum_swings_by_gravity),
-      cmocka_unit_test(a_pendulum_upside_down_is_said_to_tip),
-      cmocka_unit_test(tension_holds_a_bar),
-      cmocka_unit_test(spin_makes_a_limit_unknown),
-      cmocka_unit_test(limit_of_a_lattice_falls_and_that_of_its_body_stays),
-      cmocka_unit_test(why_names_the_spring_at_a_body),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,7 +61,7 @@ static double error_of_height(const hooke_system *system, struct run run) {
   return fabs(height - expected);
 }
 
-static void top_nutates(no_state) {
+TEST(top_nutates) {
   owned_system *system = spinning_top();
   double unused_height;
   const double period = nutation(0.0, &unused_height), time = 3.3 * period;
@@ -223,7 +223,7 @@ static double slider_risen(const double *q, const double *angle) {
 }
 
 /* The links give by force over stiffness. */
-static void governor_follows_its_angle(no_state) {
+TEST(governor_follows_its_angle) {
   const struct run rk4 = {.method = "rk4", .step = 1e-4, .duration = 2.0};
   struct followed governed = {1, accelerate_governor, slider_off, {PI / 3}, {0.0}, 0, 0.0};
   double off[3];
@@ -280,7 +280,7 @@ static double end_off(const double *q, const double *angle) {
   return hypot(end[0] - sin(angle[0]) - sin(angle[1]), end[1] + cos(angle[0]) + cos(angle[1]));
 }
 
-static void linkage_follows_its_angles(no_state) {
+TEST(linkage_follows_its_angles) {
   const struct followed swinging = {2, accelerate_linkage, end_off, {START[0], START[1]}, {0.0, 0.0}, 0, 0.0};
   double off[4];
   for (int k = 0; k < 4; k++)
@@ -338,7 +338,7 @@ static double bent(const double *from, const double *to) {
   return most;
 }
 
-static void framed_cloth_keeps_its_energy(no_state) {
+TEST(framed_cloth_keeps_its_energy) {
   enum { N = CLOTH * CLOTH };
   owned_system *system = framed_cloth(0.0);
   owned_state *start = start_state(system);
@@ -356,7 +356,7 @@ static void framed_cloth_keeps_its_energy(no_state) {
 
 /* Once it has come to rest, what acts on the frame adds up to no force and no torque; on its particles it
  * does not. */
-static void frame_hangs_in_balance(no_state) {
+TEST(frame_hangs_in_balance) {
   enum { N = CLOTH * CLOTH };
   owned_system *system = framed_cloth(0.03);
   double q[3 * N], v[3 * N], f[3 * N], force[3] = {0.0}, torque[3] = {0.0}, most = 0.0;
@@ -377,15 +377,4 @@ static void frame_hangs_in_balance(no_state) {
   check_between(most, 0.05, 10.0);
   check_between(largest(3, force), 0.0, 1e-8);
   check_between(largest(3, torque), 0.0, 1e-8);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(top_nutates),
-      cmocka_unit_test(governor_follows_its_angle),
-      cmocka_unit_test(linkage_follows_its_angles),
-      cmocka_unit_test(framed_cloth_keeps_its_energy),
-      cmocka_unit_test(frame_hangs_in_balance),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

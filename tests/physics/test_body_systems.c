@@ -83,7 +83,7 @@ static void end_of(const hooke_system *system, const char *method, double step, 
   run_to_end(system, (struct run){.method = method, .step = step, .duration = 1.0, .every = 1.0}, q, NULL);
 }
 
-static void hung_cube_has_the_order_of_its_method(no_state) {
+TEST(hung_cube_has_the_order_of_its_method) {
   const struct {
     const char *name;
     double step, low, high;
@@ -111,7 +111,7 @@ static void hung_cube_has_the_order_of_its_method(no_state) {
 }
 
 /* The acceleration of the particles is the second derivative of their motion. */
-static void acceleration_is_that_of_the_motion(no_state) {
+TEST(acceleration_is_that_of_the_motion) {
   const double h = 2e-5;
   owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
   owned_state *state = start_state(system);
@@ -135,7 +135,7 @@ static void acceleration_is_that_of_the_motion(no_state) {
 /* A bar with a heavy middle on four anchors at the corners: it rises and sways at sqrt(4 k/M), and turns about its
  * axes at sqrt(k (the sum of squared distances)/I) = sqrt(k/m), m the mass of a corner, which is faster. verlet is
  * stable up to 2 over that. */
-static void bar_on_springs_has_its_limit(no_state) {
+TEST(bar_on_springs_has_its_limit) {
   const double k = 500.0, m = 0.2, mass[5] = {0.2, 0.2, 0.2, 0.2, 3.0};
   const double q[15] = {1, 0, 0.1, 1, 0, -0.1, -1, 0, 0.1, -1, 0, -0.1, 0, 0, 0};
   for (int above = 0; above < 2; above++) {
@@ -186,7 +186,7 @@ static struct path path_of(struct cube how, double step) {
 }
 
 /* Its distance from the body falls as 1/stiffness over three decades. */
-static void stiff_lattice_tends_to_the_body(no_state) {
+TEST(stiff_lattice_tends_to_the_body) {
   struct cube how = {.rigid = 1, .anchored = 1, .turning = 1};
   const struct path body = path_of(how, 1.0 / 4000);
   double apart[4];
@@ -204,7 +204,7 @@ static void stiff_lattice_tends_to_the_body(no_state) {
 /* ---- bits ---- */
 
 /* Steps by other integrators, each from the state that the last one left, are those of one run. */
-static void a_step_is_a_map_of_the_state(no_state) {
+TEST(a_step_is_a_map_of_the_state) {
   const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet",  "heun",
                                  "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint"};
   for (int damped = 0; damped < 2; damped++) {
@@ -226,7 +226,7 @@ static void a_step_is_a_map_of_the_state(no_state) {
 }
 
 /* A cloth with a rigid corner, large enough for two threads. */
-static void threads_do_not_change_bits(no_state) {
+TEST(threads_do_not_change_bits) {
   enum { SIDE = 100, N = SIDE * SIDE };
   const int64_t corner[] = {0, 1, 2, SIDE, SIDE + 1, SIDE + 2, 2 * SIDE, 2 * SIDE + 1};
   owned_options *options =
@@ -264,7 +264,7 @@ static void threads_do_not_change_bits(no_state) {
 
 /* ---- what is dropped, and sums over particles ---- */
 
-static void inner_springs_are_dropped(no_state) {
+TEST(inner_springs_are_dropped) {
   owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
   assert_int_equal(hooke_system_count(system, "springs"), 0);
   assert_int_equal(hooke_system_count(system, "inside_bodies"), PAIRS);
@@ -274,7 +274,7 @@ static void inner_springs_are_dropped(no_state) {
   assert_string_equal(hooke_system_body_name(system, 0), "cube");
 }
 
-static void motion_adds_up_to_energy(no_state) {
+TEST(motion_adds_up_to_energy) {
   owned_system *system = committed((struct cube){.rigid = 1, .turning = 1});
   owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
@@ -305,7 +305,7 @@ static void refuse(hooke_system *system, const char *words) {
   hooke_system_destroy(system);
 }
 
-static void bad_bodies_are_refused(no_state) {
+TEST(bad_bodies_are_refused) {
   const double mass = 1.0, same[] = {1, 2, 3, 1, 2, 3}, uneven[] = {0, 0, 1, 0, 0, 0, 0, 0, 0},
                row[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   hooke_system *system = cube((struct cube){.rigid = 1});
@@ -346,7 +346,7 @@ static void bad_bodies_are_refused(no_state) {
   }
 }
 
-static void unknown_is_said(no_state) {
+TEST(unknown_is_said) {
   owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1});
   owned_state *state = start_state(system);
   owned_options *options = run_options((struct run){.method = "shardlow", .step = 0.01, .duration = 1.0});
@@ -370,7 +370,7 @@ static void unknown_is_said(no_state) {
 }
 
 /* A driven body follows its drive. */
-static void driven_bodies_follow(no_state) {
+TEST(driven_bodies_follow) {
   owned_system *system = cube((struct cube){.rigid = 1});
   double q[3 * CUBE], corner[3];
   check_ok(hooke_system_drive_harmonic(system, CUBE, ALL, (double[]){0, 0.5, 0}, 1.0, 0.0));
@@ -382,21 +382,4 @@ static void driven_bodies_follow(no_state) {
     corner[1] += 0.5;
     check_close(largest_difference(3, q + 3 * p, corner), 0.0, 1e-15);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(hung_cube_has_the_order_of_its_method),
-      cmocka_unit_test(acceleration_is_that_of_the_motion),
-      cmocka_unit_test(bar_on_springs_has_its_limit),
-      cmocka_unit_test(stiff_lattice_tends_to_the_body),
-      cmocka_unit_test(a_step_is_a_map_of_the_state),
-      cmocka_unit_test(threads_do_not_change_bits),
-      cmocka_unit_test(inner_springs_are_dropped),
-      cmocka_unit_test(motion_adds_up_to_energy),
-      cmocka_unit_test(bad_bodies_are_refused),
-      cmocka_unit_test(unknown_is_said),
-      cmocka_unit_test(driven_bodies_follow),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

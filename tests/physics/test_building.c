@@ -11,7 +11,7 @@ static hooke_system *three(void) {
   return small_system(3, place, NULL, 1.0, 0);
 }
 
-static void test_particles(no_state) {
+TEST(test_particles) {
   const double bad_place[] = {0, 0, 0, 1, NAN, 0}, bad_velocity[] = {0, 0, 0, 0, 0, INFINITY};
   const double mass = 1.0, none = 0.0, negative[] = {1.0, -2.5}, masses[] = {1, 2, 3};
   owned_system *system = three();
@@ -53,7 +53,7 @@ static void refuse_springs(int64_t count, const int64_t *ends, const hooke_optio
   assert_int_equal(hooke_system_group_count(system, "springs"), 1);
 }
 
-static void test_springs(no_state) {
+TEST(test_springs) {
   const int64_t outside[] = {0, 1, 1, 7}, below[] = {-1, 2}, same[] = {0, 1, 2, 2}, good[] = {0, 1, 1, 2};
   const double three_values[] = {1, 2, 3}, with_zero[] = {1, 0};
   hooke_options *options = spring_options(NULL, 0.0);
@@ -76,7 +76,7 @@ static void test_springs(no_state) {
 }
 
 /* Coincident ends have no initial length for the strain law. */
-static void test_initial_length_of_nothing(no_state) {
+TEST(test_initial_length_of_nothing) {
   const double q[] = {0, 0, 0, 1, 1, 1, 1, 1, 1};
   const int64_t ends[] = {0, 1, 1, 2};
   owned_system *system = small_system(3, q, NULL, 1.0, 0);
@@ -88,7 +88,7 @@ static void test_initial_length_of_nothing(no_state) {
   check_ok(hooke_system_commit(system));
 }
 
-static void test_spring_options(no_state) {
+TEST(test_spring_options) {
   owned_options *options = spring_options(NULL, 0.0);
   const double bad[] = {1.0, -3.0};
   check_status(hooke_options_set_number(options, "stiffness", -5.0), HOOKE_BAD_VALUE);
@@ -106,7 +106,7 @@ static void test_spring_options(no_state) {
   check_close(hooke_options_number(options, "stiffness"), 10.0, 0.0); /* kept */
 }
 
-static void test_pins_and_drives(no_state) {
+TEST(test_pins_and_drives) {
   const int64_t outside[] = {0, 3}, one = 1, two = 2, twice[] = {0, 0};
   const double amplitude[] = {1, 0, 0}, lost[] = {1, NAN, 0}, time[] = {0, 1, 1}, moved[9] = {0};
   owned_system *system = three();
@@ -138,7 +138,7 @@ static void test_pins_and_drives(no_state) {
   assert_true(hooke_system_inverse_mass(system)[1] == 0.0 && hooke_system_inverse_mass(system)[2] == 0.0);
 }
 
-static void test_gravity_and_drag(no_state) {
+TEST(test_gravity_and_drag) {
   const double gravity[] = {0, 0, -INFINITY};
   owned_system *system = three();
   check_status(hooke_system_set_gravity(system, gravity), HOOKE_BAD_VALUE);
@@ -151,7 +151,7 @@ static void test_gravity_and_drag(no_state) {
 }
 
 /* A pinned particle with a velocity is refused at commit; the system stays open. */
-static void test_moving_pin(no_state) {
+TEST(test_moving_pin) {
   const double v[] = {0, 0, 0, 0, 0.25, 0, 0, 0, 0};
   const int64_t one = 1;
   owned_system *system = small_system(3, place, v, 1.0, 0);
@@ -163,7 +163,7 @@ static void test_moving_pin(no_state) {
   check_ok(hooke_system_set_drag(system, 1.0)); /* still open */
 }
 
-static void test_calls_out_of_order(no_state) {
+TEST(test_calls_out_of_order) {
   const double gravity[] = {0, 0, 1}, mass = 1.0;
   const int64_t ends[] = {0, 1}, one = 1;
   double out[9];
@@ -189,7 +189,7 @@ static void test_calls_out_of_order(no_state) {
 }
 
 /* Groups keep their order, names and sizes; springs are numbered through them. */
-static void test_spring_numbers(no_state) {
+TEST(test_spring_numbers) {
   const int64_t first[] = {2, 0}, second[] = {0, 1, 1, 2}, expected[] = {2, 0, 0, 1, 1, 2};
   int64_t ends[6];
   double kappa[3], gamma[3], rest[3];
@@ -283,7 +283,7 @@ static hooke_system *built_of(const struct kind *kind, int one_by_one, const dou
 }
 
 /* Unequal numbers in arrays act as when they are given one by one. */
-static void test_each_has_its_numbers(no_state) {
+TEST(test_each_has_its_numbers) {
   double q[3 * CORNERS], moved[3 * CORNERS], v[3 * CORNERS], mass[CORNERS], a[2][3 * CORNERS];
   for (int k = 0; k < 3 * CORNERS; k++) {
     q[k] = sin(1.0 + k * k);
@@ -305,20 +305,4 @@ static void test_each_has_its_numbers(no_state) {
     check_same_bits(MEMBERS, damping[0], damping[1]);
     check_same_bits(7 * MEMBERS, rest[0], rest[1]);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_particles),
-      cmocka_unit_test(test_springs),
-      cmocka_unit_test(test_initial_length_of_nothing),
-      cmocka_unit_test(test_spring_options),
-      cmocka_unit_test(test_pins_and_drives),
-      cmocka_unit_test(test_gravity_and_drag),
-      cmocka_unit_test(test_moving_pin),
-      cmocka_unit_test(test_calls_out_of_order),
-      cmocka_unit_test(test_spring_numbers),
-      cmocka_unit_test(test_each_has_its_numbers),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static int32_t linear_product(int64_t n, double t, const double *q, const double
   return linear_force(n, t, dq, dv, out, ctx);
 }
 
-static void test_difference_quotients(no_state) {
+TEST(test_difference_quotients) {
   const double q[] = {1, -2, 3, 100, 0.5, -40}, v[] = {0, 1, 0, -3, 0, 5}, dq[] = {1, 2, -1, 0.5, 0, 3},
                dv[] = {0.25, 0, -4, 1, 1, 1};
   for (int with = 0; with < 2; with++) {
@@ -98,7 +98,7 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
 
 /* The force is linear, so but for turning bodies one iteration solves a step, with the derivative that is
  * given and with difference quotients. */
-static void test_derivative_in_steps(no_state) {
+TEST(test_derivative_in_steps) {
   static const char *const kinds[] = {"second-order", "bodies", "overdamped", "coordinates"};
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
     int64_t products = 0;
@@ -151,7 +151,7 @@ static int32_t look(int64_t n, double t, const double *q, const double *v, doubl
   return 0;
 }
 
-static void test_what_a_callback_sees(no_state) {
+TEST(test_what_a_callback_sees) {
   const double q[] = {0, 0, 0, 2, 0, 0}, v[] = {0, 1, 0, 0, 0, 3}, gravity[] = {0, 0, -10};
   const int64_t ends[] = {0, 1};
   struct shown shown = {0};
@@ -224,7 +224,7 @@ static void go(const hooke_system *system, const char *method, double end[6]) {
   memcpy(end + 3, hooke_state_velocity(state) + 3 * (FAR - 1), 3 * sizeof *end);
 }
 
-static void test_a_force_for_some_runs(no_state) {
+TEST(test_a_force_for_some_runs) {
   static const char *const methods[] = {"rk4", "verlet", "backward-euler", "cvode-adams"};
   static struct holder own, lent;
   hooke_system *plain = spring_and_pins(NULL, NULL), *forced = spring_and_pins(pull_and_hold, &own), *with;
@@ -257,7 +257,7 @@ static void test_a_force_for_some_runs(no_state) {
 
 /* The arrays of a call outlast the run, with the numbers of the call; implicit methods take difference
  * quotients. */
-static void test_what_a_callback_holds(no_state) {
+TEST(test_what_a_callback_holds) {
   static const char *const methods[] = {"rk4", "backward-euler"};
   for (int k = 0; k < 2; k++) {
     static struct holder holder, other;
@@ -436,7 +436,7 @@ static void check_stops(const char *problem, const char *method, hooke_force_pro
 }
 
 /* In a step, a residual or a derivative, of every method and every kind of unknowns. */
-static void test_every_call_may_stop(no_state) {
+TEST(test_every_call_may_stop) {
   static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order",
                                          "coordinates"};
   for (size_t k = 0; k < sizeof problems / sizeof problems[0]; k++) {
@@ -450,7 +450,7 @@ static void test_every_call_may_stop(no_state) {
   }
 }
 
-static void test_a_force_alone_stops(no_state) {
+TEST(test_a_force_alone_stops) {
   const double q[] = {0, 0, 0};
   struct stopper stopper = {.stop = 1};
   double force[3];
@@ -459,14 +459,4 @@ static void test_a_force_alone_stops(no_state) {
   check_ok(hooke_system_commit(system));
   check_status(hooke_system_force(system, 0.0, q, q, force), HOOKE_STOPPED);
   check_message("77");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_call_may_stop),   cmocka_unit_test(test_derivative_in_steps),
-      cmocka_unit_test(test_difference_quotients),  cmocka_unit_test(test_what_a_callback_sees),
-      cmocka_unit_test(test_a_force_alone_stops),   cmocka_unit_test(test_a_force_for_some_runs),
-      cmocka_unit_test(test_what_a_callback_holds),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

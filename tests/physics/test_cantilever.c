@@ -134,7 +134,7 @@ static double tip_of(int segments) {
   return sag_of(new_rope(segments, "density", DENSITY, LENGTH / (segments - 0.5)), 1);
 }
 
-static void tips_sink_as_beams_do(no_state) {
+TEST(tips_sink_as_beams_do) {
   const int segments[4] = {16, 32, 64, 128};
   double tip[4];
   for (int k = 0; k < 4; k++) {
@@ -151,7 +151,7 @@ static void tips_sink_as_beams_do(no_state) {
 
 /* Equal masses give the tip twice its proper mass; with a wall at the first particle the length is off by
  * half a piece. */
-static void other_masses_and_walls_are_noticed(no_state) {
+TEST(other_masses_and_walls_are_noticed) {
   const double piece = LENGTH / 15.5, other = LENGTH / 16.0, unit = SAG * LENGTH;
   const double shared = sag_of(new_rope(16, "mass", DENSITY * 16.0 * piece, piece), 1) / unit;
   const double wall = sag_of(new_rope(16, "density", DENSITY, other), 1) / unit;
@@ -164,7 +164,7 @@ static void other_masses_and_walls_are_noticed(no_state) {
 }
 
 /* The library's own way to equilibrium: backward Euler, which damps modes that it does not resolve. */
-static void backward_euler_comes_to_rest_there(no_state) {
+TEST(backward_euler_comes_to_rest_there) {
   const double expected = tip_of(16);
   owned_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
   double q[3 * 17];
@@ -175,7 +175,7 @@ static void backward_euler_comes_to_rest_there(no_state) {
 
 /* ---- sheets ---- */
 
-static void sheets_sink_as_beams_do(no_state) {
+TEST(sheets_sink_as_beams_do) {
   const int along[3] = {16, 64, 128}, across[3] = {2, 5, 9};
   for (int k = 0; k < 3; k++) {
     double first = 0.0;
@@ -188,14 +188,4 @@ static void sheets_sink_as_beams_do(no_state) {
       check_between(sag / first, 0.98, 1.02);
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(tips_sink_as_beams_do),
-      cmocka_unit_test(other_masses_and_walls_are_noticed),
-      cmocka_unit_test(backward_euler_comes_to_rest_there),
-      cmocka_unit_test(sheets_sink_as_beams_do),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

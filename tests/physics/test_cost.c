@@ -65,7 +65,7 @@ static hooke_measurement *cost_of_all_rows(const hooke_system *system, struct ru
   }
 }
 
-static void rows_are_what_is_there(no_state) {
+TEST(rows_are_what_is_there) {
   static const char *const kinds[] = {"springs", "springs",  "bending", "damping",
                                       "drag",    "callback", "gravity"};
   static const char *const names[] = {"stiff", "", "curl", "damping", "drag", "callback", "gravity"};
@@ -111,7 +111,7 @@ static void rows_are_what_is_there(no_state) {
 }
 
 /* One mode each: h omega = 2 (sqrt(1 + z^2) - z) for symplectic Euler, 2 without damping. */
-static void limits_are_those_without(no_state) {
+TEST(limits_are_those_without) {
   const double z = 0.25;
   hooke_system *system = two_oscillators(2.0 * z * 10.0, 0.0, 1, 0);
   hooke_measurement *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
@@ -145,7 +145,7 @@ static void limits_are_those_without(no_state) {
 
 /* Groups of 1, 3 and 2 springs and of 2 triples: as many as requested, the largest first, of equal size the
  * first; and all ingredients without group. */
-static void the_largest_groups_are_looked_at(no_state) {
+TEST(the_largest_groups_are_looked_at) {
   enum { GROUPS = 4, MOST = GROUPS + 1 };
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, down[] = {0, 0, -9.81}, coefficient = 1.0;
   static const int64_t size[] = {1, 3, 2}, place[GROUPS] = {3, 0, 1, 2}; /* of each group among them */
@@ -172,7 +172,7 @@ static void the_largest_groups_are_looked_at(no_state) {
 }
 
 /* Every method can be timed, with steps that are far too large, or none given. */
-static void times_are_numbers(no_state) {
+TEST(times_are_numbers) {
   owned_system *system = two_oscillators(1.0, 0.5, 1, 1);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -205,7 +205,7 @@ static int32_t see(double done, const char *what, void *ctx) {
   return ++watch->calls == watch->stop_at;
 }
 
-static void can_be_stopped(no_state) {
+TEST(can_be_stopped) {
   owned_system *system = two_oscillators(1.0, 0.5, 1, 0);
   owned_state *state = start_state(system);
   struct watch watch = {.stop_at = 4};
@@ -218,7 +218,7 @@ static void can_be_stopped(no_state) {
   assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "memory_bytes")));
 }
 
-static void wrong_calls(no_state) {
+TEST(wrong_calls) {
   owned_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
   owned_state *state = start_state(other);
   hooke_measurement *cost = NULL;
@@ -229,16 +229,4 @@ static void wrong_calls(no_state) {
   check_message("does not fit");
   assert_true(isnan(hooke_measurement_number(cost, "cost", 0, "step_limit")));
   hooke_measurement_destroy(cost);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_are_what_is_there),
-      cmocka_unit_test(limits_are_those_without),
-      cmocka_unit_test(the_largest_groups_are_looked_at),
-      cmocka_unit_test(times_are_numbers),
-      cmocka_unit_test(can_be_stopped),
-      cmocka_unit_test(wrong_calls),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

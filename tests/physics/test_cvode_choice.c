@@ -92,7 +92,7 @@ static const struct ask LOOSE = {"cvode-bdf", 1e-4, 1e-7, 0.3, 0};
 
 /* ---- lowered ---- */
 
-static void test_stiff_and_weakly_damped(no_state) {
+TEST(test_stiff_and_weakly_damped) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   const struct outcome exact = run_once(system, (struct ask){"cvode-adams", 1e-8, 1e-11, 0.3, 0});
@@ -110,7 +110,7 @@ static void test_stiff_and_weakly_damped(no_state) {
   }
 }
 
-static void test_a_given_order_stays(no_state) {
+TEST(test_a_given_order_stays) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   const struct outcome chosen = run_with(system, LOOSE, 0);
@@ -123,7 +123,7 @@ static void test_a_given_order_stays(no_state) {
 }
 
 /* A run chooses anew, independently of the previous one. */
-static void test_again(no_state) {
+TEST(test_again) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   owned_integrator *integrator = start(system, LOOSE);
@@ -144,14 +144,14 @@ static void check_left_alone(double stiffness, double damping, struct ask ask) {
   assert_true(low.steps != high.steps);
 }
 
-static void test_strongly_damped(no_state) {
+TEST(test_strongly_damped) {
   needs_cvode();
   check_left_alone(STIFF, STRONG, LOOSE);
 }
 
 /* With a wide absolute tolerance, steps are long for both of these; only the first drops the higher orders.
  */
-static void test_tight_tolerance(no_state) {
+TEST(test_tight_tolerance) {
   needs_cvode();
   owned_system *system = rope(STIFF, WEAK);
   const struct ask last = {"cvode-bdf", 1e-6, 1e-5, 0.3, 0}, tight = {"cvode-bdf", 0.999e-6, 1e-5, 0.3, 0};
@@ -162,19 +162,7 @@ static void test_tight_tolerance(no_state) {
 }
 
 /* Steps that follow the fastest motion: accuracy limits them. */
-static void test_soft(no_state) {
+TEST(test_soft) {
   needs_cvode();
   check_left_alone(20.0, 0.0, (struct ask){"cvode-bdf", 1e-5, 1e-8, 0.3, 0});
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_stiff_and_weakly_damped),
-      cmocka_unit_test(test_a_given_order_stays),
-      cmocka_unit_test(test_again),
-      cmocka_unit_test(test_strongly_damped),
-      cmocka_unit_test(test_tight_tolerance),
-      cmocka_unit_test(test_soft),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

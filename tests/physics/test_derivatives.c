@@ -41,7 +41,7 @@ static void compare_product(const struct law_scene *scene, const double *dq, con
     check_close(product[k], expected[k], 1e-8 * size);
 }
 
-static void test_products(no_state) {
+TEST(test_products) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     for (uint64_t seed = 1; seed <= 4; seed++) {
@@ -96,7 +96,7 @@ static void dense(const struct blocks *blocks, const double *values, double *mat
   }
 }
 
-static void test_pattern(no_state) {
+TEST(test_pattern) {
   owned_law_scene scene;
   struct blocks blocks;
   law_scene_create(&laws[0], 9, &scene);
@@ -117,7 +117,7 @@ static void test_pattern(no_state) {
 
 /* Blocks times unit vectors are the products with unit vectors; contributions of a callback are in the
  * products only. */
-static void test_blocks_are_products(no_state) {
+TEST(test_blocks_are_products) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue;
@@ -154,7 +154,7 @@ static void test_blocks_are_products(no_state) {
   }
 }
 
-static void test_callback_is_not_in_blocks(no_state) {
+TEST(test_callback_is_not_in_blocks) {
   struct law with = laws[9], without = laws[9];
   without.callback = 0;
   assert_int_equal(with.callback, 1);
@@ -185,7 +185,7 @@ static double asymmetry(const double *matrix) {
 }
 
 /* D is symmetric always, K unless a damped spring rotates. */
-static void test_symmetry(no_state) {
+TEST(test_symmetry) {
   for (int k = 0; k < LAW_COUNT; k++) {
     owned_law_scene scene;
     struct blocks blocks;
@@ -202,15 +202,4 @@ static void test_symmetry(no_state) {
       check_between(asymmetry(matrix), 0.0, 1e-14 * size);
     release_blocks(&blocks);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_products),
-      cmocka_unit_test(test_pattern),
-      cmocka_unit_test(test_blocks_are_products),
-      cmocka_unit_test(test_callback_is_not_in_blocks),
-      cmocka_unit_test(test_symmetry),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

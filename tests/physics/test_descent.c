@@ -102,7 +102,7 @@ static double largest_rise(const hooke_system *system, struct run run, int steps
 
 /* Of the implicit midpoint rule, which swings on about where it would rest, large steps may have no solution
  * that does not raise the energy; it says so. */
-static void test_energy_falls(no_state) {
+TEST(test_energy_falls) {
   int midpoint = 0;
   for (uint64_t seed = 1; seed <= 8; seed++) {
     owned_system *system = random_sheet(seed);
@@ -128,7 +128,7 @@ static void test_energy_falls(no_state) {
 /* ---- rest ---- */
 
 /* No force is left that a step of 1e6 times the explicit bound would not have used up. */
-static void test_rest(no_state) {
+TEST(test_rest) {
   for (uint64_t seed = 1; seed <= 4; seed++) {
     owned_system *system = random_sheet(seed);
     const double bound = bound_at_start(system, "forward-euler");
@@ -168,7 +168,7 @@ static double sag_after(const hooke_system *system, struct run run, int steps) {
 }
 
 /* Nothing resists its fall at first, and soon the springs do by the third power of it. */
-static void test_sagging_rope(no_state) {
+TEST(test_sagging_rope) {
   owned_system *system = sagging_rope();
   const double sag = exact_sag();
   for (int m = 0; m < 2; m++) {
@@ -188,7 +188,7 @@ static void test_sagging_rope(no_state) {
 
 /* Where an end moves, the functional of a step falls from the old places of free particles and the new one of
  * the end: here the rope is pushed together by a tenth of its length. */
-static void test_driven(no_state) {
+TEST(test_driven) {
   owned_system *system = open_rope(1.0);
   const int64_t end = ROPE - 1;
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
@@ -212,7 +212,7 @@ static void test_driven(no_state) {
 }
 
 /* A step in parts is the same where another integrator goes on from the state before. */
-static void test_parts_repeat(no_state) {
+TEST(test_parts_repeat) {
   owned_system *system = sagging_rope();
   const struct run run = {
       .method = METHODS[2], .step = 1e-2, .duration = 0.08, .newton_tolerance = BY_DEFAULT};
@@ -242,7 +242,7 @@ static hooke_system *pressed_cloth(void) {
   return system;
 }
 
-static void test_threads(no_state) {
+TEST(test_threads) {
   owned_system *system = pressed_cloth();
   const int64_t numbers = 3 * hooke_system_particle_count(system);
   double *q[2];
@@ -258,13 +258,4 @@ static void test_threads(no_state) {
   check_same_bits(numbers, q[1], q[0]);
   free(q[0]);
   free(q[1]);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_energy_falls), cmocka_unit_test(test_rest),
-      cmocka_unit_test(test_sagging_rope), cmocka_unit_test(test_driven),
-      cmocka_unit_test(test_parts_repeat), cmocka_unit_test(test_threads),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

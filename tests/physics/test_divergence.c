@@ -79,7 +79,7 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
   }
 }
 
-static void test_step_above_the_limit(no_state) {
+TEST(test_step_above_the_limit) {
   owned_system *system = small_oscillator(10.0);
   const struct verdict at_limit = predict(system, NULL, "symplectic-euler", 0.21, 2000, 1);
   check_between((double)at_limit.step, 3.0, 30.0);
@@ -95,7 +95,7 @@ static void test_step_above_the_limit(no_state) {
 }
 
 /* Between frames the check comes every 1000 steps. */
-static void test_check_every_thousand(no_state) {
+TEST(test_check_every_thousand) {
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(
       system, (struct run){.method = "forward-euler", .step = 0.01, .duration = 30.0, .every = 30.0});
@@ -107,7 +107,7 @@ static void test_check_every_thousand(no_state) {
 
 /* A long fall gains more than 100 times the initial energy of springs and motion: the term for gravity allows
  * for it. */
-static void test_falling_is_not_diverging(no_state) {
+TEST(test_falling_is_not_diverging) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 0);
@@ -122,7 +122,7 @@ static void test_falling_is_not_diverging(no_state) {
 
 /* Forward Euler gives particles at rest a velocity before they have moved: there is no energy to compare with
  * yet, and no divergence at any step. */
-static void test_first_step_of_a_fall(no_state) {
+TEST(test_first_step_of_a_fall) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   for (double h = 1.0; h > 1e-6; h /= 8.0) {
@@ -163,7 +163,7 @@ static int32_t run_pushed(double strength, double *diverged_at, double *end) {
   return status;
 }
 
-static void test_callbacks(no_state) {
+TEST(test_callbacks) {
   double diverged_at, end;
   assert_int_equal(run_pushed(1e9, &diverged_at, &end), HOOKE_OK);
   assert_true(isnan(diverged_at));
@@ -184,7 +184,7 @@ static int32_t explode(int64_t n, double t, const double *x, double *rate, void 
   return 0;
 }
 
-static void test_first_order(no_state) {
+TEST(test_first_order) {
   owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(1, &state));
   hooke_state_position(state)[0] = 1.0;
@@ -264,7 +264,7 @@ static struct beyond run_beyond(const hooke_system *system, double after, int64_
   return b;
 }
 
-static void test_frames_after(no_state) {
+TEST(test_frames_after) {
   owned_system *system = small_oscillator(10.0);
   struct beyond b = run_beyond(system, -1.0, -1);
   check_between((double)b.after, 100.0, 1000.0);
@@ -279,17 +279,4 @@ static void test_frames_after(no_state) {
   b = run_beyond(system, 7.0, 3); /* an observer may end it */
   assert_int_equal(b.after, 3);
   free(b.q);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_step_above_the_limit),
-      cmocka_unit_test(test_check_every_thousand),
-      cmocka_unit_test(test_falling_is_not_diverging),
-      cmocka_unit_test(test_first_step_of_a_fall),
-      cmocka_unit_test(test_callbacks),
-      cmocka_unit_test(test_first_order),
-      cmocka_unit_test(test_frames_after),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

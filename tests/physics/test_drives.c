@@ -71,7 +71,7 @@ static void harmonic_motion(double t, double *q, double *v) {
   }
 }
 
-static void test_harmonic(no_state) {
+TEST(test_harmonic) {
   const double amplitude[] = {0.3, 0.0, -0.1};
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
@@ -94,7 +94,7 @@ static int32_t callback_drive(int64_t count, double t, double *q, double *v, voi
   return 0;
 }
 
-static void test_callback(no_state) {
+TEST(test_callback) {
   int64_t calls = 0;
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
@@ -141,7 +141,7 @@ static void table_motion(double t, double *q, double *v) {
   }
 }
 
-static void test_table(no_state) {
+TEST(test_table) {
   const int64_t driven = 0;
   hooke_system *system = driven_pair();
   check_ok(hooke_system_drive_table(system, 1, &driven, SAMPLES, table_time, &table_place[0][0]));
@@ -160,7 +160,7 @@ static void place_at(const hooke_system *system, double t, double *q, double *v)
 }
 
 /* At inner samples the position is the sample, and the velocity the same from both sides. */
-static void test_table_is_smooth(no_state) {
+TEST(test_table_is_smooth) {
   const int64_t driven = 0;
   const double origin[] = {0.25, -0.5, 1.0}, near = 1e-9;
   owned_system *system = driven_pair();
@@ -182,7 +182,7 @@ static void test_table_is_smooth(no_state) {
 }
 
 /* The velocity of every drive is the derivative of its position. */
-static void test_velocity_is_derivative(no_state) {
+TEST(test_velocity_is_derivative) {
   const int64_t driven[] = {0, 1};
   const double amplitude[] = {0.3, 0.2, -0.1};
   hooke_system *systems[2] = {driven_pair(), driven_pair()};
@@ -200,15 +200,4 @@ static void test_velocity_is_derivative(no_state) {
     }
     hooke_system_destroy(systems[k]);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_harmonic),
-      cmocka_unit_test(test_callback),
-      cmocka_unit_test(test_table),
-      cmocka_unit_test(test_table_is_smooth),
-      cmocka_unit_test(test_velocity_is_derivative),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,7 +71,7 @@ static void check_estimate(const hooke_system *system, const char *method, int64
   assert_true(isnan(number_of(estimate, "met")));
 }
 
-static void test_errors_are_at_most_what_is_said_and_not_much_less(no_state) {
+TEST(test_errors_are_at_most_what_is_said_and_not_much_less) {
   owned_system *system = small_oscillator(OMEGA);
   int64_t known = 0, methods = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -101,7 +101,7 @@ static hooke_measurement *estimated_later(const hooke_system *system, const hook
   return estimate;
 }
 
-static void test_the_integrator_may_be_gone(no_state) {
+TEST(test_the_integrator_may_be_gone) {
   owned_system *system = small_oscillator(OMEGA);
   owned_options *options =
       run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = DURATION, .every = EVERY});
@@ -114,7 +114,7 @@ static void test_the_integrator_may_be_gone(no_state) {
 }
 
 /* At a step of 0.2 s, h omega is 1.2, and the phase is lost after some periods, whatever half the step does. */
-static void test_a_run_that_lost_the_motion_is_not_known(no_state) {
+TEST(test_a_run_that_lost_the_motion_is_not_known) {
   owned_system *system = small_oscillator(OMEGA);
   owned_measurement *estimate;
   owned_options *options =
@@ -135,7 +135,7 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-static void test_callbacks_are_not_called_again_unless_asked(no_state) {
+TEST(test_callbacks_are_not_called_again_unless_asked) {
   for (int asked = 0; asked < 2; asked++) {
     owned_options *own,
         *options =
@@ -170,7 +170,7 @@ static double number_of_run(const hooke_system *system, const char *method, doub
 }
 
 /* With forward Euler the energy grows by the factor 1 + (h omega)^2 a step. */
-static void test_energy_that_grows_by_itself_is_seen(no_state) {
+TEST(test_energy_that_grows_by_itself_is_seen) {
   owned_system *system = small_oscillator(OMEGA);
   const double step = 1e-3, rate = OMEGA * OMEGA * step;
   const double expected = exp(rate * DURATION) - exp(0.5 * rate * DURATION);
@@ -193,7 +193,7 @@ static hooke_system *slowed_particle(double rate) {
 /* With forward Euler the velocity is multiplied by r = 1 - h lambda a step. For r < -1/2 all heat from the
  * third step on is that of a reversing velocity: 2 h lambda r^6/(1 - r^2) of the energy. The sum may be cut
  * short on a busy machine. */
-static void test_heat_that_was_not_there_is_seen(no_state) {
+TEST(test_heat_that_was_not_there_is_seen) {
   const double step = 1e-3, r = -0.9;
   owned_system *system = slowed_particle((1.0 - r) / step);
   const double expected = 2.0 * (1.0 - r) * pow(r, 6.0) / (1.0 - r * r);
@@ -204,7 +204,7 @@ static void test_heat_that_was_not_there_is_seen(no_state) {
 }
 
 /* Motion that decays without overshooting, or oscillates, has no spurious heat at any of these steps. */
-static void test_heat_that_was_there_is_no_excess(no_state) {
+TEST(test_heat_that_was_there_is_no_excess) {
   for (double x = 0.1; x < 2.0; x += 0.1) {
     owned_system *system = slowed_particle(x / 1e-3);
     const double found = number_of_run(system, "rk4", 1e-3, "heat_excess");
@@ -246,7 +246,7 @@ static hooke_system *damped_chain(double gamma, int driven) {
 
 /* Euler's step is just below the limit of the damping. Verlet has no such limit, since its second half takes
  * the damping at the new velocity; from h lambda = 2 on its velocities reverse. */
-static void test_a_damper_too_stiff_for_the_step_is_seen(no_state) {
+TEST(test_a_damper_too_stiff_for_the_step_is_seen) {
   static const struct {
     const char *method;
     double gamma;
@@ -285,7 +285,7 @@ static void check_want(const hooke_system *system, const char *method, double wa
   hooke_options_destroy(options);
 }
 
-static void test_what_is_picked_keeps_to_the_wanted_error(no_state) {
+TEST(test_what_is_picked_keeps_to_the_wanted_error) {
   owned_system *system = small_oscillator(OMEGA);
   static const double wants[] = {0.1, 1e-3, 1e-6};
   for (int k = 0; k < 3; k++)
@@ -332,14 +332,14 @@ static double picked_over_bound(const hooke_system *system, const char *method) 
   return step / bound;
 }
 
-static void test_a_picked_step_may_pass_the_bound_but_not_the_limit(no_state) {
+TEST(test_a_picked_step_may_pass_the_bound_but_not_the_limit) {
   if (!hooke_method_is_built("cvode-adams") || !hooke_build_fact("lapack")[0]) skip();
   owned_system *system = sagging_block();
   check_between(picked_over_bound(system, "symplectic-euler"), 0.95, 2.0);
   check_between(picked_over_bound(system, "rk4"), 0.95, 2.0);
 }
 
-static void test_what_cannot_be_asked_for(no_state) {
+TEST(test_what_cannot_be_asked_for) {
   owned_system *system = small_oscillator(OMEGA);
   hooke_measurement *estimate = NULL;
   owned_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
@@ -367,7 +367,7 @@ static void test_what_cannot_be_asked_for(no_state) {
 }
 
 /* Nothing of a state that does not fit is read, and the run stops where it would be seen. */
-static void test_states_that_do_not_fit_are_refused(no_state) {
+TEST(test_states_that_do_not_fit_are_refused) {
   owned_system *system = small_oscillator(OMEGA);
   const struct run run = {.method = "rk4", .step = 0.01, .duration = 0.1};
   owned_integrator *integrator = start_run(system, run),
@@ -390,22 +390,4 @@ static void test_states_that_do_not_fit_are_refused(no_state) {
     hooke_state_destroy(wrong[k]);
   }
   hooke_state_destroy(state);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_errors_are_at_most_what_is_said_and_not_much_less),
-      cmocka_unit_test(test_the_integrator_may_be_gone),
-      cmocka_unit_test(test_a_run_that_lost_the_motion_is_not_known),
-      cmocka_unit_test(test_callbacks_are_not_called_again_unless_asked),
-      cmocka_unit_test(test_energy_that_grows_by_itself_is_seen),
-      cmocka_unit_test(test_heat_that_was_not_there_is_seen),
-      cmocka_unit_test(test_heat_that_was_there_is_no_excess),
-      cmocka_unit_test(test_a_damper_too_stiff_for_the_step_is_seen),
-      cmocka_unit_test(test_what_is_picked_keeps_to_the_wanted_error),
-      cmocka_unit_test(test_a_picked_step_may_pass_the_bound_but_not_the_limit),
-      cmocka_unit_test(test_what_cannot_be_asked_for),
-      cmocka_unit_test(test_states_that_do_not_fit_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

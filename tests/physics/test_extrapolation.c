@@ -46,7 +46,7 @@ static double worst_error(const struct reference *reference, long double toleran
   return (double)worst;
 }
 
-static void test_solutions(no_state) {
+TEST(test_solutions) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     check_between(worst_error(&references[k], 1e-15L), 0.0, 1e-13);
     check_between(worst_error(&references[k], 1e-5L), 1e-10, 1e-2);
@@ -86,7 +86,7 @@ static void compare_forces(uint64_t seed, int32_t features) {
   free(f);
 }
 
-static void test_forces(no_state) {
+TEST(test_forces) {
   for (uint64_t seed = 1; seed <= 40; seed++)
     compare_forces(seed,
                    (SCENE_EVERYTHING & ~SCENE_CALLBACK & ~SCENE_DRIVEN) & (int32_t)(seed * 0x9e3779b9u));
@@ -154,12 +154,12 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
   canonical_destroy(&canonical);
 }
 
-static void test_bodies(no_state) {
+TEST(test_bodies) {
   compare_net(-1, 0);
   compare_net(0, 0);
 }
 
-static void test_overdamped(no_state) {
+TEST(test_overdamped) {
   compare_net(-1, 1);
   compare_net(0, 1);
 }
@@ -188,7 +188,7 @@ static void compare_motion(const struct long_drive *drive, double t) {
   }
 }
 
-static void test_motions(no_state) {
+TEST(test_motions) {
   double time[] = {0.1, 0.25, 0.4, 0.9};
   double displacement[] = {0, 0, 0, 0.01, 0.02, -0.01, 0.015, -0.01, 0.0, 0.03, 0.01, 0.02};
   const struct long_drive wave = {.amplitude = {0.1, -0.2, 0.05}, .frequency = 3.0, .phase = 0.7};
@@ -219,7 +219,7 @@ static void equally(const long double *y, const long double *f, long double *sca
 }
 
 /* From y = 1/2 at rest: 0 at t = 1 with speed -1, back there at 3/2 with speed 1, at rest at 1/2 at 5/2. */
-static void test_jumps(no_state) {
+TEST(test_jumps) {
   struct extrapolation problem = {
       .size = 2, .rate = jumping, .scale = equally, .tolerance = 1e-15L, .most_evaluations = 100000};
   long double y[2] = {0.5L, 0.0L}, step = 0.1L;
@@ -243,19 +243,11 @@ static void by_one(const long double *y, const long double *f, long double *scal
 }
 
 /* y' = y^2 from 1 has y = 1/(1 - t): it ends before t = 1, and the number of steps shows it. */
-static void test_giving_up(no_state) {
+TEST(test_giving_up) {
   struct extrapolation problem = {
       .size = 1, .rate = blowing_up, .scale = by_one, .tolerance = 1e-15L, .most_evaluations = 20000};
   long double y = 1.0L, step = 0.1L;
   assert_int_equal(extrapolate(&problem, 0.0L, 0.9L, &step, &y), 0);
   check_close((double)y, 10.0, 1e-11);
   assert_int_equal(extrapolate(&problem, 0.9L, 1.1L, &step, &y), -1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_solutions), cmocka_unit_test(test_forces),
-                                     cmocka_unit_test(test_bodies),    cmocka_unit_test(test_overdamped),
-                                     cmocka_unit_test(test_motions),   cmocka_unit_test(test_jumps),
-                                     cmocka_unit_test(test_giving_up)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,7 +30,7 @@ static void energy_along(double s, double *value, void *ctx) {
   *value = hooke_system_energy(curve->system, "potential", q, NULL);
 }
 
-static void test_force_is_gradient(no_state) {
+TEST(test_force_is_gradient) {
   const double rest[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* has no energy */
@@ -52,7 +52,7 @@ static void test_force_is_gradient(no_state) {
 
 /* The scenes of springs that only pull contain both taut and slack ones, so that the test above covers the
  * switch. */
-static void test_pull_only_scenes_have_both_sides(no_state) {
+TEST(test_pull_only_scenes_have_both_sides) {
   int64_t slack = 0, unloaded = 0, taut = 0;
   for (int k = 0; k < LAW_COUNT; k++) {
     if (!laws[k].pull_only) continue;
@@ -70,7 +70,7 @@ static void test_pull_only_scenes_have_both_sides(no_state) {
 }
 
 /* M g and m a: the force is the mass times the acceleration, on free particles. */
-static void test_force_is_mass_times_acceleration(no_state) {
+TEST(test_force_is_mass_times_acceleration) {
   for (int k = 0; k < LAW_COUNT; k++) {
     owned_law_scene scene;
     double force[LAW_SIZE], acceleration[LAW_SIZE];
@@ -103,7 +103,7 @@ static void energy_in_time(double s, double *value, void *ctx) {
   *value = hooke_system_energy(curve->system, "total", q, v);
 }
 
-static void test_dissipated_power(no_state) {
+TEST(test_dissipated_power) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].callback) continue; /* does work of its own */
     for (uint64_t seed = 1; seed <= 5; seed++) {
@@ -129,7 +129,7 @@ static void test_dissipated_power(no_state) {
 
 /* ---- action and reaction, momentum, angular momentum ---- */
 
-static void test_third_law(no_state) {
+TEST(test_third_law) {
   for (int k = 0; k < LAW_COUNT; k++) {
     if (laws[k].gravity || laws[k].drag || laws[k].callback || laws[k].anchors) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
@@ -184,7 +184,7 @@ static void drift(const char *method, double *momentum, double *angular) {
   assert_true(largest_difference(LAW_SIZE, q, scene.q) > 0.1); /* it did move */
 }
 
-static void test_momentum(no_state) {
+TEST(test_momentum) {
   double momentum, angular;
   drift("symplectic-euler", &momentum, &angular);
   check_between(momentum, 0.0, 1e-14);
@@ -195,7 +195,7 @@ static void test_momentum(no_state) {
 }
 
 /* The sums themselves, by hand. */
-static void test_momentum_of_two(no_state) {
+TEST(test_momentum_of_two) {
   const double q[] = {1, 0, 0, 0, 2, 0, 5, 5, 5}, v[] = {0, 3, 0, 0, 0, 4, 0, 0, 0}, mass[] = {2, 0.5, 9};
   const int64_t pinned = 2;
   double momentum[3], angular[3];
@@ -209,17 +209,4 @@ static void test_momentum_of_two(no_state) {
   check_same_bits(3, momentum, expected);
   check_same_bits(3, angular, expected_angular);
   check_close(hooke_system_energy(system, "kinetic", NULL, v), 0.5 * (2 * 9 + 0.5 * 16), 1e-15);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pull_only_scenes_have_both_sides),
-      cmocka_unit_test(test_force_is_gradient),
-      cmocka_unit_test(test_force_is_mass_times_acceleration),
-      cmocka_unit_test(test_dissipated_power),
-      cmocka_unit_test(test_third_law),
-      cmocka_unit_test(test_momentum),
-      cmocka_unit_test(test_momentum_of_two),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

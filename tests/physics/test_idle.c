@@ -64,7 +64,7 @@ static void check_method(const char *method, int64_t before, int64_t after, doub
   }
 }
 
-static void marks_change_nothing(no_state) {
+TEST(marks_change_nothing) {
   enum { COUNTS = 4 };
   static const int64_t count[COUNTS][2] = {{MARKS, 0}, {0, MARKS}, {MARKS + 3, MARKS - 100}, {5, 1}};
   for (int64_t k = 0; k < hooke_method_count(); k++) {
@@ -75,9 +75,4 @@ static void marks_change_nothing(no_state) {
         check_method(method, count[c % COUNTS][0], count[c % COUNTS][1], 0.01 * (c >= COUNTS));
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(marks_change_nothing)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,7 +49,7 @@ static void check_step(const char *method, const char *form, double zeta, double
   }
 }
 
-static void amplification_is_the_closed_form(no_state) {
+TEST(amplification_is_the_closed_form) {
   const double zetas[] = {0.0, 0.01, 0.5, 1.0, 30.0}, starts[][2] = {{1.0, 0.0}, {0.6, -0.8}};
   for (int m = 0; m < METHODS * FORMS; m++) {
     for (int z = 0; z < 5; z++) {
@@ -63,7 +63,7 @@ static void amplification_is_the_closed_form(no_state) {
 
 /* Between 0 and 1 of the energy after one step that resolves nothing: all of it by the midpoint rule, almost
  * nothing by the others. */
-static void what_no_step_resolves(no_state) {
+TEST(what_no_step_resolves) {
   const double low[] = {0.0, 0.0, 1.0 - 1e-12}, high[] = {1e-10, 1e-8, 1.0 + 1e-12};
   for (int m = 0; m < METHODS; m++) {
     owned_system *system = oscillator(40.0, 0.0);
@@ -77,7 +77,7 @@ static void what_no_step_resolves(no_state) {
 }
 
 /* A free net that turns: the midpoint rule keeps momentum and angular momentum, whose flow is quadratic. */
-static void midpoint_keeps_angular_momentum(no_state) {
+TEST(midpoint_keeps_angular_momentum) {
   const double q[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.3}, v[] = {0, -1, 0, 1, 0, 0.5, 0, 2, 0, -1, 0, 0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 3, 3, 0, 0, 2, 1, 3};
   owned_system *system = small_system(4, q, v, 0.5, 0);
@@ -92,13 +92,4 @@ static void midpoint_keeps_angular_momentum(no_state) {
   for (int a = 0; a < 3; a++)
     moved[a] = fabs(after[a] - before[a]);
   check_between(largest(3, moved), 0.0, 1e-10 * largest(3, before));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(amplification_is_the_closed_form),
-      cmocka_unit_test(what_no_step_resolves),
-      cmocka_unit_test(midpoint_keeps_angular_momentum),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

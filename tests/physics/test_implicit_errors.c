@@ -52,7 +52,7 @@ static void check_cloth(int64_t side, double stiffness, double damping, const ch
   check_ladder(study, form, count);
 }
 
-static void errors_fall_on_cloths_of_20(no_state) {
+TEST(errors_fall_on_cloths_of_20) {
   check_cloth(20, 1e3, 0.0, "converged", MOST_STEPS);
   if (HOOKE_SANITIZED) return;
   check_cloth(20, 1e3, 0.0, "one-iteration", MOST_STEPS);
@@ -60,13 +60,7 @@ static void errors_fall_on_cloths_of_20(no_state) {
   check_cloth(20, 1e4, 20.0, "one-iteration", MOST_STEPS);
 }
 
-static void errors_fall_on_cloths_of_41(no_state) {
+TEST(errors_fall_on_cloths_of_41) {
   if (HOOKE_SANITIZED) skip(); /* the code is that of the other, which is shorter */
   check_cloth(41, 1e3, 0.5, "converged", MOST_STEPS - 2);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(errors_fall_on_cloths_of_20),
-                                     cmocka_unit_test(errors_fall_on_cloths_of_41)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

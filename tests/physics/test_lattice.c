@@ -39,7 +39,7 @@ static hooke_system *full(int nx, int ny, int nz) {
 
 /* ---- counts and order ---- */
 
-static void families_have_the_springs_of_the_formula(no_state) {
+TEST(families_have_the_springs_of_the_formula) {
   for (int64_t nx = 2; nx <= 5; nx++) {
     for (int64_t ny = 2; ny <= 4; ny++) {
       for (int64_t nz = 2; nz <= 4; nz++) {
@@ -59,7 +59,7 @@ static void families_have_the_springs_of_the_formula(no_state) {
 }
 
 /* Direction by direction, as steps along x, y and z; in each x fastest, then y, then z. */
-static void springs_are_in_order(no_state) {
+TEST(springs_are_in_order) {
   enum { NX = 4, NY = 3, NZ = 5 };
   static const int step[16][3] = {{1, 0, 0},   {0, 1, 0}, {0, 0, 1},  {1, 1, 0}, {-1, 1, 0}, {1, 0, 1},
                                   {-1, 0, 1},  {0, 1, 1}, {0, -1, 1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, 1},
@@ -130,7 +130,7 @@ static hooke_system *one_by_one(const hooke_system *part) {
   return system;
 }
 
-static void a_part_runs_as_its_springs_do(no_state) {
+TEST(a_part_runs_as_its_springs_do) {
   enum { N = 6 * 5 * 7 };
   owned_system *part = full(6, 5, 7), *plain = one_by_one(part);
   double q[3 * N], v[3 * N], other_q[3 * N], other_v[3 * N];
@@ -160,7 +160,7 @@ static double pull(double count, double ks, double x, double y, double z, double
   return count * ks * (length / rest - 1.0) * along / length;
 }
 
-static void a_stretched_block_pulls_with_the_sum_of_its_springs(no_state) {
+TEST(a_stretched_block_pulls_with_the_sum_of_its_springs) {
   enum { NX = 5, NY = 4, NZ = 6, LAYER = NX * NY };
   owned_system *system = full(NX, NY, NZ);
   const int64_t n = hooke_system_particle_count(system);
@@ -187,7 +187,7 @@ static void a_stretched_block_pulls_with_the_sum_of_its_springs(no_state) {
   free(force);
 }
 
-static void density_makes_the_mass_of_the_volume(no_state) {
+TEST(density_makes_the_mass_of_the_volume) {
   static const double skew[9] = {1, 0.2, 0, 0.3, 2, 0.1, 0.5, 0, 3};
   const double volume = fabs(1 * (2 * 3 - 0.1 * 0) - 0.2 * (0.3 * 3 - 0.1 * 0.5) + 0 * (0.3 * 0 - 2 * 0.5));
   for (int n = 2; n <= 4; n++) {
@@ -216,7 +216,7 @@ static void check_size_refused(double nx, double ny, double nz, int32_t status, 
   assert_int_equal(hooke_system_particle_count(system), 0);
 }
 
-static void impossible_sizes_are_refused_before_anything_is_allocated(no_state) {
+TEST(impossible_sizes_are_refused_before_anything_is_allocated) {
   check_size_refused(2147483647, 2147483647, 2147483647, HOOKE_BAD_VALUE,
                      "2147483647 x 2147483647 x 2147483647 needs");
   /* 1e9 particles, but more springs than can be numbered */
@@ -234,14 +234,14 @@ static void check_held(const char *pinned, int64_t from, int64_t to) {
     assert_int_equal(hooke_system_inverse_mass(system)[p] == 0.0, p >= from && p < to);
 }
 
-static void pinned_layers_have_names(no_state) {
+TEST(pinned_layers_have_names) {
   check_held("bottom", 0, 6);
   check_held("top", 18, 24);
   check_held("7", 7, 8);
 }
 
 /* A driven layer moves the block. */
-static void a_layer_can_be_driven(no_state) {
+TEST(a_layer_can_be_driven) {
   enum { LAYER = 9, N = 27 };
   owned_options *options = lattice_options((double[]){3, 3, 3}, EDGES);
   int64_t layer[LAYER];
@@ -263,18 +263,4 @@ static void a_layer_can_be_driven(no_state) {
     check_close(q[3 * (N - LAYER + k)], x + 0.1, 1e-15); /* a quarter of its oscillation */
     check_between(q[3 * (LAYER + k)], x + 0.001, x + 0.15);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(families_have_the_springs_of_the_formula),
-      cmocka_unit_test(springs_are_in_order),
-      cmocka_unit_test(a_part_runs_as_its_springs_do),
-      cmocka_unit_test(a_stretched_block_pulls_with_the_sum_of_its_springs),
-      cmocka_unit_test(density_makes_the_mass_of_the_volume),
-      cmocka_unit_test(impossible_sizes_are_refused_before_anything_is_allocated),
-      cmocka_unit_test(pinned_layers_have_names),
-      cmocka_unit_test(a_layer_can_be_driven),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

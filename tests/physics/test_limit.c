@@ -108,7 +108,7 @@ static const struct {
   cloth10 = {582.2601378383093, 0.0034348908160279894, 0.003058102791710135, 0.005078523465343316,
              0.0003999999999994838};
 
-static void critical_steps_to_ten_digits(no_state) {
+TEST(critical_steps_to_ten_digits) {
   hooke_system *system = build_reference(find_reference("six-particles"));
   hooke_measurement *limit = limit_of(system, 0.0);
   check_digits(hooke_measurement_number(limit, "limit", 0, "frequency_max"), net6.frequency, 1e-12);
@@ -137,7 +137,7 @@ static void critical_steps_to_ten_digits(no_state) {
 }
 
 /* x'' + 2 zeta omega x' + omega^2 x = 0: a mass on a spring at its rest length, which is free across. */
-static void one_mode_follows_the_table(no_state) {
+TEST(one_mode_follows_the_table) {
   const double omega = 7.0, mass = 2.0, position[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   static const struct {
@@ -164,7 +164,7 @@ static void one_mode_follows_the_table(no_state) {
 }
 
 /* Copies of the same scene take another path: iterations for more unknowns, a partial spectrum beyond. */
-static void many_copies_have_the_limits_of_one(no_state) {
+TEST(many_copies_have_the_limits_of_one) {
   static const struct {
     int64_t copies; /* 15 unknowns each */
     int32_t exact;
@@ -194,7 +194,7 @@ static void many_copies_have_the_limits_of_one(no_state) {
 }
 
 /* All eigenvalues by dense matrices, the largest by iterations: just below the maximum size of the former. */
-static void iterations_agree_with_dense_matrices(no_state) {
+TEST(iterations_agree_with_dense_matrices) {
   const int sizes[] = {11, 22}; /* 357 and 1446 unknowns */
   for (int k = 0; k < 2; k++) {
     owned_system *system = build_cloth(sizes[k], 0.0, 0.0);
@@ -210,7 +210,7 @@ static void iterations_agree_with_dense_matrices(no_state) {
 }
 
 /* To the given accuracy, and not much better, with less work. */
-static void large_scenes_keep_the_accuracy(no_state) {
+TEST(large_scenes_keep_the_accuracy) {
   owned_system *system = build_cloth(70, 0.02, 0.0);
   owned_measurement *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "forward-euler"};
@@ -225,7 +225,7 @@ static void large_scenes_keep_the_accuracy(no_state) {
 
 /* ---- bounds ---- */
 
-static void bounds_are_never_above_the_limit(no_state) {
+TEST(bounds_are_never_above_the_limit) {
   const int features[] = {SCENE_GRAVITY, SCENE_DRAG, SCENE_DAMPING, SCENE_PULL_ONLY, SCENE_PINNED};
   double lowest = INFINITY, highest = 0.0;
   enum { MOST_ROWS = 16 };
@@ -289,7 +289,7 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void the_smallest_limit_of_a_run(no_state) {
+TEST(the_smallest_limit_of_a_run) {
   owned_system *system = build_reference(find_reference("six-particles"));
   owned_options *run =
       run_options((struct run){.method = "rk4", .step = 0.01, .duration = 1.0, .every = 0.1});
@@ -326,7 +326,7 @@ static void the_smallest_limit_of_a_run(no_state) {
 
 /* ---- edge cases ---- */
 
-static void nothing_limits(no_state) {
+TEST(nothing_limits) {
   const double position[] = {0, 0, 0, 1, 0, 0};
   const int64_t both[] = {0, 1};
   for (int scene = 0; scene < 3; scene++) {
@@ -347,7 +347,7 @@ static void nothing_limits(no_state) {
   }
 }
 
-static void drag_alone(no_state) {
+TEST(drag_alone) {
   const double place[3] = {0.0, 0.0, 0.0};
   owned_system *falling = small_system(1, place, NULL, 1.0, 0);
   check_ok(hooke_system_set_drag(falling, 0.25));
@@ -361,7 +361,7 @@ static void drag_alone(no_state) {
 }
 
 /* Of a cloth with so many particles that not all modes are computed: what drag limits, it is named for. */
-static void drag_is_named_whatever_its_amount(no_state) {
+TEST(drag_is_named_whatever_its_amount) {
   owned_options *run = run_options((struct run){.method = "heun"});
   for (double drag = 20.0; drag < 1e6; drag *= 100.0) {
     owned_system *cloth = build_cloth(14, 0.0, drag);
@@ -376,7 +376,7 @@ static void drag_is_named_whatever_its_amount(no_state) {
 }
 
 /* A compressed spring pushes its ends apart sideways: that is no limit of a step, and it is counted. */
-static void compression_is_left_out(no_state) {
+TEST(compression_is_left_out) {
   const double position[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   const double rest_lengths[] = {2.0, 0.5};
@@ -396,7 +396,7 @@ static void compression_is_left_out(no_state) {
 }
 
 /* One spring of a rope is 50 times stiffer: it carries the mode, whose displacements have norm 1. */
-static void the_odd_spring_is_named(no_state) {
+TEST(the_odd_spring_is_named) {
   double position[36] = {0};
   int64_t ends[22];
   for (int k = 0; k < 12; k++)
@@ -420,7 +420,7 @@ static void the_odd_spring_is_named(no_state) {
   check_between(hooke_measurement_number(limit, "changes", 0, "gain"), 2.0, 8.0);
 }
 
-static void the_same_every_time(no_state) {
+TEST(the_same_every_time) {
   owned_system *system = build_nets(30);
   owned_measurement *first = limit_of(system, 0.0), *second = limit_of(system, 0.0);
   for (int64_t row = 0; row < hooke_measurement_row_count(first, "rows"); row++) {
@@ -435,7 +435,7 @@ static int32_t stop(double done, const char *what, void *ctx) {
   return ++*(int *)ctx;
 }
 
-static void bad_input(no_state) {
+TEST(bad_input) {
   owned_system *system = small_oscillator(7.0), *other = build_nets(1), *open = NULL;
   hooke_measurement *limit = limit_of(system, 0.0);
   hooke_state *state = start_state(other);
@@ -470,24 +470,4 @@ static void bad_input(no_state) {
   check_ok(hooke_system_create(&open));
   check_status(hooke_measurement_create("limit", open, NULL, NULL, &limit), HOOKE_BAD_CALL);
   hooke_state_destroy(state);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(critical_steps_to_ten_digits),
-      cmocka_unit_test(one_mode_follows_the_table),
-      cmocka_unit_test(many_copies_have_the_limits_of_one),
-      cmocka_unit_test(iterations_agree_with_dense_matrices),
-      cmocka_unit_test(large_scenes_keep_the_accuracy),
-      cmocka_unit_test(bounds_are_never_above_the_limit),
-      cmocka_unit_test(the_smallest_limit_of_a_run),
-      cmocka_unit_test(nothing_limits),
-      cmocka_unit_test(drag_alone),
-      cmocka_unit_test(drag_is_named_whatever_its_amount),
-      cmocka_unit_test(compression_is_left_out),
-      cmocka_unit_test(the_odd_spring_is_named),
-      cmocka_unit_test(the_same_every_time),
-      cmocka_unit_test(bad_input),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,7 +66,7 @@ static hooke_system *random_network(uint64_t seed, double damping) {
   return system;
 }
 
-static void random_networks_run_up_to_the_prediction(no_state) {
+TEST(random_networks_run_up_to_the_prediction) {
   for (uint64_t seed = 1; seed <= 100; seed++) {
     if (left_out((int64_t)seed, 5)) continue;
     owned_system *system = random_network(seed, 1.0);
@@ -88,7 +88,7 @@ static void random_networks_run_up_to_the_prediction(no_state) {
 }
 
 /* The same comparison with the prediction for another damping must fail. */
-static void another_damping_is_noticed(no_state) {
+TEST(another_damping_is_noticed) {
   int noticed = 0;
   for (uint64_t seed = 1; seed <= 5; seed++) {
     owned_system *system = random_network(seed, 1.0), *other = random_network(seed, 1.1);
@@ -241,22 +241,22 @@ static void check_pieces(const struct piece *piece) {
   }
 }
 
-static void ropes(no_state) {
+TEST(ropes) {
   check_pieces(&pieces[0]);
 }
 
-static void cloths(no_state) {
+TEST(cloths) {
   check_pieces(&pieces[1]);
 }
 
-static void lattices(no_state) {
+TEST(lattices) {
   check_pieces(&pieces[2]);
 }
 
 /* ---- the scene itself ---- */
 
 /* A spring of no length is linear at any stretch, so the whole run gives the same limit. */
-static void linear_scene_runs_up_to_the_prediction(no_state) {
+TEST(linear_scene_runs_up_to_the_prediction) {
   owned_system *system = small_oscillator(7.0);
   owned_options *run =
       run_options((struct run){.method = "symplectic-euler", .step = 0.01, .duration = 300.0});
@@ -269,7 +269,7 @@ static void linear_scene_runs_up_to_the_prediction(no_state) {
 
 /* A spring that only pulls counts as taut in the linear twin; where it never becomes taut, the scene itself
  * is stable at any step. */
-static void slack_scene_takes_any_step(no_state) {
+TEST(slack_scene_takes_any_step) {
   const double position[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, down[3] = {0.0, -1.0, 0.0};
   const int64_t ends[2] = {0, 1};
   for (int slack = 0; slack <= 1; slack++) {
@@ -294,7 +294,7 @@ static int32_t stop_at_once(double done, const char *what, void *ctx) {
   return ++*(int *)ctx == 3;
 }
 
-static void progress_can_stop(no_state) {
+TEST(progress_can_stop) {
   owned_system *system = random_network(5, 1.0);
   hooke_measurement *limit = find_limit(system, "rk4", 1e-3, 1, NULL);
   hooke_measurement_destroy(limit);
@@ -305,18 +305,4 @@ static void progress_can_stop(no_state) {
   check_status(hooke_measurement_run(limit, state), HOOKE_STOPPED);
   assert_int_equal(calls, 3);
   hooke_measurement_destroy(limit);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(random_networks_run_up_to_the_prediction),
-      cmocka_unit_test(another_damping_is_noticed),
-      cmocka_unit_test(ropes),
-      cmocka_unit_test(cloths),
-      cmocka_unit_test(lattices),
-      cmocka_unit_test(linear_scene_runs_up_to_the_prediction),
-      cmocka_unit_test(slack_scene_takes_any_step),
-      cmocka_unit_test(progress_can_stop),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ static void check_digits(double value, double expected) {
   check_close(value, expected, 1e-13 * fabs(expected));
 }
 
-static void test_closed_forms(no_state) {
+TEST(test_closed_forms) {
   for (double w = 1e-3; w < 1e5; w *= 7.0) {
     for (double z = 0.0; z < 30.0; z = 2.0 * z + 0.01) {
       const double d = z * w, fastest = z > 1.0 ? d + w * sqrt(z * z - 1.0) : w;
@@ -30,14 +30,14 @@ static void test_closed_forms(no_state) {
 }
 
 /* Motion without restoring force, and no motion at all. */
-static void test_without_stiffness(no_state) {
+TEST(test_without_stiffness) {
   check_digits(of("forward-euler", 0.0, 5.0), 0.2);
   check_digits(of("symplectic-euler", 0.0, 5.0), 0.2);
   assert_true(isinf(of("verlet", 0.0, 5.0)));
   assert_true(isinf(of("symplectic-euler", 0.0, 0.0)) && isinf(of("forward-euler", 0.0, 0.0)));
 }
 
-static void test_what_has_none(no_state) {
+TEST(test_what_has_none) {
   assert_true(isnan(of("verlot", 1.0, 0.0)));
   assert_true(isnan(of("verlet", -1.0, 0.0)) && isnan(of("verlet", 1.0, -1.0)));
   assert_true(isnan(of("verlet", (double)NAN, 0.0)) && isnan(of("verlet", 1.0, (double)NAN)));
@@ -66,7 +66,7 @@ static hooke_measurement *make(hooke_system *system) {
 }
 
 /* Over- and underdamped: the prediction for the only mode, and the reported modes. */
-static void test_an_oscillator(no_state) {
+TEST(test_an_oscillator) {
   const double dampings[] = {0.4, 3.0, 12.0, 90.0};
   for (int j = 0; j < 4; j++) {
     owned_system *system = build(dampings[j]);
@@ -126,7 +126,7 @@ static void check_limit(const hooke_system *system, const char *method, double l
 
 /* Of every method, without damping and with it up to far above the critical one, of a particle and of a
  * body. */
-static void test_limits_are_those_of_the_steps(no_state) {
+TEST(test_limits_are_those_of_the_steps) {
   const double w = sqrt(40.0), ratios[] = {0.0, 0.02, 0.3, 0.9, 1.7, 6.0};
   for (int k = 0; k < 12; k++) {
     const double decay = ratios[k % 6] * w;
@@ -150,7 +150,7 @@ static int32_t stop(double done, const char *what, void *ctx) {
   return 1;
 }
 
-static void test_reports_that_are_refused(no_state) {
+TEST(test_reports_that_are_refused) {
   owned_system *system = build(1.0), *other;
   owned_measurement *limit = make(system);
   owned_state *foreign;
@@ -169,7 +169,7 @@ static void test_reports_that_are_refused(no_state) {
 }
 
 /* A row is that of its table, and both stand in the document. */
-static void test_json(no_state) {
+TEST(test_json) {
   owned_system *system = build(1.0);
   owned_measurement *limit = make(system);
   check_ok(hooke_measurement_run(limit, NULL));
@@ -186,17 +186,4 @@ static void test_json(no_state) {
   assert_int_equal(strncmp(whole, "{\"time\": 0, \"method\": ", 22), 0);
   free(row);
   free(rows);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_closed_forms),
-      cmocka_unit_test(test_without_stiffness),
-      cmocka_unit_test(test_what_has_none),
-      cmocka_unit_test(test_an_oscillator),
-      cmocka_unit_test(test_limits_are_those_of_the_steps),
-      cmocka_unit_test(test_reports_that_are_refused),
-      cmocka_unit_test(test_json),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

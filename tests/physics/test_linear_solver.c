@@ -23,7 +23,7 @@ static int is_built(const char *solver) {
   return has_factor() || strcmp(solver, "direct") != 0;
 }
 
-static void references_are_met(no_state) {
+TEST(references_are_met) {
   needs_cvode();
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     const struct reference *reference = &references[k];
@@ -48,7 +48,7 @@ static void references_are_met(no_state) {
 
 /* Every force, driven and pinned particles, springs that only pull, callbacks with and without their
  * derivative. */
-static void everything(no_state) {
+TEST(everything) {
   static const char *const methods[] = {"cvode-bdf", "arkode-esdirk"};
   needs_cvode();
   for (uint64_t seed = 1; seed <= 6; seed++) {
@@ -140,7 +140,7 @@ static struct counted run_alone(const hooke_system *system, const char *solver) 
 
 /* A factor needs few iterations, and the automatic choice selects it; also beside a particle of a millionth
  * of the mass. */
-static void factor_pays(no_state) {
+TEST(factor_pays) {
   needs_cvode();
   if (!has_factor()) skip();
   for (int k = 0; k < 2; k++) {
@@ -163,7 +163,7 @@ static void factor_pays(no_state) {
 }
 
 /* A run keeps nothing of the previous one. */
-static void runs_repeat(no_state) {
+TEST(runs_repeat) {
   needs_cvode();
   owned_system *system = rope(0.25 / PARTICLES);
   for (int s = 0; s < SOLVERS - 1; s++) {
@@ -177,7 +177,7 @@ static void runs_repeat(no_state) {
 }
 
 /* The message names the missing library. */
-static void not_built(no_state) {
+TEST(not_built) {
   needs_cvode();
   if (has_factor()) skip();
   owned_system *system = rope(0.25 / PARTICLES);
@@ -188,16 +188,8 @@ static void not_built(no_state) {
   assert_null(integrator);
 }
 
-static void words(no_state) {
+TEST(words) {
   owned_options *options = new_options("run");
   assert_string_equal(hooke_options_text(options, "linear_solver"), "auto");
   check_status(hooke_options_set_text(options, "linear_solver", "cholmod"), HOOKE_BAD_VALUE);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(references_are_met), cmocka_unit_test(everything), cmocka_unit_test(factor_pays),
-      cmocka_unit_test(runs_repeat),        cmocka_unit_test(not_built),  cmocka_unit_test(words),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,14 +99,14 @@ static void check_euler(struct mesh mesh, int64_t characteristic, int64_t border
   assert_int_equal(hooke_system_group_size(system, "springs", 1), edges - border);
 }
 
-static void edges_obey_euler(no_state) {
+TEST(edges_obey_euler) {
   check_euler(icosahedron(), 2, 0);
   check_euler(torus(7, 5), 0, 0);
   check_euler(sheet(5, 4), 1, 2 * (4 + 3));
   check_euler(sheet(2, 2), 1, 4);
 }
 
-static void springs_are_in_order(no_state) {
+TEST(springs_are_in_order) {
   struct mesh mesh = sheet(5, 4);
   owned_system *system = build_with(&mesh, "mass", 1);
   const int64_t count = hooke_system_count(system, "springs"),
@@ -161,7 +161,7 @@ static double total_mass(const hooke_system *system) {
   return total;
 }
 
-static void mass_is_shared_by_area(no_state) {
+TEST(mass_is_shared_by_area) {
   struct mesh mesh = sheet(5, 4);
   hooke_system *system = build_with(&mesh, "mass", 0.6);
   const double *mass = hooke_system_mass(system), cell = 0.6 / 12.0;
@@ -183,7 +183,7 @@ static void mass_is_shared_by_area(no_state) {
 }
 
 /* The ratio refers to the critical damping of the two particles of the spring. */
-static void damping_by_ratio_is_that_of_both_ends(no_state) {
+TEST(damping_by_ratio_is_that_of_both_ends) {
   struct mesh mesh = sheet(5, 4);
   hooke_options *options = options_of(&mesh);
   set_options(options, "mass=0.6 structural.damping_ratio=0.3");
@@ -205,7 +205,7 @@ static void damping_by_ratio_is_that_of_both_ends(no_state) {
 
 /* A mesh in which every triangle has its own vertices becomes the mesh with shared ones, in the order of
  * first appearance. */
-static void vertices_at_one_place_are_one(no_state) {
+TEST(vertices_at_one_place_are_one) {
   const struct mesh shared = icosahedron();
   struct mesh loose = {.vertices = 3 * shared.triangles, .triangles = shared.triangles};
   double expected[36];
@@ -245,7 +245,7 @@ static int64_t particles_with_weld(const struct mesh *mesh, double weld) {
   return count;
 }
 
-static void a_distance_welds_what_is_within_it(no_state) {
+TEST(a_distance_welds_what_is_within_it) {
   struct mesh loose = {.vertices = 0};
   const struct mesh shared = sheet(5, 4);
   for (int64_t k = 0; k < 3 * shared.triangles; k++) {
@@ -262,7 +262,7 @@ static void a_distance_welds_what_is_within_it(no_state) {
   assert_int_equal(particles_with_weld(&loose, 0.2), 20);
 }
 
-static void the_transform_scales_then_moves(no_state) {
+TEST(the_transform_scales_then_moves) {
   struct mesh mesh = icosahedron();
   hooke_options *options = options_of(&mesh);
   set_options(options, "mass=1 transform.scale=0.25 transform.translate=1,2,3");
@@ -283,7 +283,7 @@ static void check_refused(struct mesh mesh, const char *message) {
   assert_int_equal(hooke_system_particle_count(system), 0);
 }
 
-static void planted_faults_are_found(no_state) {
+TEST(planted_faults_are_found) {
   struct mesh mesh = sheet(5, 4);
   mesh.triangle[17] = 20;
   check_refused(mesh, "triangles[5][2]: there is no vertex 20; allowed: 0 to 19, as numbers begin at 0");
@@ -316,7 +316,7 @@ static void planted_faults_are_found(no_state) {
   check_refused(mesh, "triangles[1]: a second face on vertices 0, 1 and 3, after that of triangle 0");
 }
 
-static void a_mesh_needs_its_numbers(no_state) {
+TEST(a_mesh_needs_its_numbers) {
   owned_options *options, *rope;
   const struct mesh mesh = icosahedron();
   rope = new_options("rope");
@@ -332,19 +332,4 @@ static void a_mesh_needs_its_numbers(no_state) {
   owned_system *system = new_system();
   check_status(hooke_system_add_part(system, "mesh", NULL, options, NULL, NULL), HOOKE_BAD_VALUE);
   check_message("hooke_mesh_read()");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(edges_obey_euler),
-      cmocka_unit_test(springs_are_in_order),
-      cmocka_unit_test(mass_is_shared_by_area),
-      cmocka_unit_test(damping_by_ratio_is_that_of_both_ends),
-      cmocka_unit_test(vertices_at_one_place_are_one),
-      cmocka_unit_test(a_distance_welds_what_is_within_it),
-      cmocka_unit_test(the_transform_scales_then_moves),
-      cmocka_unit_test(planted_faults_are_found),
-      cmocka_unit_test(a_mesh_needs_its_numbers),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static void test_table(no_state) {
+TEST(test_table) {
   const char *expected[] = {"forward-euler", "symplectic-euler", "verlet",  "shardlow",          "heun",
                             "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint", "cvode-bdf",
                             "cvode-adams"};
@@ -83,7 +83,7 @@ static void check_list(const char *method, const char *problem) {
 }
 
 /* Integrators are made of what a method says that it takes, and of nothing else. */
-static void test_methods_take_what_they_say(no_state) {
+TEST(test_methods_take_what_they_say) {
   static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order"};
   int32_t taken[4] = {0};
   for (int k = 0; k < 4; k++) {
@@ -128,7 +128,7 @@ static void refuse_absent(const hooke_system *system, const char *method) {
 
 /* Half the step gives at most 0.6 of the error (order 1 or better), a tighter tolerance a smaller error, and
  * an error-controlled method at rtol 1e-9 a smaller error than every fixed step of order 1 here. */
-static void test_every_method_on_every_scene(no_state) {
+TEST(test_every_method_on_every_scene) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     const struct reference *reference = &references[k];
     owned_system *system = build_reference(reference);
@@ -169,7 +169,7 @@ static void test_every_method_on_every_scene(no_state) {
 /* A pendulum on a stiff, strongly damped rod. Newton with the right derivative takes long steps over the fast
  * mode once it has died out; the fixed-point iteration of cvode-adams cannot, nor could Newton with a wrong
  * derivative. */
-static void test_bdf_strides_over_damped_modes(no_state) {
+TEST(test_bdf_strides_over_damped_modes) {
   if (hooke_method_is_built("cvode-bdf") != 1) skip();
   const double position[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
@@ -194,12 +194,4 @@ static void test_bdf_strides_over_damped_modes(no_state) {
   }
   check_between(steps[0], 20.0, 0.3 * steps[1]);
   check_between(largest_difference(6, end[0], end[1]), 0.0, 1e-4);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_table),
-                                     cmocka_unit_test(test_methods_take_what_they_say),
-                                     cmocka_unit_test(test_every_method_on_every_scene),
-                                     cmocka_unit_test(test_bdf_strides_over_damped_modes)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 
 /* ---- coincident ends, and springs without length ---- */
 
-static void test_coincident_ends(no_state) {
+TEST(test_coincident_ends) {
   const double q[] = {0, 0, 0, 1, 2, 3, 1, 2, 3, 4, 2, 3}, v[] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0};
   const int64_t ends[] = {1, 2, 2, 1, 2, 3};
   double a[12];
@@ -34,7 +34,7 @@ static void test_coincident_ends(no_state) {
 }
 
 /* With rest length 0 the force is -k x everywhere: smooth at the origin, and not counted as coincident. */
-static void test_springs_without_length(no_state) {
+TEST(test_springs_without_length) {
   hooke_system *system = small_oscillator(3.0); /* mass 2: k = 18 */
   const double v[6] = {0}, zero[6] = {0};
   double q[6] = {0, 0, 0, 0.3, -0.4, 1.2}, force[6];
@@ -70,7 +70,7 @@ static void fall(double damping, double drag, double h, int64_t steps, double *v
   *velocity = 0.5 * (u[1] + u[4]);
 }
 
-static void test_drag_or_damping(no_state) {
+TEST(test_drag_or_damping) {
   const double h = 1e-3, n = 1000.0, factor = 1.0 - 1.5 * h / 0.5;
   double velocity, height;
   fall(0.0, 0.0, h, 1000, &velocity, &height);
@@ -116,21 +116,21 @@ static double hanging_length(const char *law, int64_t segments, double step) {
   return length;
 }
 
-static void test_stretch_does_not_depend_on_resolution(no_state) {
+TEST(test_stretch_does_not_depend_on_resolution) {
   const int64_t segments[] = {1, 2, 8, 64};
   for (int k = 0; k < 4; k++)
     check_close(hanging_length("strain", segments[k], 2e-5), 1.0 + 4.0 / 16.0, 1e-6);
 }
 
 /* By the length law n springs in a row give n times the stretch. */
-static void test_stretch_by_the_length_law(no_state) {
+TEST(test_stretch_by_the_length_law) {
   check_close(hanging_length("length", 1, 5e-5), 1.0 + 4.0 / 16.0, 1e-6);
   check_close(hanging_length("length", 2, 5e-5), 1.0 + 2.0 * 4.0 / 16.0, 1e-6);
 }
 
 /* ---- pinned particles and cables ---- */
 
-static void test_pinned_never_move(no_state) {
+TEST(test_pinned_never_move) {
   const double q[] = {0.1, 0.2, 0.3, 1, 1, 1, -1, 0.5, 2}, gravity[] = {1, 2, 3}, zero[3] = {0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 0};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -151,7 +151,7 @@ static void test_pinned_never_move(no_state) {
 }
 
 /* A slack cable lets its ends pass, with damping or without; a taut one is a spring. */
-static void test_cables(no_state) {
+TEST(test_cables) {
   const int64_t ends[] = {0, 1};
   const struct {
     double distance, velocity, pull; /* force on the first end, along the second */
@@ -179,7 +179,7 @@ static void test_cables(no_state) {
 }
 
 /* A scene pays only for the forces that it names. */
-static void test_forces_that_are_there(no_state) {
+TEST(test_forces_that_are_there) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -1, 0};
   owned_system *empty = small_system(2, q, NULL, 1.0, 0), *full = small_system(2, q, NULL, 1.0, 0);
   const int64_t ends[] = {0, 1};
@@ -198,7 +198,7 @@ static void test_forces_that_are_there(no_state) {
 }
 
 /* Without damping velocities are not read: not even a NaN there affects the forces. */
-static void test_velocities_are_not_read(no_state) {
+TEST(test_velocities_are_not_read) {
   const double q[] = {0, 0, 0, 1, 0.5, 0}, lost[] = {NAN, NAN, NAN, NAN, NAN, NAN};
   const int64_t ends[] = {0, 1};
   double force[6];
@@ -209,19 +209,4 @@ static void test_velocities_are_not_read(no_state) {
     check_ok(hooke_system_force(system, 0.0, q, lost, force));
     assert_int_equal(isfinite(force[0]) != 0, !damped);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_coincident_ends),
-      cmocka_unit_test(test_springs_without_length),
-      cmocka_unit_test(test_drag_or_damping),
-      cmocka_unit_test(test_stretch_does_not_depend_on_resolution),
-      cmocka_unit_test(test_stretch_by_the_length_law),
-      cmocka_unit_test(test_pinned_never_move),
-      cmocka_unit_test(test_cables),
-      cmocka_unit_test(test_forces_that_are_there),
-      cmocka_unit_test(test_velocities_are_not_read),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

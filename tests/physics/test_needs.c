@@ -108,7 +108,7 @@ static double distance(const struct frames *a, const struct frames *b) {
 
 static const struct run half_a_second = {.method = "rk4", .duration = 0.5, .every = 0.02};
 
-static void changes_are_those_of_runs_made_apart(no_state) {
+TEST(changes_are_those_of_runs_made_apart) {
   const double want = 1e-3;
   owned_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
   owned_measurement *needs = start(system, half_a_second, want, NULL);
@@ -174,7 +174,7 @@ static void check_said(const hooke_measurement *needs, const char *table, const 
   free(run);
 }
 
-static void errors_include_that_of_the_full_run(no_state) {
+TEST(errors_include_that_of_the_full_run) {
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
   owned_system *system = hanging_rope(12, 1e-3);
   struct frames *truth = run_fine(system, 1e-4, 1);
@@ -195,7 +195,7 @@ static void errors_include_that_of_the_full_run(no_state) {
 
 /* By a method of order 1, whose error alone limits the step: omitting weak springs saves no steps, though the
  * full system takes ten times as many for an error of a tenth of the want. */
-static void savings_are_those_at_equal_error(no_state) {
+TEST(savings_are_those_at_equal_error) {
   const double want = 4e-4;
   struct run run = half_a_second;
   run.method = "symplectic-euler";
@@ -245,7 +245,7 @@ static hooke_measurement *find_hung(const hooke_system *system) {
   return needs;
 }
 
-static void a_scene_that_rests_is_told_so(no_state) {
+TEST(a_scene_that_rests_is_told_so) {
   owned_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
                *moving = hung_mass(9.81, 0.1);
   hooke_measurement *needs = find_hung(rest);
@@ -283,7 +283,7 @@ static void a_scene_that_rests_is_told_so(no_state) {
 /* ---- resolutions ---- */
 
 /* The remaining error at 8 pieces, predicted from 8, 16 and 32, compared with 128. */
-static void refinement_predicts_a_much_finer_rope(no_state) {
+TEST(refinement_predicts_a_much_finer_rope) {
   owned_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
   owned_measurement *needs = make(coarse, half_a_second, 1e-4, NULL, 1);
   check_ok(hooke_measurement_run(needs, NULL));
@@ -323,7 +323,7 @@ static hooke_system *pushed_pair(double *strength) {
   return system;
 }
 
-static void a_callback_is_an_ingredient(no_state) {
+TEST(a_callback_is_an_ingredient) {
   double strengths[2] = {1e-6, 1.0};
   for (int k = 0; k < 2; k++) {
     owned_system *system = pushed_pair(&strengths[k]);
@@ -334,7 +334,7 @@ static void a_callback_is_an_ingredient(no_state) {
   }
 }
 
-static void every_method_finds_the_same(no_state) {
+TEST(every_method_finds_the_same) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (!hooke_method_is_built(method)) continue;
@@ -358,7 +358,7 @@ static void every_method_finds_the_same(no_state) {
 }
 
 /* Two masses on stiff rods, released from upright: a double pendulum. */
-static void chaos_is_judged_as_far_as_a_step_can_follow(no_state) {
+TEST(chaos_is_judged_as_far_as_a_step_can_follow) {
   const double position[9] = {0, 0, 0, 0.1, 1, 0, 0.25, 2, 0}, gravity[3] = {0, -9.81, 0};
   const int64_t ends[4] = {0, 1, 1, 2};
   owned_system *system = small_system(3, position, NULL, 1.0, 1);
@@ -388,7 +388,7 @@ static int32_t listen(double done, const char *what, void *ctx) {
   return ++listener->calls > listener->most;
 }
 
-static void whoever_stops_it_keeps_what_is_known(no_state) {
+TEST(whoever_stops_it_keeps_what_is_known) {
   owned_system *system = hanging_rope(12, 0.05);
   struct listener all = {.most = INT64_MAX};
   hooke_measurement *needs = start(system, half_a_second, 1e-3, NULL);
@@ -425,7 +425,7 @@ static void check_watch(const hooke_system *system, const char *watch, const cha
   if (message) check_message(message);
 }
 
-static void what_cannot_be_is_refused(no_state) {
+TEST(what_cannot_be_is_refused) {
   owned_system *system = hanging_rope(12, 0.05);
   static const char *const good[] = {"rope", "rope.bend", "0", "12", "1-5", "0,3-4,12"};
   static const char *const bad[] = {"robe", "13", "5-1", "1,",   ",1",
@@ -454,7 +454,7 @@ static void what_cannot_be_is_refused(no_state) {
 }
 
 /* Functions for needs refuse studies, and the reverse. */
-static void kinds_keep_to_what_is_theirs(no_state) {
+TEST(kinds_keep_to_what_is_theirs) {
   owned_system *system = hanging_rope(4, 0.0);
   owned_options *run = run_options(half_a_second);
   hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *study = NULL;
@@ -507,7 +507,7 @@ static hooke_system *body_and_line(int has) {
   return system;
 }
 
-static void groups_without_parts_are_ingredients(no_state) {
+TEST(groups_without_parts_are_ingredients) {
   static const struct {
     const char *without;
     int left;
@@ -538,7 +538,7 @@ static void groups_without_parts_are_ingredients(no_state) {
 }
 
 /* Groups with the name of an ingredient, without a name, or without members. */
-static void every_ingredient_has_a_name_of_its_own(no_state) {
+TEST(every_ingredient_has_a_name_of_its_own) {
   const double place[] = {0, 0, 0, 0.3, 0, 0, 0.1, 0.28, 0, 0.12, 0.1, 0.26, 9, 9, 9}, none = 0.0,
                stiff = 2.0;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
@@ -574,7 +574,7 @@ static void every_ingredient_has_a_name_of_its_own(no_state) {
 }
 
 /* Springs that only pull have no resistance to compression that could be left out. */
-static void what_is_not_there_is_no_ingredient(no_state) {
+TEST(what_is_not_there_is_no_ingredient) {
   const double place[] = {0, 0, 0, 0.3, 0, 0};
   const int64_t ends[] = {0, 1};
   owned_options *springs = options_with("springs", "stiffness=5");
@@ -589,24 +589,4 @@ static void what_is_not_there_is_no_ingredient(no_state) {
     if (pushes) row_of(needs, "resistance to compression");
     assert_int_equal(hooke_measurement_row_count(needs, "rows"), 1 + pushes);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(groups_without_parts_are_ingredients),
-      cmocka_unit_test(changes_are_those_of_runs_made_apart),
-      cmocka_unit_test(errors_include_that_of_the_full_run),
-      cmocka_unit_test(savings_are_those_at_equal_error),
-      cmocka_unit_test(a_scene_that_rests_is_told_so),
-      cmocka_unit_test(refinement_predicts_a_much_finer_rope),
-      cmocka_unit_test(a_callback_is_an_ingredient),
-      cmocka_unit_test(every_method_finds_the_same),
-      cmocka_unit_test(chaos_is_judged_as_far_as_a_step_can_follow),
-      cmocka_unit_test(whoever_stops_it_keeps_what_is_known),
-      cmocka_unit_test(what_cannot_be_is_refused),
-      cmocka_unit_test(kinds_keep_to_what_is_theirs),
-      cmocka_unit_test(every_ingredient_has_a_name_of_its_own),
-      cmocka_unit_test(what_is_not_there_is_no_ingredient),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

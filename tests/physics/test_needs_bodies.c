@@ -117,7 +117,7 @@ static double of_run(const hooke_measurement *needs, const char *table, const ch
   return hooke_measurement_number(needs, table, 0, column);
 }
 
-static void a_stiff_plate_is_offered_as_a_body(no_state) {
+TEST(a_stiff_plate_is_offered_as_a_body) {
   const char *const methods[] = {"verlet", "symplectic-euler"};
   for (int m = 0; m < 2; m++) {
     if (left_out(m, 2)) continue;
@@ -147,7 +147,7 @@ static void a_stiff_plate_is_offered_as_a_body(no_state) {
   }
 }
 
-static void a_plate_that_bends_is_not(no_state) {
+TEST(a_plate_that_bends_is_not) {
   owned_system *system = hanging_plate(100.0);
   owned_measurement *needs = needs_of(system, "verlet");
   const int64_t row = body_row(needs);
@@ -156,12 +156,4 @@ static void a_plate_that_bends_is_not(no_state) {
   assert_true(hooke_measurement_number(needs, "rows", row, "left_out") == 0.0);
   assert_int_equal(hooke_system_count(hooke_needs_lean(needs), "bodies"), 0);
   assert_null(strstr(hooke_measurement_text(needs, "lean", 0, "note"), "rigid"));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_stiff_plate_is_offered_as_a_body),
-      cmocka_unit_test(a_plate_that_bends_is_not),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ static int takes_pair(const hooke_system *system, const char *method) {
 }
 
 /* The closed form, at the order of the method from both sides. */
-static void test_orders(no_state) {
+TEST(test_orders) {
   owned_system *system = make_pair();
   int taken = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -68,7 +68,7 @@ static void test_orders(no_state) {
   assert_int_equal(taken, 6); /* forward Euler, Heun, Runge-Kutta, three implicit ones */
 }
 
-static void test_adaptive(no_state) {
+TEST(test_adaptive) {
   owned_system *system = make_pair();
   const char *methods[] = {"cvode-bdf", "cvode-adams", "rk8pd", "arkode-esdirk"},
              *solvers[] = {"auto", "blocks", "direct", "gmres"};
@@ -86,7 +86,7 @@ static void test_adaptive(no_state) {
 }
 
 /* Stable up to the end of the real axis, and beyond not. */
-static void test_limits(no_state) {
+TEST(test_limits) {
   owned_system *system = make_pair();
   const struct {
     const char *method;
@@ -109,7 +109,7 @@ static void test_limits(no_state) {
   }
 }
 
-static void test_divergence(no_state) {
+TEST(test_divergence) {
   owned_system *system = make_pair();
   owned_integrator *it = start_run(
       system, (struct run){.method = "forward-euler", .step = 0.11, .duration = 11.0, .every = 0.11});
@@ -132,7 +132,7 @@ static int32_t push(int64_t n, double t, const double *q, const double *v, doubl
   return 0;
 }
 
-static void test_forces(no_state) {
+TEST(test_forces) {
   const double start[6] = {0}, mass[2] = {2.0, 0.5}, g[3] = {0.0, -9.81, 0.0};
   const char *methods[] = {"forward-euler",     "heun",     "rk4", "backward-euler", "tr-bdf2",
                            "implicit-midpoint", "cvode-bdf"};
@@ -160,7 +160,7 @@ static void test_forces(no_state) {
 }
 
 /* One end is moved as x = 0.1 sin(t): the other follows by exp(-kappa t/gamma), at the order of each method. */
-static void test_driven(no_state) {
+TEST(test_driven) {
   const double amplitude[3] = {0.1, 0.0, 0.0}, a = KAPPA / GAMMA, t = 0.2;
   const int64_t first = 0;
   const char *methods[] = {"forward-euler", "heun", "rk4", "backward-euler", "tr-bdf2", "implicit-midpoint"};
@@ -221,7 +221,7 @@ static hooke_system *open_parts(double mass, double gravity, const char *option)
 }
 
 /* Masses do nothing without gravity, so parts need none. */
-static void test_parts_without_mass(no_state) {
+TEST(test_parts_without_mass) {
   enum { N = 18 + 6 };
   double q[2][3 * N];
   for (int k = 0; k < 2; k++) {
@@ -236,7 +236,7 @@ static void test_parts_without_mass(no_state) {
   check_message("stretch.damping_ratio: is given to a part that has neither mass nor density");
 }
 
-static void test_refusals(no_state) {
+TEST(test_refusals) {
   const double g[3] = {0.0, 0.0, 1.0}, q[3] = {0.0, 0.0, 1.0}, v[3] = {0.0, 1.0, 0.0}, mass = 1.0;
   const int64_t ends[2] = {0, 1};
   hooke_system *system = open_pair();
@@ -264,18 +264,4 @@ static void test_refusals(no_state) {
   assert_false(takes_pair(system, "verlet"));
   check_message("verlet steps positions and velocities apart");
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_orders),
-      cmocka_unit_test(test_adaptive),
-      cmocka_unit_test(test_limits),
-      cmocka_unit_test(test_divergence),
-      cmocka_unit_test(test_forces),
-      cmocka_unit_test(test_driven),
-      cmocka_unit_test(test_parts_without_mass),
-      cmocka_unit_test(test_refusals),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

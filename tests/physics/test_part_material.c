@@ -47,7 +47,7 @@ static double total(const hooke_system *system) {
   return sum;
 }
 
-static void a_rope_weighs_the_same_at_every_resolution(no_state) {
+TEST(a_rope_weighs_the_same_at_every_resolution) {
   for (int n = 1; n <= 64; n *= 2) {
     owned_system *rope = build("rope", new_rope(3.0, n, "density", 0.2));
     const double *mass = hooke_system_mass(rope);
@@ -62,7 +62,7 @@ static void a_rope_weighs_the_same_at_every_resolution(no_state) {
   }
 }
 
-static void a_cloth_weighs_its_area(no_state) {
+TEST(a_cloth_weighs_its_area) {
   const int size[][2] = {{2, 2}, {2, 5}, {6, 2}, {7, 4}, {33, 17}};
   for (size_t k = 0; k < sizeof size / sizeof size[0]; k++) {
     const int nu = size[k][0], nv = size[k][1];
@@ -79,7 +79,7 @@ static void a_cloth_weighs_its_area(no_state) {
   }
 }
 
-static void a_mass_is_shared_equally(no_state) {
+TEST(a_mass_is_shared_equally) {
   owned_system *rope = build("rope", new_rope(3.0, 4, "mass", 0.5));
   for (int p = 0; p < 5; p++)
     check_close(hooke_system_mass(rope)[p], 0.1, 0.0);
@@ -92,7 +92,7 @@ static void a_mass_is_shared_equally(no_state) {
 
 /* Two particles of one spring: each swing is smaller than the previous one by exp(-2 pi zeta/sqrt(1 -
  * zeta^2)). */
-static void a_pair_swings_as_its_ratio_says(no_state) {
+TEST(a_pair_swings_as_its_ratio_says) {
   const double zeta = 0.2, m = 0.25, kappa = 50.0 / 0.8;
   hooke_options *options = new_rope(1.0, 1, "mass", 2.0 * m);
   set_options(options, "stretch.stiffness=50 stretch.damping_ratio=%.17g stretch.rest_scale=0.8", zeta);
@@ -105,7 +105,7 @@ static void a_pair_swings_as_its_ratio_says(no_state) {
   check_close((length - 0.8) / 0.2, exp(-2.0 * acos(-1.0) * zeta / sqrt(1.0 - zeta * zeta)), 1e-8);
 }
 
-static void every_direction_has_its_own(no_state) {
+TEST(every_direction_has_its_own) {
   hooke_options *options = new_cloth(21, 31, "density", 0.3);
   set_options(options, "structural.stiffness=40 structural.damping_ratio=0.1 shear.stiffness=7 "
                        "shear.damping_ratio=0.3 shear.rest_scale=1.1 bend.stiffness=3 bend.damping=0.02");
@@ -143,7 +143,7 @@ static void every_direction_has_its_own(no_state) {
 
 /* Values equal to the bit take no memory of their own: a cloth with a ratio is as small as one with a
  * damping. */
-static void ratios_keep_the_runs(no_state) {
+TEST(ratios_keep_the_runs) {
   hooke_options *ratio = new_cloth(40, 50, "mass", 0.3), *plain = new_cloth(40, 50, "mass", 0.3);
   set_options(ratio, "structural.stiffness=40 structural.damping_ratio=0.1");
   set_options(plain, "structural.stiffness=40 structural.damping=0.1");
@@ -154,7 +154,7 @@ static void ratios_keep_the_runs(no_state) {
 /* ---- bending ---- */
 
 /* Lines along u row by row, then lines along v, first particle row by row; half at the edges. */
-static void a_cloth_bends_along_its_lines(no_state) {
+TEST(a_cloth_bends_along_its_lines) {
   const int nu = 5, nv = 4;
   hooke_options *options = new_cloth(nu, nv, "mass", 0.3);
   check_ok(hooke_options_set_number(options, "bending", 0.7));
@@ -188,7 +188,7 @@ static void a_cloth_bends_along_its_lines(no_state) {
 
 /* A cloth of one cell across has edges only; one of two particles along a direction does not bend along it.
  */
-static void narrow_cloths(no_state) {
+TEST(narrow_cloths) {
   hooke_options *strip = new_cloth(2, 6, "mass", 0.3), *cell = new_cloth(2, 2, "mass", 0.3);
   check_ok(hooke_options_set_number(strip, "bending", 0.7));
   check_ok(hooke_options_set_number(cell, "bending", 0.7));
@@ -201,7 +201,7 @@ static void narrow_cloths(no_state) {
 }
 
 /* A part that fails midway leaves nothing behind. */
-static void failures_are_rolled_back(no_state) {
+TEST(failures_are_rolled_back) {
   owned_options *fine = new_rope(1.0, 4, "density", 0.2), *bad = new_rope(1.0, 4, "density", 0.2);
   check_ok(hooke_options_set_number(fine, "bending", 1.0));
   set_options(bad, "bending=1 pinned=9");
@@ -219,19 +219,4 @@ static void failures_are_rolled_back(no_state) {
   check_ok(hooke_options_unset(bad, "density"));
   check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);
   check_message("neither mass nor density");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_rope_weighs_the_same_at_every_resolution),
-      cmocka_unit_test(a_cloth_weighs_its_area),
-      cmocka_unit_test(a_mass_is_shared_equally),
-      cmocka_unit_test(a_pair_swings_as_its_ratio_says),
-      cmocka_unit_test(every_direction_has_its_own),
-      cmocka_unit_test(ratios_keep_the_runs),
-      cmocka_unit_test(a_cloth_bends_along_its_lines),
-      cmocka_unit_test(narrow_cloths),
-      cmocka_unit_test(failures_are_rolled_back),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -115,7 +115,7 @@ static hooke_system *system_of(const struct scene *scene) {
   return system;
 }
 
-static void test_every_method(no_state) {
+TEST(test_every_method) {
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     owned_system *system = system_of(&scenes[k]);
     for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -161,7 +161,7 @@ static hooke_system *pairs(int32_t shuffled) {
   return system;
 }
 
-static void test_batches_and_threads(no_state) {
+TEST(test_batches_and_threads) {
   for (int shuffled = 0; shuffled < 2; shuffled++) {
     owned_system *system = pairs(shuffled);
     const struct run alone = {.method = "symplectic-euler", .step = 0.004, .duration = 0.08, .threads = 1},
@@ -173,7 +173,7 @@ static void test_batches_and_threads(no_state) {
 
 /* ---- anchors, loops of the caller's own, and what is not known ---- */
 
-static void test_anchors(no_state) {
+TEST(test_anchors) {
   const double q[] = {2, 0, 0, 2, 1, 0}, points[] = {0.5, 0, 0, 0.5, 1, 0}, rest_length[] = {0.5, 0.0};
   const int64_t particles[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 0);
@@ -192,7 +192,7 @@ static void test_anchors(no_state) {
   assert_null(hooke_integrator_text(integrator, "passages"));
 }
 
-static void test_own_loops(no_state) {
+TEST(test_own_loops) {
   owned_system *system = system_of(&scenes[1]);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const struct run run = {.method = hooke_method_name(m), .step = 0.01, .duration = 4.0, .rtol = 1e-6};
@@ -214,7 +214,7 @@ static void test_own_loops(no_state) {
 }
 
 /* A particle that is put on the other side by hand has not passed. */
-static void test_putting(no_state) {
+TEST(test_putting) {
   const double there[] = {-0.2, 0, 0}, slow[] = {0, 0, 0};
   const int64_t particle = 1;
   owned_system *system = system_of(&scenes[0]);
@@ -228,7 +228,7 @@ static void test_putting(no_state) {
   assert_int_equal(passages_of(integrator), 0);
 }
 
-static void test_checkpoint(no_state) {
+TEST(test_checkpoint) {
   const char *path = "passages-checkpoint";
   const struct run run = {.method = "rk4", .step = 0.01, .duration = 10.0};
   owned_system *system = system_of(&scenes[0]);
@@ -266,7 +266,7 @@ static double end_of(double wall, double rest_length, int64_t *passages) {
 }
 
 /* A far wall makes the spring a signed one: x = 0.5 + a damped oscillation. */
-static void test_far_wall(no_state) {
+TEST(test_far_wall) {
   const double w = sqrt(10.0 - 0.05 * 0.05), t = 10.0;
   const double x = 0.5 + exp(-0.05 * t) * (cos(w * t) + 0.05 / w * sin(w * t));
   int64_t passages;
@@ -274,13 +274,4 @@ static void test_far_wall(no_state) {
   assert_int_equal(passages, 0);
   check_close(fabs(end_of(0.0, 0.5, &passages) - x), 1.79, 0.1);
   assert_int_equal(passages, 7);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_method), cmocka_unit_test(test_batches_and_threads),
-      cmocka_unit_test(test_anchors),      cmocka_unit_test(test_own_loops),
-      cmocka_unit_test(test_putting),      cmocka_unit_test(test_checkpoint),
-      cmocka_unit_test(test_far_wall)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

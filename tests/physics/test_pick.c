@@ -20,7 +20,7 @@ static hooke_options *picked(const hooke_system *system, const char *method, dou
 
 /* Explicit methods take some 1e4 to 1e6 steps, backward Euler 160, these 20. Which one of all is cheapest is
  * timed, so each is asked for. */
-static void implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths(no_state) {
+TEST(implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths) {
   static const char *const methods[] = {"tr-bdf2", "implicit-midpoint"};
   owned_system *system = small_cloth(12, 5e4, 20.0);
   for (int k = 0; k < 2; k++) {
@@ -35,7 +35,7 @@ static void implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths(n
 }
 
 /* At its largest step Verlet solves for the damping, in the time of several steps without. */
-static void verlet_is_picked_at_a_step_that_solves_nothing(no_state) {
+TEST(verlet_is_picked_at_a_step_that_solves_nothing) {
   owned_system *system = small_cloth(12, 50.0, 0.01);
   owned_options *options = picked(system, "verlet", 0.5, 1e-3);
   owned_integrator *integrator;
@@ -43,12 +43,4 @@ static void verlet_is_picked_at_a_step_that_solves_nothing(no_state) {
   const double step = hooke_options_number(options, "step"), bound = bound_at_start(system, "verlet");
   if (hooke_integrator_count(integrator, "explicit_damping") != 1 || !(step > 0.2 * bound))
     check_failed("a step of %g s of %g s is picked", step, bound);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(implicit_methods_of_order_2_take_long_steps_on_stiff_damped_cloths),
-      cmocka_unit_test(verlet_is_picked_at_a_step_that_solves_nothing),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -407,7 +407,7 @@ static void check_scene(uint64_t seed) {
   hooke_system_destroy(s.system);
 }
 
-static void limits_are_those_of_the_matrices(no_state) {
+TEST(limits_are_those_of_the_matrices) {
   const uint64_t count = getenv("HOOKE_LONG") ? 2000 : 24;
   for (uint64_t seed = 1; seed <= count; seed++) {
     if (!left_out((int64_t)seed, 4)) check_scene(seed);
@@ -415,7 +415,7 @@ static void limits_are_those_of_the_matrices(no_state) {
 }
 
 /* With the damping of springs and anchors of no length left out, scenes would be found wrong. */
-static void damping_left_out_is_noticed(no_state) {
+TEST(damping_left_out_is_noticed) {
   int noticed = 0;
   for (uint64_t seed = 1; seed <= 24; seed++) {
     struct scene s;
@@ -428,12 +428,4 @@ static void damping_left_out_is_noticed(no_state) {
     hooke_system_destroy(s.system);
   }
   check_between(noticed, 6, 24);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(limits_are_those_of_the_matrices),
-      cmocka_unit_test(damping_left_out_is_noticed),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,17 +55,17 @@ static void reach_references(const char *method) {
   }
 }
 
-static void test_adams(no_state) {
+TEST(test_adams) {
   reach_references("cvode-adams");
 }
 
-static void test_bdf(no_state) {
+TEST(test_bdf) {
   reach_references("cvode-bdf");
 }
 
 /* ---- the energies of the states themselves ---- */
 
-static void test_energies(no_state) {
+TEST(test_energies) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     owned_system *system = build_reference(&references[k]);
     for (int64_t s = 0; s < references[k].state_count; s++) {
@@ -120,7 +120,7 @@ static const struct ladder second_order[] = {{"oscillator", 5e-3, 1},
                                              {"rope-12", 2e-3, 1},
                                              {"chain-16", 2e-2, 0}};
 
-static void test_order_of_forward_euler(no_state) {
+TEST(test_order_of_forward_euler) {
   const struct ladder ladders[] = {{"oscillator", 1e-3, 1},
                                    {"six-particles", 2.5e-3, 1},
                                    {"elastic-pendulum", 2e-5, 0},
@@ -129,7 +129,7 @@ static void test_order_of_forward_euler(no_state) {
   climb_all("forward-euler", 1.0, 5, ladders);
 }
 
-static void test_order_of_symplectic_euler(no_state) {
+TEST(test_order_of_symplectic_euler) {
   const struct ladder ladders[] = {{"oscillator", 1e-3, 1},
                                    {"six-particles", 2.5e-3, 1},
                                    {"elastic-pendulum", 5e-4, 0},
@@ -139,15 +139,15 @@ static void test_order_of_symplectic_euler(no_state) {
 }
 
 /* Including spring damping: with the velocity half-way in the second kick the order would be 1.1. */
-static void test_order_of_verlet(no_state) {
+TEST(test_order_of_verlet) {
   climb_all("verlet", 2.0, 5, second_order);
 }
 
-static void test_order_of_shardlow(no_state) {
+TEST(test_order_of_shardlow) {
   climb_all("shardlow", 2.0, 5, second_order);
 }
 
-static void test_order_of_rk4(no_state) {
+TEST(test_order_of_rk4) {
   const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
                                    {"six-particles", 1e-2, 1},
                                    {"elastic-pendulum", 4e-3, 0},
@@ -156,7 +156,7 @@ static void test_order_of_rk4(no_state) {
   climb_all("rk4", 4.0, 4, ladders);
 }
 
-static void test_order_of_backward_euler(no_state) {
+TEST(test_order_of_backward_euler) {
   const struct ladder ladders[] = {{"oscillator", 1e-3, 1},
                                    {"six-particles", 2.5e-3, 1},
                                    {"elastic-pendulum", 5e-4, 0},
@@ -165,18 +165,18 @@ static void test_order_of_backward_euler(no_state) {
   climb_all("backward-euler", 1.0, 5, ladders);
 }
 
-static void test_order_of_tr_bdf2(no_state) {
+TEST(test_order_of_tr_bdf2) {
   climb_all("tr-bdf2", 2.0, 5, second_order);
 }
 
-static void test_order_of_implicit_midpoint(no_state) {
+TEST(test_order_of_implicit_midpoint) {
   climb_all("implicit-midpoint", 2.0, 5, second_order);
 }
 
 /* ---- the errors that fixed-step methods must have, to 6 digits where nothing is solved for, or the rounding
  * of positions in a few hundred steps ---- */
 
-static void test_known_errors(no_state) {
+TEST(test_known_errors) {
   const struct reference *reference = find_reference("six-particles");
   const struct reference_state *expected = &reference->state[1];
   check_close(expected->time, 1.0, 0.0);
@@ -196,22 +196,4 @@ static void test_known_errors(no_state) {
       check_close(error, known, reference_errors[m].allowed * known + 2e-15);
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_energies),
-      cmocka_unit_test(test_known_errors),
-      cmocka_unit_test(test_order_of_forward_euler),
-      cmocka_unit_test(test_order_of_symplectic_euler),
-      cmocka_unit_test(test_order_of_verlet),
-      cmocka_unit_test(test_order_of_shardlow),
-      cmocka_unit_test(test_order_of_rk4),
-      cmocka_unit_test(test_order_of_backward_euler),
-      cmocka_unit_test(test_order_of_tr_bdf2),
-      cmocka_unit_test(test_order_of_implicit_midpoint),
-      cmocka_unit_test(test_adams),
-      cmocka_unit_test(test_bdf),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,7 +24,7 @@ static const struct checker *next_built(int64_t *k) {
 
 /* ---- found by name, not listed ---- */
 
-static void test_names(no_state) {
+TEST(test_names) {
   owned_system *system = small_oscillator(2.0);
   for (int c = 0; c < CHECKERS; c++) {
     const char *name = checkers[c].method;
@@ -92,7 +92,7 @@ static double largest_error(const struct reference *reference, const char *metho
   return fmax(visit.error, error / largest(size, last->position));
 }
 
-static void test_solutions(no_state) {
+TEST(test_solutions) {
   const double every[] = {0.05, 0.37, 1e3};
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
@@ -109,7 +109,7 @@ static void test_solutions(no_state) {
 
 /* ---- every force, driven particles and springs that only pull: with Adams ---- */
 
-static void test_everything(no_state) {
+TEST(test_everything) {
   const struct checker *checker;
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   for (uint64_t seed = 1; seed <= 6; seed++) {
@@ -178,7 +178,7 @@ static double spiral_error(const char *method, double rtol) {
   return error;
 }
 
-static void test_first_order(no_state) {
+TEST(test_first_order) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     const double loose = spiral_error(checker->method, 1e-4), tight = spiral_error(checker->method, 1e-10);
@@ -190,7 +190,7 @@ static void test_first_order(no_state) {
 
 /* ---- ends: stops, limits, non-finite numbers ---- */
 
-static void test_stop(no_state) {
+TEST(test_stop) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     struct spiral spiral = {.stop_after = 1.0};
@@ -215,7 +215,7 @@ static void test_stop(no_state) {
   }
 }
 
-static void test_not_finite(no_state) {
+TEST(test_not_finite) {
   const struct checker *checker;
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
     struct spiral spiral = {.nan_after = 1.0};
@@ -243,7 +243,7 @@ static int32_t guarded_rate(int64_t n, double t, const double *x, double *rate, 
   return 0;
 }
 
-static void test_recovers(no_state) {
+TEST(test_recovers) {
   if (hooke_method_is_built("rk8pd") != 1) skip();
   int64_t refused = 0;
   owned_integrator *integrator = start_first_order(
@@ -257,7 +257,7 @@ static void test_recovers(no_state) {
   check_between(hooke_state_position(state)[0], -0.5, 0.5);
 }
 
-static void test_step_limit(no_state) {
+TEST(test_step_limit) {
   const struct checker *checker;
   owned_system *system = small_oscillator(3.0);
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
@@ -273,7 +273,7 @@ static void test_step_limit(no_state) {
   }
 }
 
-static void test_order_of_arkode(no_state) {
+TEST(test_order_of_arkode) {
   if (hooke_method_is_built("arkode-esdirk") != 1) skip();
   owned_system *system = small_oscillator(3.0);
   double steps[6];
@@ -301,7 +301,7 @@ static void test_order_of_arkode(no_state) {
 
 /* ---- restarting, continuing, zero steps ---- */
 
-static void test_again(no_state) {
+TEST(test_again) {
   const char *counts[] = {"steps", "force_evaluations", "nonlinear_iterations", "linear_iterations",
                           "error_test_failures"};
   const struct checker *checker;
@@ -323,7 +323,7 @@ static void test_again(no_state) {
   }
 }
 
-static void test_steps_by_hand(no_state) {
+TEST(test_steps_by_hand) {
   const struct checker *checker;
   owned_system *system = build_reference(find_reference("six-particles"));
   for (int64_t c = 0; (checker = next_built(&c)) != NULL;) {
@@ -343,7 +343,7 @@ static void test_steps_by_hand(no_state) {
   }
 }
 
-static void test_nothing_free(no_state) {
+TEST(test_nothing_free) {
   const struct checker *checker;
   const double position[] = {1.0, 2.0, 3.0};
   owned_system *system = small_system(1, position, NULL, 1.0, 1);
@@ -354,22 +354,4 @@ static void test_nothing_free(no_state) {
     check_same_bits(3, q, position);
     check_close(largest(3, v), 0.0, 0.0);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_names),
-      cmocka_unit_test(test_solutions),
-      cmocka_unit_test(test_everything),
-      cmocka_unit_test(test_first_order),
-      cmocka_unit_test(test_stop),
-      cmocka_unit_test(test_not_finite),
-      cmocka_unit_test(test_recovers),
-      cmocka_unit_test(test_step_limit),
-      cmocka_unit_test(test_order_of_arkode),
-      cmocka_unit_test(test_again),
-      cmocka_unit_test(test_steps_by_hand),
-      cmocka_unit_test(test_nothing_free),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

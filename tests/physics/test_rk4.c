@@ -12,7 +12,7 @@ static int32_t multiply(int64_t n, double t, const double *x, double *rate, void
   return 0;
 }
 
-static void factor_of_a_step(no_state) {
+TEST(factor_of_a_step) {
   double a[] = {-0.8, 5.0};
   const double h = 0.1;
   const double complex z = h * (a[0] + I * a[1]);
@@ -38,21 +38,11 @@ static int32_t cubic(int64_t n, double t, const double *x, double *rate, void *c
   return 0;
 }
 
-static void times_of_the_stages(no_state) {
+TEST(times_of_the_stages) {
   owned_integrator *integrator =
       start_first_order(1, cubic, NULL, (struct run){.method = "rk4", .step = 0.5});
   owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(1, &state));
   check_ok(hooke_integrator_step(integrator, state, 6));
   check_close(hooke_state_position(state)[0], 81.0, 1e-13);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-
-      cmocka_unit_test(factor_of_a_step),
-      cmocka_unit_test(times_of_the_stages),
-
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

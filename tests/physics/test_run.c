@@ -40,7 +40,7 @@ static int32_t note_time(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void test_frames(no_state) {
+TEST(test_frames) {
   const struct {
     double step, duration, every, start;
     int64_t stride, count;
@@ -75,7 +75,7 @@ static void test_frames(no_state) {
 
 /* With error control frames are at whole multiples of `every`, and at the end, which is no second frame where
  * they come within 1e-9 of it. */
-static void test_frames_of_adaptive_methods(no_state) {
+TEST(test_frames_of_adaptive_methods) {
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   const struct {
     double duration, every;
@@ -109,7 +109,7 @@ static void test_frames_of_adaptive_methods(no_state) {
 }
 
 /* A million steps of 0.1: a running sum would have an error of 1e-6 s. */
-static void test_time_does_not_drift(no_state) {
+TEST(test_time_does_not_drift) {
   struct frames frames = {0.3, 0.1, 1000, 1000000, 0};
   owned_system *system = small_oscillator(1.0);
   owned_integrator *integrator = start_run(
@@ -133,7 +133,7 @@ static void refuse_run(struct run run, const char *culprit, const char *below, c
   check_message(above);
 }
 
-static void test_steps_that_do_not_fit(no_state) {
+TEST(test_steps_that_do_not_fit) {
   const char *method = "symplectic-euler";
   refuse_run((struct run){.method = method, .step = 0.3, .duration = 1.0}, "duration", "0.25",
              "0.3333333333333333");
@@ -151,7 +151,7 @@ static void test_steps_that_do_not_fit(no_state) {
   refuse_run((struct run){.method = method, .step = 0.1, .duration = 1.0 + 3e-9}, "duration", "0.1", "step");
 }
 
-static void test_run_needs_duration(no_state) {
+TEST(test_run_needs_duration) {
   owned_system *system = small_oscillator(1.0);
   owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1});
   owned_state *state = start_state(system);
@@ -176,7 +176,7 @@ static int32_t count_steps(int64_t step, const hooke_state *state, void *ctx) {
   return watch->stop_at > 0 && step >= watch->stop_at ? 7 : 0;
 }
 
-static void test_step_observer(no_state) {
+TEST(test_step_observer) {
   owned_system *system = small_oscillator(1.0);
   const int64_t strides[] = {1, 3, 10, 11};
   for (int k = 0; k < 4; k++) {
@@ -196,7 +196,7 @@ static void test_step_observer(no_state) {
   }
 }
 
-static void test_observers_stop(no_state) {
+TEST(test_observers_stop) {
   owned_system *system = small_oscillator(1.0);
   for (int on_frame = 0; on_frame < 2; on_frame++) {
     struct watch watch = {0, -1, 8, 0.0};
@@ -219,7 +219,7 @@ static void test_observers_stop(no_state) {
 
 /* An error-controlled method also reports its internal steps: every one of them, for any frames in between.
  */
-static void test_step_observer_of_adaptive_methods(no_state) {
+TEST(test_step_observer_of_adaptive_methods) {
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   owned_system *system = small_oscillator(3.0);
   struct watch watch = {0, 0, 0, 0.0};
@@ -234,7 +234,7 @@ static void test_step_observer_of_adaptive_methods(no_state) {
   check_between((double)watch.calls, (double)(steps - 1), (double)steps);
 }
 
-static void test_step_limit(no_state) {
+TEST(test_step_limit) {
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   owned_system *system = small_oscillator(3.0);
   owned_options *options = run_options((struct run){.method = "cvode-adams", .duration = 1000.0});
@@ -250,7 +250,7 @@ static void test_step_limit(no_state) {
 
 /* ---- stepping by hand ---- */
 
-static void test_steps_by_hand(no_state) {
+TEST(test_steps_by_hand) {
   owned_system *system = small_oscillator(2.0);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -276,7 +276,7 @@ static void test_steps_by_hand(no_state) {
 }
 
 /* Such numbers are refused, and no sum of them overflows. */
-static void test_too_many_steps(no_state) {
+TEST(test_too_many_steps) {
   owned_system *system = small_oscillator(1.0);
   const struct {
     double step, duration, every;
@@ -302,7 +302,7 @@ static void test_too_many_steps(no_state) {
   check_ok(hooke_integrator_step(integrator, state, 3));
 }
 
-static void test_state_of_another_size(no_state) {
+TEST(test_state_of_another_size) {
   owned_system *system = small_oscillator(2.0);
   owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(5, &state));
@@ -345,7 +345,7 @@ static struct energies energies_of(const char *method, double omega, double h, d
 /* Forward Euler multiplies the energy of an undamped oscillator by 1 + (omega h)^2 a step. Symplectic Euler
  * conserves E - h omega^2 m q.v / 2, so that E stays within about omega h / 2, relative, of its initial
  * value. */
-static void test_energy(no_state) {
+TEST(test_energy) {
   const double omega = 5.0, h = 0.002, steps = 10000.0, share = omega * h / 2.0;
   const struct energies forward = energies_of("forward-euler", omega, h, h * 1000.0);
   const double growth = pow(1.0 + omega * omega * h * h, 1000.0);
@@ -362,7 +362,7 @@ static void test_energy(no_state) {
 
 /* ---- counts ---- */
 
-static void test_counts(no_state) {
+TEST(test_counts) {
   owned_system *system = small_oscillator(2.0);
   const char *names[] = {"steps",
                          "force_evaluations",
@@ -412,24 +412,4 @@ static void test_counts(no_state) {
     check_ok(hooke_integrator_run(integrator, state));
     assert_true(hooke_integrator_count(integrator, "steps") > steps);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_frames),
-      cmocka_unit_test(test_frames_of_adaptive_methods),
-      cmocka_unit_test(test_time_does_not_drift),
-      cmocka_unit_test(test_steps_that_do_not_fit),
-      cmocka_unit_test(test_run_needs_duration),
-      cmocka_unit_test(test_step_observer),
-      cmocka_unit_test(test_observers_stop),
-      cmocka_unit_test(test_step_observer_of_adaptive_methods),
-      cmocka_unit_test(test_step_limit),
-      cmocka_unit_test(test_steps_by_hand),
-      cmocka_unit_test(test_too_many_steps),
-      cmocka_unit_test(test_state_of_another_size),
-      cmocka_unit_test(test_energy),
-      cmocka_unit_test(test_counts),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,14 +84,14 @@ static hooke_system *build_sheet(int kinds, int moving) {
 }
 
 /* At least positions and velocities, twice. */
-static void test_memory_of_a_cloth(no_state) {
+TEST(test_memory_of_a_cloth) {
   const double before = bytes_in_use();
   owned_system *system = build_cloth();
   check_between(bytes_of_run(system, "symplectic-euler", before) / PARTICLES, 96.0, 150.0);
   check_between(bytes_of_run(system, "forward-euler", before) / PARTICLES, 96.0, 150.0);
 }
 
-static void test_memory_without_order(no_state) {
+TEST(test_memory_without_order) {
   const int kinds[] = {3, 6, 3, 6};
   for (int k = 0; k < 4; k++) {
     const double before = bytes_in_use();
@@ -210,7 +210,7 @@ static void compare(struct rope *rope, double step, int32_t status) {
   release(&watched);
 }
 
-static void test_last_good_state(no_state) {
+TEST(test_last_good_state) {
   struct rope rope = {NULL, 0, 0};
   build_rope(0, &rope);
   compare(&rope, 0.01, HOOKE_OK);
@@ -218,16 +218,9 @@ static void test_last_good_state(no_state) {
   hooke_system_destroy(rope.system);
 }
 
-static void test_stops(no_state) {
+TEST(test_stops) {
   struct rope rope = {NULL, 40, 0};
   build_rope(1, &rope);
   compare(&rope, 0.01, HOOKE_STOPPED);
   hooke_system_destroy(rope.system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_memory_of_a_cloth),
-                                     cmocka_unit_test(test_memory_without_order),
-                                     cmocka_unit_test(test_last_good_state), cmocka_unit_test(test_stops)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -101,7 +101,7 @@ static double period(double amplitude) {
   return 2.0 * M_PI / sqrt(G) / a;
 }
 
-static void test_period(no_state) {
+TEST(test_period) {
   const char *tight[] = {"cvode-adams", "cvode-bdf", "rk8pd", "arkode-esdirk"};
   for (int k = 0; k < 4; k++) {
     struct problem p = pendulum;
@@ -123,7 +123,7 @@ static double error_at(const struct problem *problem, const char *method, double
 
 /* Every fixed-step method has the order that it has for particles, with and without damping, also where df/dv
  * is not symmetric. */
-static void test_orders(no_state) {
+TEST(test_orders) {
   const struct problem *problems[] = {&pendulum, &oscillator, &charge, &rods};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -142,7 +142,7 @@ static void test_orders(no_state) {
   }
 }
 
-static void test_double_pendulum(no_state) {
+TEST(test_double_pendulum) {
   struct problem p = rods;
   double by_rk4[8], by_cvode[8], start[4] = {2.0, 1.0, 0.0, 0.0};
   run_problem(&p, (struct run){.method = "rk4", .step = 1e-3, .duration = 5.0}, by_rk4);
@@ -154,7 +154,7 @@ static void test_double_pendulum(no_state) {
 }
 
 /* The numbers that fill up the last row of three change nothing: four pendulums are one, four times. */
-static void test_sizes(no_state) {
+TEST(test_sizes) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method) || is_implicit(method)) continue;
@@ -171,7 +171,7 @@ static void test_sizes(no_state) {
   }
 }
 
-static void test_outcomes(no_state) {
+TEST(test_outcomes) {
   struct problem swings = pendulum, rises = pendulum;
   hooke_integrator *it;
   hooke_state *state;
@@ -204,7 +204,7 @@ static void check_refused(int64_t size, hooke_force *force, int64_t count, doubl
   check_message(message);
 }
 
-static void test_refusals(no_state) {
+TEST(test_refusals) {
   struct problem p = pendulum;
   owned_integrator *it;
   hooke_state *state, *other;
@@ -232,7 +232,7 @@ static int32_t save_and_stop(int64_t step, const hooke_state *state, void *ctx) 
 }
 
 /* A run goes on from a checkpoint with the bits of one that was not interrupted. */
-static void test_checkpoints(no_state) {
+TEST(test_checkpoints) {
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "implicit-midpoint"};
   for (int k = 0; k < 4; k++) {
     struct problem p = rods, heavier = rods;
@@ -260,14 +260,4 @@ static void test_checkpoints(no_state) {
     hooke_integrator_destroy(it);
     unlink("second_order.checkpoint");
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_period),          cmocka_unit_test(test_orders),
-      cmocka_unit_test(test_double_pendulum), cmocka_unit_test(test_sizes),
-      cmocka_unit_test(test_outcomes),        cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_checkpoints),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,7 +30,7 @@ static double part_left(double z) {
 
 /* From z = 1e-3 to 1e4 a half step: the relative velocity is what the formula says, falls as z rises, and
  * never grows nor changes its sign. */
-static void factor_is_the_formula(no_state) {
+TEST(factor_is_the_formula) {
   double before = 1.0;
   for (int k = 0; k <= 140; k++) {
     const double z = pow(10.0, -3.0 + k / 20.0), factor = 1.0 / (1.0 + z + z * z / 2.0);
@@ -49,7 +49,7 @@ static double total(const hooke_system *system, hooke_state *state) {
 }
 
 /* Momentum and moment of momentum stay to rounding, and the energy falls. */
-static void momentum_stays(no_state) {
+TEST(momentum_stays) {
   const double dampings[] = {1e-3, 1.0, 1e3, 1e6};
   for (int k = 0; k < 4; k++) {
     owned_system *system = small_net((uint64_t)(k + 1), dampings[k], 1e-6, 0);
@@ -73,7 +73,7 @@ static void momentum_stays(no_state) {
 
 /* Stable up to 2/omega of the frozen springs, however strong the damping is; and not above, where it is weak.
  * */
-static void damping_leaves_the_limit(no_state) {
+TEST(damping_leaves_the_limit) {
   if (!hooke_build_fact("lapack")[0]) skip();
   const double dampings[] = {0.0, 1e-3, 0.1, 10.0, 1e4};
   for (int k = 0; k < 5; k++) {
@@ -116,7 +116,7 @@ static int32_t brake(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* After the first sweep, and the predicted velocity; one that stops leaves the state as it was. */
-static void callback_sees_the_predicted_velocity(no_state) {
+TEST(callback_sees_the_predicted_velocity) {
   const double q[] = {0, 0, 0}, v[] = {1, 0, 0}, h = 0.25, drag = 0.8;
   struct witness witness = {0};
   owned_system *system = small_system(1, q, v, 1.0, 0);
@@ -138,7 +138,7 @@ static void callback_sees_the_predicted_velocity(no_state) {
 }
 
 /* A cable that goes slack is not pushed: its damper takes no more than its tension. */
-static void cables_never_push(no_state) {
+TEST(cables_never_push) {
   const double q[] = {0, 0, 0, 1.1, 0, 0}, v[] = {0, 0, 0, -5, 0, 0}, h = 1e-3, kappa = 10.0;
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, v, 1.0, 1);
@@ -152,13 +152,4 @@ static void cables_never_push(no_state) {
   check_ok(hooke_integrator_step(integrator, state, 40));
   check_close(hooke_state_velocity(state)[3], -5.0, 2.0 * h * kappa * 0.1);
   check_close(hooke_state_position(state)[3], 1.1 - 40.0 * h * 5.0, 1e-3);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(factor_is_the_formula),    cmocka_unit_test(momentum_stays),
-      cmocka_unit_test(damping_leaves_the_limit), cmocka_unit_test(callback_sees_the_predicted_velocity),
-      cmocka_unit_test(cables_never_push),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

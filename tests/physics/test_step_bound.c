@@ -22,7 +22,7 @@ static hooke_system *build_cloth10(void) {
 }
 
 /* A bound is never above the limit, and not far below it. */
-static void symplectic_euler_is_bounded_from_both_sides(no_state) {
+TEST(symplectic_euler_is_bounded_from_both_sides) {
   owned_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
   check_between(bound_at_start(net6, "symplectic-euler"), 0.5 * 0.13162450213044632, 0.13162450213044632);
   check_between(bound_at_start(cloth10, "symplectic-euler"), 0.8 * 0.003058102791710135,
@@ -32,7 +32,7 @@ static void symplectic_euler_is_bounded_from_both_sides(no_state) {
 }
 
 /* From the largest frequencies, computed independently; those of net6 and cloth10 are far from overdamped. */
-static void verlet_and_rk4_are_bounded_from_both_sides(no_state) {
+TEST(verlet_and_rk4_are_bounded_from_both_sides) {
   owned_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
   check_between(bound_at_start(net6, "verlet"), 0.5 * 0.136435852341, 0.136435852341);
   check_between(bound_at_start(net6, "rk4"), 0.5 * 0.197249285762, 0.197249285762);
@@ -41,7 +41,7 @@ static void verlet_and_rk4_are_bounded_from_both_sides(no_state) {
   assert_true(isinf(bound_at_start(net6, "backward-euler")));
 }
 
-static void forward_euler_needs_damping(no_state) {
+TEST(forward_euler_needs_damping) {
   owned_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
   /* springs of net6 are stretched, and nothing damps motion across a stretched spring */
   check_between(bound_at_start(net6, "forward-euler"), 0.0, 0.0);
@@ -50,7 +50,7 @@ static void forward_euler_needs_damping(no_state) {
 }
 
 /* One mass on an undamped spring to a pinned end: the bound is the limit, 2/omega, exactly. */
-static void one_spring_is_sharp(no_state) {
+TEST(one_spring_is_sharp) {
   const double omega = 7.0;
   owned_system *system = small_oscillator(omega);
   check_close(bound_at_start(system, "symplectic-euler"), 2.0 / omega, 1e-11);
@@ -60,7 +60,7 @@ static void one_spring_is_sharp(no_state) {
   assert_true(isinf(bound_at_start(system, "cvode-bdf")));
 }
 
-static void all_at_once_are_those_one_by_one(no_state) {
+TEST(all_at_once_are_those_one_by_one) {
   owned_system *cloth10 = build_cloth10();
   owned_state *state;
   double bounds[32];
@@ -73,7 +73,7 @@ static void all_at_once_are_those_one_by_one(no_state) {
   }
 }
 
-static void nothing_to_bound(no_state) {
+TEST(nothing_to_bound) {
   const double place[3] = {0.0, 0.0, 0.0};
   owned_system *falling = small_system(1, place, NULL, 1.0, 0), *open = NULL;
   check_ok(hooke_system_set_drag(falling, 0.25));
@@ -89,17 +89,4 @@ static void nothing_to_bound(no_state) {
   check_message("no-such-method");
   open = new_system();
   check_status(hooke_step_bound(open, "symplectic-euler", place, &bound), HOOKE_BAD_CALL);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(symplectic_euler_is_bounded_from_both_sides),
-      cmocka_unit_test(verlet_and_rk4_are_bounded_from_both_sides),
-      cmocka_unit_test(forward_euler_needs_damping),
-      cmocka_unit_test(one_spring_is_sharp),
-
-      cmocka_unit_test(all_at_once_are_those_one_by_one),
-      cmocka_unit_test(nothing_to_bound),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -62,7 +62,7 @@ static void check_counts(const hooke_system *system, int64_t n) {
   free(ends);
 }
 
-static void a_straight_strand_winds_about_its_axis(no_state) {
+TEST(a_straight_strand_winds_about_its_axis) {
   enum { SEGMENTS = 9, N = 2 * SEGMENTS + 1 };
   owned_options *options = strand_options(SEGMENTS, 0.0, 0.0);
   owned_system *system = new_strand(options);
@@ -94,7 +94,7 @@ static void a_straight_strand_winds_about_its_axis(no_state) {
   }
 }
 
-static void a_curl_is_a_helix(no_state) {
+TEST(a_curl_is_a_helix) {
   enum { SEGMENTS = 20, N = SEGMENTS + 1 };
   for (int left = 0; left <= 1; left++) {
     owned_options *options = strand_options(SEGMENTS, 0.2, left ? -2.5 : 2.5);
@@ -122,7 +122,7 @@ static void a_curl_is_a_helix(no_state) {
 }
 
 /* The shortest strands: no springs that would need more particles. */
-static void short_strands(no_state) {
+TEST(short_strands) {
   hooke_options *options = strand_options(1, 0.0, 0.0);
   hooke_system *system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 3);
@@ -138,20 +138,10 @@ static void short_strands(no_state) {
   hooke_options_destroy(options);
 }
 
-static void ends_are_pinned_by_name(no_state) {
+TEST(ends_are_pinned_by_name) {
   owned_options *options = strand_options(4, 0.0, 0.0);
   check_ok(hooke_options_set_text(options, "pinned", "end,start,1"));
   owned_system *system = new_strand(options);
   for (int k = 0; k < 9; k++)
     assert_true((hooke_system_inverse_mass(system)[k] == 0.0) == (k == 0 || k == 1 || k == 8));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_straight_strand_winds_about_its_axis),
-      cmocka_unit_test(a_curl_is_a_helix),
-      cmocka_unit_test(short_strands),
-      cmocka_unit_test(ends_are_pinned_by_name),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,7 +69,7 @@ static void check_rows(const struct reference *reference, const struct reference
   assert_true(judged >= 8);
 }
 
-static void errors_are_true(no_state) {
+TEST(errors_are_true) {
   for (int r = 0; r < REFERENCE_COUNT; r++) {
     for (int64_t s = 0; s < references[r].state_count; s++) {
       const struct reference_state *expected = &references[r].state[s];
@@ -84,7 +84,7 @@ static void errors_are_true(no_state) {
 }
 
 /* The agreement is the error of the reference, within a factor. */
-static void agreement_is_honest(no_state) {
+TEST(agreement_is_honest) {
   for (int r = 0; r < REFERENCE_COUNT; r++) {
     owned_system *system = build_reference(&references[r]);
     owned_measurement *study = start_study(system, "cvode-adams", references[r].state[0].time, 0.0, 0.0);
@@ -101,7 +101,7 @@ static void agreement_is_honest(no_state) {
 
 /* ---- orders ---- */
 
-static void orders_are_those_of_the_theory(no_state) {
+TEST(orders_are_those_of_the_theory) {
   const char *smooth[] = {"six-particles", "oscillator"};
   for (int r = 0; r < 2; r++) {
     owned_system *system = build_reference(find_reference(smooth[r]));
@@ -128,7 +128,7 @@ static void orders_are_those_of_the_theory(no_state) {
 
 /* ---- ladders ---- */
 
-static void ladders_go_from_coarse_to_fine(no_state) {
+TEST(ladders_go_from_coarse_to_fine) {
   owned_system *system = build_reference(find_reference("oscillator"));
   owned_measurement *study = start_study(system, NULL, 1.0, 0.1, 0.0);
   check_ok(hooke_measurement_run(study, NULL));
@@ -153,7 +153,7 @@ static void ladders_go_from_coarse_to_fine(no_state) {
   }
 }
 
-static void bad_requests(no_state) {
+TEST(bad_requests) {
   hooke_system *system = build_reference(find_reference("oscillator"));
   hooke_options *run = run_options((struct run){.step = 0.01}), *options;
   hooke_measurement *study = NULL;
@@ -183,7 +183,7 @@ static void bad_requests(no_state) {
 
 /* ---- the recommendation ---- */
 
-static void recommendations_hold(no_state) {
+TEST(recommendations_hold) {
   const struct reference *reference = find_reference("six-particles");
   const struct reference_state *expected = NULL;
   for (int64_t s = 0; s < reference->state_count; s++) {
@@ -228,7 +228,7 @@ static void recommendations_hold(no_state) {
 
 /* ---- chaos ---- */
 
-static void chaos_is_trusted_for_a_while(no_state) {
+TEST(chaos_is_trusted_for_a_while) {
   owned_system *system = small_crumpling_cloth(6);
   owned_measurement *study = start_study(system, "symplectic-euler", 4.0, 0.1, 0.0);
   check_ok(hooke_measurement_run(study, NULL));
@@ -266,7 +266,7 @@ static int32_t listen(double done, const char *what, void *ctx) {
 
 /* The reported fraction is that of the whole study: it never decreases, not where one run ends and the next
  * begins. */
-static void progress_is_of_the_whole_study(no_state) {
+TEST(progress_is_of_the_whole_study) {
   owned_system *system = build_reference(find_reference("rope-12"));
   owned_measurement *study = start_study(system, NULL, 1.0, 0.05, 1e-3);
   struct told told = {.last = 0.0};
@@ -281,7 +281,7 @@ static void progress_is_of_the_whole_study(no_state) {
 
 /* Half a second is too short for the first frame of a very long run, and a minute is enough for all of a
  * short one. */
-static void a_budget_binds_the_reference(no_state) {
+TEST(a_budget_binds_the_reference) {
   const double every[] = {1e5, 0.05};
   for (int k = 0; k < 2; k++) {
     hooke_system *system = small_crumpling_cloth(6);
@@ -318,7 +318,7 @@ static int32_t stop_after_some(double done, const char *what, void *ctx) {
                                                          : 0; /* one a frame, and now and then one between */
 }
 
-static void a_stopped_study_keeps_its_rows(no_state) {
+TEST(a_stopped_study_keeps_its_rows) {
   owned_system *system = build_reference(find_reference("oscillator"));
   owned_measurement *study = start_study(system, NULL, 5.0, 0.5, 1e-3);
   int64_t calls = 0;
@@ -335,7 +335,7 @@ static void a_stopped_study_keeps_its_rows(no_state) {
 }
 
 /* Rows that run in parallel give the same numbers as one after the other, and stop when asked to. */
-static void rows_side_by_side_are_the_same(no_state) {
+TEST(rows_side_by_side_are_the_same) {
   hooke_system *system = build_reference(find_reference("oscillator"));
   hooke_measurement *study[3] = {NULL};
   for (int k = 0; k < 3; k++) {
@@ -373,21 +373,4 @@ static void rows_side_by_side_are_the_same(no_state) {
   for (int k = 0; k < 3; k++)
     hooke_measurement_destroy(study[k]);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_side_by_side_are_the_same),
-      cmocka_unit_test(errors_are_true),
-      cmocka_unit_test(agreement_is_honest),
-      cmocka_unit_test(orders_are_those_of_the_theory),
-      cmocka_unit_test(ladders_go_from_coarse_to_fine),
-      cmocka_unit_test(bad_requests),
-      cmocka_unit_test(recommendations_hold),
-      cmocka_unit_test(chaos_is_trusted_for_a_while),
-      cmocka_unit_test(progress_is_of_the_whole_study),
-      cmocka_unit_test(a_budget_binds_the_reference),
-      cmocka_unit_test(a_stopped_study_keeps_its_rows),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,7 +63,7 @@ static double error_in(const hooke_measurement *study, const char *quantity) {
 
 /* For the oscillator x(t) = cos(w t), by the known error of verlet: its period has a relative error of (w
  * h)^2/24. */
-static void errors_of_what_is_watched_are_true(no_state) {
+TEST(errors_of_what_is_watched_are_true) {
   const double omega = 6.0, h = 0.01, period = 2.0 * 3.14159265358979323846 / omega;
   owned_system *system = small_oscillator(omega);
   owned_measurement *study = start(system, (struct study){.duration = 10.0,
@@ -182,7 +182,7 @@ static void test_ensembles(hooke_system *system, struct study s, const char *met
   hooke_system_destroy(system);
 }
 
-static void a_pendulum_has_statistics(no_state) {
+TEST(a_pendulum_has_statistics) {
   test_ensembles(double_pendulum(),
                  (struct study){.duration = 30.0,
                                 .every = 0.1,
@@ -194,7 +194,7 @@ static void a_pendulum_has_statistics(no_state) {
                  "cvode-adams", "backward-euler");
 }
 
-static void a_crumpling_cloth_has_statistics(no_state) {
+TEST(a_crumpling_cloth_has_statistics) {
   test_ensembles(small_crumpling_cloth(4),
                  (struct study){.duration = 5.0,
                                 .every = 0.1,
@@ -206,7 +206,7 @@ static void a_crumpling_cloth_has_statistics(no_state) {
                  "cvode-adams", "backward-euler");
 }
 
-static void the_seed_decides(no_state) {
+TEST(the_seed_decides) {
   owned_system *system = double_pendulum();
   double mean[3];
   for (int k = 0; k < 3; k++) {
@@ -289,7 +289,7 @@ static void check_noise(const struct starts *starts, double noise) {
   check_between(torn, 0.0, 1e-3 * noise);
 }
 
-static void the_noise_is_what_it_is_said_to_be(no_state) {
+TEST(the_noise_is_what_it_is_said_to_be) {
   struct starts starts = {.last = 0.0};
   owned_system *system = chain_and_plate(&starts);
   owned_measurement *study = start(
@@ -301,7 +301,7 @@ static void the_noise_is_what_it_is_said_to_be(no_state) {
   check_noise(&starts, hooke_measurement_number(study, "ensemble", 0, "noise"));
 }
 
-static void one_start_is_refused(no_state) {
+TEST(one_start_is_refused) {
   owned_system *system = double_pendulum();
   owned_options *run = run_options((struct run){.duration = 1.0}), *options;
   hooke_measurement *study = NULL;
@@ -314,12 +314,4 @@ static void one_start_is_refused(no_state) {
     check_status(hooke_measurement_create("study", system, run, options, &study), HOOKE_BAD_VALUE);
     check_message("particles 0 to 2");
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(errors_of_what_is_watched_are_true), cmocka_unit_test(a_pendulum_has_statistics),
-      cmocka_unit_test(a_crumpling_cloth_has_statistics),   cmocka_unit_test(the_seed_decides),
-      cmocka_unit_test(the_noise_is_what_it_is_said_to_be), cmocka_unit_test(one_start_is_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

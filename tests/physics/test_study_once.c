@@ -70,8 +70,7 @@ static double true_error(const struct reference *reference, const hooke_system *
   return sqrt(sum / count);
 }
 
-static void errors_are_true_errors(void **unused) {
-  (void)unused;
+TEST(errors_are_true_errors) {
   const struct reference *reference = find_reference("six-particles");
   hooke_system *system = build_reference(reference);
   const struct run run = {.step = 1e-3, .duration = 1.0, .every = 0.1};
@@ -111,8 +110,7 @@ static void errors_are_true_errors(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void a_diverged_row_stays(void **unused) {
-  (void)unused;
+TEST(a_diverged_row_stays) {
   hooke_system *system = small_oscillator(100.0);
   hooke_measurement *study = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5},
                                      "symplectic-euler, cvode-adams");
@@ -142,8 +140,7 @@ static int32_t stop_at_second(double done, const char *what, void *ctx) {
   return strcmp(what, seen->method) != 0 ? 7 : 0;
 }
 
-static void progress_goes_on_and_stops(void **unused) {
-  (void)unused;
+TEST(progress_goes_on_and_stops) {
   hooke_system *system = small_oscillator(10.0);
   hooke_measurement *study =
       compare(system, (struct run){.step = 1e-3, .duration = 2.0, .every = 0.1}, "verlet,rk4,heun");
@@ -160,8 +157,7 @@ static void progress_goes_on_and_stops(void **unused) {
   hooke_system_destroy(system);
 }
 
-static void bad_requests(void **unused) {
-  (void)unused;
+TEST(bad_requests) {
   hooke_system *system = small_oscillator(10.0);
   const struct run run = {.step = 1e-3, .duration = 1.0};
   hooke_measurement *study = compare(system, run, NULL);
@@ -189,8 +185,7 @@ static hooke_system *oscillator_of_length(double length) {
   return system;
 }
 
-static void errors_scale_with_the_scene(void **unused) {
-  (void)unused;
+TEST(errors_scale_with_the_scene) {
   const double length[] = {1.0, 1e-6, 1e-9};
   double share[3];
   for (int k = 0; k < 3; k++) {
@@ -212,8 +207,7 @@ static void errors_scale_with_the_scene(void **unused) {
 }
 
 /* Chaotic motion is compared as long as the reference is known, and no further. */
-static void chaos_is_compared_for_a_while(void **unused) {
-  (void)unused;
+TEST(chaos_is_compared_for_a_while) {
   hooke_system *system = small_crumpling_cloth(4);
   hooke_measurement *study =
       compare(system, (struct run){.step = 1e-3, .duration = 6.0, .every = 0.1}, "rk4");
@@ -234,8 +228,7 @@ static void chaos_is_compared_for_a_while(void **unused) {
 }
 
 /* A row has all threads, and no other runs beside it. */
-static void threads_are_those_of_the_run(void **unused) {
-  (void)unused;
+TEST(threads_are_those_of_the_run) {
   hooke_system *system = small_oscillator(10.0);
   hooke_measurement *study = compare(
       system, (struct run){.step = 1e-3, .duration = 1.0, .every = 0.1, .threads = 2}, "verlet,rk4,heun");
@@ -247,14 +240,4 @@ static void threads_are_those_of_the_run(void **unused) {
     check_close(hooke_measurement_number(study, "rows", k, "timed_alone"), 1.0, 0.0);
   hooke_measurement_destroy(study);
   hooke_system_destroy(system);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(errors_are_true_errors),       cmocka_unit_test(a_diverged_row_stays),
-      cmocka_unit_test(progress_goes_on_and_stops),   cmocka_unit_test(bad_requests),
-      cmocka_unit_test(errors_scale_with_the_scene),  cmocka_unit_test(chaos_is_compared_for_a_while),
-      cmocka_unit_test(threads_are_those_of_the_run),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

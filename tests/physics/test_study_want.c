@@ -121,7 +121,7 @@ static double true_error(const hooke_system *system, const hooke_measurement *st
 
 /* A study for the tightest of these wants: looser ones are then met as well, and each recommendation holds.
  */
-static void every_want_is_met(no_state) {
+TEST(every_want_is_met) {
   const double wants[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
   for (int s = 0; s < SCENES; s++) {
     owned_system *system = scenes[s].make();
@@ -146,7 +146,7 @@ static void every_want_is_met(no_state) {
 
 /* A long rope with one free end, which errs about twice as much as the whole in the mean: the want is met by the
  * end, too, and the mean is so far below it that it cannot have been what was judged. */
-static void a_want_is_met_by_every_particle(no_state) {
+TEST(a_want_is_met_by_every_particle) {
   const double wants[] = {1e-4, 1e-3};
   const double until = 0.5;
   owned_system *system =
@@ -166,7 +166,7 @@ static void a_want_is_met_by_every_particle(no_state) {
 }
 
 /* So far from the origin that positions cannot hold the motion, no error is known, and none is said to be 0. */
-static void no_error_is_known_far_away(no_state) {
+TEST(no_error_is_known_far_away) {
   static const char *const errors[] = {"error", "error_max", "error_final", "energy_drift"};
   const struct {
     double away, want, least; /* every error that is told is at least that */
@@ -197,7 +197,7 @@ static void no_error_is_known_far_away(no_state) {
 }
 
 /* Steps that are all too coarse, and tolerances: the search continues to values as fine as the reference. */
-static void none_is_not_said_before_the_finest(no_state) {
+TEST(none_is_not_said_before_the_finest) {
   owned_system *system = pendulum_of_three();
   owned_options *run = run_options((struct run){.duration = 4.0, .every = 0.5}), *options;
   hooke_measurement *study = NULL;
@@ -221,7 +221,7 @@ static void none_is_not_said_before_the_finest(no_state) {
 
 /* An oscillator of 1 rad/s by verlet: the limit is 2 s; the error scales with the third power of the
  * frequency, so that 10 % more stiffness makes it 15 % larger, and with the amplitude. */
-static void margins_are_those_of_an_oscillator(no_state) {
+TEST(margins_are_those_of_an_oscillator) {
   owned_system *system = small_oscillator(1.0);
   owned_measurement *study = made_study(system, "verlet", 4.0, 0.5, 0.0);
   const int64_t row = hooke_measurement_row_count(study, "rows") - 2;
@@ -290,7 +290,7 @@ static double norm_of(int rows, const double *column[BASIS]) {
 }
 
 /* A pendulum of two springs: no more than the bound, which random displacements stay below. */
-static void growth_is_bounded(no_state) {
+TEST(growth_is_bounded) {
   enum { FRAMES = 21 };
   const double length = 1e-6;
   const struct run run = {
@@ -321,7 +321,7 @@ static void growth_is_bounded(no_state) {
 
 /* ---- reasons for not judging the whole run ---- */
 
-static void the_reason_is_the_true_one(no_state) {
+TEST(the_reason_is_the_true_one) {
   owned_system *system = pendulum_of_three();
   check_ok(hooke_system_commit(system));
   /* 6 s are known to a millimetre, and 10 s not to 10 nm: rounding grows beyond that */
@@ -335,17 +335,4 @@ static void the_reason_is_the_true_one(no_state) {
   check_between(hooke_measurement_number(study, "reference", 0, "agreement"), 1e-14, 1e-9);
   assert_true(hooke_measurement_number(study, "study", 0, "budget_spent") == 0.0);
   hooke_measurement_destroy(study);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_want_is_met),
-      cmocka_unit_test(a_want_is_met_by_every_particle),
-      cmocka_unit_test(no_error_is_known_far_away),
-      cmocka_unit_test(none_is_not_said_before_the_finest),
-      cmocka_unit_test(margins_are_those_of_an_oscillator),
-      cmocka_unit_test(growth_is_bounded),
-      cmocka_unit_test(the_reason_is_the_true_one),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

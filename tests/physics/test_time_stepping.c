@@ -32,7 +32,7 @@ static hooke_state *start_at_one(int64_t size) {
   return state;
 }
 
-static void test_real_factor(no_state) {
+TEST(test_real_factor) {
   const double rates[] = {-1.0, -3.7, 0.25, -19.0, 2.0, 0.0};
   const double h = 0.1;
   for (size_t k = 0; k < sizeof rates / sizeof rates[0]; k++) {
@@ -52,7 +52,7 @@ static void test_real_factor(no_state) {
   }
 }
 
-static void test_complex_factor(no_state) {
+TEST(test_complex_factor) {
   struct rate a = {-0.8, 5.0, 0};
   const double h = 0.05, real = 1.0 + a.real * h, imaginary = a.imaginary * h;
   owned_integrator *integrator =
@@ -97,7 +97,7 @@ static int32_t takes_first_order(const char *method) {
   return status;
 }
 
-static void test_every_method(no_state) {
+TEST(test_every_method) {
   int64_t taken = 0;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -128,20 +128,8 @@ static void test_every_method(no_state) {
   assert_true(taken >= 1);
 }
 
-static void test_symplectic_euler_refuses(no_state) {
+TEST(test_symplectic_euler_refuses) {
   assert_int_equal(takes_first_order("symplectic-euler"), HOOKE_UNSUITED);
   check_message("symplectic-euler");
   check_message("positions and velocities");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_real_factor),
-      cmocka_unit_test(test_complex_factor),
-
-      cmocka_unit_test(test_every_method),
-      cmocka_unit_test(test_symplectic_euler_refuses),
-
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,7 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
 }
 
 /* The force at the end of a step is that of the next one's start, unless velocities are in it. */
-static void force_evaluations(no_state) {
+TEST(force_evaluations) {
   const struct expense expenses[] = {{"plain", 0, 0, 0, "auto", 1, 1},
                                      {"plain", 0, 0, 0, "explicit", 1, 1},
                                      {"drag", 0, 0.5, 0, "implicit", 1, 1},
@@ -84,7 +84,7 @@ static int32_t brake(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* It sees the predicted velocity at the second kick. All numbers are binary fractions. */
-static void callback_sees_the_predicted_velocity(no_state) {
+TEST(callback_sees_the_predicted_velocity) {
   const double q[] = {0, 0, 0}, v[] = {1, 0, 0};
   struct witness witness = {0};
   owned_system *system = small_system(1, q, v, 1.0, 0);
@@ -120,7 +120,7 @@ static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) 
 }
 
 /* Steps of the scalar formula: in the spring explicit and solved for, in the ether a division. */
-static void one_step_is_the_formula(no_state) {
+TEST(one_step_is_the_formula) {
   const double omega = 3.0, zeta = 0.4, h = 0.3, c = 2.0 * zeta * omega;
   for (int how = 0; how < 3; how++) {
     owned_system *system = damped_oscillator(omega, zeta, how == 2);
@@ -141,7 +141,7 @@ static void one_step_is_the_formula(no_state) {
 }
 
 /* A scene that has come to rest: velocities whose squares underflow are damped like any other. */
-static void hardly_any_velocity(no_state) {
+TEST(hardly_any_velocity) {
   const double q[] = {0, 0, 0, 1, 0, 0}, h = 0.1, gamma = 2.0;
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
@@ -176,7 +176,7 @@ static double largest_explicit(const hooke_system *system) {
 }
 
 /* At its largest step nothing grows, however strong the damping is, and the choice is made by the step. */
-static void explicit_damping_is_stable(no_state) {
+TEST(explicit_damping_is_stable) {
   const double dampings[] = {1e-3, 0.1, 1.0, 10.0, 1e3};
   for (int k = 0; k < 10; k++) {
     owned_system *system = small_net((uint64_t)(k + 1), dampings[k % 5], 0.0, 1);
@@ -205,7 +205,7 @@ static void explicit_damping_is_stable(no_state) {
 }
 
 /* Where a damper depends on more than a direction no step is known to be stable. */
-static void damped_cables_are_solved_for(no_state) {
+TEST(damped_cables_are_solved_for) {
   const double q[] = {0, 0, 0, 1.5, 0, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
@@ -243,7 +243,7 @@ static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
 
 /* A stiff elastic pendulum, nonlinear and without damping: energy oscillates without drift over 100 000
  * steps. */
-static void energy_stays_bounded(no_state) {
+TEST(energy_stays_bounded) {
   owned_system *system = build_reference(find_reference("elastic-pendulum"));
   struct energies e = {.system = system, .steps = 100000};
   owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 4e-3});
@@ -256,17 +256,4 @@ static void energy_stays_bounded(no_state) {
       fabs(e.first) + hooke_system_energy(system, "kinetic", NULL, hooke_state_velocity(state));
   check_between(e.half[0], 1e-6 * weight, 0.05 * weight);
   check_between(e.half[1] / e.half[0], 0.8, 1.2);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(force_evaluations),
-      cmocka_unit_test(callback_sees_the_predicted_velocity),
-      cmocka_unit_test(one_step_is_the_formula),
-      cmocka_unit_test(energy_stays_bounded),
-      cmocka_unit_test(hardly_any_velocity),
-      cmocka_unit_test(explicit_damping_is_stable),
-      cmocka_unit_test(damped_cables_are_solved_for),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static int32_t watch_run(const char *method, double step, struct warned *warned,
   return status;
 }
 
-static void test_warnings(no_state) {
+TEST(test_warnings) {
   const struct {
     const char *method;
     double step;
@@ -76,13 +76,13 @@ static void test_warnings(no_state) {
   }
 }
 
-static void test_a_warning_may_stop_the_run(no_state) {
+TEST(test_a_warning_may_stop_the_run) {
   struct warned warned = {.answer = 7};
   check_status(watch_run("verlet", 0.192, &warned, NULL), HOOKE_STOPPED);
   check_message("warning callback returned 7");
 }
 
-static void test_a_watch_changes_no_bits(no_state) {
+TEST(test_a_watch_changes_no_bits) {
   double watched[6], alone[6];
   struct warned warned = {.count = 0};
   check_ok(watch_run("symplectic-euler", 0.192, &warned, watched));
@@ -92,7 +92,7 @@ static void test_a_watch_changes_no_bits(no_state) {
 }
 
 /* Each kind once a run, and again in the next run. */
-static void test_once_a_run(no_state) {
+TEST(test_once_a_run) {
   struct warned warned = {.count = 0};
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(
@@ -107,14 +107,4 @@ static void test_once_a_run(no_state) {
   owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(warned.count, 2);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_warnings),
-      cmocka_unit_test(test_a_warning_may_stop_the_run),
-      cmocka_unit_test(test_a_watch_changes_no_bits),
-      cmocka_unit_test(test_once_a_run),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -118,7 +118,7 @@ static void check_callback(hooke_system *system, struct run run, const char *wor
 
 /* NaN from a time on; infinite beyond a position; from fixed steps, from stages within steps, from a solver.
  */
-static void test_force_callbacks(no_state) {
+TEST(test_force_callbacks) {
   needs_lapack();
   const struct run runs[] = {
       {.method = "symplectic-euler", .step = 0.01, .duration = 3.0, .every = 0.5},
@@ -145,7 +145,7 @@ static void test_force_callbacks(no_state) {
   check_callback(system, runs[0], "force callback", 0.6, 0.3, 1);
 }
 
-static void test_drive_callback(no_state) {
+TEST(test_drive_callback) {
   needs_lapack();
   struct fault fault = {.from = 0.995, .value = NAN};
   const int64_t first = 0;
@@ -164,7 +164,7 @@ static int32_t cubic_force(int64_t n, double t, const double *q, const double *v
   return 0;
 }
 
-static void test_innocent_callback(no_state) {
+TEST(test_innocent_callback) {
   needs_lapack();
   owned_system *system = row(1);
   check_ok(hooke_system_set_force(system, cubic_force, NULL, NULL));
@@ -183,7 +183,7 @@ static void test_innocent_callback(no_state) {
 
 /* sqrt(k/m) = 10: the limit is 0.2; the growth of symplectic Euler is known, and so is the step that
  * overflows. */
-static void test_numbers_of_an_oscillator(no_state) {
+TEST(test_numbers_of_an_oscillator) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
   owned_integrator *every_step = start_run(
@@ -233,7 +233,7 @@ static void test_numbers_of_an_oscillator(no_state) {
 }
 
 /* Repeating the steps and trying advice leaves the integrator unchanged. */
-static void test_asking_changes_nothing(no_state) {
+TEST(test_asking_changes_nothing) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
   const struct run run = {.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21};
@@ -251,7 +251,7 @@ static void test_asking_changes_nothing(no_state) {
 
 /* Error-controlled methods with tolerances a thousand times the motion: energy creeps up until it is too
  * much. */
-static void test_tolerances_that_are_too_loose(no_state) {
+TEST(test_tolerances_that_are_too_loose) {
   needs_lapack();
   const char *const methods[] = {"cvode-adams", "rk8pd"};
   for (int k = 0; k < 2; k++) {
@@ -281,7 +281,7 @@ static int32_t escaping_force(int64_t n, double t, const double *q, const double
   return 0;
 }
 
-static void test_solvers_that_give_up(no_state) {
+TEST(test_solvers_that_give_up) {
   needs_lapack();
   const struct run runs[] = {
       {.method = "cvode-adams", .duration = 100.0},
@@ -313,7 +313,7 @@ static void test_solvers_that_give_up(no_state) {
 
 /* A step above the limit of 0.2 s, and the same force, which no step gets past: the step that the limit gives comes
  * last, and its words own up to that. */
-static void test_a_step_that_is_not_enough(no_state) {
+TEST(test_a_step_that_is_not_enough) {
   needs_lapack();
   const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 60, 0};
   const int64_t ends[] = {0, 1};
@@ -339,7 +339,7 @@ static void test_a_step_that_is_not_enough(no_state) {
       "a step of 0.01 s, below the limit, which is not enough (tried: the run ends early with it, too)");
 }
 
-static void test_kept_state_that_is_not_finite(no_state) {
+TEST(test_kept_state_that_is_not_finite) {
   owned_system *system = small_oscillator(10.0);
   owned_options *options = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 1.0});
   owned_state *first = start_state(system), *last = start_state(system);
@@ -355,7 +355,7 @@ static void test_kept_state_that_is_not_finite(no_state) {
 }
 
 /* A loop of the caller's own has no duration. */
-static void test_own_loop(no_state) {
+TEST(test_own_loop) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3});
@@ -371,7 +371,7 @@ static void test_own_loop(no_state) {
 
 /* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are also
  * stiff across. Advice is then tried from a state shortly before the failure. */
-static void test_trouble_that_comes_late(no_state) {
+TEST(test_trouble_that_comes_late) {
   if (left_out(1, 2)) skip(); /* the code is that of the others, after far fewer steps */
   needs_lapack();
   const double position[] = {-1, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0};
@@ -418,7 +418,7 @@ static int32_t count_down(double done, const char *what, void *ctx) {
 
 /* Stopping at any call, within replays, searches and trials, gives no results; otherwise the callback changes
  * nothing. */
-static void test_progress_ends_it(no_state) {
+TEST(test_progress_ends_it) {
   needs_lapack();
   owned_system *system = row(1);
   check_ok(hooke_system_commit(system));
@@ -454,7 +454,7 @@ static void test_progress_ends_it(no_state) {
 
 /* A call of a callback counts as 50 us, as a script may take: 85 % of 2 s are 34,000 of them, in which the trial of a
  * smaller step does not come to its end. */
-static void test_callbacks_are_not_called_for_ever(no_state) {
+TEST(test_callbacks_are_not_called_for_ever) {
   needs_lapack();
   struct fault none = {.particle = 2, .from = INFINITY};
   owned_system *system = row(1);
@@ -475,7 +475,7 @@ static void test_callbacks_are_not_called_for_ever(no_state) {
 }
 
 /* Without time nothing is claimed but certain facts. */
-static void test_no_time(no_state) {
+TEST(test_no_time) {
   needs_lapack();
   owned_system *system = row(1);
   check_ok(hooke_system_commit(system));
@@ -491,7 +491,7 @@ static void test_no_time(no_state) {
   assert_true(isnan(hooke_measurement_number(why, "why", 0, "limit")));
 }
 
-static void test_nothing_to_explain(no_state) {
+TEST(test_nothing_to_explain) {
   hooke_measurement *why = NULL;
   owned_system *system = small_oscillator(10.0);
   hooke_integrator *integrator =
@@ -523,7 +523,7 @@ static int32_t record(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-static void test_recent_states(no_state) {
+TEST(test_recent_states) {
   enum { STEPS = 20 };
   owned_system *system = small_oscillator(10.0);
   owned_integrator *integrator = start_run(
@@ -546,7 +546,7 @@ static void test_recent_states(no_state) {
 }
 
 /* As many as 16 MB hold, and always the last one: a state of n particles has 48 n bytes. */
-static void test_recent_states_are_few_at_scale(no_state) {
+TEST(test_recent_states_are_few_at_scale) {
   const struct { int64_t n, count; } sizes[] = {{1000, 8}, {60000, 4}, {400000, 1}};
   for (int s = 0; s < 3; s++) {
     const int64_t n = sizes[s].n;
@@ -563,7 +563,7 @@ static void test_recent_states_are_few_at_scale(no_state) {
   }
 }
 
-static void test_without_lapack(no_state) {
+TEST(test_without_lapack) {
   if (has_lapack()) skip();
   hooke_measurement *why = NULL;
   owned_system *system = small_oscillator(10.0);
@@ -592,7 +592,7 @@ static void check_overflow(hooke_system *system, int64_t particle, const char *w
 }
 
 /* Bending and altitude springs of 1e300: the first step overflows, and no spring is blamed. */
-static void test_overflow_without_springs(no_state) {
+TEST(test_overflow_without_springs) {
   needs_lapack();
   const double line[] = {0, 0, 0, 1, 0.5, 0, 2, 0, 0}, coefficient = 1e300;
   const int64_t triple[] = {0, 1, 2}, corners[] = {0, 1, 2, 3};
@@ -605,29 +605,4 @@ static void test_overflow_without_springs(no_state) {
   owned_options *options = options_with("altitude", "stiffness=1e300 rest_scale=1.5");
   check_ok(hooke_system_add_altitude(stiff, "stiff", 1, corners, options));
   check_overflow(stiff, 1, "on 1 kg, with a step of 0.1 s");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_overflow_without_springs),
-      cmocka_unit_test(test_force_callbacks),
-      cmocka_unit_test(test_drive_callback),
-      cmocka_unit_test(test_innocent_callback),
-      cmocka_unit_test(test_numbers_of_an_oscillator),
-      cmocka_unit_test(test_asking_changes_nothing),
-      cmocka_unit_test(test_tolerances_that_are_too_loose),
-      cmocka_unit_test(test_solvers_that_give_up),
-      cmocka_unit_test(test_a_step_that_is_not_enough),
-      cmocka_unit_test(test_kept_state_that_is_not_finite),
-      cmocka_unit_test(test_own_loop),
-      cmocka_unit_test(test_trouble_that_comes_late),
-      cmocka_unit_test(test_progress_ends_it),
-      cmocka_unit_test(test_callbacks_are_not_called_for_ever),
-      cmocka_unit_test(test_no_time),
-      cmocka_unit_test(test_nothing_to_explain),
-      cmocka_unit_test(test_recent_states),
-      cmocka_unit_test(test_recent_states_are_few_at_scale),
-      cmocka_unit_test(test_without_lapack),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Of a cloth of 16 x 16 no spring has 5 % of what grows, so the group is named; of one of 4 x 4 some has. */
-static void test_a_small_share_names_the_group(no_state) {
+TEST(test_a_small_share_names_the_group) {
   if (!HOOKE_HAVE_LAPACK) skip();
   for (int64_t side = 4; side <= 16; side *= 4) {
     owned_system *system = small_cloth(side, 50.0, 0.0);
@@ -24,11 +24,4 @@ static void test_a_small_share_names_the_group(no_state) {
         (strstr(sentence, " % of that motion, first at particle ") != NULL) != small)
       check_failed("%d x %d: %s", (int)side, (int)side, sentence);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_a_small_share_names_the_group),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

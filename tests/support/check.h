@@ -31,9 +31,6 @@
   __attribute__((constructor)) static void add_around_all(void) {                                            \
     check_around_all((set_up), (tear_down));                                                                 \
   }
-/* The parameter of a test that is set up by itself. */
-#define no_state __attribute__((unused)) void **unused
-
 /* The call returned exactly this status; prints the library's message otherwise. */
 #define check_status(call, status) check_status_at((call), (status), #call, __FILE__, __LINE__)
 #define check_ok(call)             check_status((call), HOOKE_OK)

@@ -17,7 +17,7 @@ static hooke_system *damped(double mass) {
   return system;
 }
 
-static void bounds_have_no_scale_of_mass(no_state) {
+TEST(bounds_have_no_scale_of_mass) {
   static const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet", "heun", "rk4"};
   const double mass[] = {ldexp(1.0, -600), ldexp(1.0, 600)};
   owned_system *one = damped(1.0);
@@ -32,7 +32,7 @@ static void bounds_have_no_scale_of_mass(no_state) {
 }
 
 /* Half of critical damping: gamma is the root of kappa m/2, which is below the smallest number squared. */
-static void damping_ratios_have_no_scale_of_mass(no_state) {
+TEST(damping_ratios_have_no_scale_of_mass) {
   const double mass[] = {1.0, 1e-158, 1e-200};
   double gamma[3];
   for (int k = 0; k < 3; k++) {
@@ -52,7 +52,7 @@ static void damping_ratios_have_no_scale_of_mass(no_state) {
 #if HOOKE_HAVE_LAPACK
 /* Where a distance has no square, no bound is known; a limit is refused, and the message says where and up to
  * what. */
-static void distances_without_a_square(no_state) {
+TEST(distances_without_a_square) {
   const double places[2][6] = {{0, 0, 0, 1e152, 0, 0}, {0, 0, 0, 1e160, 0, 0}};
   const int64_t ends[] = {0, 1};
   for (int far = 0; far < 2; far++) {
@@ -71,14 +71,3 @@ static void distances_without_a_square(no_state) {
   }
 }
 #endif
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(bounds_have_no_scale_of_mass),
-    cmocka_unit_test(damping_ratios_have_no_scale_of_mass),
-#if HOOKE_HAVE_LAPACK
-    cmocka_unit_test(distances_without_a_square),
-#endif
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}

@@ -96,21 +96,17 @@ static void check_cloth(const char *name, double damping, void (*place)(double *
   }
 }
 
-static void test_compressed(no_state) {
+TEST(test_compressed) {
   check_cloth("compressed to half", 0.0, leave, 2.0);
   check_cloth("compressed to half, damped", 1e-3, leave, 2.0);
 }
 
-static void test_inverted(no_state) {
+TEST(test_inverted) {
   check_cloth("half of it inverted", 0.0, fold, 1.0);
   check_cloth("half of it inverted, damped", 1e-3, fold, 1.0);
   check_cloth("one particle pulled through", 0.0, pull_through, 1.0);
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_compressed),
-      cmocka_unit_test(test_inverted),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

@@ -27,18 +27,14 @@ static void test_damping(int32_t drag) {
   }
 }
 
-static void test_of_springs(no_state) {
+TEST(test_of_springs) {
   test_damping(0);
 }
 
-static void test_by_drag(no_state) {
+TEST(test_by_drag) {
   test_damping(1);
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_of_springs),
-      cmocka_unit_test(test_by_drag),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

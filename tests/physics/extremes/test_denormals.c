@@ -21,7 +21,7 @@ static int32_t probe(int64_t n, double t, const double *q, const double *v, doub
 }
 
 /* Neither loading the library nor any method changes the floating-point state of this thread. */
-static void test_never_flushed(no_state) {
+TEST(test_never_flushed) {
   const double q[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   double left = denormals_left();
@@ -80,7 +80,7 @@ static void check_bits(const char *name, double amplitude, double rest_length, d
   canonical_destroy(&canonical);
 }
 
-static void test_bits(no_state) {
+TEST(test_bits) {
   check_bits("speed 1e-310 m/s about 1 m", 1e-310, 1.0, 0.0);
   check_bits("motion of 1e-310 m, rest length 0", 1e-310, 0.0, 0.0);
   check_bits("motion of 1e-150 m, rest length 0", 1e-150, 0.0, 0.0);
@@ -88,9 +88,5 @@ static void test_bits(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_never_flushed),
-      cmocka_unit_test(test_bits),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

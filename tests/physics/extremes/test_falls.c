@@ -62,7 +62,7 @@ static void check_method(const hooke_system *system, const char *name, const cha
   extreme_record("falls", name, method, &outcome, error);
 }
 
-static void test_fall(no_state) {
+TEST(test_fall) {
   const double resolved[] = {0.0, 1e-6, 0.1, 1.0, 10.0, 1e6};
   const double gravity[] = {0, -FALL, 0}, q[] = {0, 0, 0}, h = 0.25, mass = 2.0;
   for (int k = 0; k < 6; k++) {
@@ -81,8 +81,5 @@ static void test_fall(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_fall),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

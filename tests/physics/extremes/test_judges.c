@@ -23,7 +23,7 @@ static void bad_run(struct extreme_outcome *outcome) {
   assert_null(extreme_not_ended(outcome, HOOKE_DIVERGED, "diverged"));
 }
 
-static void test_numbers(no_state) {
+TEST(test_numbers) {
   const double wrong[] = {NAN, INFINITY, -INFINITY};
   for (int k = 0; k < 3; k++) {
     struct extreme_outcome outcome;
@@ -58,7 +58,7 @@ static int32_t poison(int64_t n, double t, const double *q, const double *v, dou
   return 0;
 }
 
-static void test_watch(no_state) {
+TEST(test_watch) {
   const double q[] = {0, 0, 0};
   owned_outcome outcome;
   owned_system *system = small_system(1, q, NULL, 1.0, 0);
@@ -69,7 +69,7 @@ static void test_watch(no_state) {
   assert_int_equal(outcome.frames, 7); /* 0 to 0.6 s, the last before the NaN */
 }
 
-static void test_answers(no_state) {
+TEST(test_answers) {
   owned_outcome outcome;
   good_run(&outcome);
   assert_non_null(extreme_not_right(&outcome, 1.0, 0.0, 0.5));
@@ -82,7 +82,7 @@ static void test_answers(no_state) {
 }
 
 /* Silent use of another value than the given one: the state kept within bounds, or the run cut short. */
-static void test_clamps(no_state) {
+TEST(test_clamps) {
   struct extreme_outcome outcome;
   bad_run(&outcome);
   outcome.status = HOOKE_OK;
@@ -98,7 +98,7 @@ static void test_clamps(no_state) {
   extreme_release(&outcome);
 }
 
-static void test_messages(no_state) {
+TEST(test_messages) {
   struct extreme_outcome outcome;
   bad_run(&outcome);
   assert_non_null(extreme_not_ended(&outcome, HOOKE_DIVERGED, "overslept"));
@@ -120,7 +120,7 @@ static void test_messages(no_state) {
 
 /* Checks of the oscillator references: the matrices have the determinants and traces of their methods, the
  * solution satisfies its equation, and a matrix with an error of 1e-6 is noticed. */
-static void test_oscillator(no_state) {
+TEST(test_oscillator) {
   const long double start[] = {1.0L, 0.5L}, zetas[] = {0.0L, 0.3L, 1.0L, 4.0L};
   for (int k = 0; k < 4; k++) {
     const long double zeta = zetas[k], e = 1e-4L;
@@ -151,9 +151,5 @@ static void test_oscillator(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_numbers), cmocka_unit_test(test_watch),    cmocka_unit_test(test_answers),
-      cmocka_unit_test(test_clamps),  cmocka_unit_test(test_messages), cmocka_unit_test(test_oscillator),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

@@ -9,7 +9,7 @@
 
 /* ---- rest lengths ---- */
 
-static void test_rest_length(no_state) {
+TEST(test_rest_length) {
   const double rest[] = {0.0, 1e-300, 1e-12};
   for (int k = 0; k < 3; k++) {
     char name[64];
@@ -36,7 +36,7 @@ static int32_t add_spring(const char *law, double stiffness, double rest_length)
   return status;
 }
 
-static void test_refused(no_state) {
+TEST(test_refused) {
   const struct {
     const char *name, *law;
     double stiffness, rest_length;
@@ -93,7 +93,7 @@ static void check_pair(const struct pair *pair) {
   }
 }
 
-static void test_coincident(no_state) {
+TEST(test_coincident) {
   const struct pair pairs[] = {
       {"ends 0 m apart", 0.0, 1, 0.0, 0},          {"ends 1e-300 m apart", 1e-300, 1, 0.0, 0},
       {"ends 1e-162 m apart", 1e-162, 1, 0.0, 0},  {"ends 2e-162 m apart", 2e-162, 0, 0.2, 1},
@@ -106,7 +106,7 @@ static void test_coincident(no_state) {
 
 /* The length of the force, kappa l0, shows the accuracy of the direction: below 1.5e-154 m the square of a
  * distance is subnormal and loses digits, below 1.6e-162 m it is 0. */
-static void test_direction(no_state) {
+TEST(test_direction) {
   const struct {
     double distance, low, high; /* bounds of |force - 1| */
   } at[] = {{1e-12, 0.0, 1e-11}, {1e-100, 0.0, 4e-16}, {1.6e-154, 0.0, 4e-16}, {1e-158, 1e-12, 1e-6},
@@ -126,11 +126,5 @@ static void test_direction(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_rest_length),
-      cmocka_unit_test(test_refused),
-      cmocka_unit_test(test_coincident),
-      cmocka_unit_test(test_direction),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

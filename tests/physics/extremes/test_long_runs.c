@@ -131,13 +131,13 @@ static void check_walk(const char *name, struct ensemble e) {
   hooke_system_destroy(e.system);
 }
 
-static void test_walk(no_state) {
+TEST(test_walk) {
   check_walk("rounding of what is kept, about 0 m", ensemble("length", 1.0, 1.0, 0.0, 1.0));
   check_walk("rounding of what is kept, about 1 m", ensemble("strain", 7.3, 0.37, 1.0, 0.3));
 }
 
 /* Every method over a thousand radians. */
-static void test_every_method(no_state) {
+TEST(test_every_method) {
   const char *name = "1000 radians, 64 phases";
   struct ensemble e = ensemble("length", 7.3, 0.37, 0.0, 0.3);
   const double h = (double)(0.05L / e.omega), tolerance = 1e-9;
@@ -183,7 +183,7 @@ static void test_every_method(no_state) {
 }
 
 /* Time is k times the step, to the bit, where a running sum would be far off. */
-static void test_time(no_state) {
+TEST(test_time) {
   const double q[] = {0, 0, 0}, mass = 1.0, h = 0.1;
   const int64_t steps = 3000000;
   owned_system *system = small_system(1, q, NULL, mass, 0);
@@ -200,10 +200,5 @@ static void test_time(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_walk),
-      cmocka_unit_test(test_every_method),
-      cmocka_unit_test(test_time),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

@@ -15,7 +15,7 @@ static struct extreme_oscillator oscillator(const char *name, double stiffness, 
                                      .steps = 200};
 }
 
-static void test_mass(no_state) {
+TEST(test_mass) {
   const double mass[] = {1e-15, 1e-6, 1.0, 1e6, 1e15};
   for (int k = 0; k < 5; k++) {
     char name[64];
@@ -25,7 +25,7 @@ static void test_mass(no_state) {
   }
 }
 
-static void test_with_stiffness(no_state) {
+TEST(test_with_stiffness) {
   const struct extreme_oscillator fast = oscillator("1e-15 kg on 1e15 N/m", 1e15, 1e-15, 0.0);
   const struct extreme_oscillator slow = oscillator("1e15 kg on 1e-12 N/m", 1e-12, 1e15, 0.0);
   extreme_oscillate(&fast);
@@ -33,7 +33,7 @@ static void test_with_stiffness(no_state) {
 }
 
 /* Two free ends, the moving one light or heavy. */
-static void test_ratio(no_state) {
+TEST(test_ratio) {
   const struct extreme_oscillator light = oscillator("1e-6 and 1e6 kg, light end moving", 1.0, 1e-6, 1e6);
   const struct extreme_oscillator heavy = oscillator("1e-6 and 1e6 kg, heavy end moving", 1.0, 1e6, 1e-6);
   extreme_oscillate(&light);
@@ -41,10 +41,5 @@ static void test_ratio(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mass),
-      cmocka_unit_test(test_with_stiffness),
-      cmocka_unit_test(test_ratio),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* A stretch of 0.1 m on a spring of 1 m: its remaining digits are those of 0.1 m over the spacing. */
-static void test_oscillator(no_state) {
+TEST(test_oscillator) {
   const double distance[] = {0.0, 1e3, 1e6, 1e9};
   for (int k = 0; k < 4; k++) {
     char name[64];
@@ -67,14 +67,14 @@ static void check_digits(double distance, const char *name) {
   }
 }
 
-static void test_digits(no_state) {
+TEST(test_digits) {
   check_digits(1e6, "1e+06 m away: lost in 1000 steps");
   check_digits(1e9, "1e+09 m away: lost in 1000 steps");
   check_digits(1e12, "1e+12 m away: lost in 1000 steps");
 }
 
 /* Where shifted positions are exact, forces are those at the origin, to the bit. */
-static void test_same_forces(no_state) {
+TEST(test_same_forces) {
   enum { SIDE = 9, COUNT = SIDE * SIDE, SIZE = 3 * COUNT };
   owned_system *system = new_system();
   small_part(system, "cloth", NULL,
@@ -99,10 +99,5 @@ static void test_same_forces(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_oscillator),
-      cmocka_unit_test(test_digits),
-      cmocka_unit_test(test_same_forces),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

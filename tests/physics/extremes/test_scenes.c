@@ -32,7 +32,7 @@ static void check_scene(const hooke_system *system, const char *name, const doub
 
 /* A square that spins about its centre at omega while it flies: each side is stretched so that it turns as a
  * rigid body. */
-static void test_free_floating(no_state) {
+TEST(test_free_floating) {
   const double omega = 1.5, pull = 3.0, stiffness = 40.0, mass = 2.0, t = 2.0;
   const double flight[] = {0.3, -0.2, 0.1};
   /* a diagonal of length 2 pulls each corner inwards with m omega^2 */
@@ -68,7 +68,7 @@ static void test_free_floating(no_state) {
 
 /* ---- all pinned ---- */
 
-static void test_all_pinned(no_state) {
+TEST(test_all_pinned) {
   const double q[] = {0, 0, 0, 3, 0, 0, 0, 4, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1, 1, 2}, particles[] = {0, 1, 2};
   owned_system *system = small_system(3, q, NULL, 1.0, 0);
@@ -107,7 +107,7 @@ static hooke_system *pieces(int32_t stiff, int32_t soft, int32_t flier) {
   return system;
 }
 
-static void test_disconnected(no_state) {
+TEST(test_disconnected) {
   hooke_system *all = pieces(1, 1, 1), *alone[] = {pieces(1, 0, 0), pieces(0, 1, 0), pieces(0, 0, 1)};
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -146,7 +146,7 @@ static void test_disconnected(no_state) {
 
 /* ---- empty, and one particle ---- */
 
-static void test_empty(no_state) {
+TEST(test_empty) {
   const double gravity[] = {0, -10, 0};
   for (int weight = 0; weight <= 1; weight++) {
     owned_system *system = new_system();
@@ -157,7 +157,7 @@ static void test_empty(no_state) {
   }
 }
 
-static void test_single(no_state) {
+TEST(test_single) {
   const double q[] = {1, 2, 3}, v[] = {0.5, 0, -1}, fall[] = {0, -10, 0};
   const double flown[] = {1 + 0.5 * 2, 2, 3 - 1.0 * 2},
                fallen[] = {1 + 0.5 * 2, 2 - 10.0 * 2 * 2 / 2, 3 - 1.0 * 2};
@@ -176,7 +176,7 @@ static void test_single(no_state) {
 
 /* A chain at its rest lengths but for rounding: 0.1 k - 0.1 (k - 1) is not 0.1. Nothing happens: the energy
  * of rounding must not count as divergence. */
-static void test_at_rest(no_state) {
+TEST(test_at_rest) {
   enum { COUNT = 20 };
   double q[3 * COUNT] = {0};
   int64_t ends[2 * (COUNT - 1)];
@@ -207,10 +207,5 @@ static void test_at_rest(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_free_floating), cmocka_unit_test(test_all_pinned),
-      cmocka_unit_test(test_disconnected),  cmocka_unit_test(test_empty),
-      cmocka_unit_test(test_single),        cmocka_unit_test(test_at_rest),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

@@ -21,7 +21,7 @@ static const struct {
     {"1e-999 as text", "1e-999", NAN},
 };
 
-static void test_refused(no_state) {
+TEST(test_refused) {
   const char *options[] = {"step", "duration", "every"};
   owned_options *run = new_options("run");
   for (size_t k = 0; k < sizeof refused / sizeof refused[0]; k++) {
@@ -53,7 +53,7 @@ static struct extreme_oscillator oscillator(const char *name, double omega, doub
 }
 
 /* No digit of any position changes, and none has to. */
-static void test_subnormal(no_state) {
+TEST(test_subnormal) {
   struct extreme_oscillator smallest = oscillator("4.9e-324 s", 1.0, 4.9e-324);
   struct extreme_oscillator small = oscillator("1e-310 s", 1.0, 1e-310);
   smallest.adaptive_status = small.adaptive_status = HOOKE_SOLVER_FAILED;
@@ -62,14 +62,14 @@ static void test_subnormal(no_state) {
 }
 
 /* Steps below the last digit of the time: positions do not depend on it, error control does. */
-static void test_below_the_digits_of_time(no_state) {
+TEST(test_below_the_digits_of_time) {
   struct extreme_oscillator late = oscillator("1e-10 s at t = 1e9 s", 5e8, 1e-10);
   late.start = 1e9;
   late.adaptive_status = HOOKE_BAD_VALUE;
   extreme_oscillate(&late);
 }
 
-static void test_overflow(no_state) {
+TEST(test_overflow) {
   struct extreme_oscillator large = oscillator("1e100 s", 1.0, 1e100);
   struct extreme_oscillator larger = oscillator("1e200 s", 1.0, 1e200);
   struct extreme_oscillator largest = oscillator("1e298 s", 1.0, 1e298);
@@ -81,11 +81,5 @@ static void test_overflow(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_refused),
-      cmocka_unit_test(test_subnormal),
-      cmocka_unit_test(test_below_the_digits_of_time),
-      cmocka_unit_test(test_overflow),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

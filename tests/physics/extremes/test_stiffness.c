@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-static void test_stiffness(no_state) {
+TEST(test_stiffness) {
   const double stiffness[] = {1e-12, 1e-6, 1.0, 1e6, 1e15};
   const char *laws[] = {"length", "strain"};
   for (int law = 0; law < 2; law++) {
@@ -23,8 +23,5 @@ static void test_stiffness(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_stiffness),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }

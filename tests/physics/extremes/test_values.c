@@ -25,7 +25,7 @@ static int32_t add_mass(double mass) {
   return status;
 }
 
-static void test_masses(no_state) {
+TEST(test_masses) {
   const double refused[] = {0.0, -1.0, NAN, INFINITY, -INFINITY, 5e-324, 5e-309};
   for (int k = 0; k < 7; k++) {
     check_status(add_mass(refused[k]), HOOKE_BAD_VALUE);
@@ -37,7 +37,7 @@ static void test_masses(no_state) {
   note_all("mass 0, negative, not finite, 5e-309 kg", "bad value");
 }
 
-static void test_materials(no_state) {
+TEST(test_materials) {
   const char *names[] = {"stiffness", "damping", "rest_length", "rest_scale"};
   const double refused[] = {-1.0, NAN, INFINITY, 1e301};
   owned_options *options = new_options("springs");
@@ -77,7 +77,7 @@ static void check_state(double wrong, int place, const char *named) {
   }
 }
 
-static void test_states(no_state) {
+TEST(test_states) {
   check_state(NAN, 4, "position[1][1]");
   check_state(INFINITY, 11, "velocity[1][2]");
   check_state(NAN, -1, "time");
@@ -107,13 +107,13 @@ static void check_flight(const char *name, double speed, double energy) {
   }
 }
 
-static void test_flights(no_state) {
+TEST(test_flights) {
   check_flight("speed 1e200 m/s", 1e200, INFINITY);
   check_flight("speed 1e-200 m/s", 1e-200, 0.0);
 }
 
 /* An oscillator whose energy is 0 at first and the smallest number there is later. */
-static void test_oscillators(no_state) {
+TEST(test_oscillators) {
   const double amplitude[] = {1e-160, 1e-161, 1e150};
   for (int k = 0; k < 3; k++) {
     char name[64];
@@ -140,7 +140,7 @@ static void test_oscillators(no_state) {
 }
 
 /* The square of a length of 1e160 m overflows. */
-static void test_too_long(no_state) {
+TEST(test_too_long) {
   const char *name = "oscillator of 1e+160 m";
   const double q[] = {0, 0, 0, 1e160, 0, 0};
   const int64_t ends[] = {0, 1};
@@ -159,7 +159,7 @@ static void test_too_long(no_state) {
 }
 
 /* A million equal energies add up to a million times one, to the last digits. */
-static void test_long_sums(no_state) {
+TEST(test_long_sums) {
   enum { COUNT = 1000000 };
   double *q = new_doubles(3 * (int64_t)COUNT), *v = new_doubles(3 * (int64_t)COUNT), momentum[3];
   const double mass = 0.2, gravity[] = {0, 0, -0.5};
@@ -186,10 +186,5 @@ static void test_long_sums(no_state) {
 }
 
 int main(int argc, char **argv) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_masses),    cmocka_unit_test(test_materials),   cmocka_unit_test(test_states),
-      cmocka_unit_test(test_flights),   cmocka_unit_test(test_oscillators), cmocka_unit_test(test_too_long),
-      cmocka_unit_test(test_long_sums),
-  };
-  return extreme_finish(argc, argv, cmocka_run_group_tests(tests, NULL, NULL));
+  return extreme_finish(argc, argv, check_run_tests());
 }
