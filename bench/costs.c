@@ -1,5 +1,6 @@
-/* Measures the table of costs (src/measure/counted_work/costs.c): runs scenes by every method, holds the time that
- * they took against their counted work, fits the costs to that, and prints the table as the source has it.
+/* Measures the table of costs (src/measure/counted_work/costs.c): runs scenes by every method, holds the time
+ * that they took against their counted work, fits the costs to that, and prints the table as the source has
+ * it.
  *
  *   costs [--seconds S]
  *

@@ -31,8 +31,8 @@ void cli_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same, padded with blanks to `width` characters. */
 void cli_print_padded(FILE *file, int32_t width, const char *text);
 
-/* Prints a text of the program's own in a style of terminals (HOOKE_BOLD, ...); plain where `file` is no terminal
- * or NO_COLOR is set (https://no-color.org). */
+/* Prints a text of the program's own in a style of terminals (HOOKE_BOLD, ...); plain where `file` is no
+ * terminal or NO_COLOR is set (https://no-color.org). */
 #define HOOKE_BOLD  "1"
 #define HOOKE_RED   "1;31"
 #define HOOKE_GREEN "1;32"
@@ -42,8 +42,8 @@ void cli_print_styled(FILE *file, const char *style, const char *text);
  * failure. */
 int cli_print_flush(void);
 
-/* Closes a stream of cli_os_open_text(), which may be NULL. HOOKE_NO_MEMORY, with `text` NULL, unless it holds
- * everything. */
+/* Closes a stream of cli_os_open_text(), which may be NULL. HOOKE_NO_MEMORY, with `text` NULL, unless it
+ * holds everything. */
 int32_t cli_print_end(FILE *stream, char **text);
 
 /* Text as one word of a shell command, quoted if necessary; as $'...' if cli_print_text() would change it. */
@@ -78,8 +78,8 @@ void cli_json_count(struct cli_json *json, const char *key, int64_t value);
 /* Null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text()
  * replaces are escaped. */
 void cli_json_text(struct cli_json *json, const char *key, const char *text);
-/* What hooke_measurement_json() says: under a key, or (NULL) its members alone. Left out without memory, which
- * cli_json_end() tells. */
+/* What hooke_measurement_json() says: under a key, or (NULL) its members alone. Left out without memory,
+ * which cli_json_end() tells. */
 void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,
                        const char *table, int64_t row);
 /* `rows` rows of x y z as an array of arrays */

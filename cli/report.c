@@ -79,9 +79,9 @@ static FILE *open_source(const char *path) {
   return file;
 }
 
-/* For a message that begins with "PATH:LINE:COLUMN: ", with that path, prints the line, shortened, and a caret
- * under its column (in characters). Of a trajectory it is the line of its scene. Prints nothing for another
- * message or an unreadable file. Changes the library's last error. */
+/* For a message that begins with "PATH:LINE:COLUMN: ", with that path, prints the line, shortened, and a
+ * caret under its column (in characters). Of a trajectory it is the line of its scene. Prints nothing for
+ * another message or an unreadable file. Changes the library's last error. */
 static void print_excerpt(const char *path, const char *message) {
   char text[LONGEST_CHARACTER * WIDTH + 1];
   long line, column;

@@ -166,8 +166,8 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
   const char *hdf5 = hooke_build_fact("hdf5");
   if (output && (!hdf5 || !hdf5[0])) {
     return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
-                      "-o %s: this build of hooke has no HDF5 and writes no trajectories; run without -o, or "
-                      "build hooke with HDF5",
+                      "-o %s: this build of hooke has no HDF5 and writes no "
+                      "trajectories; run without -o, or build hooke with HDF5",
                       output);
   }
   return cli_setup_check_other_file(arguments, output);

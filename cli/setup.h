@@ -13,7 +13,8 @@ struct cli_setup {
   hooke_state *state;
 };
 
-/* 1 for a text that begins like a scene, and for standard input; the message of another file tells of itself. */
+/* 1 for a text that begins like a scene, and for standard input; the message of another file tells of itself.
+ */
 int32_t cli_setup_is_scene(const char *path);
 
 /* Loads, applies options, commits, and refuses to write over a file that it has read; failures are reported
@@ -28,7 +29,8 @@ const char *cli_setup_title(const struct cli_arguments *arguments, const struct 
 int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
                          const char *output);
 
-/* Whether a run by `method` (NULL: by one of variable step) lacks a duration or a step, and which, in words. */
+/* Whether a run by `method` (NULL: by one of variable step) lacks a duration or a step, and which, in words.
+ */
 int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]);
 
 /* Report what a run by `method` lacks: a duration, a step, the method itself in this build; the first

@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Before anything else: failed writes do not end the process, bytes of standard streams are not translated, and
- * terminals take UTF-8. */
+/* Before anything else: failed writes do not end the process, bytes of standard streams are not translated,
+ * and terminals take UTF-8. */
 void cli_os_begin(void);
 
 /* From here on a request to end the program (SIGINT, SIGTERM, SIGHUP; Ctrl-C on Windows) calls `interrupt`,

@@ -26,7 +26,8 @@ int32_t cli_command_make(const struct cli_arguments *arguments, const struct cli
 int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_measurement *why, int64_t place,
                            char **command);
 
-/* Prints all suggestions, each with a line of words and a command. HOOKE_NO_MEMORY if one of those is missing. */
+/* Prints all suggestions, each with a line of words and a command. HOOKE_NO_MEMORY if one of those is
+ * missing. */
 int32_t cli_advice_print(const struct cli_arguments *arguments, const hooke_measurement *why);
 
 #endif

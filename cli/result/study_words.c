@@ -43,8 +43,7 @@ static void print_why_not_all(const hooke_measurement *study, const char *time) 
             "drift are those up to %s s; a larger --budget or a shorter --duration checks all of it."
       : strcmp(ended, "parted") == 0
           ? "the two integrators part after %s s. Errors and energy drift are those up to %s s; 'hooke "
-            "study' "
-            "tells how much small differences grow, and whether tighter tolerances know more."
+            "study' tells how much small differences grow, and whether tighter tolerances know more."
       : hurried
           ? "at the tolerances that their share of the budget leaves time for, the two integrators part "
             "after %s s. Errors and energy drift are those up to %s s; a larger --budget may know more."
@@ -52,9 +51,9 @@ static void print_why_not_all(const hooke_measurement *study, const char *time) 
           ? "this motion is chaotic: small differences grow so much that the two integrators part after %s s "
             "even where rounding alone sets them apart, and where the particles are later cannot be computed "
             "to the wanted digits. Errors and energy drift are those up to %s s."
-          : "the two integrators part after %s s, although differences do not grow much: rounding keeps them "
-            "from the wanted digits even at their tightest tolerances. Errors and energy drift are those up "
-            "to %s s.";
+          : "the two integrators part after %s s, although differences do not "
+            "grow much: rounding keeps them from the wanted digits even at their "
+            "tightest tolerances. Errors and energy drift are those up to %s s.";
   print_fact("WARNING", format, time, time);
 }
 

@@ -1,5 +1,5 @@
-/* A run that blew up, told on standard error in four lines: what happened, what to try, where to see more, and
- * what is kept. */
+/* A run that blew up, told on standard error in four lines: what happened, what to try, where to see more,
+ * and what is kept. */
 #ifndef HOOKE_CLI_BLOW_UP_H
 #define HOOKE_CLI_BLOW_UP_H
 

@@ -194,8 +194,8 @@ static const struct cli_verb_row own_rows[] = {
     {"at", 0, "FILE:FRAME",
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
     {"report", 0, "FILE.html",
-     "writes regions of stability, limiting mode, table and suggestion as one page to read offline, "
-     "replacing it"},
+     "writes regions of stability, limiting mode, table and "
+     "suggestion as one page to read offline, replacing it"},
 };
 
 const struct cli_verb cli_verb_limit = {

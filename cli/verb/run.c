@@ -391,8 +391,8 @@ static const struct cli_verb_row rows[] = {
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
     {"strict", 0, NULL,
-     "refuses a run without a step, or whose every or duration is no whole multiple of it, rather than "
-     "choosing or moving them"},
+     "refuses a run without a step, or whose every or duration is "
+     "no whole multiple of it, rather than choosing or moving them"},
     {"no-estimate", 0, NULL, "leaves out estimating how wrong the run is"},
     {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };

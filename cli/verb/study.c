@@ -24,8 +24,8 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
   if (!output) return HOOKE_EXIT_DONE;
   if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
     return cli_report(arguments, HOOKE_EXIT_USAGE,
-                      "-o %s: allowed: a name that ends in .csv, for the rows as a table, or in .h5, for the "
-                      "whole study",
+                      "-o %s: allowed: a name that ends in .csv, for the "
+                      "rows as a table, or in .h5, for the whole study",
                       output);
   }
   const int code = ends_in(output, ".h5") ? cli_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
@@ -158,11 +158,11 @@ static const struct cli_verb_row own_rows[] = {
 const struct cli_verb cli_verb_study = {
     .name = "study",
     .summary = "how accurate each method is for what it costs, and which one to take",
-    .text = "Makes a reference by two integrators that check each other, runs every method over a ladder of "
-            "steps or tolerances, and prints error and cost of each run, the order of each method, and with "
-            "--want LENGTH the cheapest run that is accurate enough, as a command. Runs that diverge stay as "
-            "rows. Ctrl-C ends a study and prints what is done so far. Tables are rounded; --json and "
-            "FILE have every digit.",
+    .text = "Makes a reference by two integrators that check each other, runs every method "
+            "over a ladder of steps or tolerances, and prints error and cost of each run, the "
+            "order of each method, and with --want LENGTH the cheapest run that is accurate "
+            "enough, as a command. Runs that diverge stay as rows. Ctrl-C ends a study and "
+            "prints what is done so far. Tables are rounded; --json and FILE have every digit.",
     .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
     .options = "study",

@@ -164,8 +164,8 @@ static int32_t print_words(const struct why *why) {
             cli_format_rounded(why->time, text));
     const double step = hooke_options_number(why->setup.options, "step");
     if (step > 0.0 && isfinite(why->bound) && why->bound > 0.0)
-      printf("its step of %.6g s is %.3g %% of the limit, %.6g s, up to which it was certain to be stable "
-             "there\n",
+      printf("its step of %.6g s is %.3g %% of the limit, %.6g "
+             "s, up to which it was certain to be stable there\n",
              step, 100.0 * step / why->bound, why->bound);
     return HOOKE_OK;
   }

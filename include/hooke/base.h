@@ -57,8 +57,8 @@ extern "C" {
 #define HOOKE_SOLVER_FAILED (-7) /* a nonlinear or error-controlled solver gave up */
 #define HOOKE_INTERNAL      (-8) /* hooke found a defect of its own; nothing was measured */
 
-/* Message of the last failure or outcome in this thread, with a line for each fault of a scene; "" if there was
- * none. Valid until the next call into the library from this thread. */
+/* Message of the last failure or outcome in this thread, with a line for each fault of a scene; "" if there
+ * was none. Valid until the next call into the library from this thread. */
 HOOKE_API const char *hooke_last_error(void);
 
 /* Short name of a status, such as "bad value"; "unknown status" for any other number. */

@@ -10,16 +10,16 @@
  *   hooke_measurement_run(estimate, state);
  *   hooke_estimate_refine(estimate, run);                if "met" is not 1: sets a finer step or tolerance
  *
- * hooke_measurement_run() estimates the error of the whole run that ended with `state`: the distance [m] of the
- * farthest free particle from where it should be, at any frame. With a wanted error the run is compared with the
- * reference where that covers the run. Otherwise it is run again, from the state at which it began, at half and at
- * twice the step (a tenth and ten times the tolerance), and the error is Roache's grid convergence index (J. Fluids
- * Eng. 116, 1994) of the three; a run of more counted work than that of 10 s at twice and at four times the step.
- * Another method judges, too, and all of that takes at most four times the work of the run. NaN, with the "reason",
- * where the runs do not tell, where a callback takes part and the option "callbacks" is not set, and for a run that
- * hooke_integrator_resume() continued. It may be called again after the next hooke_estimate_begin(). HOOKE_BAD_CALL
- * without one, HOOKE_BAD_VALUE without a state, HOOKE_STOPPED, HOOKE_NO_MEMORY. The results are one row, the table
- * "estimate". */
+ * hooke_measurement_run() estimates the error of the whole run that ended with `state`: the distance [m] of
+ * the farthest free particle from where it should be, at any frame. With a wanted error the run is compared
+ * with the reference where that covers the run. Otherwise it is run again, from the state at which it began,
+ * at half and at twice the step (a tenth and ten times the tolerance), and the error is Roache's grid
+ * convergence index (J. Fluids Eng. 116, 1994) of the three; a run of more counted work than that of 10 s at
+ * twice and at four times the step. Another method judges, too, and all of that takes at most four times the
+ * work of the run. NaN, with the "reason", where the runs do not tell, where a callback takes part and the
+ * option "callbacks" is not set, and for a run that hooke_integrator_resume() continued. It may be called
+ * again after the next hooke_estimate_begin(). HOOKE_BAD_CALL without one, HOOKE_BAD_VALUE without a state,
+ * HOOKE_STOPPED, HOOKE_NO_MEMORY. The results are one row, the table "estimate". */
 #ifndef HOOKE_ESTIMATE_H
 #define HOOKE_ESTIMATE_H
 

@@ -43,7 +43,8 @@ HOOKE_API int64_t hooke_method_count(void);
 /* Name of a method, "forward-euler"; NULL past the last. */
 HOOKE_API const char *hooke_method_name(int64_t method);
 /* The method that a word means, in capitals or not: itself, or the one that another common name stands for
- * ("leapfrog"); several, separated by blanks, to choose from ("euler") or as relatives of one that is not there
+ * ("leapfrog"); several, separated by blanks, to choose from ("euler") or as relatives of one that is not
+ * there
  * ("trapezoidal"); "" if none. Options and scenes take names alone. */
 HOOKE_API const char *hooke_method_meant(const char *word);
 /* One-line description of a method; NULL if there is no such name. */
@@ -154,8 +155,8 @@ HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_stat
  * method start anew. Pinned particles are held where they are put; driven ones stay where their motion has
  * them. Since writing may bring any energy, only numbers that are not finite are divergence from then on.
  * HOOKE_BAD_CALL as for hooke_integrator_advance(), HOOKE_BAD_VALUE for a particle that does not exist or a
- * number that is not finite, HOOKE_UNSUITED for a first- or second-order problem and for writing a particle of
- * a rigid body that moves, HOOKE_NO_MEMORY; nothing is written then. */
+ * number that is not finite, HOOKE_UNSUITED for a first- or second-order problem and for writing a particle
+ * of a rigid body that moves, HOOKE_NO_MEMORY; nothing is written then. */
 HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t count, const int64_t *particles,
                                        double *q, double *v);
 HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
@@ -197,17 +198,17 @@ HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, in
 typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                               int64_t particle, void *ctx);
 
-/* Warns of what a committed system may be, but is seldom meant to be, of kind "no-stiffness" (a part or a group of
- * springs), "same-pair" (three springs of a group between two particles) or "nothing-moves". `limit` is NaN, and
- * spring and particle are -1 where there is none. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY; HOOKE_STOPPED if a
- * warning returned anything but 0. */
+/* Warns of what a committed system may be, but is seldom meant to be, of kind "no-stiffness" (a part or a
+ * group of springs), "same-pair" (three springs of a group between two particles) or "nothing-moves". `limit`
+ * is NaN, and spring and particle are -1 where there is none. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY;
+ * HOOKE_STOPPED if a warning returned anything but 0. */
 HOOKE_API int32_t hooke_system_warnings(const hooke_system *system, hooke_warning *warning, void *ctx);
 
-/* Turns on warnings for the runs of `integrator`: those of hooke_system_warnings() come at once, from this call. It
- * checks the step at the start of a run, then at as many of the checks for
- * divergence as cost less than a hundredth of the stepping. Results do not depend on it. NULL turns them off.
- * A method without a bound, and a system with rigid bodies, have no warnings of the step. HOOKE_UNSUITED for a
- * first- or second-order problem; HOOKE_NO_MEMORY. */
+/* Turns on warnings for the runs of `integrator`: those of hooke_system_warnings() come at once, from this
+ * call. It checks the step at the start of a run, then at as many of the checks for divergence as cost less
+ * than a hundredth of the stepping. Results do not depend on it. NULL turns them off. A method without a
+ * bound, and a system with rigid bodies, have no warnings of the step. HOOKE_UNSUITED for a first- or
+ * second-order problem; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 

@@ -6,11 +6,12 @@
  *   hooke_measurement_number(study, "rows", 0, "error");
  *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind: "study", "limit", "needs", "cost", "why", "verify", "estimate" (estimate.h) or
- * "view" (trajectory.h). Its options are made by hooke_options_create() with the name of the kind. Its results
- * are tables, with columns that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
- * numbers of the whole. The record that is named like the kind describes the measurement itself.
- * hooke_measurement_table() lists kinds and tables, hooke_measurement_column() the columns.
+ * A measurement is of one kind: "study", "limit", "needs", "cost", "why", "verify", "estimate" (estimate.h)
+ * or "view" (trajectory.h). Its options are made by hooke_options_create() with the name of the kind. Its
+ * results are tables, with columns that have a name, a unit and a line of documentation. A table is "rows",
+ * or a "record" of one row with the numbers of the whole. The record that is named like the kind describes
+ * the measurement itself. hooke_measurement_table() lists kinds and tables, hooke_measurement_column() the
+ * columns.
  *
  * A measurement belongs to one thread at a time. */
 #ifndef HOOKE_MEASUREMENT_H
@@ -83,9 +84,9 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
  * another word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 
-/* JSON on one line, with every digit: the document of all tables, as in a .json file (`table` NULL), a table (row
- * -1) or a row of it. Valid until the next call for this measurement, and until it is destroyed. NULL for a row
- * or table that does not exist, and without memory. */
+/* JSON on one line, with every digit: the document of all tables, as in a .json file (`table` NULL), a table
+ * (row -1) or a row of it. Valid until the next call for this measurement, and until it is destroyed. NULL
+ * for a row or table that does not exist, and without memory. */
 HOOKE_API const char *hooke_measurement_json(hooke_measurement *measurement, const char *table, int64_t row);
 
 /* Writes the results so far in the format given by the ending of `path`: .csv (the table "rows"), .json and
@@ -101,10 +102,10 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
  * largest distance of any free particle at any frame, is at most that; with `ensemble` it adds
  * statistics for motion that is not predictable to its end. Runs that diverge stay as rows. Needs SUNDIALS.
  *
- * With the option `once` each method runs once, with the step or the tolerances of `run`: a first look. Its HDF5
- * file then has the motions, too, unless it was stopped: the reference under /particles/all, each method under
- * /particles/<method>. hooke_measurement_write() makes these runs again, so the system has to be there still,
- * callbacks are called again, and the progress callback may stop it (HOOKE_STOPPED, with no file).
+ * With the option `once` each method runs once, with the step or the tolerances of `run`: a first look. Its
+ * HDF5 file then has the motions, too, unless it was stopped: the reference under /particles/all, each method
+ * under /particles/<method>. hooke_measurement_write() makes these runs again, so the system has to be there
+ * still, callbacks are called again, and the progress callback may stop it (HOOKE_STOPPED, with no file).
  *
  * The reference gets two fifths of a `budget`, and at least half a second; an ensemble gets three tenths.
  * When the budget is spent, rows not begun or not finished are left out, and "budget_spent" of the table
@@ -120,8 +121,8 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
  * between passages of one of these upwards through its mean. Indices begin at 0. */
 
 /* Recommends the run that hooke_estimate_pick() picks for another wanted error [m] among the methods of the
- * study, and updates the tables "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note" then
- * says why. */
+ * study, and updates the tables "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note"
+ * then says why. */
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 
 /* ---- a limit: the largest stable step of each method, and what determines it ----

@@ -76,11 +76,10 @@ HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t ro
 /* A property of row `row` as a number, NaN where it has none.
  *   "low", "high"           bounds of every number, inclusive unless "above_low" is 1
  *   "above_low", "whole"    1 if low is not allowed; if only whole numbers are
- *   "required"              1 if it has to be given; for a member of a family, where the family is given, and with
- *                           "only", where that is chosen
- *   "min_count", "max_count" of the type "numbers"; NaN: any count
- *   "columns"               numbers come in rows of this many in a scene
- *   "word_lists"            1 if several words and numbers may be mixed */
+ *   "required"              1 if it has to be given; for a member of a family, where the family is given, and
+ * with "only", where that is chosen "min_count", "max_count" of the type "numbers"; NaN: any count "columns"
+ * numbers come in rows of this many in a scene "word_lists"            1 if several words and numbers may be
+ * mixed */
 HOOKE_API double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property);
 
 #ifdef __cplusplus

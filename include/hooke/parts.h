@@ -38,8 +38,8 @@ HOOKE_API const char *hooke_part_kind(int64_t kind, const char *what);
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);
 
-/* Of the part called `part`: its "particles", or those "before" it, which is the number of its first one; -1 if
- * there is no such part, and for another word. */
+/* Of the part called `part`: its "particles", or those "before" it, which is the number of its first one; -1
+ * if there is no such part, and for another word. */
 HOOKE_API int64_t hooke_system_part_count(const hooke_system *system, const char *part, const char *what);
 
 /* Sets the options `vertices` (3 vertex_count, rows of x y z [m]) and `triangles` (3 triangle_count, rows of

@@ -207,9 +207,9 @@ HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char
 HOOKE_API const char *hooke_system_body_name(const hooke_system *system, int64_t body);
 HOOKE_API int64_t hooke_system_body_particles(const hooke_system *system, int64_t body, int64_t *particles);
 /* Mass [kg] of its free particles and the moments of inertia [kg m^2] about the axes through its point,
- * ascending (4 numbers); the point is the centre of mass, or the first pinned particle. A body with two pinned
- * points has one moment, about their axis, before two zeros. HOOKE_BAD_CALL before commit; HOOKE_BAD_VALUE if
- * there is no such body, or it does not move by itself. */
+ * ascending (4 numbers); the point is the centre of mass, or the first pinned particle. A body with two
+ * pinned points has one moment, about their axis, before two zeros. HOOKE_BAD_CALL before commit;
+ * HOOKE_BAD_VALUE if there is no such body, or it does not move by itself. */
 HOOKE_API int32_t hooke_system_body_inertia(const hooke_system *system, int64_t body, double *inertia);
 /* Its motion at q and v (3n each), 13 numbers: position of the point [m], quaternion from the body's axes to
  * those of space (real part first), velocity of the point [m/s], angular momentum about the point [kg m^2/s].
@@ -255,8 +255,8 @@ HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_
  * callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; that of the rigid motion in
- * a body; of an overdamped system the velocity f/gamma [m/s]. */
+/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; that of the rigid motion
+ * in a body; of an overdamped system the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */

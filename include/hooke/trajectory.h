@@ -124,8 +124,9 @@ HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *wha
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
                                     hooke_measurement **view);
 
-/* Shows `other` beside `view` on its page, where they play at the same time and are seen from the same angle; both
- * have to live until it is written. HOOKE_BAD_VALUE for measurements of another kind, or more than eight in all. */
+/* Shows `other` beside `view` on its page, where they play at the same time and are seen from the same angle;
+ * both have to live until it is written. HOOKE_BAD_VALUE for measurements of another kind, or more than eight
+ * in all. */
 HOOKE_API int32_t hooke_view_add(hooke_measurement *view, const hooke_measurement *other);
 
 /* Writes the companion by which ParaView reads a trajectory: XDMF 2, a few lines of XML for each frame, which

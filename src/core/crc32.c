@@ -1,5 +1,5 @@
-/* Slicing by sixteen bytes (after Kounavis and Berry 2005). Remainders are linear without carries, so the table
- * of a byte, k bytes before the end, is composed from those of its eight bits, which stand here. */
+/* Slicing by sixteen bytes (after Kounavis and Berry 2005). Remainders are linear without carries, so the
+ * table of a byte, k bytes before the end, is composed from those of its eight bits, which stand here. */
 #include "core/crc32.h"
 
 #define SUM(b, x0, x1, x2, x3, x4, x5, x6, x7)                                                               \

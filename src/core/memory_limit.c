@@ -26,11 +26,11 @@ const char *hk_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]) {
 
 int32_t hk_memory_require(double limit, double bytes, const char *what) {
   const char *which = "the limit that was set";
-  const double room = limit > 0.0 ? limit : hk_memory_limit(&which);
-  if (bytes <= room) return HOOKE_OK;
+  const double available = limit > 0.0 ? limit : hk_memory_limit(&which);
+  if (bytes <= available) return HOOKE_OK;
   char needed[HOOKE_BYTES_SHOWN], there[HOOKE_BYTES_SHOWN];
   return hk_fail(HOOKE_NO_MEMORY, NULL,
-                 "%s needs %s of memory; there are %s (%s); allowed: less than that, or a higher limit "
-                 "set by the caller",
-                 what, hk_show_bytes(bytes, needed), hk_show_bytes(room, there), which);
+                 "%s needs %s of memory; there are %s (%s); allowed: "
+                 "less than that, or a higher limit set by the caller",
+                 what, hk_show_bytes(bytes, needed), hk_show_bytes(available, there), which);
 }

@@ -15,7 +15,7 @@ enum { PLACE_SIZE = 256, MESSAGE_SIZE = 1024, LINE_SIZE = 4096, MORE_SIZE = 32 }
 
 static _Thread_local struct {
   char before[PLACE_SIZE];
-  char place[PLACE_SIZE];
+  char where[PLACE_SIZE];
   char message[MESSAGE_SIZE];
   char line[LINE_SIZE];
   int64_t count;
@@ -23,20 +23,20 @@ static _Thread_local struct {
 } last;
 
 static void compose(void) {
-  snprintf(last.line, sizeof last.line, "%s%s%s%s", last.before, last.place, last.place[0] ? ": " : "",
+  snprintf(last.line, sizeof last.line, "%s%s%s%s", last.before, last.where, last.where[0] ? ": " : "",
            last.message);
 }
 
-int32_t hk_fail(int32_t status, const char *place, const char *format, ...) {
+int32_t hk_fail(int32_t status, const char *where, const char *format, ...) {
   /* the arguments may point into the record itself */
   char message[MESSAGE_SIZE];
   va_list args;
   va_start(args, format);
   hk_print_list(message, sizeof message, format, args);
   va_end(args);
-  snprintf(last.place, sizeof last.place, "%s", place ? place : "");
+  snprintf(last.where, sizeof last.where, "%s", where ? where : "");
   memcpy(last.message, message, sizeof message);
-  hk_utf8_make_plain(last.place); /* messages of libraries may repeat input, and long text is truncated */
+  hk_utf8_make_plain(last.where); /* messages of libraries may repeat input, and long text is truncated */
   hk_utf8_make_plain(last.message);
   last.before[0] = '\0';
   last.count++;
@@ -45,24 +45,24 @@ int32_t hk_fail(int32_t status, const char *place, const char *format, ...) {
   return status;
 }
 
-int32_t hk_fail_index(const char *place, const char *none, double number, int64_t count) {
+int32_t hk_fail_index(const char *where, const char *none, double number, int64_t count) {
   if (count == 0)
-    return hk_fail(HOOKE_BAD_VALUE, place, "%s %.17g; there are no particles yet", none, number);
-  return hk_fail(HOOKE_BAD_VALUE, place, "%s %.17g; allowed: 0 to %lld, as numbers begin at 0", none, number,
+    return hk_fail(HOOKE_BAD_VALUE, where, "%s %.17g; there are no particles yet", none, number);
+  return hk_fail(HOOKE_BAD_VALUE, where, "%s %.17g; allowed: 0 to %lld, as numbers begin at 0", none, number,
                  (long long)count - 1);
 }
 
 int32_t hk_fail_within(int32_t status, const char *format, ...) {
   char outer[PLACE_SIZE];
-  char place[2 * PLACE_SIZE];
+  char where[2 * PLACE_SIZE];
   va_list args;
   va_start(args, format);
   hk_print_list(outer, sizeof outer, format, args);
   va_end(args);
-  const char *joint = last.place[0] && last.place[0] != '[' ? "." : "";
-  snprintf(place, sizeof place, "%s%s%s", outer, joint, last.place);
-  snprintf(last.place, sizeof last.place, "%.*s", PLACE_SIZE - 1, place);
-  hk_utf8_make_plain(last.place);
+  const char *joint = last.where[0] && last.where[0] != '[' ? "." : "";
+  snprintf(where, sizeof where, "%s%s%s", outer, joint, last.where);
+  snprintf(last.where, sizeof last.where, "%.*s", PLACE_SIZE - 1, where);
+  hk_utf8_make_plain(last.where);
   compose();
   return status;
 }
@@ -88,7 +88,7 @@ int32_t hk_fail_lines(int32_t status, int64_t count, char *const *lines) {
     }
     used += (size_t)snprintf(last.line + used, sizeof last.line - used, "%s%s", k ? "\n" : "", lines[k]);
   }
-  last.before[0] = last.place[0] = '\0';
+  last.before[0] = last.where[0] = '\0';
   snprintf(last.message, sizeof last.message, "%.*s", MESSAGE_SIZE - 1, lines[0]);
   last.count++;
   return last.status = status;
@@ -102,8 +102,8 @@ int32_t hk_fail_status(void) {
   return last.status;
 }
 
-const char *hk_fail_place(void) {
-  return last.place;
+const char *hk_fail_where(void) {
+  return last.where;
 }
 
 const char *hk_fail_message(void) {

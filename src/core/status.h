@@ -4,14 +4,15 @@
 
 #include "hooke/base.h"
 
-/* Records a failure or outcome and returns `status`. `place` is a path within the caller's input, in the
+/* Records a failure or outcome and returns `status`. `where` is a path within the caller's input, in the
  * terms of the scene format ("springs[2].stiffness[3]"), or NULL. hooke_last_error() then reads "place:
  * message". */
-int32_t hk_fail(int32_t status, const char *place, const char *format, ...)
+int32_t hk_fail(int32_t status, const char *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Fails with HOOKE_BAD_VALUE for a number that is not one of 0 to count - 1; `none` says of what there is none. */
-int32_t hk_fail_index(const char *place, const char *none, double number, int64_t count);
+/* Fails with HOOKE_BAD_VALUE for a number that is not one of 0 to count - 1; `none` says of what there is
+ * none. */
+int32_t hk_fail_index(const char *where, const char *none, double number, int64_t count);
 
 /* Prefixes `outer` to the place of the last failure ("springs[2]" + "stiffness[3]" ->
  * "springs[2].stiffness[3]") and returns `status`, for a caller that knows more of the place. */
@@ -35,7 +36,7 @@ int64_t hk_fail_count(void);
 int32_t hk_fail_status(void);
 
 /* Place of the last failure, "" if it had none, and its message without the place. */
-const char *hk_fail_place(void);
+const char *hk_fail_where(void);
 const char *hk_fail_message(void);
 
 #endif

@@ -1,6 +1,6 @@
 /* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
- * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the system
- * scales by W. So all that takes a system takes these. */
+ * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the
+ * system scales by W. So all that takes a system takes these. */
 #ifndef HOOKE_INTEGRATE_GENERALIZED_H
 #define HOOKE_INTEGRATE_GENERALIZED_H
 

@@ -63,7 +63,7 @@ static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **o
   return status;
 }
 
-static int32_t gather_crew(hooke_integrator *it) {
+static int32_t start_threads(hooke_integrator *it) {
   const int32_t workers =
       hk_motion_members(it->system, (int32_t)hooke_options_number(it->options, "threads"));
   if (workers > 1) it->pool = hk_pool_create(workers);
@@ -78,7 +78,7 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   if (it->method->by_tiles && system->mover_count == 0 && !system->overdamped && hk_goes_by_tiles(system))
     it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
-  if (status == HOOKE_OK) status = gather_crew(it);
+  if (status == HOOKE_OK) status = start_threads(it);
   if (status == HOOKE_OK) status = hk_motion_create(system, it->by_tiles, it->pool, &it->motion);
   if (status == HOOKE_OK) status = hk_recent_create(hk_integrator_numbers(it), 1, !it->by_tiles, &it->recent);
   return finish(it, status, out);
@@ -171,7 +171,7 @@ int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, h
   if (stride < 1) {
     return hk_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
   }
-  if (integrator->recent.room == 0) {
+  if (integrator->recent.capacity == 0) {
     const int32_t status = hk_divergence_keep(integrator); /* states are stored between checks */
     if (status != HOOKE_OK) return status;
   }
@@ -195,7 +195,7 @@ void hk_integrator_set_checker(hooke_integrator *it, struct hk_checker checker) 
 
 static int64_t recent_count(const hooke_integrator *it) {
   const struct hk_recent *recent = &it->recent;
-  return recent->count + (it->good.unkept && recent->count < recent->room);
+  return recent->count + (it->good.unkept && recent->count < recent->capacity);
 }
 
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {

@@ -14,7 +14,8 @@ struct hk_counts {
       linear_iterations, error_test_failures;
   int64_t zero_passages; /* not in checkpoints; -1: not known */
   /* matrices of linear equations, multiplications to factorise them, numbers of factors in solutions, and
-   * vectors that GMRES has made others orthogonal to: for measure/counted_work alone, and not in checkpoints */
+   * vectors that GMRES has made others orthogonal to: for measure/counted_work alone, and not in checkpoints
+   */
   int64_t matrices, factor_products, factor_numbers, space;
 };
 

@@ -76,8 +76,8 @@ struct hk_method {
   int32_t swings;            /* 1: a step that raises energy is taken in quarters at least: more swing on */
   int32_t by_tiles;          /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
   struct hk_stability stability, with_bodies; /* the second where bodies move, unless it is of unknown kind */
-  /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none does.
-   * NULL: steps of all sizes cost the same */
+  /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none
+   * does. NULL: steps of all sizes cost the same */
   int32_t (*explicit_step)(const hooke_system *system, double *step);
   /* before there is a motion: what depends on the system and the options, `by_tiles` among it; or NULL */
   int32_t (*choose)(hooke_integrator *integrator);

@@ -12,10 +12,10 @@
  *   c = side * (1/sqrt(A))     u = c n      h = u.r      a = ((r x f).n)/A      b = ((r x e).n)/A
  *   weights  k < 4: (a - b) - 1, -a, b, 1      else: a - 1, -a, 1 - b, b      of i0 .. i3
  *   w = ((g0*v_0 + g1*v_1) + g2*v_2) + g3*v_3 with the weights g of particles 0 .. 3
- *   T = (stiffness*(h - l) + damping*(u.w))/l          f_j -= (T*g_j) u          l the rest length of altitude k
- * and T = 0 for a spring that only pulls where h <= l or T < 0. At the shortest altitude weights are from -1
- * to 1: its ends lie in the tetrahedron. The weighted sum of positions is h u, so h is differentiated by (dh)
- * = u.(sum of g_j dx_j) exactly. */
+ *   T = (stiffness*(h - l) + damping*(u.w))/l          f_j -= (T*g_j) u          l the rest length of
+ * altitude k and T = 0 for a spring that only pulls where h <= l or T < 0. At the shortest altitude weights
+ * are from -1 to 1: its ends lie in the tetrahedron. The weighted sum of positions is h u, so h is
+ * differentiated by (dh) = u.(sum of g_j dx_j) exactly. */
 #ifndef HOOKE_KERNEL_ALTITUDE_LOOPS_H
 #define HOOKE_KERNEL_ALTITUDE_LOOPS_H
 

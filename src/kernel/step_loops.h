@@ -1,4 +1,5 @@
-/* The updates of explicit steps of first-order problems, x' = rate; those of particles are in move_loops.h. */
+/* The updates of explicit steps of first-order problems, x' = rate; those of particles are in move_loops.h.
+ */
 #ifndef HOOKE_KERNEL_STEP_LOOPS_H
 #define HOOKE_KERNEL_STEP_LOOPS_H
 

@@ -50,8 +50,8 @@ static const struct {
 
 enum { PIECES = sizeof pieces / sizeof pieces[0] };
 
-/* Adds one of these, a kind of coordinates or a force; returns its name, NULL past the last. A force that does not say what it
- * depends on equals no other. */
+/* Adds one of these, a kind of coordinates or a force; returns its name, NULL past the last. A force that
+ * does not say what it depends on equals no other. */
 static const char *add_piece(const hooke_system *system, int32_t k, uint32_t *value) {
   if (k < PIECES) {
     pieces[k].add(system, value);

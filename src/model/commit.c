@@ -106,14 +106,14 @@ static void add_tile(hooke_system *system, int64_t from, int64_t end) {
     system->span[system->span_count++] = (struct hk_span){from, end - from};
   for (int64_t p = from; p < end; p++) {
     if (system->constrained[p] != HOOKE_IS_PINNED) continue;
-    if (system->anchor) system->anchor[system->anchor_count] = (int32_t)p;
-    system->anchor_count++;
+    if (system->pin) system->pin[system->pin_count] = (int32_t)p;
+    system->pin_count++;
   }
 }
 
 static void add_tiles(hooke_system *system, const uint8_t *idle) {
   const int64_t n = system->particle_count;
-  system->span_count = system->anchor_count = 0;
+  system->span_count = system->pin_count = 0;
   for (int64_t from = 0; from < n; from += HOOKE_TILE) {
     const int64_t end = from + HOOKE_TILE < n ? from + HOOKE_TILE : n;
     if (is_stepped(system, idle, from, end)) add_tile(system, from, end);
@@ -134,8 +134,8 @@ static int32_t find_stepped(hooke_system *system) {
       system->idle_count += idle[p];
     }
     add_tiles(system, idle);
-    system->anchor = hk_new(system->anchor_count, sizeof *system->anchor);
-    if (system->anchor == NULL) status = HOOKE_NO_MEMORY;
+    system->pin = hk_new(system->pin_count, sizeof *system->pin);
+    if (system->pin == NULL) status = HOOKE_NO_MEMORY;
   }
   if (status == HOOKE_OK) add_tiles(system, idle);
   hk_free(idle);
@@ -159,8 +159,8 @@ static int32_t choose_forces(hooke_system *system) {
 static void forget_own(hooke_system *system) {
   system->force_row = NULL;
   system->span = NULL;
-  system->anchor = NULL;
-  system->idle_count = system->span_count = system->anchor_count = 0;
+  system->pin = NULL;
+  system->idle_count = system->span_count = system->pin_count = 0;
   system->force_row_count = 0;
 }
 
@@ -180,7 +180,7 @@ static void undo(hooke_system *system) {
   system->constrained_count = 0;
   hk_free(system->force_row);
   hk_free(system->span);
-  hk_free(system->anchor);
+  hk_free(system->pin);
   forget_own(system);
 }
 

@@ -151,11 +151,11 @@ int32_t hk_system_add_group(hooke_system *system, struct hk_group *group) {
     }
     system->rest->group_capacity = capacity;
   }
-  int64_t place = count;
-  while (place > 0 && comes_before(group, &system->group[place - 1]))
-    place--;
-  memmove(system->group + place + 1, system->group + place, (size_t)(count - place) * sizeof *system->group);
-  system->group[place] = *group;
+  int64_t slot = count;
+  while (slot > 0 && comes_before(group, &system->group[slot - 1]))
+    slot--;
+  memmove(system->group + slot + 1, system->group + slot, (size_t)(count - slot) * sizeof *system->group);
+  system->group[slot] = *group;
   system->group_count++;
   system->rest->member_total[hk_force_number(group->force)] += group->count;
   return HOOKE_OK;

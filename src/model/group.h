@@ -45,8 +45,8 @@ void hk_group_swap(struct hk_group *group, int64_t a, int64_t b);
 /* 1 if its members may pull only, and do not. */
 int32_t hk_group_resists(const struct hk_group *group);
 
-/* Moves members that have neither stiffness nor damping, and those inside a body, behind the others, in stable
- * order, and excludes them from the count; and the reverse. */
+/* Moves members that have neither stiffness nor damping, and those inside a body, behind the others, in
+ * stable order, and excludes them from the count; and the reverse. */
 void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies);
 void hk_group_take_back(struct hk_group *group);
 

@@ -68,8 +68,8 @@ int32_t hk_overdamped_check_forces(const hooke_system *system) {
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (e->c_along == 0.0 && e->c_across == 0.0) continue;
     return hk_fail(HOOKE_BAD_VALUE, "damping",
-                   "the %s of particle %d is damped; in an overdamped scene drag is the only friction, and "
-                   "damping is 0",
+                   "the %s of particle %d is damped; in an overdamped "
+                   "scene drag is the only friction, and damping is 0",
                    at.force->title ? at.force->title : "spring", (int)e->particle[0]);
   }
   return hk_fail(HOOKE_BAD_VALUE, "damping",

@@ -25,8 +25,8 @@ struct hooke_system {
   int64_t span_count; /* from commit on: spans that are stepped, ascending */
   struct hk_span *span;
   /* from commit on: pinned particles in these spans, restored after a step; ascending */
-  int64_t anchor_count;
-  int32_t *anchor;
+  int64_t pin_count;
+  int32_t *pin;
 
   double gravity[3];
   int32_t has_gravity;

@@ -7,7 +7,8 @@
 #include "core/status.h"
 
 /* Maximum bytes a particle, a group and a part while a scene is built, committed and given to an explicit
- * method; those of members of groups are in the table of forces, of bodies in that of coordinates. Tests compare them with the memory used. */
+ * method; those of members of groups are in the table of forces, of bodies in that of coordinates. Tests
+ * compare them with the memory used. */
 static const double PER_PARTICLE = 280.0, PER_GROUP = 6000.0, PER_PART = 14000.0;
 
 /* Number of members of a force, including those to come. */

@@ -61,7 +61,7 @@ void hooke_system_destroy(hooke_system *system) {
     hk_free(system->rest->input);
   }
   hk_free(system->span);
-  hk_free(system->anchor);
+  hk_free(system->pin);
   hk_free(system->force_row);
   hk_handle_free(system);
 }

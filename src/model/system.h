@@ -13,11 +13,11 @@
 
 struct hk_os_file;
 
-/* Constant elements about a place (3n), both owned by the caller. */
+/* Constant elements about an origin (3n), both owned by the caller. */
 struct hk_linear {
   int64_t count;
   const struct hk_element *element;
-  const double *place;
+  const double *origin;
 };
 
 struct hk_system_rest {
@@ -59,14 +59,14 @@ void hk_overdamped_undo(hooke_system *system);
 int32_t hk_system_require_open(const hooke_system *system);
 int32_t hk_system_require_committed(const hooke_system *system);
 
-/* HOOKE_BAD_VALUE, with "<place>[k]", for the first particle that does not exist or has the constraint
+/* HOOKE_BAD_VALUE, with "<where>[k]", for the first particle that does not exist or has the constraint
  * `refused`. */
-int32_t hk_system_check_particles(const hooke_system *system, const char *place, int64_t count,
+int32_t hk_system_check_particles(const hooke_system *system, const char *where, int64_t count,
                                   const int64_t *particles, int32_t refused);
 
-/* Adds linear forces; elements and place must outlive the system. */
+/* Adds linear forces; elements and origin must outlive the system. */
 void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_element *element,
-                          const double *place);
+                          const double *origin);
 
 /* A builder that fails midway removes everything that it added since the mark. */
 struct hk_system_mark {

@@ -131,5 +131,4 @@ static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
 
 const struct hooke_part_kind hk_part_cloth = {
     &table, build, named, &hk_part_sized,
-    "a grid of particles over two edges, with springs along it, across its cells and "
-    "two apart"};
+    "a grid of particles over two edges, with springs along it, across its cells and two apart"};

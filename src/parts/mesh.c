@@ -62,11 +62,10 @@ int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const doubl
 static int32_t check_given(const hooke_options *options) {
   const int vertices = hooke_options_is_set(options, "vertices");
   if (hooke_options_is_set(options, "file")) {
-    return hk_fail(
-        HOOKE_BAD_VALUE, "file",
-        "\"%s\" is not read here; hooke_mesh_read() puts the vertices and triangles of a file into "
-        "the options",
-        hooke_options_text(options, "file"));
+    return hk_fail(HOOKE_BAD_VALUE, "file",
+                   "\"%s\" is not read here; hooke_mesh_read() puts the "
+                   "vertices and triangles of a file into the options",
+                   hooke_options_text(options, "file"));
   }
   if (vertices && hooke_options_is_set(options, "triangles")) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, vertices ? "triangles" : "vertices",
@@ -165,7 +164,7 @@ static int32_t refuse(const struct hk_surface_fault *fault) {
                         (long long)(of_vertex ? fault->vertex[0] : fault->triangle[0]));
 }
 
-static int32_t check_room(const struct hk_part *part, const struct hk_surface *surface) {
+static int32_t check_space(const struct hk_part *part, const struct hk_surface *surface) {
   const double edges = (double)surface->edge_count;
   const struct hk_more more = {.particles = (double)surface->vertex_count,
                                .of = {{&hk_force_springs, hk_part_if_family(part, "structural", edges) +
@@ -181,7 +180,7 @@ static int32_t build(struct hk_part *part) {
   if (status != HOOKE_OK) return status;
   status = hk_surface_create(part->options, &surface, &fault);
   if (fault.trouble != HOOKE_SURFACE_FINE) status = refuse(&fault);
-  if (status == HOOKE_OK) status = check_room(part, &surface);
+  if (status == HOOKE_OK) status = check_space(part, &surface);
   part->count = surface.vertex_count;
   if (status == HOOKE_OK) status = add_particles(part, &surface);
   if (status == HOOKE_OK) {

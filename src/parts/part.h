@@ -38,7 +38,8 @@ extern const struct hooke_part_kind hk_part_strand;
 
 /* Options of kind number `k`, NULL past the last. */
 const struct hk_option_table *hk_part_table(int64_t k);
-/* Options of a kind by its name; NULL, with HOOKE_BAD_VALUE recorded, if there is none of this name or no name. */
+/* Options of a kind by its name; NULL, with HOOKE_BAD_VALUE recorded, if there is none of this name or no
+ * name. */
 const struct hk_option_table *hk_part_find(const char *name);
 
 /* Rows shared by kinds: a point [m], the corner where a grid begins [m], the total mass or the density,

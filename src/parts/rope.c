@@ -40,9 +40,9 @@ static int32_t build(struct hk_part *part) {
       hk_part_new_positions(part, more, &position, "a rope of %lld segments", (long long)segments);
   if (status != HOOKE_OK) return hk_fail_within(status, "segments");
   for (int64_t k = 0; k < segments; k++) {
-    const double share = (double)k / (double)segments;
+    const double fraction = (double)k / (double)segments;
     for (int i = 0; i < 3; i++)
-      position[3 * k + i] = from[i] + share * span[i];
+      position[3 * k + i] = from[i] + fraction * span[i];
   }
   memcpy(position + 3 * segments, to, 3 * sizeof(double));
   const double piece = hk_part_length(span) / (double)segments;

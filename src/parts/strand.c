@@ -148,9 +148,9 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
   if (status != HOOKE_OK) return hk_fail_within(status, "segments");
   for (int64_t k = 0; k < count; k++) {
     double across[2];
-    const double share = place(strand, k, across) / (double)strand->segments;
+    const double fraction = place(strand, k, across) / (double)strand->segments;
     for (int a = 0; a < 3; a++) {
-      const double at = k == count - 1 ? to[a] : from[a] + share * (to[a] - from[a]);
+      const double at = k == count - 1 ? to[a] : from[a] + fraction * (to[a] - from[a]);
       position[3 * k + a] = at + (across[0] * strand->axis[0][a] + across[1] * strand->axis[1][a]);
     }
   }
@@ -289,7 +289,6 @@ const struct hooke_part_kind hk_part_strand = {.table = &table,
                                                .build = build,
                                                .named = named,
                                                .grid = &grid,
-                                               .summary =
-                                                   "a hair, straight or curled, that keeps its curl: "
-                                                   "springs between neighbours, two and three apart, and "
-                                                   "across tetrahedra"};
+                                               .summary = "a hair, straight or curled, that keeps "
+                                                          "its curl: springs between neighbours, "
+                                                          "two and three apart, and across tetrahedra"};

@@ -28,9 +28,9 @@ static void place_vertices(const hooke_options *options, int64_t count, double *
 static int32_t check_range(const double *corner, int64_t count, int64_t vertices) {
   for (int64_t k = 0; k < count; k++) {
     if (corner[k] < (double)vertices) continue;
-    char place[64];
-    snprintf(place, sizeof place, "triangles[%lld][%lld]", (long long)(k / 3), (long long)(k % 3));
-    return hk_fail_index(place, "there is no vertex", corner[k], vertices);
+    char where[64];
+    snprintf(where, sizeof where, "triangles[%lld][%lld]", (long long)(k / 3), (long long)(k % 3));
+    return hk_fail_index(where, "there is no vertex", corner[k], vertices);
   }
   return HOOKE_OK;
 }
@@ -196,8 +196,8 @@ int32_t hk_surface_create(const hooke_options *options, struct hk_surface *surfa
   *fault = (struct hk_surface_fault){.trouble = HOOKE_SURFACE_FINE};
   if (vertices > INT32_MAX || 3 * triangles > INT32_MAX) {
     return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "a mesh of %lld vertices and %lld triangles; allowed: up to 2147483647 vertices and "
-                   "715827882 triangles",
+                   "a mesh of %lld vertices and %lld triangles; allowed: "
+                   "up to 2147483647 vertices and 715827882 triangles",
                    (long long)vertices, (long long)triangles);
   }
   surface->position = hk_new(3 * vertices, sizeof(double));

@@ -1,5 +1,5 @@
-/* A million springs of every kind, with a callback and driven particles, give the same bits every time; a tenth of
- * them for methods that solve. */
+/* A million springs of every kind, with a callback and driven particles, give the same bits every time; a
+ * tenth of them for methods that solve. */
 #include "check.h"
 #include "hash.h"
 #include "lockstep.h"

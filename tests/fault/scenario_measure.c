@@ -7,7 +7,8 @@ static int32_t go_along(hooke_measurement *limit, const hooke_state *start, hook
   return status != HOOKE_OK ? status : hooke_measurement_run(limit, state);
 }
 
-/* Texts and numbers of the columns of all rows; `columns` ends with NULL, and those of numbers begin with "#". */
+/* Texts and numbers of the columns of all rows; `columns` ends with NULL, and those of numbers begin with
+ * "#". */
 static void take_rows(struct attempt *a, const hooke_measurement *m, const char *rows,
                       const char *const *columns) {
   for (int64_t k = 0; k < hooke_measurement_row_count(m, rows); k++) {

@@ -68,8 +68,8 @@ static void own_rotation(const double *q, const double *v, double rotation[3]) {
   }
 }
 
-/* The solution of Euler's equations from (w1, 0, w3) (Landau and Lifshitz, Mechanics, section 37), for L^2 > 2 E I2
- * and, with the first and the last axis exchanged, for L^2 < 2 E I2. Returns the quarter period. */
+/* The solution of Euler's equations from (w1, 0, w3) (Landau and Lifshitz, Mechanics, section 37), for L^2 >
+ * 2 E I2 and, with the first and the last axis exchanged, for L^2 < 2 E I2. Returns the quarter period. */
 static double euler(const double start[3], double t, double rotation[3]) {
   double i[3] = {MOMENT[0], MOMENT[1], MOMENT[2]};
   const double e = i[0] * start[0] * start[0] + i[2] * start[2] * start[2];
@@ -236,8 +236,8 @@ TEST(verlet_conserves) {
   check_between(euler_drift.momentum[1], 1e-14, 3e-11);
 }
 
-/* Implicit methods keep the angular momentum of a free body to rounding at any tolerance. That of its energy is of
- * the order of the method: implicit midpoint does not lose or gain it steadily, the others lose it. */
+/* Implicit methods keep the angular momentum of a free body to rounding at any tolerance. That of its energy
+ * is of the order of the method: implicit midpoint does not lose or gain it steadily, the others lose it. */
 TEST(implicit_methods_conserve) {
   const char *const names[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
   for (int m = 0; m < 3; m++) {

@@ -169,8 +169,8 @@ static hooke_system *governor(double stiffness) {
 }
 
 /* With rigid links the angle x of the rods from the vertical is all: the slider is 2 l cos x below the
- * point, each rod turns about the vertical with the momentum p = J sin^2 x w that it began with, and Lagrange's
- * equation is
+ * point, each rod turns about the vertical with the momentum p = J sin^2 x w that it began with, and
+ * Lagrange's equation is
  *
  *     (2 J + 4 l^2 M sin^2 x) x'' + 4 l^2 M sin x cos x x'^2 = 2 p^2 cos x/(J sin^3 x) - 2 (S + l M) g sin x
  *

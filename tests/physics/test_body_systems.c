@@ -1,5 +1,5 @@
-/* Systems with rigid bodies: what is refused, what is dropped, which bits agree, and the lattice whose limit of
- * great stiffness a body is. */
+/* Systems with rigid bodies: what is refused, what is dropped, which bits agree, and the lattice whose limit
+ * of great stiffness a body is. */
 #include "check.h"
 #include "order.h"
 #include "run.h"
@@ -132,9 +132,9 @@ TEST(acceleration_is_that_of_the_motion) {
 
 /* ---- the largest stable step ---- */
 
-/* A bar with a heavy middle on four anchors at the corners: it rises and sways at sqrt(4 k/M), and turns about its
- * axes at sqrt(k (the sum of squared distances)/I) = sqrt(k/m), m the mass of a corner, which is faster. verlet is
- * stable up to 2 over that. */
+/* A bar with a heavy middle on four anchors at the corners: it rises and sways at sqrt(4 k/M), and turns
+ * about its axes at sqrt(k (the sum of squared distances)/I) = sqrt(k/m), m the mass of a corner, which is
+ * faster. verlet is stable up to 2 over that. */
 TEST(bar_on_springs_has_its_limit) {
   const double k = 500.0, m = 0.2, mass[5] = {0.2, 0.2, 0.2, 0.2, 3.0};
   const double q[15] = {1, 0, 0.1, 1, 0, -0.1, -1, 0, 0.1, -1, 0, -0.1, 0, 0, 0};

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Two periods: at their end a phase that is off shows a twelfth of what it does between, so that who judges the
- * end alone claims too much. */
+/* Two periods: at their end a phase that is off shows a twelfth of what it does between, so that who judges
+ * the end alone claims too much. */
 static const double OMEGA = 6.283185307179586, DURATION = 2.0, EVERY = 0.02;
 
 static double number_of(const hooke_measurement *estimate, const char *what) {
@@ -113,7 +113,8 @@ TEST(test_the_integrator_may_be_gone) {
   assert_string_equal(text_of(short_of, "reason"), "the run did not come to its end");
 }
 
-/* At a step of 0.2 s, h omega is 1.2, and the phase is lost after some periods, whatever half the step does. */
+/* At a step of 0.2 s, h omega is 1.2, and the phase is lost after some periods, whatever half the step does.
+ */
 TEST(test_a_run_that_lost_the_motion_is_not_known) {
   owned_system *system = small_oscillator(OMEGA);
   owned_measurement *estimate;

@@ -95,8 +95,8 @@ TEST(test_forces) {
 
 enum { NET = 7 };
 
-/* A net of seven particles under gravity, committed with a body of four of them that turns, held at particle 0
- * or free, or overdamped. */
+/* A net of seven particles under gravity, committed with a body of four of them that turns, held at particle
+ * 0 or free, or overdamped. */
 static hooke_system *make_net(const double *q, int64_t pinned, int32_t overdamped) {
   const double mass[NET] = {0.5, 1, 2, 0.7, 1.3, 0.4, 3}, spin[3] = {0.5, -1.0, 2.0};
   const int64_t ends[] = {0, 4, 1, 4, 2, 5, 3, 6, 4, 5, 5, 6}, body[4] = {0, 1, 2, 3};

@@ -1,6 +1,6 @@
-/* Falling cloths, soft to stiff, undamped to heavily damped, in steps from 0.1 ms to 100 ms, three of each, by
- * every implicit method in both forms: the steps are finished, or the failure is told with its reason; what
- * is finished has finite numbers, and at small steps the forms agree. */
+/* Falling cloths, soft to stiff, undamped to heavily damped, in steps from 0.1 ms to 100 ms, three of each,
+ * by every implicit method in both forms: the steps are finished, or the failure is told with its reason;
+ * what is finished has finite numbers, and at small steps the forms agree. */
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"
@@ -53,8 +53,8 @@ static void check_cloth(int side, double stiffness, double damping, double h, in
 }
 
 /* Of 100 ms the softest alone: those of stiffer cloths take a minute. There the midpoint rule turns what it
- * does not resolve against itself, and is not asked. If `some`, with the ends of each range alone, and without
- * 100 ms. */
+ * does not resolve against itself, and is not asked. If `some`, with the ends of each range alone, and
+ * without 100 ms. */
 static void check_side(int side, int some) {
   const double stiffnesses[] = {1e3, 1e4, 2e5}, dampings[] = {0.0, 0.5, 20.0}, steps[] = {1e-4, 1e-3, 1e-2};
   for (int s = 0; s < 3; s += some ? 2 : 1) {

@@ -1,5 +1,5 @@
-/* Errors of implicit methods on cloths fall with the step, in both forms, below the coarsest third of a ladder;
- * over the time up to which references agree. */
+/* Errors of implicit methods on cloths fall with the step, in both forms, below the coarsest third of a
+ * ladder; over the time up to which references agree. */
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"

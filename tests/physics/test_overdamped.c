@@ -122,7 +122,8 @@ TEST(test_divergence) {
   assert_true(hooke_system_energy(system, "kinetic", NULL, hooke_state_velocity(state)) == 0.0);
 }
 
-/* What falls has the speed m g/gamma at once; a callback is given v = 0; dissipation is the work of gravity. */
+/* What falls has the speed m g/gamma at once; a callback is given v = 0; dissipation is the work of gravity.
+ */
 static int32_t push(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   double *largest_v = ctx;
   (void)t, (void)q;
@@ -159,7 +160,8 @@ TEST(test_forces) {
   check_close(hooke_system_energy(system, "gravity", q, NULL), 9.81 * (2.0 * q[1] + 0.5 * q[4]), 1e-9);
 }
 
-/* One end is moved as x = 0.1 sin(t): the other follows by exp(-kappa t/gamma), at the order of each method. */
+/* One end is moved as x = 0.1 sin(t): the other follows by exp(-kappa t/gamma), at the order of each method.
+ */
 TEST(test_driven) {
   const double amplitude[3] = {0.1, 0.0, 0.0}, a = KAPPA / GAMMA, t = 0.2;
   const int64_t first = 0;

@@ -1,5 +1,5 @@
-/* Picks for a wanted error: long steps of implicit methods of order 2 where springs are stiff and damped, and Verlet at
- * a step with explicit damping. */
+/* Picks for a wanted error: long steps of implicit methods of order 2 where springs are stiff and damped, and
+ * Verlet at a step with explicit damping. */
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"

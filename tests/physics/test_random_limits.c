@@ -1,7 +1,7 @@
 /* Limits of random scenes of all kinds of forces, anchors at their own places and coinciding particles among
- * them, against amplification matrices of the test's own: K and C are assembled by their formulas, a step of a
- * method is applied to every unit vector, and powers of the matrix grow or not. HOOKE_LONG=1 takes more scenes
- * (tests/long/soak.py). */
+ * them, against amplification matrices of the test's own: K and C are assembled by their formulas, a step of
+ * a method is applied to every unit vector, and powers of the matrix grow or not. HOOKE_LONG=1 takes more
+ * scenes (tests/long/soak.py). */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -266,8 +266,8 @@ static struct motion verlet(const struct scene *s, int damped, double h, const s
   return m;
 }
 
-/* With all damping at once, (I + h/2 M^-1 C)^-1, where the library goes over the dampers one by one: the limit
- * is that without damping whatever takes energy away. */
+/* With all damping at once, (I + h/2 M^-1 C)^-1, where the library goes over the dampers one by one: the
+ * limit is that without damping whatever takes energy away. */
 static struct motion split(const struct scene *s, double h, const struct motion *start) {
   struct motion m = *start;
   damp_implicitly(s, h, m.v);
@@ -325,8 +325,8 @@ static double square(int n, double *a) {
   return log(most);
 }
 
-/* 1 if 2^squares steps grow by more than powers of the number of steps and the largest jumps do. SURE: by 2e-7 a
- * step; rounding makes free motion grow by the root of 1e-16. FINE: by 2e-10. */
+/* 1 if 2^squares steps grow by more than powers of the number of steps and the largest jumps do. SURE: by
+ * 2e-7 a step; rounding makes free motion grow by the root of 1e-16. FINE: by 2e-10. */
 enum { SURE = 28, FINE = 38 };
 static int grows(const struct scene *s, const char *method, double h, int squares) {
   static const double CLEAR = 60.0;
@@ -357,8 +357,8 @@ static double verlet_bound(const struct scene *s) {
   return bound;
 }
 
-/* Methods that need damping are unstable so slowly at far smaller steps than the others take that rounding hides
- * it. */
+/* Methods that need damping are unstable so slowly at far smaller steps than the others take that rounding
+ * hides it. */
 static int is_seen(const struct scene *s, const char *method, double limit) {
   if (s->overdamped || !needs_damping(method)) return 1;
   return limit > (strcmp(method, "heun") == 0 ? 0.3 : 0.05) * verlet_bound(s);

@@ -1,4 +1,5 @@
-/* Studies of one row a method: the numbers of a row are correct, methods have the expected ranking, a diverged row stays. */
+/* Studies of one row a method: the numbers of a row are correct, methods have the expected ranking, a
+ * diverged row stays. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"

@@ -144,8 +144,8 @@ TEST(every_want_is_met) {
   }
 }
 
-/* A long rope with one free end, which errs about twice as much as the whole in the mean: the want is met by the
- * end, too, and the mean is so far below it that it cannot have been what was judged. */
+/* A long rope with one free end, which errs about twice as much as the whole in the mean: the want is met by
+ * the end, too, and the mean is so far below it that it cannot have been what was judged. */
 TEST(a_want_is_met_by_every_particle) {
   const double wants[] = {1e-4, 1e-3};
   const double until = 0.5;
@@ -165,7 +165,8 @@ TEST(a_want_is_met_by_every_particle) {
   }
 }
 
-/* So far from the origin that positions cannot hold the motion, no error is known, and none is said to be 0. */
+/* So far from the origin that positions cannot hold the motion, no error is known, and none is said to be 0.
+ */
 TEST(no_error_is_known_far_away) {
   static const char *const errors[] = {"error", "error_max", "error_final", "energy_drift"};
   const struct {

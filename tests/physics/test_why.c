@@ -311,8 +311,8 @@ TEST(test_solvers_that_give_up) {
   }
 }
 
-/* A step above the limit of 0.2 s, and the same force, which no step gets past: the step that the limit gives comes
- * last, and its words own up to that. */
+/* A step above the limit of 0.2 s, and the same force, which no step gets past: the step that the limit gives
+ * comes last, and its words own up to that. */
 TEST(test_a_step_that_is_not_enough) {
   needs_lapack();
   const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 60, 0};
@@ -452,8 +452,8 @@ TEST(test_progress_ends_it) {
   assert_true(2 * stopped >= tried);
 }
 
-/* A call of a callback counts as 50 us, as a script may take: 85 % of 2 s are 34,000 of them, in which the trial of a
- * smaller step does not come to its end. */
+/* A call of a callback counts as 50 us, as a script may take: 85 % of 2 s are 34,000 of them, in which the
+ * trial of a smaller step does not come to its end. */
 TEST(test_callbacks_are_not_called_for_ever) {
   needs_lapack();
   struct fault none = {.particle = 2, .from = INFINITY};

@@ -1,5 +1,5 @@
-/* Objects and memory that are released where the block that declares them ends, the last declared first: declare
- * a system before what is made for it. A test that fails releases none. */
+/* Objects and memory that are released where the block that declares them ends, the last declared first:
+ * declare a system before what is made for it. A test that fails releases none. */
 #ifndef TESTS_SUPPORT_OWNED_H
 #define TESTS_SUPPORT_OWNED_H
 

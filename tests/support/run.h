@@ -38,7 +38,8 @@ hooke_measurement *limit_at_start(const hooke_system *system, const hooke_option
 
 /* Limits of these methods at the initial state, measured to 1e-3, or only predicted. */
 hooke_measurement *limits_of(const hooke_system *system, const char *methods, int32_t predict);
-/* Each measured limit is that predicted, to 1e-3, and is not below its bound, nor far above it. Destroys the system. */
+/* Each measured limit is that predicted, to 1e-3, and is not below its bound, nor far above it. Destroys the
+ * system. */
 void check_limits_met(hooke_system *system, const char *methods);
 
 /* Explains why the last run ended early, for as long as that takes. The status of what fails first; then

@@ -5,8 +5,8 @@
 #include "hooke.h"
 
 hooke_options *new_options(const char *table);
-/* Options of a table, set by "name=value name=value", in which printf() puts the rest: numbers by %.17g, which
- * keeps every bit. */
+/* Options of a table, set by "name=value name=value", in which printf() puts the rest: numbers by %.17g,
+ * which keeps every bit. */
 __attribute__((format(printf, 2, 3))) hooke_options *options_with(const char *table, const char *words, ...);
 __attribute__((format(printf, 2, 3))) void set_options(hooke_options *options, const char *words, ...);
 

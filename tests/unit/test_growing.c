@@ -63,7 +63,7 @@ TEST(a_quotient_is_below_the_largest_eigenvalue_and_comes_near) {
   }
 }
 
-/* It ends at the first iteration that proves a step too large, and when patience is over. */
+/* It ends at the first iteration that proves a step too large, and when budget is over. */
 static int32_t refuse(double done, const char *what, void *ctx) {
   (void)done, (void)what;
   return --*(int *)ctx < 0;
@@ -73,12 +73,12 @@ TEST(turns_end) {
   struct random_scene scene = build(5);
   const hooke_system *system = scene.system;
   int calls = 3;
-  struct hk_patience patience = hk_patience_of(INFINITY, refuse, &calls);
+  struct hk_budget budget = hk_budget_of(INFINITY, refuse, &calls);
   struct hk_growing growing;
   double *still = calloc((size_t)(3 * system->particle_count), sizeof *still);
-  check_ok(hk_growing_create(system, still, &patience, &growing));
+  check_ok(hk_growing_create(system, still, &budget, &growing));
   hk_growing_turn(&growing, system->position, 1e-4, 0.0, INFINITY, -1.0, 1000000);
-  assert_true(patience.stopped && calls == -1);
+  assert_true(budget.stopped && calls == -1);
   const double half = 0.5 * hk_growing_quotient(&growing, system->position, 1e-4, 0.0);
   assert_true(hk_growing_turn(&growing, system->position, 1e-4, 0.0, half, -1.0, 1000000) > half);
   hk_growing_release(&growing);

@@ -20,9 +20,9 @@ static hooke_system *oscillators(int64_t count, const double *stiffness, const d
   hooke_system *system = new_system();
   hooke_options *options = new_options("springs");
   for (int64_t k = 0; k < count; k++) {
-    const double place[6] = {far, (double)k, 0.0, far + 1.0, (double)k, 0.0};
+    const double origin[6] = {far, (double)k, 0.0, far + 1.0, (double)k, 0.0};
     const int64_t pinned = 2 * k;
-    check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
+    check_ok(hooke_system_add_particles(system, 2, origin, NULL, 1, &mass, NULL));
     check_ok(hooke_system_pin(system, 1, &pinned));
   }
   for (int64_t k = 0; k < count; k++) {
@@ -134,12 +134,12 @@ TEST(hidden_mode_is_found) {
  * force. */
 TEST(parallel_springs_are_one) {
   enum { MANY = 6 };
-  const double place[9] = {0, 0, 0, 1, 0.25, 0, 0.5, 1, 0}, still[9] = {0.0},
+  const double origin[9] = {0, 0, 0, 1, 0.25, 0, 0.5, 1, 0}, still[9] = {0.0},
                dq[9] = {0, 0, 0, 0.3, -0.2, 0.5, 0.1, 0.4, -0.3};
   const int64_t ends[2 * MANY] = {0, 1, 1, 2, 1, 0, 0, 1, 2, 1, 0, 1}, none = 0;
   const double stiffness[MANY] = {20, 3, 0.5, 7, 11, 0}, damping[MANY] = {0, 0.1, 0.3, 0, 0, 0.2},
                rest[MANY] = {0.7, 0.5, 0.2, 1.5, 0.4, 1};
-  owned_system *system = small_system(3, place, NULL, 0.5, 0);
+  owned_system *system = small_system(3, origin, NULL, 0.5, 0);
   struct hk_twin twin;
   double product[9], of_twin[9], energy = 0.0, there[9];
   check_ok(hooke_system_pin(system, 1, &none));
@@ -150,21 +150,21 @@ TEST(parallel_springs_are_one) {
   check_ok(hooke_system_add_springs(system, NULL, MANY, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  check_ok(hk_twin_create(system, place, &twin));
+  check_ok(hk_twin_create(system, origin, &twin));
   assert_int_equal(hooke_system_count(twin.system, "springs"), 2);
   /* one of them is compressed, so that it has no stiffness across: its share is left out */
-  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.place, still, dq, dq, of_twin));
-  check_ok(hooke_system_derivative_product(system, 0.0, place, still, dq, dq, product));
+  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.origin, still, dq, dq, of_twin));
+  check_ok(hooke_system_derivative_product(system, 0.0, origin, still, dq, dq, product));
   const double r = hypot(1.0, 0.25), u[3] = {1.0 / r, 0.25 / r, 0.0}, across = 7.0 * (1.0 - 1.5 / r);
   const double along = u[0] * dq[3] + u[1] * dq[4];
   for (int a = 0; a < 3; a++) {
     check_close(of_twin[3 + a], product[3 + a] + across * (dq[3 + a] - along * u[a]), 1e-7);
     check_close(of_twin[6 + a], product[6 + a], 1e-7);
   }
-  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.place, still, dq, still, of_twin));
+  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.origin, still, dq, still, of_twin));
   for (int k = 0; k < 9; k++) {
     energy -= dq[k] * of_twin[k];
-    there[k] = twin.place[k] + dq[k];
+    there[k] = twin.origin[k] + dq[k];
   }
   check_close(hk_twin_energy(&twin, there, still), energy, 1e-6 * energy);
   hk_twin_release(&twin);
@@ -192,13 +192,13 @@ TEST(frozen_system_rests) {
   assert_int_equal(hooke_system_count(twin.system, "free"), 3);
   const double still[15] = {0.0};
   double force[15], moved[15], product[15], dq[15];
-  check_ok(hooke_system_force(twin.system, 0.0, twin.place, still, force));
+  check_ok(hooke_system_force(twin.system, 0.0, twin.origin, still, force));
   for (int k = 0; k < 15; k++)
     check_between(force[k], 0.0, 0.0);
   /* its derivative is that of the scene, except that the compressed spring has no stiffness across */
   for (int k = 0; k < 15; k++)
     dq[k] = k < 3 || (k >= 9 && k < 12) ? 0.0 : sin(1.0 + k);
-  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.place, still, dq, still, product));
+  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.origin, still, dq, still, product));
   check_ok(hooke_system_derivative_product(system, 0.0, position, still, dq, still, moved));
   for (int a = 12; a < 15; a++) { /* the coincident one has no force, and is stiff in all directions */
     check_between(moved[a], 0.0, 0.0);
@@ -215,7 +215,7 @@ TEST(frozen_system_rests) {
   /* the energy of a displacement is its product with the force */
   double there[15], energy = 0.0;
   for (int k = 0; k < 15; k++) {
-    there[k] = twin.place[k] + dq[k];
+    there[k] = twin.origin[k] + dq[k];
     energy -= dq[k] * product[k];
   }
   check_close(hk_twin_energy(&twin, there, still), energy, 1e-5 * energy);
@@ -228,15 +228,15 @@ TEST(frozen_system_rests) {
 
 /* Drag alone: x'' = -c/m x'. */
 TEST(drag_alone) {
-  const double place[3] = {3.0, 0.0, 0.0};
-  hooke_system *system = small_system(1, place, NULL, 2.0, 0);
+  const double origin[3] = {3.0, 0.0, 0.0};
+  hooke_system *system = small_system(1, origin, NULL, 2.0, 0);
   check_ok(hooke_system_set_drag(system, 5.0));
   check_ok(hooke_system_commit(system));
   check_close(measure(system, "symplectic-euler", 0.8, NULL, 1e-3).step, 0.8, 1e-3);
   check_close(measure(system, "forward-euler", NAN, NULL, 1e-3).step, 0.8, 1e-3);
   assert_true(isinf(measure(system, "verlet", INFINITY, NULL, 1e-3).step));
   hooke_system_destroy(system);
-  owned_system *nothing = small_system(1, place, NULL, 2.0, 0);
+  owned_system *nothing = small_system(1, origin, NULL, 2.0, 0);
   check_ok(hooke_system_commit(nothing));
   assert_true(isinf(measure(nothing, "symplectic-euler", NAN, NULL, 1e-3).step));
 }
@@ -274,9 +274,9 @@ TEST(what_is_refused) {
 /* Damped along a motion that has no direction yet: stiff and damped in all directions, which explicit damping
  * of symplectic Euler shows. */
 TEST(damping_of_a_spring_of_no_length) {
-  const double place[6] = {0.0};
+  const double origin[6] = {0.0};
   const int64_t ends[2] = {0, 1};
-  owned_system *system = small_system(2, place, NULL, 1.0, 1);
+  owned_system *system = small_system(2, origin, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 49.0, .damping = 3.0});
   check_ok(hooke_system_commit(system));
   check_close(measure(system, "verlet", NAN, NULL, 1e-3).step, 2.0 / 7.0, 1e-3 * 2.0 / 7.0);
@@ -335,9 +335,9 @@ TEST(the_scene_itself) {
 }
 
 static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
-  const double place[6] = {0, 0, 0, 1, 0, 0};
+  const double origin[6] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[2] = {0, 1};
-  hooke_system *system = small_system(2, place, NULL, 1.0, 1);
+  hooke_system *system = small_system(2, origin, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = OMEGA * OMEGA});
   check_ok(hooke_system_set_force(system, spoil, NULL, spoiler));
   check_ok(hooke_system_commit(system));

@@ -21,7 +21,7 @@ struct found {
 
 struct trial {
   double q[3][PARTICLES], v[3][PARTICLES], kappas[LONGEST], gammas[LONGEST], rest_lengths[LONGEST];
-  int32_t head[LONGEST], tail[LONGEST], place[LONGEST];
+  int32_t head[LONGEST], tail[LONGEST], slot[LONGEST];
   struct hk_run run;
   int axial;
   struct found begin; /* sums start from these */
@@ -52,7 +52,7 @@ static void draw_run(struct random_source *source, int32_t shape, int64_t count,
                       .rest_length = random_whole(source, 0, 4) ? random_between(source, 0.0, 2.0) : 0.0};
   const int32_t kind = (int32_t)random_whole(source, 0, 3);
   if (!(shape & HOOKE_RUN_MIXED)) return;
-  if (kind == 1) run->place = trial->place;
+  if (kind == 1) run->slot = trial->slot;
   if (kind > 1) run->kappas = run->gammas = NULL;
   run->strain = kind == 3;
   for (int64_t k = 0; k < count && run->strain; k++)
@@ -71,7 +71,7 @@ static void draw(struct random_source *source, int32_t shape, int64_t count, str
   for (int64_t k = 0; k < count; k++) {
     trial->head[k] = (int32_t)random_whole(source, 0, PARTICLES - 1);
     trial->tail[k] = (int32_t)((trial->head[k] + random_whole(source, 1, PARTICLES - 1)) % PARTICLES);
-    trial->place[k] = (int32_t)(count - 1 - k);
+    trial->slot[k] = (int32_t)(count - 1 - k);
     trial->kappas[k] = random_between(source, 0.0, 100.0);
     trial->gammas[k] = random_between(source, 0.0, 10.0);
     trial->rest_lengths[k] = random_whole(source, 0, 4) ? random_between(source, 0.0, 2.0) : 0.0;

@@ -59,7 +59,7 @@ int64_t hk_os_write_at(int descriptor, int64_t at, int64_t count, const void *by
 int hk_os_set_length(int descriptor, int64_t bytes);
 
 /* Takes room on the disk for this length. Returns 0 or an errno; 0 where the file system cannot. */
-int hk_os_take_room(int descriptor, int64_t bytes);
+int hk_os_reserve_disk(int descriptor, int64_t bytes);
 
 /* Flushes what was written to the disk. */
 int hk_os_sync(int descriptor);
@@ -86,9 +86,9 @@ int hk_os_open_folder(const char *path, int *folder);
 int hk_os_sync_folder(int folder);
 void hk_os_close_folder(int folder);
 
-/* Renames, replacing a file of that name, of which `older` (-1: none) is a descriptor: it is closed, and set to
- * -1, where no open file can be replaced. The second function fails with EEXIST if there is a file, and with
- * EINVAL or ENOSYS where that cannot be had. */
+/* Renames, replacing a file of that name, of which `older` (-1: none) is a descriptor: it is closed, and set
+ * to -1, where no open file can be replaced. The second function fails with EEXIST if there is a file, and
+ * with EINVAL or ENOSYS where that cannot be had. */
 int hk_os_rename(const char *from, const char *to, int *older);
 int hk_os_rename_if_free(const char *from, const char *to);
 

@@ -52,9 +52,9 @@ char *hk_os_new_path(const char *path) {
   char name[PATH_MAX], folder[PATH_MAX] = "";
   errno = follow(path, name);
   if (errno || (name[0] != '/' && getcwd(folder, sizeof folder) == NULL)) return NULL;
-  const size_t room = strlen(folder) + strlen(name) + 2;
-  char *whole = malloc(room);
-  if (whole) snprintf(whole, room, "%s%s%s", folder, folder[0] ? "/" : "", name);
+  const size_t capacity = strlen(folder) + strlen(name) + 2;
+  char *whole = malloc(capacity);
+  if (whole) snprintf(whole, capacity, "%s%s%s", folder, folder[0] ? "/" : "", name);
   return whole;
 }
 
@@ -138,12 +138,12 @@ int hk_os_set_length(int descriptor, int64_t bytes) {
 /* macOS has no posix_fallocate(), and its fsync() leaves data in the memory of the disk. */
 #if defined(__APPLE__)
 
-int hk_os_take_room(int descriptor, int64_t bytes) {
+int hk_os_reserve_disk(int descriptor, int64_t bytes) {
   struct hk_os_file now;
   if (hk_os_look_open(descriptor, &now) != 0) return errno;
   if (now.bytes >= bytes) return 0;
-  fstore_t room = {F_ALLOCATEALL, F_PEOFPOSMODE, 0, bytes - now.bytes, 0};
-  if (fcntl(descriptor, F_PREALLOCATE, &room) != 0 && errno == ENOSPC) return errno;
+  fstore_t capacity = {F_ALLOCATEALL, F_PEOFPOSMODE, 0, bytes - now.bytes, 0};
+  if (fcntl(descriptor, F_PREALLOCATE, &capacity) != 0 && errno == ENOSPC) return errno;
   return ftruncate(descriptor, (off_t)bytes) == 0 ? 0 : errno;
 }
 
@@ -153,7 +153,7 @@ int hk_os_sync(int descriptor) {
 
 #else
 
-int hk_os_take_room(int descriptor, int64_t bytes) {
+int hk_os_reserve_disk(int descriptor, int64_t bytes) {
   const int error = posix_fallocate(descriptor, 0, (off_t)bytes);
   return error == EINVAL || error == ENOTSUP ? 0 : error;
 }
@@ -186,8 +186,8 @@ int32_t hk_os_is_locked(int descriptor) {
   return fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK;
 }
 
-/* HDF5's readers use flock(), which on local file systems is an independent kind of lock, and on others, as on
- * NFS, the same. */
+/* HDF5's readers use flock(), which on local file systems is an independent kind of lock, and on others, as
+ * on NFS, the same. */
 void hk_os_let_readers_in(const char *path, int descriptor) {
   const int reader = open(path, O_RDONLY | O_CLOEXEC);
   if (reader >= 0 && flock(reader, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) hk_os_unlock(descriptor);

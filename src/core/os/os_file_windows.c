@@ -210,7 +210,7 @@ int hk_os_set_length(int descriptor, int64_t bytes) {
   return SetFileInformationByHandle(handle_of(descriptor), FileEndOfFileInfo, &end, sizeof end) ? 0 : fail();
 }
 
-int hk_os_take_room(int descriptor, int64_t bytes) {
+int hk_os_reserve_disk(int descriptor, int64_t bytes) {
   struct hk_os_file now;
   if (hk_os_look_open(descriptor, &now) != 0) return errno;
   return now.bytes >= bytes || hk_os_set_length(descriptor, bytes) == 0 ? 0 : errno;
@@ -222,8 +222,8 @@ int hk_os_sync(int descriptor) {
 
 /* ---- locks ---- */
 
-/* Windows keeps others from reading what is locked, so the lock is on the last byte that there could be, which no
- * file has. HDF5's readers lock all bytes before it. */
+/* Windows keeps others from reading what is locked, so the lock is on the last byte that there could be,
+ * which no file has. HDF5's readers lock all bytes before it. */
 static const int64_t locked_byte = -1;
 
 static int take(int descriptor, DWORD kind) {

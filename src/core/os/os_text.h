@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* Replaces the thread's locale, which is the caller's, by "C" for a moment. `needed` 0: only if it has another
- * decimal point. */
+/* Replaces the thread's locale, which is the caller's, by "C" for a moment. `needed` 0: only if it has
+ * another decimal point. */
 struct hk_os_locale {
   void *plain, *callers; /* NULL: nothing was replaced */
   int mode;

@@ -117,10 +117,10 @@ const struct hk_option_table *hk_options_table(const hooke_options *options) {
 }
 
 int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
-                           const char *place, const char *maker) {
+                           const char *where, const char *maker) {
   if (options && options->table == table) return HOOKE_OK;
-  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, place, "are missing; make them with %s", maker);
-  return hk_fail(HOOKE_BAD_VALUE, place, "are those of a %s; make them with %s", options->table->name, maker);
+  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, where, "are missing; make them with %s", maker);
+  return hk_fail(HOOKE_BAD_VALUE, where, "are those of a %s; make them with %s", options->table->name, maker);
 }
 
 /* The row named by the beginning of `name`, up to the end or a dot. */

@@ -42,11 +42,12 @@ struct hk_option_table {
   int32_t row_count;
 };
 
-/* A row: its key, what it is, its default as text (NULL: none) and one line of text, then what few rows have. */
+/* A row: its key, what it is, its default as text (NULL: none) and one line of text, then what few rows have.
+ */
 #define HOOKE_OPTION(key, kind, otherwise, ...)                                                              \
   { .name = (key), kind, .fallback = (otherwise), .doc = __VA_ARGS__ }
-/* What rows often are: a number >= 0, > 0 or between two others, a whole number, several of them, a vector, rows
- * of x y z, numbers that are one or one for each, one word of several. */
+/* What rows often are: a number >= 0, > 0 or between two others, a whole number, several of them, a vector,
+ * rows of x y z, numbers that are one or one for each, one word of several. */
 #define HOOKE_OPTION_BETWEEN(least, most) .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most)
 #define HOOKE_OPTION_NOT_NEGATIVE(units)  HOOKE_OPTION_BETWEEN(0.0, 1e300), .unit = (units)
 #define HOOKE_OPTION_UP_TO(units, most)   HOOKE_OPTION_BETWEEN(0.0, most), .unit = (units), .above_low = 1
@@ -69,10 +70,10 @@ int32_t hk_options_create(const struct hk_option_table *table, hooke_options **o
 
 const struct hk_option_table *hk_options_table(const hooke_options *options);
 
-/* HOOKE_BAD_VALUE for the argument `place` unless these are options of that table, which `maker`
+/* HOOKE_BAD_VALUE for the argument `where` unless these are options of that table, which `maker`
  * ("hooke_options_create(\"run\", ...)") creates. NULL is refused. */
 int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
-                           const char *place, const char *maker);
+                           const char *where, const char *maker);
 
 /* Row of a dotted name; NULL if there is none. */
 const struct hk_option_row *hk_options_find(const struct hk_option_table *table, const char *name);
@@ -90,8 +91,8 @@ int32_t hk_options_has_family(const hooke_options *options, const char *name);
 /* Adds a word to the option's list of words (for a row with word_lists), keeping its numbers. */
 int32_t hk_options_add_word(hooke_options *options, const char *name, const char *word);
 
-/* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value, or one is set that belongs
- * to another choice. */
+/* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value, or one is set that
+ * belongs to another choice. */
 int32_t hk_options_check_required(const hooke_options *options);
 
 /* Next word of a list separated by blanks, which is advanced; NULL at the end. */
@@ -112,7 +113,7 @@ void hk_option_show(const char *text, int64_t length, char *shown);
 
 /* Fails with HOOKE_BAD_VALUE: `name` is neither one of `others` (words, may be NULL) nor a row of `table`
  * (may be NULL). The message lists the known names and the closest match. `what` is "option" or "key". */
-int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *place,
+int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *where,
                           const char *what, const char *name);
 
 #endif

@@ -163,7 +163,7 @@ static void consider(struct nearest *nearest, const char *wanted, const char *na
   }
 }
 
-int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *place,
+int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *where,
                           const char *what, const char *name) {
   char list[LIST_SIZE] = "", shown[HOOKE_OPTION_SHOWN];
   struct nearest nearest = {.distance = strlen(name) > 5 ? 4 : 3};
@@ -179,7 +179,7 @@ int32_t hk_option_unknown(const struct hk_option_table *table, const char *other
   }
   hk_option_show(name, (int64_t)strlen(name), shown);
   if (nearest.name[0])
-    return hk_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; did you mean \"%s\"? allowed: %s", what, shown,
+    return hk_fail(HOOKE_BAD_VALUE, where, "unknown %s \"%s\"; did you mean \"%s\"? allowed: %s", what, shown,
                    nearest.name, list);
-  return hk_fail(HOOKE_BAD_VALUE, place, "unknown %s \"%s\"; allowed: %s", what, shown, list);
+  return hk_fail(HOOKE_BAD_VALUE, where, "unknown %s \"%s\"; allowed: %s", what, shown, list);
 }

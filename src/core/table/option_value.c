@@ -40,26 +40,26 @@ const double *hk_option_value_numbers(const struct hk_option_value *value) {
   return value->many ? value->many : &value->one;
 }
 
-static int32_t refuse_text(const struct hk_option_row *row, const char *place, const char *text) {
+static int32_t refuse_text(const struct hk_option_row *row, const char *where, const char *text) {
   char may[HOOKE_OPTION_ALLOWED], shown[HOOKE_OPTION_SHOWN];
   hk_option_show(text, (int64_t)strlen(text), shown);
-  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown,
+  return hk_fail(HOOKE_BAD_VALUE, where, "\"%s\" is not allowed; allowed: %s", shown,
                  hk_option_allowed(row, may));
 }
 
 /* The place of number `index` of `count`: "position[3][0]", "mass[3]", or that of the option. */
-static void print_place(const struct hk_option_row *row, const char *place, int64_t count, int64_t index,
-                        char *where) {
+static void print_where(const struct hk_option_row *row, const char *where, int64_t count, int64_t index,
+                        char *item) {
   long long at = (long long)index, columns = row->columns;
   if (columns > 1)
-    snprintf(where, ALLOWED_SIZE, "%s[%lld][%lld]", place, at / columns, at % columns);
+    snprintf(item, ALLOWED_SIZE, "%s[%lld][%lld]", where, at / columns, at % columns);
   else if (count > 1)
-    snprintf(where, ALLOWED_SIZE, "%s[%lld]", place, at);
+    snprintf(item, ALLOWED_SIZE, "%s[%lld]", where, at);
   else
-    snprintf(where, ALLOWED_SIZE, "%s", place);
+    snprintf(item, ALLOWED_SIZE, "%s", where);
 }
 
-static int32_t check_number(const struct hk_option_row *row, const char *place, int64_t count, int64_t index,
+static int32_t check_number(const struct hk_option_row *row, const char *where, int64_t count, int64_t index,
                             double number) {
   int bounded = row->low < row->high;
   int fits = isfinite(number);
@@ -68,14 +68,13 @@ static int32_t check_number(const struct hk_option_row *row, const char *place, 
   if (row->whole && (number != rint(number) || fabs(number) > largest_whole)) fits = 0;
   if (row->type == HOOKE_OPTION_FLAG && number != 0 && number != 1) fits = 0;
   if (fits) return HOOKE_OK;
-  char may[HOOKE_OPTION_ALLOWED], shown[HOOKE_NUMBER_SIZE], where[ALLOWED_SIZE];
+  char may[HOOKE_OPTION_ALLOWED], shown[HOOKE_NUMBER_SIZE], item[ALLOWED_SIZE];
   hk_number_print(number, shown);
-  print_place(row, place, count, index, where);
-  return hk_fail(HOOKE_BAD_VALUE, where, "%s is not allowed; allowed: %s", shown,
-                 hk_option_allowed(row, may));
+  print_where(row, where, count, index, item);
+  return hk_fail(HOOKE_BAD_VALUE, item, "%s is not allowed; allowed: %s", shown, hk_option_allowed(row, may));
 }
 
-static int32_t check_count(const struct hk_option_row *row, const char *place, int64_t count) {
+static int32_t check_count(const struct hk_option_row *row, const char *where, int64_t count) {
   int64_t least = row->type == HOOKE_OPTION_NUMBERS ? row->min_count : 1;
   int64_t most = row->type == HOOKE_OPTION_NUMBERS ? row->max_count : 1;
   int fits = count >= least && (most == 0 || count <= most);
@@ -84,7 +83,7 @@ static int32_t check_count(const struct hk_option_row *row, const char *place, i
   char may[HOOKE_OPTION_ALLOWED];
   int rows = row->columns > 1 && count % row->columns == 0;
   long long given = rows ? count / row->columns : count;
-  return hk_fail(HOOKE_BAD_VALUE, place, "%lld %s%s given; allowed: %s", given, rows ? "row" : "number",
+  return hk_fail(HOOKE_BAD_VALUE, where, "%lld %s%s given; allowed: %s", given, rows ? "row" : "number",
                  given == 1 ? "" : "s", hk_option_allowed(row, may));
 }
 
@@ -95,18 +94,18 @@ static void drop_signs_of_zero(struct hk_option_value *value) {
     value->many[k] += 0.0;
 }
 
-int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char *place, int64_t count,
+int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char *where, int64_t count,
                                      const double *numbers, struct hk_option_value *value) {
   memset(value, 0, sizeof *value);
   if (row->type == HOOKE_OPTION_CHOICE || row->type == HOOKE_OPTION_TEXT ||
       row->type == HOOKE_OPTION_FAMILY) {
     char may[HOOKE_OPTION_ALLOWED];
-    return hk_fail(HOOKE_BAD_VALUE, place, "a number is not allowed; allowed: %s",
+    return hk_fail(HOOKE_BAD_VALUE, where, "a number is not allowed; allowed: %s",
                    hk_option_allowed(row, may));
   }
-  if (check_count(row, place, count)) return HOOKE_BAD_VALUE;
+  if (check_count(row, where, count)) return HOOKE_BAD_VALUE;
   for (int64_t k = 0; k < count; k++)
-    if (check_number(row, place, count, k, numbers[k])) return HOOKE_BAD_VALUE;
+    if (check_number(row, where, count, k, numbers[k])) return HOOKE_BAD_VALUE;
   if (count > 1) {
     value->many = hk_new(count, sizeof(double));
     if (value->many == NULL) return HOOKE_NO_MEMORY;
@@ -118,12 +117,12 @@ int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char
   return HOOKE_OK;
 }
 
-static int32_t refuse_unit(const struct hk_option_row *row, const char *place, const char *name,
+static int32_t refuse_unit(const struct hk_option_row *row, const char *where, const char *name,
                            int64_t length) {
   char shown[HOOKE_OPTION_SHOWN], list[ALLOWED_SIZE];
   hk_option_show(name, length, shown);
   hk_unit_list(row->unit, list, sizeof list);
-  return hk_fail(HOOKE_BAD_VALUE, place,
+  return hk_fail(HOOKE_BAD_VALUE, where,
                  "there is no unit '%s' here; allowed: %s; a number without one is in %s", shown, list,
                  row->unit);
 }
@@ -147,16 +146,16 @@ static enum hk_number_result parse_quantity(const char *bases, const char *text,
   return hk_unit_parse(text, found.number, *unit, number);
 }
 
-int32_t hk_option_parse_number(const struct hk_option_row *row, const char *place, const char *text,
+int32_t hk_option_parse_number(const struct hk_option_row *row, const char *where, const char *text,
                                int64_t length, double *number, const char **base) {
   char shown[HOOKE_OPTION_SHOWN], may[HOOKE_OPTION_ALLOWED];
   const char *wrong;
   const struct hk_unit *unit;
   enum hk_number_result result = parse_quantity(row->unit, text, length, number, &wrong, &unit);
   hk_option_show(text, length, shown);
-  if (wrong) return refuse_unit(row, place, wrong, text + length - wrong);
+  if (wrong) return refuse_unit(row, where, wrong, text + length - wrong);
   if (unit && *base && strcmp(unit->base, *base) != 0)
-    return hk_fail(HOOKE_BAD_VALUE, place, "%s after a number in %s; allowed: one kind of unit", shown,
+    return hk_fail(HOOKE_BAD_VALUE, where, "%s after a number in %s; allowed: one kind of unit", shown,
                    *base);
   if (unit) *base = unit->base;
   switch (result) {
@@ -165,15 +164,15 @@ int32_t hk_option_parse_number(const struct hk_option_row *row, const char *plac
   case HOOKE_NUMBER_NO_MEMORY:
     return HOOKE_NO_MEMORY;
   case HOOKE_NUMBER_TOO_LARGE:
-    return hk_fail(HOOKE_BAD_VALUE, place, "%s is beyond the largest number, 1.8e308; allowed: %s", shown,
+    return hk_fail(HOOKE_BAD_VALUE, where, "%s is beyond the largest number, 1.8e308; allowed: %s", shown,
                    hk_option_allowed(row, may));
   case HOOKE_NUMBER_TOO_SMALL:
-    return hk_fail(HOOKE_BAD_VALUE, place, "%s is so small that it would become 0; allowed: %s", shown,
+    return hk_fail(HOOKE_BAD_VALUE, where, "%s is so small that it would become 0; allowed: %s", shown,
                    hk_option_allowed(row, may));
   case HOOKE_NUMBER_JUNK:
     break;
   }
-  return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown,
+  return hk_fail(HOOKE_BAD_VALUE, where, "\"%s\" is not allowed; allowed: %s", shown,
                  hk_option_allowed(row, may));
 }
 
@@ -209,7 +208,7 @@ static int ends_with_comma(const char *text) {
 
 /* Fills `numbers` and `words`, which have room for all items of the text, and the counts and the unit of
  * `found`. */
-static int32_t split_list(const struct hk_option_row *row, const char *place, const char *text,
+static int32_t split_list(const struct hk_option_row *row, const char *where, const char *text,
                           struct hk_option_value *found, double *numbers, char *words, int64_t *word_count) {
   const char *piece = NULL, *end = text + strlen(text);
   int64_t length = 0;
@@ -222,30 +221,30 @@ static int32_t split_list(const struct hk_option_row *row, const char *place, co
       (*word_count)++;
       continue;
     }
-    char where[ALLOWED_SIZE];
+    char item[ALLOWED_SIZE];
     const int64_t index = found->count + *word_count;
-    print_place(row, place, index == 0 && *rest == '\0' ? 1 : index + 2, index, where);
-    int32_t status = hk_option_parse_number(row, where, piece, length, &numbers[found->count], &found->unit);
+    print_where(row, where, index == 0 && *rest == '\0' ? 1 : index + 2, index, item);
+    int32_t status = hk_option_parse_number(row, item, piece, length, &numbers[found->count], &found->unit);
     if (status) return status;
     found->count++;
   }
   words[used] = '\0';
-  if (ends_with_comma(text)) return refuse_text(row, place, text);
-  if (*word_count && !row->word_lists && *word_count + found->count > 1) return refuse_text(row, place, text);
+  if (ends_with_comma(text)) return refuse_text(row, where, text);
+  if (*word_count && !row->word_lists && *word_count + found->count > 1) return refuse_text(row, where, text);
   return HOOKE_OK;
 }
 
-static int32_t list_from_text(const struct hk_option_row *row, const char *place, const char *text,
+static int32_t list_from_text(const struct hk_option_row *row, const char *where, const char *text,
                               struct hk_option_value *value) {
-  int64_t room = (int64_t)strlen(text) + 1;
-  double *numbers = hk_new(room / 2 + 1, sizeof(double));
-  char *words = hk_new(room, 1);
+  int64_t capacity = (int64_t)strlen(text) + 1;
+  double *numbers = hk_new(capacity / 2 + 1, sizeof(double));
+  char *words = hk_new(capacity, 1);
   struct hk_option_value found = {0};
   int64_t word_count = 0;
   int32_t status = numbers && words ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = split_list(row, place, text, &found, numbers, words, &word_count);
+  if (status == HOOKE_OK) status = split_list(row, where, text, &found, numbers, words, &word_count);
   if (status == HOOKE_OK && (word_count == 0 || found.count > 0))
-    status = hk_option_value_from_numbers(row, place, found.count, numbers, value);
+    status = hk_option_value_from_numbers(row, where, found.count, numbers, value);
   if (status == HOOKE_OK) value->unit = found.unit;
   if (status == HOOKE_OK && word_count > 0) {
     value->words = words;
@@ -256,40 +255,40 @@ static int32_t list_from_text(const struct hk_option_row *row, const char *place
   return status;
 }
 
-static int32_t word_from_text(const struct hk_option_row *row, const char *place, const char *text,
+static int32_t word_from_text(const struct hk_option_row *row, const char *where, const char *text,
                               struct hk_option_value *value) {
   if (row->type == HOOKE_OPTION_CHOICE && !hk_option_has_word(row->words, text, (int64_t)strlen(text)))
-    return refuse_text(row, place, text);
+    return refuse_text(row, where, text);
   value->words = hk_copy_text(text);
   return value->words ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *place, const char *text,
+int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *where, const char *text,
                                   struct hk_option_value *value) {
   memset(value, 0, sizeof *value);
   switch (row->type) {
   case HOOKE_OPTION_NUMBER: {
     double number = 0;
     const char *unit = NULL;
-    int32_t status = hk_option_parse_number(row, place, text, (int64_t)strlen(text), &number, &unit);
-    if (status == HOOKE_OK) status = hk_option_value_from_numbers(row, place, 1, &number, value);
+    int32_t status = hk_option_parse_number(row, where, text, (int64_t)strlen(text), &number, &unit);
+    if (status == HOOKE_OK) status = hk_option_value_from_numbers(row, where, 1, &number, value);
     if (status == HOOKE_OK) value->unit = unit;
     return status;
   }
   case HOOKE_OPTION_NUMBERS:
-    return list_from_text(row, place, text, value);
+    return list_from_text(row, where, text, value);
   case HOOKE_OPTION_FLAG: {
     int yes = strcmp(text, "true") == 0 || strcmp(text, "1") == 0;
-    if (!yes && strcmp(text, "false") != 0 && strcmp(text, "0") != 0) return refuse_text(row, place, text);
+    if (!yes && strcmp(text, "false") != 0 && strcmp(text, "0") != 0) return refuse_text(row, where, text);
     value->count = 1;
     value->one = yes;
     return HOOKE_OK;
   }
   case HOOKE_OPTION_CHOICE:
   case HOOKE_OPTION_TEXT:
-    return word_from_text(row, place, text, value);
+    return word_from_text(row, where, text, value);
   case HOOKE_OPTION_FAMILY:
-    return text[0] ? refuse_text(row, place, text) : HOOKE_OK;
+    return text[0] ? refuse_text(row, where, text) : HOOKE_OK;
   }
-  return refuse_text(row, place, text);
+  return refuse_text(row, where, text);
 }

@@ -15,18 +15,18 @@ struct hk_option_value {
 
 /* Parses a number for a row, with or without one of its units. All numbers of an option that have a unit have
  * it of one kind: `base`, NULL before the first. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-int32_t hk_option_parse_number(const struct hk_option_row *row, const char *place, const char *text,
+int32_t hk_option_parse_number(const struct hk_option_row *row, const char *where, const char *text,
                                int64_t length, double *number, const char **base);
 
 void hk_option_value_clear(struct hk_option_value *value);
 int32_t hk_option_value_copy(const struct hk_option_value *from, struct hk_option_value *to);
 const double *hk_option_value_numbers(const struct hk_option_value *value);
 
-/* Converts `count` numbers, or a text, to the value of a row. `place` is the option's name for messages.
+/* Converts `count` numbers, or a text, to the value of a row. `where` is the option's name for messages.
  * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; `value` is then empty. */
-int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char *place, int64_t count,
+int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char *where, int64_t count,
                                      const double *numbers, struct hk_option_value *value);
-int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *place, const char *text,
+int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *where, const char *text,
                                   struct hk_option_value *value);
 
 #endif

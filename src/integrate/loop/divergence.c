@@ -102,11 +102,11 @@ void hk_store_good(const hooke_integrator *it, hooke_state *state) {
 
 int32_t hk_divergence_keep(hooke_integrator *it) {
   struct hk_recent *recent = &it->recent;
-  const int had_no_room = recent->room == 0;
+  const int was_empty = recent->capacity == 0;
   const int32_t status =
-      recent->room == 0 ? hk_recent_make_room(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
+      recent->capacity == 0 ? hk_recent_extend(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
-  if (had_no_room && recent->count > 0) hk_store_good(it, recent->state[0]);
+  if (was_empty && recent->count > 0) hk_store_good(it, recent->state[0]);
   if (it->good.unkept) hk_store_good(it, hk_recent_next(recent, it->good.step));
   it->good.unkept = 0;
   return HOOKE_OK;
@@ -117,13 +117,13 @@ static const char *advice(const hooke_integrator *it) {
 }
 
 int32_t hk_divergence_store(hooke_integrator *it, double t, hooke_state *state) {
-  if (it->recent.room > 0) return it->method->steps->store(it, t, state);
+  if (it->recent.capacity > 0) return it->method->steps->store(it, t, state);
   hk_motion_exchange(it->motion, state->q, state->v);
   return HOOKE_OK;
 }
 
 static void put_back(hooke_integrator *it, hooke_state *state) {
-  if (it->recent.room > 0) {
+  if (it->recent.capacity > 0) {
     hooke_state_copy(hk_recent_state(&it->recent, 0, NULL), state);
     return;
   }
@@ -134,7 +134,7 @@ static void put_back(hooke_integrator *it, hooke_state *state) {
 static int32_t pass(hooke_integrator *it, const hooke_state *state) {
   hk_recent_keep(&it->recent, state, it->k);
   it->good.t = *state->t;
-  if (it->recent.room == 0) hk_motion_load(it->system, it->motion, state->q, state->v);
+  if (it->recent.capacity == 0) hk_motion_load(it->system, it->motion, state->q, state->v);
   if (it->checker.look == NULL) return HOOKE_OK;
   it->stop_value = it->checker.look(it, state, it->checker.own);
   if (it->stop_value == 0) return HOOKE_OK;
@@ -163,7 +163,7 @@ int32_t hk_divergence_glance(hooke_integrator *it, hooke_state *state) {
   if (hk_motion_is_finite(it)) {
     it->good.t = it->t;
     it->good.step = it->k;
-    it->good.unkept = it->recent.room > 0;
+    it->good.unkept = it->recent.capacity > 0;
     if (!it->good.unkept) hk_recent_next(&it->recent, it->k);
     return it->method->steps->store(it, it->t, state);
   }

@@ -76,7 +76,7 @@ static int32_t keep_start(hooke_integrator *it) {
     it->good.step = it->k;
     it->good.unkept = 1;
   }
-  return it->good.unkept || it->recent.room == 0 ? hk_divergence_keep(it) : HOOKE_OK;
+  return it->good.unkept || it->recent.capacity == 0 ? hk_divergence_keep(it) : HOOKE_OK;
 }
 
 int32_t hooke_integrator_advance(hooke_integrator *it, int64_t steps) {

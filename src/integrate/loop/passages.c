@@ -19,7 +19,7 @@ void hk_passages_begin(hooke_integrator *it, double t) {
   if (it->motion) it->motion->near_zero = 0;
 }
 
-static int32_t make_room(hooke_integrator *it) {
+static int32_t make_space(hooke_integrator *it) {
   struct hk_passages *p = &it->passages;
   const int64_t numbers = hk_integrator_numbers(it);
   int32_t status = p->before ? HOOKE_OK : hk_state_create_sized(numbers, 1, &p->before);
@@ -72,7 +72,7 @@ static void look_back(hooke_integrator *it, double from, double to) {
 int32_t hk_passages_count(hooke_integrator *it, double from, double to) {
   struct hk_passages *p = &it->passages;
   if (it->motion == NULL || !(it->motion->near_zero || p->follows)) return HOOKE_OK;
-  if (make_room(it) != HOOKE_OK) { /* the run goes on without the count */
+  if (make_space(it) != HOOKE_OK) { /* the run goes on without the count */
     it->count.zero_passages = -1;
     return HOOKE_OK;
   }

@@ -11,36 +11,36 @@ static int64_t state_bytes(int64_t size, int32_t has_v) {
 
 int32_t hk_recent_create(int64_t size, int32_t has_v, int32_t least, struct hk_recent *recent) {
   const int64_t fit = MOST_BYTES / state_bytes(size, has_v);
-  *recent = (struct hk_recent){.room = fit > HOOKE_MOST_RECENT ? HOOKE_MOST_RECENT
-                                       : fit > 2               ? (int32_t)(fit - 1)
-                                                               : least};
-  int32_t status = fit >= 2 ? hk_state_create_sized(size, has_v, &recent->room_of_first) : HOOKE_OK;
-  for (int32_t k = 0; k < recent->room && status == HOOKE_OK; k++)
+  *recent = (struct hk_recent){.capacity = fit > HOOKE_MOST_RECENT ? HOOKE_MOST_RECENT
+                                           : fit > 2               ? (int32_t)(fit - 1)
+                                                                   : least};
+  int32_t status = fit >= 2 ? hk_state_create_sized(size, has_v, &recent->first_kept) : HOOKE_OK;
+  for (int32_t k = 0; k < recent->capacity && status == HOOKE_OK; k++)
     status = hk_state_create_sized(size, has_v, &recent->state[k]);
   if (status != HOOKE_OK) hk_recent_release(recent);
   return status;
 }
 
-int32_t hk_recent_make_room(int64_t size, int32_t has_v, struct hk_recent *recent) {
+int32_t hk_recent_extend(int64_t size, int32_t has_v, struct hk_recent *recent) {
   const int32_t status = hk_state_create_sized(size, has_v, &recent->state[0]);
-  if (status == HOOKE_OK) recent->room = 1;
+  if (status == HOOKE_OK) recent->capacity = 1;
   return status;
 }
 
 void hk_recent_release(struct hk_recent *recent) {
   for (int32_t k = 0; k < HOOKE_MOST_RECENT; k++)
     hooke_state_destroy(recent->state[k]);
-  hooke_state_destroy(recent->room_of_first);
+  hooke_state_destroy(recent->first_kept);
   memset(recent, 0, sizeof *recent);
 }
 
 int64_t hk_recent_memory(const struct hk_recent *recent) {
   const hooke_state *one = recent->state[0];
-  return one ? (recent->room + (recent->room_of_first != NULL)) * state_bytes(one->size, one->has_v) : 0;
+  return one ? (recent->capacity + (recent->first_kept != NULL)) * state_bytes(one->size, one->has_v) : 0;
 }
 
 void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first) {
-  recent->first = first ? recent->room_of_first : NULL;
+  recent->first = first ? recent->first_kept : NULL;
   if (recent->first) hooke_state_copy(first, recent->first);
 }
 
@@ -52,12 +52,12 @@ void hk_recent_begin(struct hk_recent *recent, const hooke_state *state) {
 hooke_state *hk_recent_next(struct hk_recent *recent, int64_t step) {
   const int32_t again = recent->count > 0 && recent->step[recent->newest] == step;
   if (!again) {
-    const int32_t room = recent->room > 0 ? recent->room : 1;
-    recent->newest = recent->count == 0 ? 0 : (recent->newest + 1) % room;
-    if (recent->count < room) recent->count++;
+    const int32_t capacity = recent->capacity > 0 ? recent->capacity : 1;
+    recent->newest = recent->count == 0 ? 0 : (recent->newest + 1) % capacity;
+    if (recent->count < capacity) recent->count++;
   }
   recent->step[recent->newest] = step;
-  return recent->room > 0 ? recent->state[recent->newest] : NULL;
+  return recent->capacity > 0 ? recent->state[recent->newest] : NULL;
 }
 
 void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t step) {
@@ -65,10 +65,10 @@ void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t 
   if (to) hooke_state_copy(state, to);
 }
 
-const hooke_state *hk_recent_state(const struct hk_recent *recent, int64_t place, int64_t *step) {
-  if (place < 0 || place >= recent->count) return NULL;
-  const int32_t at = recent->newest >= place ? recent->newest - (int32_t)place
-                                             : recent->newest - (int32_t)place + recent->room;
+const hooke_state *hk_recent_state(const struct hk_recent *recent, int64_t back, int64_t *step) {
+  if (back < 0 || back >= recent->count) return NULL;
+  const int32_t at = recent->newest >= back ? recent->newest - (int32_t)back
+                                            : recent->newest - (int32_t)back + recent->capacity;
   if (step) *step = recent->step[at];
   return recent->state[at];
 }

@@ -99,10 +99,9 @@ int32_t hooke_integrator_resume(hooke_integrator *it, hooke_state *state) {
   int32_t status = hk_run_check_state(it, state);
   if (status == HOOKE_OK) status = hk_run_check_duration(it);
   if (status == HOOKE_OK && !can_go_on(it, state)) {
-    status =
-        hk_fail(HOOKE_BAD_CALL, NULL,
-                "there is no run to go on with: neither was a checkpoint read, nor a run with a fixed step "
-                "stopped at this state");
+    status = hk_fail(HOOKE_BAD_CALL, NULL,
+                     "there is no run to go on with: neither was a checkpoint "
+                     "read, nor a run with a fixed step stopped at this state");
   }
   if (status != HOOKE_OK) return status;
   const struct hk_standing standing = hk_integrator_standing(it);

@@ -122,8 +122,8 @@ int32_t hk_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
   const int reached = status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
   if (reached && hk_all_finite((state->has_v ? 2 : 1) * state->size, state->q))
     hk_recent_keep(&it->recent, state, it->k);
-  if (status == HOOKE_DIVERGED && it->recent.room == 0 &&
-      hk_recent_make_room(hk_integrator_numbers(it), 1, &it->recent) == HOOKE_OK)
+  if (status == HOOKE_DIVERGED && it->recent.capacity == 0 &&
+      hk_recent_extend(hk_integrator_numbers(it), 1, &it->recent) == HOOKE_OK)
     hooke_state_copy(state, it->recent.state[0]);
   return status;
 }

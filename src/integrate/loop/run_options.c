@@ -13,8 +13,8 @@ static const struct hk_option_row run_rows[] = {
     HOOKE_OPTION("step", HOOKE_OPTION_POSITIVE("s"), NULL, "time step of a fixed-step method"),
     HOOKE_OPTION("duration", HOOKE_OPTION_POSITIVE("s"), NULL, "time to run, a whole multiple of step"),
     HOOKE_OPTION("every", HOOKE_OPTION_POSITIVE("s"), NULL,
-                 "time between frames, a whole multiple of step; about duration/100 if not given; the end is "
-                 "a frame, too"),
+                 "time between frames, a whole multiple of step; about "
+                 "duration/100 if not given; the end is a frame, too"),
     HOOKE_OPTION(
         "checkpoint", HOOKE_OPTION_POSITIVE("s"), NULL,
         "time between checkpoints, from which a run can go on; error-controlled methods start anew at each"),
@@ -54,8 +54,8 @@ static const struct hk_option_row run_rows[] = {
 
 const struct hk_option_table hk_run_options = {"run", HOOKE_OPTION_ROWS(run_rows)};
 
-int32_t hk_run_options_require(const hooke_options *options, const char *place) {
-  return hk_options_require(options, &hk_run_options, place, "hooke_options_create(\"run\", ...)");
+int32_t hk_run_options_require(const hooke_options *options, const char *where) {
+  return hk_options_require(options, &hk_run_options, where, "hooke_options_create(\"run\", ...)");
 }
 
 /* ---- schedule ---- */

@@ -1,4 +1,5 @@
-/* What the loops of all methods are made of: steps with progress told in between, and what is shown of them. */
+/* What the loops of all methods are made of: steps with progress told in between, and what is shown of them.
+ */
 #include "integrate/loop/run_loop.h"
 
 #include "core/clock.h"
@@ -52,15 +53,16 @@ int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t
   if (it->good.unkept) hk_recent_keep(&it->recent, state, it->good.step); /* so far `state` is that one */
   it->good.unkept = 0;
   const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->steps->store(it, t, state);
-  if (!checked && it->recent.room == 0) it->recent.count = 0; /* the last good state is lost */
+  if (!checked && it->recent.capacity == 0) it->recent.count = 0; /* the last good state is lost */
   *state->t = t;
   return status;
 }
 
 static int32_t tell(hooke_integrator *it) {
   const struct hk_teller *teller = &it->teller;
-  const double share = (it->t - it->t0) / it->schedule.duration; /* NaN without a duration */
-  const int32_t value = teller->progress(share > 0.0 ? fmin(share, 1.0) : 0.0, it->method->name, teller->ctx);
+  const double fraction = (it->t - it->t0) / it->schedule.duration; /* NaN without a duration */
+  const int32_t value =
+      teller->progress(fraction > 0.0 ? fmin(fraction, 1.0) : 0.0, it->method->name, teller->ctx);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
   return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop at t = %.6g s", it->t);

@@ -19,5 +19,5 @@ const struct hk_method hk_backward_euler = {
     .solved = stages,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
-                  .note = "stable at every step; accuracy limits it, and in large steps whether the "
-                          "equations can be solved"}};
+                  .note = "stable at every step; accuracy limits it, and in "
+                          "large steps whether the equations can be solved"}};

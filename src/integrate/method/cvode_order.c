@@ -5,7 +5,7 @@
  * So if steps are longer than LONG/omega, with omega and the damping ratio of the fastest modes, and that
  * ratio is below the stable one of order 3, order 2 becomes the highest, before those modes have grown. If
  * steps then stay shorter than SHORT/omega, accuracy limits them, and the higher orders return. CVODE keeps
- * its history in the current order, so each change is a start from order 1; hence the patience. */
+ * its history in the current order, so each change is a start from order 1; hence the budget. */
 #if HOOKE_HAVE_SUNDIALS
 
 #include "integrate/method/cvode_order.h"
@@ -18,7 +18,7 @@ enum {
   WINDOW = 50, /* steps of the mean, with all orders and with the low ones */
   LOW_WINDOW = 100,
   LOW_START = 200, /* steps before the first check with the low orders */
-  PATIENCE = 10,   /* successive windows of short steps before the higher orders return */
+  BUDGET = 10,     /* successive windows of short steps before the higher orders return */
   QUIET = 500,  /* steps before the next check with all orders; 4 times as many each time that they return */
   REFRESH = 10, /* windows before the fastest modes are computed again */
   ITERATIONS = 15
@@ -133,7 +133,7 @@ int32_t hk_order_choice_look(hooke_integrator *it, const double *y) {
   }
   if (c->low) {
     c->short_windows = step * c->frequency < SHORT ? c->short_windows + 1 : 0;
-    if (c->short_windows >= PATIENCE) change(c, 0);
+    if (c->short_windows >= BUDGET) change(c, 0);
   } else if (step * c->frequency > LONG) {
     if (c->damping < DAMPING_OF_ORDER_3)
       change(c, 1);

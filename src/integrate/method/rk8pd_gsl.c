@@ -49,9 +49,9 @@ static void destroy(hooke_integrator *it) {
 
 static int32_t create_gsl(struct hk_rk8pd *own) {
   const size_t size = own->system.dimension;
-  void *room = hk_reserve((int64_t)size, (ARRAYS_OF_GSL + 1) * sizeof(double)); /* not touched */
-  if (room == NULL) return HOOKE_NO_MEMORY;
-  hk_free(room);
+  void *work = hk_reserve((int64_t)size, (ARRAYS_OF_GSL + 1) * sizeof(double)); /* not touched */
+  if (work == NULL) return HOOKE_NO_MEMORY;
+  hk_free(work);
   own->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);
   own->control = gsl_odeiv2_control_scaled_new(1.0, own->rtol, 1.0, 0.0, own->tolerance, size);
   if (own->stepper && own->control) return HOOKE_OK;

@@ -65,5 +65,5 @@ const struct hk_method hk_tr_bdf2 = {
     .states = 1, /* the place and the speed of its equations */
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
-                  .note = "stable at every step; accuracy limits it, and in large steps whether the "
-                          "equations can be solved"}};
+                  .note = "stable at every step; accuracy limits it, and in "
+                          "large steps whether the equations can be solved"}};

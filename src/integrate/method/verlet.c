@@ -19,8 +19,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does, or,
- * where damping is so strong that the prediction is beside the point, of the velocity before it. */
+/* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does,
+ * or, where damping is so strong that the prediction is beside the point, of the velocity before it. */
 static const double PART = 1e-3, EXACT = 1e-9, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
@@ -116,8 +116,8 @@ static int32_t step_undamped(hooke_integrator *it) {
 
 /* ---- the second kick, solved for ---- */
 
-/* The right side; returns how large it is beside the whole step's kick, or the inverse if that is below 1, both as
- * squares of velocities times masses. */
+/* The right side; returns how large it is beside the whole step's kick, or the inverse if that is below 1,
+ * both as squares of velocities times masses. */
 static double set_right(const hooke_integrator *it) {
   const struct verlet *own = it->own;
   const hooke_system *system = it->system;

@@ -75,8 +75,8 @@ static int32_t refuse_step(double step, double most) {
   hk_number_print(step, given);
   hk_number_print(most, allowed);
   return hk_fail(HOOKE_BAD_VALUE, "step",
-                 "%s s is too large for damping that is explicit; allowed: up to %s s, or verlet_damping "
-                 "\"implicit\"",
+                 "%s s is too large for damping that is explicit; "
+                 "allowed: up to %s s, or verlet_damping \"implicit\"",
                  given, allowed);
 }
 

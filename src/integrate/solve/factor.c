@@ -11,7 +11,7 @@
 
 /* Position of the block of two particles in the matrix: in the three columns of the later one, from number
  * `first` of each on; column -1 if an end is constrained. */
-struct place {
+struct slot {
   int32_t column, first;
 };
 
@@ -20,8 +20,8 @@ struct hk_factor {
   int32_t free_count;
   int32_t *particle,
       *position; /* the free particles in order; the index of each in it, -1 for constrained ones */
-  struct hk_columns matrix;    /* S, in order */
-  struct place *spring, *pair; /* of each spring; of the pairs 01, 02, 12, 03, 13, 23 of each other element */
+  struct hk_columns matrix;   /* S, in order */
+  struct slot *spring, *pair; /* of each spring; of the pairs 01, 02, 12, 03, 13, 23 of each other element */
   struct hk_cholmod *cholmod;
   struct hk_triangle triangle;
   double *vector;
@@ -103,9 +103,9 @@ static int make_matrix(struct hk_factor *x, const struct hk_columns *blocks) {
   return 1;
 }
 
-static struct place find_place(const struct hk_factor *x, int64_t one, int64_t other) {
+static struct slot find_place(const struct hk_factor *x, int64_t one, int64_t other) {
   const int32_t a = x->position[one], b = x->position[other];
-  if (a < 0 || b < 0) return (struct place){-1, 0};
+  if (a < 0 || b < 0) return (struct slot){-1, 0};
   const int32_t column = 3 * (a > b ? a : b), earlier = 3 * (a > b ? b : a);
   const int32_t start = x->matrix.start[column];
   int32_t low = start, high = x->matrix.start[column + 1];
@@ -116,7 +116,7 @@ static struct place find_place(const struct hk_factor *x, int64_t one, int64_t o
     else
       high = middle;
   }
-  return (struct place){column, low - start};
+  return (struct slot){column, low - start};
 }
 
 /* Pairs of particles in all other elements. */
@@ -130,14 +130,14 @@ static int64_t other_pairs(const hooke_system *system) {
   return count;
 }
 
-static void locate_others(const struct hk_factor *x, struct place *place) {
+static void locate_others(const struct hk_factor *x, struct slot *slot) {
   struct hk_elements at;
   hk_begin_elements(x->system, NULL, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 1; j < e->count; j++) {
       for (int k = 0; k < j; k++)
-        *place++ = find_place(x, e->particle[k], e->particle[j]);
+        *slot++ = find_place(x, e->particle[k], e->particle[j]);
     }
   }
 }
@@ -293,8 +293,8 @@ double hk_factor_products(const struct hk_factor *x) {
 /* ---- numbers ---- */
 
 /* Column c of a block. */
-static double *column_of(const struct hk_columns *matrix, struct place place, int c) {
-  return matrix->number + matrix->start[place.column + c] + place.first;
+static double *column_of(const struct hk_columns *matrix, struct slot slot, int c) {
+  return matrix->number + matrix->start[slot.column + c] + slot.first;
 }
 
 static void add_diagonal(const struct hk_factor *x, const double *diagonal) {
@@ -323,28 +323,28 @@ static void add_springs(const struct hk_factor *x, const struct hk_tangent *t) {
 }
 
 /* Adds the off-diagonal blocks of an element; its own first. */
-static const struct place *add_element(const struct hk_factor *x, const struct hk_element *e,
-                                       const struct hk_factor_parts *parts, const struct place *place) {
+static const struct slot *add_element(const struct hk_factor *x, const struct hk_element *e,
+                                      const struct hk_factor_parts *parts, const struct slot *slot) {
   const struct hk_element_numbers s = hk_element_combine(e, parts->alpha, parts->beta);
   for (int j = 1; j < e->count; j++) {
-    for (int k = 0; k < j; k++, place++) {
+    for (int k = 0; k < j; k++, slot++) {
       const double product = e->weight[k] * e->weight[j];
       const double axial = (s.along - s.across) * product, isotropic = s.across * product;
-      if (place->column < 0) continue;
+      if (slot->column < 0) continue;
       for (int c = 0; c < 3; c++) {
-        double *to = column_of(&x->matrix, *place, c);
+        double *to = column_of(&x->matrix, *slot, c);
         for (int a = 0; a < 3; a++)
           to[a] += axial * e->u[a] * e->u[c] + (a == c ? isotropic : 0.0);
       }
     }
   }
-  return place;
+  return slot;
 }
 
 /* In the order in which positions were found: by the table of forces, whose constant forces may be anywhere.
  */
 static void add_others(const struct hk_factor *x, const struct hk_factor_parts *parts) {
-  const struct place *place = x->pair;
+  const struct slot *slot = x->pair;
   const struct hk_element *kept = parts->element;
   struct hk_elements at;
   for (int32_t k = 0; k < x->system->force_row_count; k++) {
@@ -352,13 +352,13 @@ static void add_others(const struct hk_factor *x, const struct hk_factor_parts *
     if (!(force->kind & HOOKE_OTHERS)) continue;
     if (force->kind & HOOKE_KEPT) {
       for (int64_t left = hk_force_count(x->system, force); left > 0; left--)
-        place = add_element(x, kept++, parts, place);
+        slot = add_element(x, kept++, parts, slot);
       continue;
     }
     hk_begin_elements(x->system, x->system->position, NULL, &at);
     at.only = force;
     for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
-      place = add_element(x, e, parts, place);
+      slot = add_element(x, e, parts, slot);
   }
 }
 

@@ -91,13 +91,13 @@ int32_t hk_solve_positive(const struct hk_operator *a, const double *b, double r
     if (status != HOOKE_OK) return status;
     const double curvature = tiled_dot(size, p, ap);
     if (!(curvature > 0.0)) return HOOKE_OK;
-    const double share = square / curvature, before = square;
-    hk_add_multiple(size, share, p, x);
-    hk_add_multiple(size, -share, ap, r);
+    const double fraction = square / curvature, before = square;
+    hk_add_multiple(size, fraction, p, x);
+    hk_add_multiple(size, -fraction, ap, r);
     square = tiled_dot(size, r, r);
     hk_scale_and_add(size, square / before, r, p);
-    gained[solution->iterations++ % LOOK_BACK] = share * before;
-    all += share * before;
+    gained[solution->iterations++ % LOOK_BACK] = fraction * before;
+    all += fraction * before;
     solution->residual = sqrt(square) / length;
     const double left = sum_of(gained);
     /* numbers that are not finite will not get better */
@@ -181,10 +181,10 @@ static void smooth(struct general *g, double *x, int *broken) {
   }
   hk_add_multiple(size, gamma[1], r[0], x);
   for (int j = 1; j < L; j++) {
-    double share = gamma[j + 1];
+    double fraction = gamma[j + 1];
     for (int i = j + 1; i < L; i++)
-      share += tau[j][i] * gamma[i + 1];
-    hk_add_multiple(size, share, r[j], x);
+      fraction += tau[j][i] * gamma[i + 1];
+    hk_add_multiple(size, fraction, r[j], x);
   }
   for (int j = 1; j <= L; j++) {
     hk_add_multiple(size, -gamma[j], u[j], u[0]);
@@ -282,15 +282,15 @@ static int32_t extend(struct minimal *g, int j, int *broken) {
 
 /* x += the combination of the first `count` basis vectors given by the triangle. */
 static void combine(struct minimal *g, int count, double *x) {
-  double share[SPACE];
+  double fraction[SPACE];
   for (int j = count - 1; j >= 0; j--) {
     double left = g->right[j];
     for (int i = j + 1; i < count; i++)
-      left -= g->h[i][j] * share[i];
-    share[j] = left / g->h[j][j];
+      left -= g->h[i][j] * fraction[i];
+    fraction[j] = left / g->h[j][j];
   }
   for (int j = 0; j < count; j++)
-    hk_add_multiple(g->a->size, share[j], g->v[j], x);
+    hk_add_multiple(g->a->size, fraction[j], g->v[j], x);
 }
 
 int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,

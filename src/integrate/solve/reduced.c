@@ -362,8 +362,8 @@ static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const 
 }
 
 static int64_t limit_of(const struct hk_reduced *reduced) {
-  const int64_t share = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
-  return share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
+  const int64_t fraction = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
+  return fraction < MOST_ITERATIONS ? fraction : MOST_ITERATIONS;
 }
 
 /* With the factor of S at this place, or by blocks where it proves not positive. */

@@ -236,7 +236,7 @@ struct iteration {
   double allowed;        /* error */
   double rounding;       /* its share of that */
   double size, before;   /* of this correction and the last one, in the norm of S; before 0: there is none */
-  double share;          /* of the last correction that was taken */
+  double fraction;       /* of the last correction that was taken */
   int slow, pause, wait; /* slow ones in a row; whole ones that are left out after a failure, and still are */
   int64_t linear;        /* iterations of the last safe correction */
   double height;         /* the potential at the guess, where that descends */
@@ -245,13 +245,11 @@ struct iteration {
 static int32_t give_up(const struct hk_stage *stage, int iterations, const struct iteration *now,
                        const char *why) {
   const hooke_integrator *it = stage->reduced.integrator;
-  return hk_fail(
-      HOOKE_SOLVER_FAILED, NULL,
-      "%s found no solution for the step from t = %.6g s, nor for parts of it down to 1/%d: after %d Newton "
-      "iterations %s (the last correction is %.3g, allowed is an error of %.3g, in velocity times root "
-      "mass); "
-      "take a smaller step",
-      it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL,
+                 "%s found no solution for the step from t = %.6g s, nor for parts of it down "
+                 "to 1/%d: after %d Newton iterations %s (the last correction is %.3g, allowed "
+                 "is an error of %.3g, in velocity times root mass); take a smaller step",
+                 it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
 }
 
 /* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. */
@@ -282,13 +280,13 @@ static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, in
 /* 1 if the guess may move by this share of the correction: where F.dv, which would be 0 at the least of a
  * potential, has turned by no more than half of what it was; or the potential is lower by a part of what its
  * slope promises (Armijo 1966). */
-static int may_move(struct hk_stage *stage, struct iteration *now, double share, double left) {
+static int may_move(struct hk_stage *stage, struct iteration *now, double fraction, double left) {
   const double slope = now->size * now->size, a = stage->at.a;
   double slack;
   if (!stage->descends) return left >= -0.5 * slope && left < INFINITY;
   const double height =
       hk_descent_potential(&stage->descent, stage->reduced.integrator, a, stage->moved, &slack);
-  if (!(height <= now->height - ARMIJO * share * a * slope + slack)) return 0;
+  if (!(height <= now->height - ARMIJO * fraction * a * slope + slack)) return 0;
   now->height = height;
   return 1;
 }
@@ -296,15 +294,15 @@ static int may_move(struct hk_stage *stage, struct iteration *now, double share,
 static int32_t search(struct hk_stage *stage, struct iteration *now, int *found) {
   const double slope = now->size * now->size, least = stage->descends ? LEAST_OF_DESCENT : LEAST_SHARE;
   *found = 0;
-  for (double share = 1.0; share >= least && !*found;) {
+  for (double fraction = 1.0; fraction >= least && !*found;) {
     for (int64_t j = 0; j < stage->size; j++)
-      stage->moved[j] = stage->v[j] + share * stage->change[j];
+      stage->moved[j] = stage->v[j] + fraction * stage->change[j];
     const int32_t status = find_residual(stage, stage->moved);
     if (status != HOOKE_OK) return status;
-    const double left = dot(stage, stage->right, stage->change), lowest = share * slope / (slope - left);
-    *found = may_move(stage, now, share, left);
-    now->share = share;
-    share = lowest > 0.1 * share ? fmin(lowest, 0.5 * share) : 0.1 * share;
+    const double left = dot(stage, stage->right, stage->change), lowest = fraction * slope / (slope - left);
+    *found = may_move(stage, now, fraction, left);
+    now->fraction = fraction;
+    fraction = lowest > 0.1 * fraction ? fmin(lowest, 0.5 * fraction) : 0.1 * fraction;
   }
   if (*found) memcpy(stage->v, stage->moved, (size_t)stage->size * sizeof(double));
   return HOOKE_OK;
@@ -315,7 +313,8 @@ static int32_t search(struct hk_stage *stage, struct iteration *now, int *found)
 static int is_last(const struct iteration *now) {
   if (now->before > 0.0 && now->size > SLOW * now->before && now->size <= ALL_ROUNDINGS * now->rounding)
     return 1;
-  const double rate = now->before > 0.0 && now->share == 1.0 ? fmax(now->size / now->before, FASTEST) : SLOW;
+  const double rate =
+      now->before > 0.0 && now->fraction == 1.0 ? fmax(now->size / now->before, FASTEST) : SLOW;
   return rate < 1.0 && rate / (1.0 - rate) * now->size <= now->allowed;
 }
 
@@ -341,7 +340,7 @@ static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found
 /* Corrections until what is left is allowed. The last one is taken without asking. */
 static int32_t converge(struct hk_stage *stage, double height) {
   hooke_integrator *it = stage->reduced.integrator;
-  struct iteration now = {.share = 1.0, .height = height};
+  struct iteration now = {.fraction = 1.0, .height = height};
   int32_t status = find_residual(stage, stage->v);
   for (int k = 1; k <= MOST_ITERATIONS && status == HOOKE_OK; k++) {
     int found;
@@ -353,7 +352,7 @@ static int32_t converge(struct hk_stage *stage, double height) {
       hk_add_multiple(stage->size, 1.0, stage->change, stage->v);
       return HOOKE_OK;
     }
-    now.slow = now.before > 0.0 && (now.share < 1.0 || now.size > SLOW * now.before) ? now.slow + 1 : 0;
+    now.slow = now.before > 0.0 && (now.fraction < 1.0 || now.size > SLOW * now.before) ? now.slow + 1 : 0;
     now.before = now.size;
     status = search(stage, &now, &found);
     if (status == HOOKE_OK && !found) return give_up(stage, k, &now, "no way leads on");

@@ -35,9 +35,9 @@ int32_t hk_sundials_create(hooke_integrator *it, int32_t implicit, int64_t vecto
 }
 
 int32_t hk_sundials_created(const hooke_integrator *it, const char *solver, int32_t created,
-                            int32_t no_room) {
+                            int32_t no_space) {
   const struct hk_sundials *own = it->own;
-  if (own->spare.taken || no_room) return no_memory(it, own->unknowns.size);
+  if (own->spare.taken || no_space) return no_memory(it, own->unknowns.size);
   if (created) return HOOKE_OK;
   return hk_fail(HOOKE_SOLVER_FAILED, NULL, "%s could not be set up: %s", solver, own->message);
 }

@@ -38,7 +38,7 @@ int32_t hk_sundials_create(hooke_integrator *integrator, int32_t implicit, int64
 /* Status of creating a solver: `created`, or `no_room` as it reported itself. HOOKE_NO_MEMORY,
  * HOOKE_SOLVER_FAILED. */
 int32_t hk_sundials_created(const hooke_integrator *integrator, const char *solver, int32_t created,
-                            int32_t no_room);
+                            int32_t no_space);
 /* Before a run: recreates the solver if the previous run lacked memory inside it. HOOKE_NO_MEMORY. */
 int32_t hk_sundials_renew(hooke_integrator *integrator);
 /* All but `memory`, which must be freed first. */

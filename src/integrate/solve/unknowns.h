@@ -1,14 +1,14 @@
 /* The problem as y' = phi(t, y), for methods that do not know particles: y = (q, v) of the free particles
  * with x, y and z apart, as the working copy of a state has them, then the own coordinates of movers
- * (model/coordinates); or x of a first-order problem. If nothing is free y is one number that stays 0, because
- * solvers accept no empty vector. */
+ * (model/coordinates); or x of a first-order problem. If nothing is free y is one number that stays 0,
+ * because solvers accept no empty vector. */
 #ifndef HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 #define HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 
 #include "integrate/integrator.h"
 
-/* `count` consecutive free particles that nothing carries; `particle` is the first, `unknown` its number among
- * the free ones. */
+/* `count` consecutive free particles that nothing carries; `particle` is the first, `unknown` its number
+ * among the free ones. */
 struct hk_stretch_of_free {
   int64_t particle, unknown, count;
 };
@@ -55,8 +55,8 @@ void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, 
 int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
 
-/* v' of the free particles (3 free_count) from the forces of the working copy; returns 0 times their sum, which
- * shows whether all are finite. */
+/* v' of the free particles (3 free_count) from the forces of the working copy; returns 0 times their sum,
+ * which shows whether all are finite. */
 double hk_unknowns_accelerations(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
                                  double *out);
 

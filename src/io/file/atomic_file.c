@@ -39,14 +39,14 @@ int32_t hk_file_resolve(const char *path, char **resolved) {
 
 int32_t hk_file_beside(const char *path, const char *ending, char **beside) {
   const char *slash = hk_os_last_slash(path), *name = slash ? slash + 1 : path;
-  const size_t length = strlen(name), more = strlen(ending), room = strlen(path) + more + 16;
-  *beside = hk_new((int64_t)room, 1);
+  const size_t length = strlen(name), more = strlen(ending), capacity = strlen(path) + more + 16;
+  *beside = hk_new((int64_t)capacity, 1);
   if (*beside == NULL) return HOOKE_NO_MEMORY;
   if (length + more <= HOOKE_OS_NAME_MAX) {
-    snprintf(*beside, room, "%s%s", path, ending);
+    snprintf(*beside, capacity, "%s%s", path, ending);
   } else {
     const int kept = (int)(name - path) + (int)(HOOKE_OS_NAME_MAX - more - 9);
-    snprintf(*beside, room, "%.*s~%08x%s", kept, path, hk_crc32(0, name, (int64_t)length), ending);
+    snprintf(*beside, capacity, "%.*s~%08x%s", kept, path, hk_crc32(0, name, (int64_t)length), ending);
   }
   return HOOKE_OK;
 }

@@ -73,14 +73,14 @@ static int32_t lock_older(struct hk_atomic_file *file) {
 /* A temporary name in the folder of the path, short enough for every file system. */
 static int32_t name_anew(struct hk_atomic_file *file) {
   const int folder = (int)(hk_os_last_slash(file->path) - file->path) + 1;
-  const size_t room = (size_t)folder + 32;
+  const size_t capacity = (size_t)folder + 32;
   uint64_t number;
   hk_free(file->temporary);
-  file->temporary = hk_new((int64_t)room, 1);
+  file->temporary = hk_new((int64_t)capacity, 1);
   if (file->temporary == NULL) return HOOKE_NO_MEMORY;
   if (hk_os_random(&number, sizeof number) != 0)
     return hk_file_fail(file->path, "take a random number for a name", errno);
-  snprintf(file->temporary, room, "%.*shooke-%016" PRIx64 ".part", folder, file->path, number);
+  snprintf(file->temporary, capacity, "%.*shooke-%016" PRIx64 ".part", folder, file->path, number);
   return HOOKE_OK;
 }
 

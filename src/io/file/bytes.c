@@ -31,10 +31,10 @@ int hk_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes) {
 }
 
 int hk_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block,
-                  int64_t room) {
+                  int64_t capacity) {
   int error = 0;
-  for (int64_t done = 0; error == 0 && done < count; done += room) {
-    const int64_t part = count - done < room ? count - done : room;
+  for (int64_t done = 0; error == 0 && done < count; done += capacity) {
+    const int64_t part = count - done < capacity ? count - done : capacity;
     error = hk_bytes_read(from, from_at + done, part, block);
     if (error == 0) error = hk_bytes_write(to, to_at + done, part, block);
   }

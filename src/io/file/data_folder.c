@@ -36,11 +36,10 @@ int32_t hk_data_folder_read(const char *name, struct hk_text *text) {
   if (file == NULL && errno == ENOMEM)
     return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open share/hooke/%s", name);
   if (file == NULL) {
-    return hk_fail(
-        HOOKE_NOT_BUILT, NULL,
-        "share/hooke/%s is not where this library looks for it: beside it, or in %s; install hooke "
-        "with all its files",
-        name, HOOKE_DATA_INSTALLED);
+    return hk_fail(HOOKE_NOT_BUILT, NULL,
+                   "share/hooke/%s is not where this library looks for it: "
+                   "beside it, or in %s; install hooke with all its files",
+                   name, HOOKE_DATA_INSTALLED);
   }
   char piece[1 << 14];
   size_t got;

@@ -34,7 +34,7 @@ static int32_t fail(const struct source *source, const char *what) {
 }
 
 /* Memory for the numbers of a part of `data`, and for HDF5's own while reading them. */
-static int32_t check_room(const struct source *source, const struct hk_dataset *data, const hsize_t *part) {
+static int32_t check_space(const struct source *source, const struct hk_dataset *data, const hsize_t *part) {
   double bytes = sizeof(double);
   for (int k = 0; k < data->rank; k++)
     bytes *= (double)part[k];
@@ -45,7 +45,7 @@ static int32_t check_room(const struct source *source, const struct hk_dataset *
 
 /* Frames before the first without a time. */
 static int32_t count_timed(const struct source *source, const struct hk_dataset *data, int64_t *frames) {
-  int32_t status = check_room(source, data, data->size);
+  int32_t status = check_space(source, data, data->size);
   if (status != HOOKE_OK) return status;
   double *time = hk_new(*frames, sizeof(double));
   if (time == NULL) return HOOKE_NO_MEMORY;
@@ -63,10 +63,10 @@ static int32_t count_frames(const struct source *source, int64_t *frames) {
   *frames = (int64_t)source->data.size[0];
   const char *slash = strrchr(source->dataset, '/');
   const int folder = slash ? (int)(slash - source->dataset) + 1 : 0;
-  const int64_t room = folder + 8;
-  char *name = hk_new(room, 1);
+  const int64_t capacity = folder + 8;
+  char *name = hk_new(capacity, 1);
   if (name == NULL) return HOOKE_NO_MEMORY;
-  snprintf(name, (size_t)room, "%.*stime", folder, source->dataset);
+  snprintf(name, (size_t)capacity, "%.*stime", folder, source->dataset);
   struct hk_dataset time;
   int32_t status = hk_dataset_find(source->guard, source->file, source->path, name, &time);
   hk_free(name);
@@ -107,8 +107,8 @@ static int32_t read_values(const struct source *source, int64_t frame, double **
   }
   const hsize_t count = high * wide;
   const hsize_t begin[3] = {(hsize_t)frame, 0, 0}, part[3] = {1, high, wide};
-  const int32_t room = check_room(source, &source->data, part + !framed);
-  if (room != HOOKE_OK) return room;
+  const int32_t capacity = check_space(source, &source->data, part + !framed);
+  if (capacity != HOOKE_OK) return capacity;
   *values = hk_new((int64_t)count, sizeof(double));
   if (*values == NULL) return HOOKE_NO_MEMORY;
   hid_t there = H5Dget_space(source->data.id), here = H5Screate_simple(1, &count, NULL);

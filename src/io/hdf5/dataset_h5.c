@@ -108,8 +108,8 @@ static int32_t open_by(hid_t list, struct hk_h5_guard *guard, hid_t file, const 
   hk_h5_drop(space);
   if (!fits) {
     return hk_dataset_refuse(path, name,
-                             "has a wrong number of dimensions; allowed: [rows], [rows][columns] or "
-                             "[frames][rows][columns]");
+                             "has a wrong number of dimensions; allowed: "
+                             "[rows], [rows][columns] or [frames][rows][columns]");
   }
   double count = 1.0;
   for (int k = 0; k < data->rank; k++)

@@ -92,16 +92,16 @@ int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char
 /* ---- a file ---- */
 
 /* Checks that `bytes` fit before anything is written. */
-static int32_t try_room(const char *path, int descriptor, double bytes) {
+static int32_t try_space(const char *path, int descriptor, double bytes) {
   char what[64];
   hk_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
-  int error = bytes < 9e18 ? hk_os_take_room(descriptor, (int64_t)bytes) : EFBIG;
+  int error = bytes < 9e18 ? hk_os_reserve_disk(descriptor, (int64_t)bytes) : EFBIG;
   if (hk_os_set_length(descriptor, 0) != 0 && error == 0) error = errno;
   return error ? hk_file_fail(path, what, error) : HOOKE_OK;
 }
 
 static int32_t create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file) {
-  const int32_t status = try_room(path, file->atomic.descriptor, bytes);
+  const int32_t status = try_space(path, file->atomic.descriptor, bytes);
   if (status != HOOKE_OK) return status;
   file->list = hk_h5_access_list(file->atomic.descriptor, &file->error);
   if (file->list >= 0) file->id = H5Fcreate(file->atomic.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
@@ -125,10 +125,10 @@ int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, do
 }
 
 /* Allocates disk space for the whole file, not only its length. */
-static int32_t take_room(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
+static int32_t take_space(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
   hsize_t bytes = 0;
   if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic.path, "write");
-  const int error = hk_os_take_room(file->atomic.descriptor, (int64_t)bytes);
+  const int error = hk_os_reserve_disk(file->atomic.descriptor, (int64_t)bytes);
   return error ? hk_file_fail(file->atomic.path, "make room for all frames", error) : HOOKE_OK;
 }
 
@@ -144,7 +144,7 @@ static int32_t let_go(struct hk_h5_guard *guard, struct hk_h5_file *file) {
 }
 
 int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
-  const int32_t status = take_room(guard, file);
+  const int32_t status = take_space(guard, file);
   return status == HOOKE_OK ? let_go(guard, file) : status;
 }
 

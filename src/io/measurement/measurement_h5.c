@@ -1,6 +1,7 @@
 /* A measurement in one HDF5 file:
  *
- *   /hooke, /h5md               as in every file (h5md_h5.h): versions, units, options of the run, scene, status
+ *   /hooke, /h5md               as in every file (h5md_h5.h): versions, units, options of the run, scene,
+ * status
  *   /<kind>                     attributes: the record of that name
  *   /<kind>/options             an attribute for each option that is set
  *   /<kind>/<column>            [rows] of the table "rows"; NaN where a number does not apply

@@ -53,9 +53,9 @@ static int32_t write_frame(int64_t frame, int64_t step, const hooke_state *state
   return run->error != 0;
 }
 
-static int32_t tell(double share, void *ctx) {
+static int32_t tell(double fraction, void *ctx) {
   struct run *run = ctx;
-  const double done = ((double)run->number + share) / (double)run->motions->count;
+  const double done = ((double)run->number + fraction) / (double)run->motions->count;
   run->stopped = hk_measurement_tell(run->motions->m, done, run->motions->writer[run->number].group);
   return run->stopped;
 }

@@ -1,6 +1,6 @@
-/* The motions in the file of a study that ran each method once: the reference in the group "all", each method in
- * one of its name (trajectory_writer_h5.h). Only the numbers of frames are kept from the study, so every run is
- * made again. */
+/* The motions in the file of a study that ran each method once: the reference in the group "all", each method
+ * in one of its name (trajectory_writer_h5.h). Only the numbers of frames are kept from the study, so every
+ * run is made again. */
 #ifndef HOOKE_IO_MEASUREMENT_MOTIONS_H5_H
 #define HOOKE_IO_MEASUREMENT_MOTIONS_H5_H
 

@@ -12,8 +12,8 @@ int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture
   picture->ends = hk_new(2 * picture->spring_count, sizeof *picture->ends);
   picture->drawn = hk_new(picture->spring_count, 1);
   picture->shut = hk_new(picture->spring_count, 1);
-  picture->place = hk_new(hooke_system_particle_count(system), sizeof *picture->place);
-  if (!picture->ends || !picture->drawn || !picture->shut || !picture->place) return HOOKE_NO_MEMORY;
+  picture->slot = hk_new(hooke_system_particle_count(system), sizeof *picture->slot);
+  if (!picture->ends || !picture->drawn || !picture->shut || !picture->slot) return HOOKE_NO_MEMORY;
   return hooke_system_members(system, "springs", picture->ends, NULL, NULL, NULL);
 }
 
@@ -21,7 +21,7 @@ void hk_picture_release(struct hk_picture *picture) {
   hk_free(picture->ends);
   hk_free(picture->drawn);
   hk_free(picture->shut);
-  hk_free(picture->place);
+  hk_free(picture->slot);
 }
 
 void hk_picture_take(struct hk_picture *picture, int64_t spring) {
@@ -60,7 +60,7 @@ void hk_picture_show_evenly(struct hk_picture *picture) {
 }
 
 void hk_picture_show(struct hk_picture *picture, int64_t particle) {
-  if (picture->place[particle] == 0) picture->place[particle] = ++picture->shown_count;
+  if (picture->slot[particle] == 0) picture->slot[particle] = ++picture->shown_count;
 }
 
 void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture) {
@@ -73,7 +73,7 @@ void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture) {
   for (int64_t k = 0; k < 2 * picture->spring_count; k++) {
     if (!picture->drawn[k / 2]) continue;
     hk_picture_show(picture, picture->ends[k]);
-    hk_text_number(data, NULL, (double)(picture->place[picture->ends[k]] - 1));
+    hk_text_number(data, NULL, (double)(picture->slot[picture->ends[k]] - 1));
   }
   hk_text_close(data, ']');
 }
@@ -82,7 +82,7 @@ int64_t *hk_picture_list(const struct hk_picture *picture) {
   const int64_t all = hooke_system_particle_count(picture->system);
   int64_t *list = hk_new(picture->shown_count, sizeof *list);
   for (int64_t k = 0; k < all && list; k++) {
-    if (picture->place[k] > 0) list[picture->place[k] - 1] = k;
+    if (picture->slot[k] > 0) list[picture->slot[k] - 1] = k;
   }
   return list;
 }

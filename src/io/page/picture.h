@@ -15,7 +15,7 @@ struct hk_picture {
   char *drawn;         /* of each spring */
   char *shut;          /* by spring, 1: excluded; the caller's to mark */
   int64_t shown_count; /* listed particles */
-  int64_t *place;      /* by particle: its index among them, from 1; 0: none */
+  int64_t *slot;       /* by particle: its index among them, from 1; 0: none */
 };
 
 /* An empty picture. Must be released also on failure. HOOKE_NO_MEMORY. */

@@ -36,7 +36,7 @@ struct frames {
   int64_t energies, first_energy;
 
   hooke_measurement *limit;
-  struct hk_patience patience;
+  struct hk_budget budget;
   /* 3n: NULL before a mode was found; positions and time then, and its growth in a step */
   double *shape, *mode_q, mode_time, mode_growth;
   int32_t is_above, looks;
@@ -112,7 +112,7 @@ static int32_t begin_limits(struct frames *f, const hooke_options *run) {
   if (status == HOOKE_OK)
     status = hk_measurement_create(&hk_limit_kind, NULL, f->system, run, options, &f->limit);
   hooke_options_destroy(options);
-  f->patience = hk_patience_of_work(LOOK_WORK, NULL, NULL);
+  f->budget = hk_budget_of_work(LOOK_WORK, NULL, NULL);
   return status;
 }
 
@@ -157,9 +157,9 @@ static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const s
 
 static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
   if (f->limit == NULL || f->looks > LOOKS) return HOOKE_OK;
-  if (step != f->last && hk_patience_ends(&f->patience, NULL)) return HOOKE_OK;
+  if (step != f->last && hk_budget_ends(&f->budget, NULL)) return HOOKE_OK;
   struct hk_limit *limit = f->limit->object;
-  limit->patience = step == f->last ? &limit->endless : &f->patience;
+  limit->budget = step == f->last ? &limit->endless : &f->budget;
   const double *q = hooke_state_position((hooke_state *)state);
   int32_t status = hk_limit_look(limit, q, state->v, hooke_state_time(state));
   if (status != HOOKE_OK)

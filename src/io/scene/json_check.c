@@ -127,8 +127,8 @@ static int32_t refuse_number(const char *token, int64_t length, const char *what
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s %s; allowed: %s", shown, what, allowed);
 }
 
-/* JSON (RFC 8259) has fewer numbers than hk_number_parse(): digits stand before a point and after it, and no zero
- * before them. `junk` is set if this is none. */
+/* JSON (RFC 8259) has fewer numbers than hk_number_parse(): digits stand before a point and after it, and no
+ * zero before them. `junk` is set if this is none. */
 static int32_t check_number(const char *token, int64_t length, int32_t *junk) {
   const char *first = token + (*token == '-'), *after = first + strspn(first, digits);
   double value;

@@ -1,4 +1,5 @@
-/* Values of a text that was checked and decoded: its texts end with a NUL, and go on with NULs up to their end. */
+/* Values of a text that was checked and decoded: its texts end with a NUL, and go on with NULs up to their
+ * end. */
 #include "io/scene/json.h"
 
 #include "core/number.h"
@@ -103,7 +104,8 @@ const char *hk_json_get(const char *object, const char *key) {
 
 /* ---- places ---- */
 
-/* The key that matches most of `path`, which then goes on behind it; of equal ones the last, which is refused. */
+/* The key that matches most of `path`, which then goes on behind it; of equal ones the last, which is
+ * refused. */
 static const char *find_key(const char *object, const char **path) {
   const char *best = NULL;
   size_t longest = 0;

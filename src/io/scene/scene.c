@@ -27,7 +27,7 @@ static int32_t in_text(int32_t status, const hooke_scene *scene, const char *at)
 }
 
 int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key) {
-  const char *found = hk_json_find(scene->json, hk_fail_place(), at_key);
+  const char *found = hk_json_find(scene->json, hk_fail_where(), at_key);
   return in_text(status, scene, scene->text + (found - scene->json));
 }
 

@@ -99,9 +99,9 @@ static int is_inside(const char *folder, const char *path) {
 
 int32_t hk_scene_find_any(const char *folder, const char *file, char **path) {
   const char *base = hk_os_is_absolute(file) ? "" : folder ? folder : ".";
-  const size_t room = strlen(base) + strlen(file) + 2;
-  *path = hk_new((int64_t)room, 1);
-  if (*path) snprintf(*path, room, "%s%s%s", base, base[0] ? "/" : "", file);
+  const size_t capacity = strlen(base) + strlen(file) + 2;
+  *path = hk_new((int64_t)capacity, 1);
+  if (*path) snprintf(*path, capacity, "%s%s%s", base, base[0] ? "/" : "", file);
   return *path ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 

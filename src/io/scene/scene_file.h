@@ -10,8 +10,8 @@ const struct hk_option_table *hk_scene_table(int64_t k);
 /* The table of a name of hooke_options_create(); NULL, with HOOKE_BAD_VALUE recorded, if there is none. */
 const struct hk_option_table *hk_options_named(const char *name);
 
-/* The particles of a scene, and the arrays whose objects have particles, in the order of reading; the last has
- * no key. */
+/* The particles of a scene, and the arrays whose objects have particles, in the order of reading; the last
+ * has no key. */
 extern const struct hk_scene_list {
   const char *key;       /* also the name of their options */
   const char *others;    /* keys beside those of the options, each between blanks */
@@ -23,12 +23,13 @@ extern const struct hk_scene_list {
                  const hooke_options *options);
 } hk_scene_lists[];
 
-/* HOOKE_NO_MEMORY if a scene of `length` bytes of text may need more than `limit` (0: the machine's memory). */
+/* HOOKE_NO_MEMORY if a scene of `length` bytes of text may need more than `limit` (0: the machine's memory).
+ */
 int32_t hk_scene_require_memory(double limit, int64_t length);
 
-/* Reads a whole file, or of a scene, which has a memory limit, the beginning that shows that it is not JSON. `text`
- * ends with a NUL; the caller frees it. HOOKE_BAD_VALUE if there is no such file, HOOKE_IO_FAILED if reading fails
- * midway, HOOKE_NO_MEMORY. The message does not name the file. */
+/* Reads a whole file, or of a scene, which has a memory limit, the beginning that shows that it is not JSON.
+ * `text` ends with a NUL; the caller frees it. HOOKE_BAD_VALUE if there is no such file, HOOKE_IO_FAILED if
+ * reading fails midway, HOOKE_NO_MEMORY. The message does not name the file. */
 int32_t hk_scene_read_file(const char *path, const double *memory_limit, char **text, int64_t *length);
 
 /* The folder of a path; NULL without memory. */

@@ -55,7 +55,8 @@ static int32_t read_run(struct hk_scene_reader *reader, const char *run) {
   return status;
 }
 
-/* Particles first, then parts, so that the others can refer to them, which are read only if both are right. */
+/* Particles first, then parts, so that the others can refer to them, which are read only if both are right.
+ */
 static int32_t add_pieces(struct hk_scene_reader *reader, const char *root) {
   const struct hk_scene_list *list = hk_scene_lists;
   const char *particles = hk_json_get(root, "particles");
@@ -100,7 +101,7 @@ int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status) {
 
 static int32_t tell(int32_t status, const struct hk_scene_reader *reader) {
   if (status == HOOKE_BAD_VALUE) return hk_fail_lines(status, reader->faults, reader->fault);
-  const int placeless = status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hk_fail_place()[0] == '\0');
+  const int placeless = status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hk_fail_where()[0] == '\0');
   return placeless ? status : hk_scene_place(status, reader->scene, reader->at_key);
 }
 

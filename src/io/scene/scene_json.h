@@ -23,8 +23,9 @@ struct hk_scene_reader {
   int32_t noted; /* 1 if the last failure is among them */
 };
 
-/* Notes a failure whose place is in the object that is read, and returns HOOKE_OK, so that reading goes on and finds
- * all faults of a scene; returns `status` if it is no fault of the scene, or if there are too many. */
+/* Notes a failure whose place is in the object that is read, and returns HOOKE_OK, so that reading goes on
+ * and finds all faults of a scene; returns `status` if it is no fault of the scene, or if there are too many.
+ */
 int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status);
 
 /* ---- scene_json_values.c ---- */
@@ -33,12 +34,12 @@ int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status);
  * blanks) are left to the caller. Then checks that nothing required is missing. */
 int32_t hk_scene_read_options(struct hk_scene_reader *reader, const char *object, const char *others,
                               hooke_options *options);
-/* Fails unless `value` begins with `first`, one of { [ and "; `place` may be NULL. */
-int32_t hk_scene_require(const char *value, char first, const char *place, const char *allowed);
+/* Fails unless `value` begins with `first`, one of { [ and "; `where` may be NULL. */
+int32_t hk_scene_require(const char *value, char first, const char *where, const char *allowed);
 
 /* "3 is not allowed; allowed: ..." */
-int32_t hk_scene_refuse(const char *value, const char *place, const char *allowed);
-int32_t hk_scene_refuse_for_row(const char *value, const char *place, const struct hk_option_row *row);
+int32_t hk_scene_refuse(const char *value, const char *where, const char *allowed);
+int32_t hk_scene_refuse_for_row(const char *value, const char *where, const struct hk_option_row *row);
 
 /* After a failure about number k of a list `name`: changes its place to the k-th element of the array that is
  * not a word. Returns `status`. */
@@ -62,7 +63,7 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
                               const char **unit);
 
 /* The part of a name. HOOKE_BAD_VALUE. */
-int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *place, const char *name,
+int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *where, const char *name,
                               const struct hk_part_record **part);
 
 /* The particles of a list, each a number or ["part", index], which the caller frees. */

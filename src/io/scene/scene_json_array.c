@@ -129,7 +129,7 @@ static int compare_name(const void *name, const void *part) {
   return strcmp(name, (*(const struct hk_part_record *const *)part)->name);
 }
 
-int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *place, const char *name,
+int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *where, const char *name,
                               const struct hk_part_record **part) {
   const hooke_system *system = reader->scene->system;
   const struct hk_part_record *const *found =
@@ -139,7 +139,7 @@ int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *
   if (found) return HOOKE_OK;
   hk_option_show(name, (int64_t)strlen(name), shown);
   list_parts(system, names, sizeof names);
-  return hk_fail(HOOKE_BAD_VALUE, place, "there is no part \"%s\"; allowed: %s", shown,
+  return hk_fail(HOOKE_BAD_VALUE, where, "there is no part \"%s\"; allowed: %s", shown,
                  names[0] ? names : "none, as this scene has no parts");
 }
 
@@ -189,7 +189,8 @@ static int32_t refuse_row(const struct items *items, const char *value) {
   return hk_scene_refuse(value, NULL, allowed);
 }
 
-/* Adds the numbers of an array, flat or in rows of `columns`, to `count` ones; words among them are left out. */
+/* Adds the numbers of an array, flat or in rows of `columns`, to `count` ones; words among them are left out.
+ */
 static int32_t read_items(const struct items *items, const char *value, int64_t columns, double *numbers,
                           int64_t *count) {
   int64_t k = 0;
@@ -245,13 +246,13 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *valu
   double *numbers = NULL, number;
   if (!hk_json_is(value, '[') && !hk_json_is(value, '{')) return hk_scene_refuse(value, NULL, list->allowed);
   int32_t status = read_values(&items, value, &numbers, count);
-  char *place = (char *)numbers;
-  for (int64_t k = 0; status == HOOKE_OK && k < *count; k++, place += sizeof(double)) {
-    memcpy(&number, place, sizeof number);
+  char *where = (char *)numbers;
+  for (int64_t k = 0; status == HOOKE_OK && k < *count; k++, where += sizeof(double)) {
+    memcpy(&number, where, sizeof number);
     if (number < 0 || number >= (double)particle_count)
       status = hk_fail_index("dataset", "there is no particle", number, particle_count);
     const int64_t particle = status == HOOKE_OK ? (int64_t)number : 0;
-    memcpy(place, &particle, sizeof particle);
+    memcpy(where, &particle, sizeof particle);
   }
   if (status) hk_free(numbers);
   *particles = status ? NULL : (void *)numbers;

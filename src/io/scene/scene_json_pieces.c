@@ -99,7 +99,7 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   if (status == HOOKE_OK) status = hk_mesh_read_as(path, file, reader->scene->memory_limit, options);
   hk_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
-  if (hk_fail_place()[0]) return status;
+  if (hk_fail_where()[0]) return status;
   /* an unusable file that a scene names is a fault of the scene */
   return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
 }
@@ -134,7 +134,7 @@ static int compare_parts(const void *a, const void *b) {
 /* Sorts the parts by their names, each of which is its own. */
 static int32_t sort_parts(struct hk_scene_reader *reader) {
   const hooke_system *system = reader->scene->system;
-  char place[LIST_SIZE], shown[HOOKE_OPTION_SHOWN];
+  char where[LIST_SIZE], shown[HOOKE_OPTION_SHOWN];
   reader->part = hk_new(system->part_count, sizeof *reader->part);
   if (reader->part == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < system->part_count; k++)
@@ -143,9 +143,9 @@ static int32_t sort_parts(struct hk_scene_reader *reader) {
   for (int64_t k = 1; k < system->part_count; k++) {
     const struct hk_part_record *first = reader->part[k - 1], *second = reader->part[k];
     if (strcmp(first->name, second->name) != 0) continue;
-    snprintf(place, sizeof place, "parts[%lld].name", (long long)(second - system->part));
+    snprintf(where, sizeof where, "parts[%lld].name", (long long)(second - system->part));
     hk_option_show(first->name, (int64_t)strlen(first->name), shown);
-    return hk_fail(HOOKE_BAD_VALUE, place,
+    return hk_fail(HOOKE_BAD_VALUE, where,
                    "\"%s\" is the name of part %lld already; allowed: a name of its own", shown,
                    (long long)(first - system->part));
   }

@@ -25,19 +25,19 @@ static void describe(const char *value, char *text) {
   }
 }
 
-int32_t hk_scene_refuse(const char *value, const char *place, const char *allowed) {
+int32_t hk_scene_refuse(const char *value, const char *where, const char *allowed) {
   char given[TEXT_SIZE];
   describe(value, given);
-  return hk_fail(HOOKE_BAD_VALUE, place, "%s is not allowed; allowed: %s", given, allowed);
+  return hk_fail(HOOKE_BAD_VALUE, where, "%s is not allowed; allowed: %s", given, allowed);
 }
 
-int32_t hk_scene_refuse_for_row(const char *value, const char *place, const struct hk_option_row *row) {
+int32_t hk_scene_refuse_for_row(const char *value, const char *where, const struct hk_option_row *row) {
   char allowed[HOOKE_OPTION_ALLOWED];
-  return hk_scene_refuse(value, place, hk_option_allowed(row, allowed));
+  return hk_scene_refuse(value, where, hk_option_allowed(row, allowed));
 }
 
-int32_t hk_scene_require(const char *value, char first, const char *place, const char *allowed) {
-  return hk_json_is(value, first) ? HOOKE_OK : hk_scene_refuse(value, place, allowed);
+int32_t hk_scene_require(const char *value, char first, const char *where, const char *allowed) {
+  return hk_json_is(value, first) ? HOOKE_OK : hk_scene_refuse(value, where, allowed);
 }
 
 /* True if a key needs no quoting in a place. */
@@ -58,12 +58,12 @@ static int32_t refuse_key(struct hk_scene_reader *reader, const struct hk_option
 /* ---- one value ---- */
 
 int32_t hk_scene_place_number(int32_t status, const char *array, const char *name) {
-  const char *place = hk_fail_place();
+  const char *where = hk_fail_where();
   size_t length = strlen(name);
-  if (status != HOOKE_BAD_VALUE || !hk_json_is(array, '[') || strncmp(place, name, length) != 0)
+  if (status != HOOKE_BAD_VALUE || !hk_json_is(array, '[') || strncmp(where, name, length) != 0)
     return status;
-  if (place[length] != '[' && place[length] != '\0') return status;
-  long long number = place[length] ? strtoll(place + length + 1, NULL, 10) : 0, k = 0;
+  if (where[length] != '[' && where[length] != '\0') return status;
+  long long number = where[length] ? strtoll(where + length + 1, NULL, 10) : 0, k = 0;
   for (const char *item = hk_json_first(array); item; item = hk_json_next(item), k++) {
     if (hk_json_is(item, '"') || number-- > 0) continue;
     char found[NAME_SIZE];

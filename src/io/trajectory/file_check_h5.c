@@ -16,9 +16,9 @@
 
 /* A text in a room of `bytes`, filled with zeros. */
 static uint32_t add_padded(uint32_t value, const char *text, size_t bytes) {
-  char room[HOOKE_ERROR_REASON] = {0};
-  memcpy(room, text, strnlen(text, bytes));
-  return hk_crc32(value, room, (int64_t)bytes);
+  char padded[HOOKE_ERROR_REASON] = {0};
+  memcpy(padded, text, strnlen(text, bytes));
+  return hk_crc32(value, padded, (int64_t)bytes);
 }
 
 int32_t hk_file_check_run(uint32_t description, const char *run) {

@@ -8,7 +8,8 @@
  *                 number of frames; this value is in the array /hooke/file_check
  *   error         then the bytes of `error`, `error_by` and `error_reason`, once they are known; likewise
  *
- * Nothing of hooke reads what they leave out: /h5md, the box, references, names of the numbers of an error. */
+ * Nothing of hooke reads what they leave out: /h5md, the box, references, names of the numbers of an error.
+ */
 #ifndef HOOKE_IO_TRAJECTORY_FILE_CHECK_H5_H
 #define HOOKE_IO_TRAJECTORY_FILE_CHECK_H5_H
 

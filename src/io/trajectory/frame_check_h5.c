@@ -123,9 +123,8 @@ static int32_t compare(struct check *check, const struct hk_dataset *data) {
   if (read_stored(check, data, &stored) < 0)
     return hk_h5_fail(check->guard, check->path, "read the check value of a frame");
   if (stored == check->value) return HOOKE_OK;
-  return damaged(check,
-                 "its numbers are not those that were written, by the check value beside them; other frames "
-                 "may be whole");
+  return damaged(check, "its numbers are not those that were written, by the "
+                        "check value beside them; other frames may be whole");
 }
 
 int32_t hk_frame_check(struct hk_h5_guard *guard, hid_t file, const char *path, const char *dataset,

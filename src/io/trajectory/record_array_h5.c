@@ -17,7 +17,7 @@
 
 /* ---- whole arrays ---- */
 
-static int32_t find_dataset(const char *what, char *dataset, size_t room) {
+static int32_t find_dataset(const char *what, char *dataset, size_t capacity) {
   static const struct {
     const char *what, *dataset;
   } known[] = {{"time", "/particles/all/position/time"}, {"step", "/particles/all/position/step"},
@@ -25,12 +25,12 @@ static int32_t find_dataset(const char *what, char *dataset, size_t room) {
                {"species", "/particles/all/species"},    {"error", "/hooke/error"}};
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
     if (strcmp(what, known[k].what) != 0) continue;
-    snprintf(dataset, room, "%s", known[k].dataset);
+    snprintf(dataset, capacity, "%s", known[k].dataset);
     return HOOKE_OK;
   }
   for (int k = 0; k < HOOKE_OBSERVABLE_COUNT; k++) {
     if (strcmp(what, hk_observables[k].name) != 0) continue;
-    snprintf(dataset, room, "/observables/%s/value", what);
+    snprintf(dataset, capacity, "/observables/%s/value", what);
     return HOOKE_OK;
   }
   return hk_fail(HOOKE_BAD_VALUE, NULL,

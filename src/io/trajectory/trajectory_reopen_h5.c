@@ -129,8 +129,8 @@ static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
   }
   if (old->there >= frames_kept) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, NULL,
-                 "frame %lld of %s is damaged or not there, and the run had written %lld; it cannot go on in "
-                 "this file",
+                 "frame %lld of %s is damaged or not there, and the "
+                 "run had written %lld; it cannot go on in this file",
                  (long long)old->there, old->file.atomic.path, (long long)frames_kept);
 }
 

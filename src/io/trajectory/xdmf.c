@@ -134,8 +134,8 @@ static int32_t check_name(const char *name) {
     fits = fits && *at >= ' ' && *at <= '~' && *at != ':';
   return fits ? HOOKE_OK
               : hk_fail(HOOKE_BAD_VALUE, NULL,
-                        "ParaView's reader of XDMF cannot take the name of this trajectory; allowed: "
-                        "ASCII without colons");
+                        "ParaView's reader of XDMF cannot take the name "
+                        "of this trajectory; allowed: ASCII without colons");
 }
 
 /* Name of the trajectory in the companion at `path`: relative if both are in the same folder, else absolute.

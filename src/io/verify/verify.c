@@ -214,8 +214,8 @@ static int32_t find_balance(struct hk_verify *verify, struct hk_verify_pass *coa
   if (status == HOOKE_OK && !holds && is_resolved(verify, coarse)) {
     verify->balance = "does-not-hold";
     return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "%s: the balance of energy does not hold: %g J are left over of %g J, and do not get "
-                   "less with the step",
+                   "%s: the balance of energy does not hold: %g J are "
+                   "left over of %g J, and do not get less with the step",
                    verify->path, verify->residual, coarse->balance.scale);
   }
   return status;
@@ -226,12 +226,11 @@ static int32_t within_tolerance(struct hk_verify *verify, const double apart[2])
   if (strcmp(verify->verdict, "agrees") == 0 ||
       (apart[0] <= ESTIMATES * verify->error && apart[1] <= ESTIMATES * verify->error_velocity))
     return HOOKE_OK;
-  return hk_fail(
-      HOOKE_BAD_VALUE, NULL,
-      "%s: is not what its scene gives: coordinates are up to %g m apart, velocities %g m/s, and their "
-      "errors "
-      "about %g m and %g m/s; other versions or another machine having made it explains %g times those",
-      verify->path, apart[0], apart[1], verify->error, verify->error_velocity, ESTIMATES);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "%s: is not what its scene gives: coordinates are up to %g m apart, "
+                 "velocities %g m/s, and their errors about %g m and %g m/s; other "
+                 "versions or another machine having made it explains %g times those",
+                 verify->path, apart[0], apart[1], verify->error, verify->error_velocity, ESTIMATES);
 }
 
 static int32_t compare_slice(struct hk_verify *verify) {

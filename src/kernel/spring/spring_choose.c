@@ -29,7 +29,8 @@ static uint32_t kept_registers(void) {
   return a;
 }
 
-/* Asks the processor: __builtin_cpu_supports() reads a table of the compiler's library, which zig's leaves empty. */
+/* Asks the processor: __builtin_cpu_supports() reads a table of the compiler's library, which zig's leaves
+ * empty. */
 static int32_t count_sets(void) {
   const uint32_t avx512 = bit_AVX512F | bit_AVX512DQ | bit_AVX512VL | bit_AVX512BW, kept = kept_registers();
   uint32_t a, b, c, d;

@@ -49,7 +49,7 @@ struct hk_run {
   const int32_t *head, *tail;                   /* indexed: first and second ends, `count` long */
   double kappa, gamma, rest_length;             /* shared */
   const double *kappas, *gammas, *rest_lengths; /* mixed: `count` long */
-  const int32_t *place; /* NULL, or mixed: indices into those arrays, which then are those of all springs */
+  const int32_t *slot; /* NULL, or mixed: indices into those arrays, which then are those of all springs */
   /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shared and divided by the rest length */
   int32_t strain;
   const uint8_t *batch; /* NULL, or mixed: strided batch of each spring, which has its material */
@@ -87,7 +87,7 @@ static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdi
                                 *hk_strided_number(of, low, HOOKE_STRIDED_GAMMA),
                                 *hk_strided_number(of, low, HOOKE_STRIDED_REST)};
   }
-  const ptrdiff_t at = run->place ? run->place[k] : k;
+  const ptrdiff_t at = run->slot ? run->slot[k] : k;
   const double length = run->rest_lengths[at];
   if (run->kappas) return (struct hk_material){run->kappas[at], run->gammas[at], length};
   if (run->strain) return (struct hk_material){run->kappa / length, run->gamma / length, length};

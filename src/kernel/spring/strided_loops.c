@@ -14,8 +14,8 @@ typedef hk_vector vec;
  * or any. */
 enum { PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
 
-/* The two vectors belong to TOGETHER batches and to VECTORS successive vectors of particles, which make a step
- * of the loop. Sums are BEHIND particles behind. */
+/* The two vectors belong to TOGETHER batches and to VECTORS successive vectors of particles, which make a
+ * step of the loop. Sums are BEHIND particles behind. */
 enum {
   VECTORS = HOOKE_WIDTH == HOOKE_STRIDED_UNIT ? 1 : 2,
   TOGETHER = 2 / VECTORS,
@@ -39,7 +39,7 @@ struct item {
   const char *ring;
 };
 
-struct place {
+struct slot {
   const char *q, *v;   /* index of the current vectors of particles */
   ptrdiff_t stride, p; /* in bytes; number of particles */
 };
@@ -150,7 +150,7 @@ HOOKE_INLINE vec tension_of(const struct batch *batch, const double *const *own,
  * for the compiler, so they come last. The empty instruction keeps it from storing sums of addresses
  * outside the loop, whose loads cost more than adding. */
 HOOKE_INLINE void fill(const struct batch *batch, const struct item *item, const int together,
-                       const struct place *at, const int shape, vec *shortest, vec sum[VECTORS][3]) {
+                       const struct slot *at, const int shape, vec *shortest, vec sum[VECTORS][3]) {
   const char *q = at->q, *v = at->v;
   ptrdiff_t stride = at->stride, p = at->p;
   const double *own[TOGETHER][HOOKE_STRIDED_NUMBERS];
@@ -269,7 +269,7 @@ HOOKE_INLINE void move_on(const struct hk_strided_pass *pass, const struct hk_mo
     fill(batch, item, 1, at, (shape) | HOOKE_RUN_MIXED, shortest, sum);                                      \
     break;
 
-HOOKE_INLINE void fill_any(const struct batch *batch, const struct item *item, const struct place *at,
+HOOKE_INLINE void fill_any(const struct batch *batch, const struct item *item, const struct slot *at,
                            vec *shortest, vec sum[VECTORS][3]) {
   switch (batch->shape & ~HOOKE_RUN_MIXED) {
     BODY(0)
@@ -282,7 +282,7 @@ HOOKE_INLINE void fill_any(const struct batch *batch, const struct item *item, c
 /* Forces of all batches at a step of the loop, and sums behind it: TOGETHER batches at a time if all have one
  * shape, known at compile time. */
 HOOKE_INLINE void fill_all(const struct batch *batch, const struct item *item, int32_t count, const int shape,
-                           const struct place *at, vec *shortest, vec sum[VECTORS][3]) {
+                           const struct slot *at, vec *shortest, vec sum[VECTORS][3]) {
   const struct batch *end = batch + count;
   if (shape == ANY) {
     for (; batch < end; batch++, item += 2)
@@ -294,7 +294,7 @@ HOOKE_INLINE void fill_all(const struct batch *batch, const struct item *item, i
   if (TOGETHER > 1 && batch < end) fill(batch, item, 1, at, shape, shortest, sum);
 }
 
-HOOKE_INLINE void fetch(const struct place *at, ptrdiff_t ahead) {
+HOOKE_INLINE void fetch(const struct slot *at, ptrdiff_t ahead) {
   for (int a = 0; a < 3; a++) {
     __builtin_prefetch(at->q + BYTES * ahead + a * at->stride);
     __builtin_prefetch(at->v + BYTES * ahead + a * at->stride);
@@ -332,10 +332,10 @@ HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape
   int64_t lost = 0;
   copy_batches(pass, batch, item);
   for (ptrdiff_t p = from; p < to; p += STEP) {
-    const struct place at = {.q = (const char *)(pass->q + p),
-                             .v = (const char *)(pass->v + p),
-                             .stride = BYTES * pass->stride,
-                             .p = p};
+    const struct slot at = {.q = (const char *)(pass->q + p),
+                            .v = (const char *)(pass->v + p),
+                            .stride = BYTES * pass->stride,
+                            .p = p};
     vec sum[VECTORS][3] = {{{0}}}, shortest = hk_all(INFINITY);
     if (pass->ahead > 0) fetch(&at, pass->ahead);
     fill_all(batch, item, count, shape, &at, &shortest, sum);

@@ -56,7 +56,8 @@ HOOKE_INLINE void fill(const struct hk_run run, const struct hk_fields fields, c
   }
 }
 
-/* Whole vectors, of which the last overlaps the one before: runs are often short, such as a row of a cloth. */
+/* Whole vectors, of which the last overlaps the one before: runs are often short, such as a row of a cloth.
+ */
 HOOKE_INLINE void fill_run(const struct hk_run run, const struct hk_fields fields, const double alpha,
                            const double beta, const struct hk_tangent tangent, const int axial,
                            const int indexed, const int where) {
@@ -74,7 +75,7 @@ HOOKE_INLINE void fill_run(const struct hk_run run, const struct hk_fields field
 HOOKE_INLINE void fill_any(const struct hk_run *run, const struct hk_fields *fields, const double alpha,
                            const double beta, const struct hk_tangent *tangent, const int axial) {
   const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
-  if (mixed && (run->place || run->kappas == NULL))
+  if (mixed && (run->slot || run->kappas == NULL))
     fill_run(*run, *fields, alpha, beta, *tangent, axial, indexed, ANYWHERE);
   else if (mixed && indexed)
     fill_run(*run, *fields, alpha, beta, *tangent, axial, 1, OWN);
@@ -146,8 +147,8 @@ HOOKE_INLINE void fill_block(double *restrict bx, double *restrict by, double *r
   }
 }
 
-/* Runs of constant offset are often short, such as a row of a cloth. Their loops end with a whole vector, which
- * overlaps the one before. */
+/* Runs of constant offset are often short, such as a row of a cloth. Their loops end with a whole vector,
+ * which overlaps the one before. */
 
 HOOKE_INLINE void fill_vector(struct block *b, const double *const x[3], const struct numbers *s,
                               const ptrdiff_t k, const int axial) {

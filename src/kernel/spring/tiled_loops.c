@@ -269,11 +269,11 @@ HOOKE_INLINE int64_t fill(const struct hk_tiled_springs *springs, ptrdiff_t coun
 
 /* ---- sums ---- */
 
-HOOKE_INLINE const quad *force_at(const double *force, const void *place, ptrdiff_t k, const int wide) {
-  return (const quad *)(force + HOOKE_TILED_FORCE * index_at(place, k, wide));
+HOOKE_INLINE const quad *force_at(const double *force, const void *slot, ptrdiff_t k, const int wide) {
+  return (const quad *)(force + HOOKE_TILED_FORCE * index_at(slot, k, wide));
 }
 
-HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, const void *place,
+HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, const void *slot,
                              const double *restrict force, double *const f[3], const int wide) {
   double *restrict x = f[0], *restrict y = f[1], *restrict z = f[2];
   ptrdiff_t k = 0;
@@ -281,32 +281,32 @@ HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, c
     quad total = {0.0, 0.0, 0.0, 0.0};
     ptrdiff_t left = degree[p];
     for (; left >= 4; left -= 4, k += 4) {
-      total += *force_at(force, place, k, wide);
-      total += *force_at(force, place, k + 1, wide);
-      total += *force_at(force, place, k + 2, wide);
-      total += *force_at(force, place, k + 3, wide);
+      total += *force_at(force, slot, k, wide);
+      total += *force_at(force, slot, k + 1, wide);
+      total += *force_at(force, slot, k + 2, wide);
+      total += *force_at(force, slot, k + 3, wide);
     }
     if (left & 2) {
-      total += *force_at(force, place, k, wide);
-      total += *force_at(force, place, k + 1, wide);
+      total += *force_at(force, slot, k, wide);
+      total += *force_at(force, slot, k + 1, wide);
       k += 2;
     }
-    if (left & 1) total += *force_at(force, place, k++, wide);
+    if (left & 1) total += *force_at(force, slot, k++, wide);
     x[p] = total[0];
     y[p] = total[1];
     z[p] = total[2];
   }
-  return wide ? (const void *)((const uint32_t *)place + k) : (const void *)((const uint16_t *)place + k);
+  return wide ? (const void *)((const uint32_t *)slot + k) : (const void *)((const uint16_t *)slot + k);
 }
 
-static const void *sum_narrow(ptrdiff_t count, const uint16_t *degree, const void *place, const double *force,
+static const void *sum_narrow(ptrdiff_t count, const uint16_t *degree, const void *slot, const double *force,
                               double *const f[3]) {
-  return sum(count, degree, place, force, f, 0);
+  return sum(count, degree, slot, force, f, 0);
 }
 
-static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void *place, const double *force,
+static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void *slot, const double *force,
                             double *const f[3]) {
-  return sum(count, degree, place, force, f, 1);
+  return sum(count, degree, slot, force, f, 1);
 }
 
 /* ---- rows ---- */

@@ -36,9 +36,9 @@ struct hk_tiled_springs {
 typedef int64_t hk_tiled_fill(const struct hk_tiled_springs *springs, ptrdiff_t count, const double *lower,
                               const double *upper, double *on_lower, double *on_upper);
 
-/* f = sums of the rows of forces at `place`, degree[p] of them at particle p, in this order; returns the end
- * of `place`. */
-typedef const void *hk_tiled_sum(ptrdiff_t count, const uint16_t *degree, const void *place,
+/* f = sums of the rows of forces at `slot`, degree[p] of them at particle p, in this order; returns the end
+ * of `slot`. */
+typedef const void *hk_tiled_sum(ptrdiff_t count, const uint16_t *degree, const void *slot,
                                  const double *force, double *const f[3]);
 
 /* Rows of `count` particles, those in `order` (NULL: the first ones); v NULL: positions only. */

@@ -20,8 +20,8 @@ static const double SOME_STEP = 1e-3;   /* [s], by default */
 static const struct hk_option_row cost_rows[] = {
     HOOKE_OPTION("predict", .type = HOOKE_OPTION_FLAG, "false", "leave out the timing"),
     HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), "2",
-                 "time after which no further ingredient is looked at; half of it is for the timing, at most "
-                 "0.2 s an ingredient"),
+                 "time after which no further ingredient is looked at; "
+                 "half of it is for the timing, at most 0.2 s an ingredient"),
     HOOKE_OPTION("groups", HOOKE_OPTION_WHOLE(0.0, 2147483647.0), "64",
                  "how many groups are looked at at most, the largest; each takes as long as the whole scene"),
 };
@@ -93,16 +93,16 @@ static int32_t find_limit(struct hk_cost *cost, const hooke_system *system, cons
                           double *limit) {
   const double *q = hooke_state_position((hooke_state *)state);
   *limit = NAN;
-  const int32_t status = hk_limit_predict_within(system, q, NULL, cost->method, NULL, NULL, ACCURACY, 0.0,
-                                                 &cost->patience, limit);
-  return status == HOOKE_NO_MEMORY || (status == HOOKE_STOPPED && cost->patience.stopped) ? status : HOOKE_OK;
+  const int32_t status =
+      hk_limit_predict_within(system, q, NULL, cost->method, NULL, NULL, ACCURACY, 0.0, &cost->budget, limit);
+  return status == HOOKE_NO_MEMORY || (status == HOOKE_STOPPED && cost->budget.stopped) ? status : HOOKE_OK;
 }
 
 /* Limit of the full scene, in the fraction of the budget that is not for timing. */
 static int32_t find_first_limit(struct hk_cost *cost, const hooke_state *state) {
-  hk_patience_lend(&cost->patience, 1.0 - TIMING_SHARE);
+  hk_budget_lend(&cost->budget, 1.0 - TIMING_SHARE);
   const int32_t status = find_limit(cost, cost->system, state, &cost->limit);
-  (void)hk_patience_take_back(&cost->patience);
+  (void)hk_budget_take_back(&cost->budget);
   return status;
 }
 
@@ -129,9 +129,9 @@ static double memory_of(const hooke_system *system, const struct hk_timed *timed
 static int32_t time_row(struct hk_cost *cost, struct hk_timed *full, struct hk_timed *lean,
                         const hooke_state *state, struct hk_cost_row *row) {
   if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
-  const double share =
+  const double fraction =
       TIMING_SHARE * hooke_options_number(cost->options, "budget") / (double)cost->chosen_count;
-  const int32_t status = hk_timed_compare(full, lean, state, fmin(MOST_SECONDS, share));
+  const int32_t status = hk_timed_compare(full, lean, state, fmin(MOST_SECONDS, fraction));
   const double with = 0.5 * (full->best[0] + full->best[1]), without = lean->best[0];
   if (!isfinite(with) || !isfinite(without)) return status;
   row->nanoseconds = fmax(0.0, with - without);
@@ -202,7 +202,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_timed full = {0};
   const double begun = hk_clock_seconds();
   forget(cost);
-  cost->patience = hk_patience_of(hooke_options_number(cost->options, "budget"), tell_limits, cost);
+  cost->budget = hk_budget_of(hooke_options_number(cost->options, "budget"), tell_limits, cost);
   int32_t status = tell(cost, 0.0, "limits");
   if (status == HOOKE_OK) status = find_first_limit(cost, state);
   if (status == HOOKE_OK) status = choose_step(cost, state);

@@ -4,7 +4,7 @@
 
 #include "measure/cost/cost_time.h"
 #include "measure/measurement.h"
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 #include "model/particles.h"
 
 struct hk_cost_row {
@@ -20,10 +20,10 @@ struct hk_cost {
   const hooke_system *system;
   hooke_options *run; /* of the measurement, with the method that is timed */
   const hooke_options *options;
-  const char *method;          /* within `run` */
-  double run_step;             /* [s] as given by the caller, NaN: not */
-  struct hk_patience patience; /* of limits, within the budget */
-  double told;                 /* fraction done */
+  const char *method;      /* within `run` */
+  double run_step;         /* [s] as given by the caller, NaN: not */
+  struct hk_budget budget; /* of limits, within the budget */
+  double told;             /* fraction done */
   double step, nanoseconds, resolution, memory, limit;
   int64_t row_count, chosen_count;
   struct hk_cost_row *row;

@@ -22,10 +22,9 @@ static const struct hk_column cost_columns[] = {
     HOOKE_COLUMN(struct hk_cost, resolution, NUMBER, "ns", "resolution of differences of it"),
     HOOKE_COLUMN_AS(struct hk_cost, memory, memory_bytes, COUNT, "B",
                     "memory of system, state and integrator"),
-    HOOKE_COLUMN_AS(
-        struct hk_cost, limit, step_limit, NUMBER, "s",
-        "largest stable step, as a limit predicts it; infinity where nothing limits it, NaN without "
-        "LAPACK"),
+    HOOKE_COLUMN_AS(struct hk_cost, limit, step_limit, NUMBER, "s",
+                    "largest stable step, as a limit predicts it; "
+                    "infinity where nothing limits it, NaN without LAPACK"),
     HOOKE_COLUMN_BY(dropped_springs, dropped_springs, COUNT, "",
                     "springs without stiffness and damping, which commit has left out"),
     HOOKE_COLUMN_BY(idle_particles, idle_particles, COUNT, "", "pinned particles that nothing touches"),

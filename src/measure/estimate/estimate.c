@@ -17,7 +17,7 @@
 
 enum { KEPT = 100, MOST_KEPT = 1000, STEPS_APART = 4, MOST_SEEN = 128, MOST_REFINED = 4 };
 static const double KEPT_BYTES = 1 << 26, FEW_BYTES = 1 << 22;
-static const double PATIENCE = 2.0;                      /* counted work for limits [s] */
+static const double BUDGET = 2.0;                        /* counted work for limits [s] */
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
                     MOST_FACTOR = 0.7;             /* of refinement */
@@ -120,7 +120,7 @@ static void choose_kept(struct hk_estimate *e, const hooke_integrator *it, int64
 }
 
 static int is_whole_reference(const struct hk_estimate *e) {
-  return e->pick.system != NULL && e->pick.share == 1.0;
+  return e->pick.system != NULL && e->pick.fraction == 1.0;
 }
 
 /* No limit is needed: the method has none, nothing is wanted, or the pick examined the same frames. */
@@ -265,8 +265,8 @@ static void give_up(struct hk_estimate *e, int32_t status) {
 static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
   if (e->kept.recorded == e->kept.count - 1) hk_frames_record(&e->kept, state);
   e->rise = hk_soundness_rise(&e->soundness);
-  struct hk_patience patience = hk_patience_of_work(PATIENCE, NULL, NULL);
-  int32_t status = hk_soundness_find_limits(&e->soundness, &patience);
+  struct hk_budget budget = hk_budget_of_work(BUDGET, NULL, NULL);
+  int32_t status = hk_soundness_find_limits(&e->soundness, &budget);
   if (status != HOOKE_OK) return status;
   if (isnan(e->first)) e->first = e->work;
   const char *obstacle = find_obstacle(e, state);

@@ -58,7 +58,7 @@ struct hk_rerun {
   const char *method;
   double value, duration, every;
   const char *what;         /* for progress: what this is, and its part of all other runs */
-  double done, share;       /* before it, and by it */
+  double done, fraction;    /* before it, and by it */
   const hooke_state *from;  /* NULL: the start of the run */
   hooke_observer *observer; /* observer of its frames, with `ctx`; or NULL */
   void *ctx;

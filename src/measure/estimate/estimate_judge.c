@@ -1,4 +1,5 @@
-/* A method cannot certify itself: an error that it makes at every step is in no difference of its own runs. */
+/* A method cannot certify itself: an error that it makes at every step is in no difference of its own runs.
+ */
 #include "measure/estimate/estimate.h"
 
 #include "core/print.h"

@@ -45,10 +45,11 @@ static void start_from(hooke_state *state, void *ctx) {
   hooke_state_copy(run->rerun->from ? run->rerun->from : run->estimate->start, state);
 }
 
-static int32_t tell(double share, void *ctx) {
+static int32_t tell(double fraction, void *ctx) {
   const struct run *run = ctx;
   const struct hk_rerun *rerun = run->rerun;
-  return hk_measurement_tell(run->estimate->measurement, rerun->done + rerun->share * share, rerun->what);
+  return hk_measurement_tell(run->estimate->measurement, rerun->done + rerun->fraction * fraction,
+                             rerun->what);
 }
 
 static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
@@ -120,7 +121,7 @@ static const char *name_of(int32_t adaptive, double factor) {
 }
 
 /* `done` and `share` of all other runs. */
-static int32_t run_level(struct hk_estimate *e, double factor, double done, double share,
+static int32_t run_level(struct hk_estimate *e, double factor, double done, double fraction,
                          struct level *level) {
   const int32_t adaptive = method_of(e)->adaptive;
   const double value = hk_estimate_value(e->options);
@@ -135,7 +136,7 @@ static int32_t run_level(struct hk_estimate *e, double factor, double done, doub
                                  .every = e->apart,
                                  .what = name_of(adaptive, factor),
                                  .done = done,
-                                 .share = share};
+                                 .fraction = fraction};
   return hk_estimate_compare(e, &rerun, e->kept.count, &level->from);
 }
 
@@ -153,8 +154,8 @@ static double order_seen(double a, double b, double ratio) {
   return 0.5 * (low + high);
 }
 
-/* Distance of two runs that rounding alone may make [m]: that of velocities turns the phase of oscillations, in
- * proportion to the power 3/2 of the number of steps. Orders are not seen below. */
+/* Distance of two runs that rounding alone may make [m]: that of velocities turns the phase of oscillations,
+ * in proportion to the power 3/2 of the number of steps. Orders are not seen below. */
 static double noise(const struct hk_estimate *e) {
   double hold = 0.0;
   for (int64_t f = 0; f < e->kept.recorded; f++)
@@ -249,7 +250,7 @@ int32_t hk_estimate_last_slice(struct hk_estimate *e) {
                                  .duration = duration,
                                  .every = duration,
                                  .what = "error, the last piece",
-                                 .share = 1.0,
+                                 .fraction = 1.0,
                                  .from = e->late};
   if (status == HOOKE_OK) status = hk_estimate_rerun(e, &rerun, &frames);
   if (status == HOOKE_OK && frames.recorded == 2) {

@@ -36,10 +36,9 @@ static const struct hk_column columns[] = {
         "energy that damping and drag dissipated, at the beginning or in the last slice, beyond the energy "
         "that was available, as such a fraction and as far as it is the heat of velocities that reverse at "
         "each step; unknown with callbacks or error control, or where there was no time to sum it"),
-    HOOKE_COLUMN_AS(
-        struct hk_estimate, last_error, last_piece, NUMBER, "m",
-        "where the error is not known: what the last piece of the run added to it at the end, from a finer "
-        "run of that piece"),
+    HOOKE_COLUMN_AS(struct hk_estimate, last_error, last_piece, NUMBER, "m",
+                    "where the error is not known: what the last piece of the "
+                    "run added to it at the end, from a finer run of that piece"),
     HOOKE_COLUMN(struct hk_estimate, last_from, NUMBER, "s",
                  "start of that piece, whose end is that of the run"),
     HOOKE_COLUMN_AS(struct hk_estimate, spent, seconds, NUMBER, "s",
@@ -48,10 +47,9 @@ static const struct hk_column columns[] = {
                     "memory of the states that it keeps while the run goes on"),
     HOOKE_COLUMN(struct hk_estimate, reason, TEXT, "",
                  "why the error is not known, or why the wanted one is not met"),
-    HOOKE_COLUMN(
-        struct hk_estimate, reversal, TEXT, "",
-        "the times on this machine of the two best picks, where they would reverse the choice by more "
-        "than 2"),
+    HOOKE_COLUMN(struct hk_estimate, reversal, TEXT, "",
+                 "the times on this machine of the two best picks, "
+                 "where they would reverse the choice by more than 2"),
 };
 
 /* ---- the tables ---- */

@@ -103,21 +103,21 @@ static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   hk_twin_push(growth->twin, x, v);
 }
 
-/* Displaced by half of what the velocities move in a step, which is at most 1 m, as is motion that turns round in
- * every step of symplectic Euler. In one of Verlet it has no velocity then; one would be a jump where damping is
- * strong. */
+/* Displaced by half of what the velocities move in a step, which is at most 1 m, as is motion that turns
+ * round in every step of symplectic Euler. In one of Verlet it has no velocity then; one would be a jump
+ * where damping is strong. */
 static void start(struct hk_growth *growth, double step, int random_only) {
   const hooke_system *system = growth->twin->system;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
   const int64_t size = 3 * system->particle_count;
   start_randomly(growth, q, v);
   hooke_state_set_time(growth->state, 0.0);
-  memcpy(q, growth->twin->place, (size_t)size * sizeof(double));
+  memcpy(q, growth->twin->origin, (size_t)size * sizeof(double));
   if (growth->has_direction && !random_only) {
     const double have = kinetic(system, v), want = kinetic(system, growth->direction);
-    const double share = have > 0.0 ? RANDOM_SHARE * sqrt(want / have) : 0.0;
+    const double fraction = have > 0.0 ? RANDOM_SHARE * sqrt(want / have) : 0.0;
     for (int64_t k = 0; k < size; k++)
-      v[k] = system->constrained[k / 3] ? 0.0 : growth->direction[k] + share * v[k];
+      v[k] = system->constrained[k / 3] ? 0.0 : growth->direction[k] + fraction * v[k];
   }
   for (int64_t k = 0; k < size; k++)
     most = fmax(most, fabs(v[k]));
@@ -135,12 +135,12 @@ static double log_amplitude(const struct hk_growth *growth) {
 
 /* Rescales displacements into the linear range of springs. */
 static void scale(const struct hk_growth *growth, struct course *course) {
-  const double off = course->last - course->offset - course->first, *place = growth->twin->place;
+  const double off = course->last - course->offset - course->first, *origin = growth->twin->origin;
   if (!isfinite(off) || off < SCALE_DOWN) return;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state);
   const double factor = exp(-off);
   for (int64_t k = 0; k < hooke_state_size(growth->state); k++) {
-    q[k] = place[k] + factor * (q[k] - place[k]);
+    q[k] = origin[k] + factor * (q[k] - origin[k]);
     v[k] *= factor;
   }
   course->offset += off;
@@ -254,13 +254,13 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
 
 static void take_direction(struct hk_growth *growth) {
   const double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state),
-               *place = growth->twin->place;
+               *origin = growth->twin->origin;
   double sum = 0.0;
   for (int64_t k = 0; k < hooke_state_size(growth->state); k++)
-    sum += growth->turns_at_rest ? fabs(q[k] - place[k]) : fabs(v[k]);
+    sum += growth->turns_at_rest ? fabs(q[k] - origin[k]) : fabs(v[k]);
   if (!isfinite(sum) || !(sum > 0.0)) return;
   for (int64_t k = 0; k < hooke_state_size(growth->state); k++)
-    growth->direction[k] = growth->turns_at_rest ? q[k] - place[k] : v[k];
+    growth->direction[k] = growth->turns_at_rest ? q[k] - origin[k] : v[k];
   growth->has_direction = 1;
 }
 

@@ -39,7 +39,7 @@ static int32_t has_fixed_step(const char *method) {
 }
 
 static void forget(struct hk_limit *limit) {
-  limit->endless = hk_patience_of(INFINITY, hk_limit_tell, limit);
+  limit->endless = hk_budget_of(INFINITY, hk_limit_tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = limit->time = NAN;
   limit->mode_count = limit->products = limit->clamped = limit->tipping = limit->limiting.count = 0;
@@ -61,7 +61,7 @@ static void forget_smallest(struct hk_limit *limit) {
     limit->row[k].smallest = limit->row[k].smallest_time = NAN, limit->row[k].unknown = 0;
 }
 
-static int32_t make_room(struct hk_limit *limit) {
+static int32_t make_space(struct hk_limit *limit) {
   const int64_t size = 3 * limit->system->particle_count;
   limit->q = hk_new(size, sizeof(double));
   limit->shape = hk_new(size, sizeof(double));
@@ -83,13 +83,13 @@ static int32_t create(hooke_measurement *m) {
   limit->system = m->system;
   limit->run = m->run;
   limit->options = m->options;
-  limit->patience = &limit->endless;
+  limit->budget = &limit->endless;
   const char *method[HOOKE_LISTED_METHODS];
   int32_t status = hk_method_list_read(limit->system, hooke_options_text(limit->options, "methods"),
                                        has_fixed_step, method, &limit->row_count);
   for (int32_t k = 0; k < limit->row_count; k++)
     limit->row[k].method = method[k];
-  if (status == HOOKE_OK) status = make_room(limit);
+  if (status == HOOKE_OK) status = make_space(limit);
   forget(limit);
   forget_smallest(limit);
   return status;
@@ -160,8 +160,8 @@ static int32_t find_participation(struct hk_limit *limit) {
                                          h, &limit->participation);
   if (status == HOOKE_OK) hk_limiting_take(limit->system, &limit->participation, &limit->limiting);
   limit->participation.undamped = 2.0 / limit->frequency;
-  limit->participation.patience = limit->patience;
-  limit->participation.room = limit->room;
+  limit->participation.budget = limit->budget;
+  limit->participation.memory = limit->memory;
   if (status == HOOKE_OK && row->predicted > 0.0)
     status = hk_suggestion_find(limit->system, limit->q, row->method, row->predicted, &limit->participation,
                                 &limit->suggestion);

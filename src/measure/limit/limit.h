@@ -46,9 +46,9 @@ struct hk_limit {
   struct hk_suggestion suggestion;
   struct hk_limiting_list limiting;
 
-  struct hk_patience endless;   /* which only the caller ends */
-  struct hk_patience *patience; /* that, or that of a diagnosis, with the bytes that a basis may take */
-  double room;
+  struct hk_budget endless; /* which only the caller ends */
+  struct hk_budget *budget; /* that, or that of a diagnosis, with the bytes that a basis may take */
+  double memory;
   double share, width; /* of all work: start and fraction of the current part */
   const char *under_way;
 };

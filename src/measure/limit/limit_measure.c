@@ -113,13 +113,13 @@ static void read_bracket(const struct hk_bracket *bracket, struct hk_measured_li
 /* Predicted stable at no step: growth has to be seen at small ones. Predicted stable at every step: none may
  * be seen at large ones, where it would be violent. `confirmed` is 0 if the bracket contradicts. */
 static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int small, int *confirmed) {
-  static const double share[2][3] = {{10.0, 100.0, 1000.0}, {0.3, 0.1, 0.03}};
+  static const double fraction[2][3] = {{10.0, 100.0, 1000.0}, {0.3, 0.1, 0.03}};
   const int64_t most_steps = trial->most_steps;
   *confirmed = 1;
   if (!small) trial->most_steps = STEPS_OF_VIOLENCE;
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 3 && *confirmed && status == HOOKE_OK; k++) {
-    const double part = small ? pow(share[small][k], 1.0 / trial->degree) : share[small][k];
+    const double part = small ? pow(fraction[small][k], 1.0 / trial->degree) : fraction[small][k];
     const double step = part * trial->growth->twin->lin.slow_step;
     enum hk_trial_end end = HOOKE_TRIAL_UNKNOWN;
     status = try_frozen(trial, step, &end);

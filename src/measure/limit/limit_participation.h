@@ -3,7 +3,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
 
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 #include "model/force/force.h"
 
 enum { HOOKE_MOST_LIMITING = 100 };
@@ -47,8 +47,8 @@ struct hk_participation {
   double *group_share; /* by group of the system */
   /* for a suggestion: the largest stable step if nothing were damped, by verlet [s]; as in linearised.h */
   double undamped;
-  struct hk_patience *patience;
-  double room;
+  struct hk_budget *budget;
+  double memory;
 };
 
 /* Shares of the springs, groups, forces and particles of a committed system at q (3n) in a mode (3n

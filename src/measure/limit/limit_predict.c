@@ -10,7 +10,7 @@ static const double SURE = 1e-3; /* accuracy of a limit that counts as exact */
 
 int32_t hk_limit_predict(const hooke_system *system, const double *q, const double *v, const char *method,
                          double accuracy, hooke_progress *progress, void *ctx, double *limit) {
-  struct hk_patience endless = hk_patience_of(INFINITY, progress, ctx);
+  struct hk_budget endless = hk_budget_of(INFINITY, progress, ctx);
   return hk_limit_predict_within(system, q, v, method, NULL, NULL, accuracy, 0.0, &endless, limit);
 }
 
@@ -31,13 +31,13 @@ static int32_t predict(struct hk_linearised *linearised, const char *method, dou
 
 int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const double *v,
                                 const char *method, const double *spring_scale, const double *mass_scale,
-                                double accuracy, double room, struct hk_patience *patience, double *limit) {
+                                double accuracy, double memory, struct hk_budget *budget, double *limit) {
   struct hk_linearised linearised;
   struct hk_prediction prediction;
   int32_t status = hk_linearised_create(system, q, v, spring_scale, mass_scale, &linearised);
   if (status != HOOKE_OK) return status;
-  linearised.patience = patience;
-  linearised.room = room;
+  linearised.budget = budget;
+  linearised.memory = memory;
   status = predict(&linearised, method, accuracy, HOOKE_SPECTRUM_ALL, &prediction);
   if (status == HOOKE_OK) *limit = prediction.limit;
   hk_linearised_release(&linearised);
@@ -45,12 +45,12 @@ int32_t hk_limit_predict_within(const hooke_system *system, const double *q, con
 }
 
 int32_t hk_limit_sure(const hooke_system *system, const double *q, const double *v, const char *method,
-                      struct hk_patience *patience, double *limit) {
+                      struct hk_budget *budget, double *limit) {
   struct hk_linearised linearised;
   struct hk_prediction prediction;
   int32_t status = hk_linearised_create(system, q, v, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
-  linearised.patience = patience;
+  linearised.budget = budget;
   status = predict(&linearised, method, SURE, HOOKE_SPECTRUM_EXTREMES, &prediction);
   if (status == HOOKE_OK) *limit = fmax(*limit, (1.0 - SURE) * prediction.sure);
   const int more = hk_limit_rule_needs_all(method) && !prediction.exact && !prediction.spins &&

@@ -6,7 +6,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_PREDICT_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_PREDICT_H
 
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 
 /* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 if no step is stable, infinity
  * if nothing limits it, an upper estimate if only part of the spectrum can be computed (rk4 and forward-euler
@@ -16,18 +16,18 @@
 int32_t hk_limit_predict(const hooke_system *system, const double *q, const double *v, const char *method,
                          double accuracy, hooke_progress *progress, void *ctx, double *limit);
 
-/* The same for a changed system, within the patience, with `room` bytes for a basis (0: the default);
+/* The same for a changed system, within the budget, with `room` bytes for a basis (0: the default);
  * otherwise HOOKE_STOPPED. `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale` (n) may
  * be NULL. */
 int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const double *v,
                                 const char *method, const double *spring_scale, const double *mass_scale,
-                                double accuracy, double room, struct hk_patience *patience, double *limit);
+                                double accuracy, double memory, struct hk_budget *budget, double *limit);
 
-/* Raises `limit`, initially hooke_step_bound() (with bodies 0), to a step [s] at which the linearised system is
- * certainly stable: the limit or close to it, by its extreme eigenvalues or, if these do not suffice, by all of a
- * small scene. Where that is not known, where bodies spin too fast, and after patience has ended, it stays what it
- * was. HOOKE_NO_MEMORY. */
+/* Raises `limit`, initially hooke_step_bound() (with bodies 0), to a step [s] at which the linearised system
+ * is certainly stable: the limit or close to it, by its extreme eigenvalues or, if these do not suffice, by
+ * all of a small scene. Where that is not known, where bodies spin too fast, and after budget has ended, it
+ * stays what it was. HOOKE_NO_MEMORY. */
 int32_t hk_limit_sure(const hooke_system *system, const double *q, const double *v, const char *method,
-                      struct hk_patience *patience, double *limit);
+                      struct hk_budget *budget, double *limit);
 
 #endif

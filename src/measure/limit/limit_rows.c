@@ -81,8 +81,8 @@ static int32_t note_buckling(struct hk_limit *limit, const double *q) {
   for (int32_t k = 0; k < limit->row_count && rate > 0.0; k++) {
     if (!limit->row[k].note[0])
       hk_print(limit->row[k].note, sizeof limit->row[k].note,
-               "buckling: springs under compression give way sideways, at any step; some motion grows by "
-               "exp(%.3g t) or faster",
+               "buckling: springs under compression give way sideways, "
+               "at any step; some motion grows by exp(%.3g t) or faster",
                rate);
   }
   return status;
@@ -112,8 +112,8 @@ int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q, const dou
   struct hk_linearised linearised;
   int32_t status = hk_linearised_create(limit->system, q, v, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
-  linearised.patience = limit->patience;
-  linearised.room = limit->room;
+  linearised.budget = limit->budget;
+  linearised.memory = limit->memory;
   status = find_bounds(limit, q);
   if (status == HOOKE_OK) status = find_rows(limit, &linearised);
   if (status == HOOKE_OK) status = note_buckling(limit, q);

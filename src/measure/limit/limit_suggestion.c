@@ -98,8 +98,8 @@ static int32_t limit_with(const hooke_system *system, const double *q, const cha
       scale[participation->particle[k].particle] = factor;
   }
   const int32_t status = hk_limit_predict_within(system, q, NULL, method, set->springs ? scale : NULL,
-                                                 set->springs ? NULL : scale, ACCURACY, participation->room,
-                                                 participation->patience, limit);
+                                                 set->springs ? NULL : scale, ACCURACY, participation->memory,
+                                                 participation->budget, limit);
   hk_free(scale);
   return status;
 }
@@ -215,16 +215,16 @@ static void tell_groups(const hooke_system *system, const struct hk_participatio
 
 /* ---- drag and damping ---- */
 
-/* The limit without drag, or without any damping. The latter is that of verlet, which has no limit by damping,
- * times the ratio of the two where nothing is damped. */
+/* The limit without drag, or without any damping. The latter is that of verlet, which has no limit by
+ * damping, times the ratio of the two where nothing is damped. */
 static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
                              const struct hk_participation *participation, int32_t drag, double *limit) {
   const struct hk_stability *stability = hk_method_stability(method);
   hooke_system without = *system;
   without.drag = 0.0;
   if (drag)
-    return hk_limit_predict_within(&without, q, NULL, method, NULL, NULL, ACCURACY, participation->room,
-                                   participation->patience, limit);
+    return hk_limit_predict_within(&without, q, NULL, method, NULL, NULL, ACCURACY, participation->memory,
+                                   participation->budget, limit);
   *limit = participation->undamped;
   if (stability->kind == HOOKE_STABLE_BY_POLYNOMIAL) *limit *= sqrt(stability->axis / 4.0);
   return HOOKE_OK;

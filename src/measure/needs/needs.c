@@ -15,11 +15,11 @@ static const struct hk_option_row needs_rows[] = {
     HOOKE_OPTION("want", HOOKE_OPTION_POSITIVE("m"), NULL,
                  "error that one can live with, the largest distance of any watched particle", .required = 1),
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
-                 "what is looked at: a part, a group, or particle numbers such as 0,7-9; all free particles "
-                 "if not given"),
+                 "what is looked at: a part, a group, or particle "
+                 "numbers such as 0,7-9; all free particles if not given"),
     HOOKE_OPTION("refine", .type = HOOKE_OPTION_FLAG, "false",
-                 "the reverse question: each part at once, twice and four times its resolution, and what the "
-                 "want asks for"),
+                 "the reverse question: each part at once, twice and "
+                 "four times its resolution, and what the want asks for"),
 };
 
 static const struct hk_option_table needs_table = {"needs", HOOKE_OPTION_ROWS(needs_rows)};

@@ -159,7 +159,7 @@ int32_t hk_needs_find(struct hk_needs *needs);
 int32_t hk_needs_refine(struct hk_needs *needs);
 
 /* Reports the progress of one measurement; a non-zero result asks to stop. The second is that of a pick. */
-int32_t hk_needs_tell(struct hk_needs *needs, double share);
+int32_t hk_needs_tell(struct hk_needs *needs, double fraction);
 int32_t hk_needs_tell_pick(double done, const char *what, void *needs);
 
 /* ---- needs_tables.c ---- */

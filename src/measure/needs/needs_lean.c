@@ -110,8 +110,8 @@ static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
 }
 
 static int32_t is_worth_it(const struct hk_needs *needs, const struct candidate *candidate) {
-  const double share = is_split(needs, &candidate->variant) ? WORTH_SPLITTING : 1.0;
-  return work(&candidate->cost) <= share * work(&needs->lean_cost);
+  const double fraction = is_split(needs, &candidate->variant) ? WORTH_SPLITTING : 1.0;
+  return work(&candidate->cost) <= fraction * work(&needs->lean_cost);
 }
 
 static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
@@ -224,10 +224,11 @@ static int32_t find_other_method(struct hk_needs *needs) {
   struct hk_pick pick;
   const int32_t status =
       hk_pick_run(&pick, needs->system, needs->run, needs->want, 0, NULL, hk_needs_tell_pick, needs);
-  if (status == HOOKE_OK && pick.met && pick.best.work < CLEARLY_LESS * pick.share * needs->cheapest.work &&
+  if (status == HOOKE_OK && pick.met &&
+      pick.best.work < CLEARLY_LESS * pick.fraction * needs->cheapest.work &&
       strcmp(pick.best.method, hooke_options_text(needs->run, "method")) != 0) {
     needs->other_method = pick.best.method;
-    needs->other_seconds = pick.best.wall_seconds / pick.share;
+    needs->other_seconds = pick.best.wall_seconds / pick.fraction;
   }
   hk_pick_release(&pick);
   return status == HOOKE_STOPPED || status == HOOKE_NO_MEMORY ? status : HOOKE_OK;

@@ -42,8 +42,8 @@ static int32_t run_at(struct hk_needs *needs, int64_t part, double scale, struct
 static void extrapolate(const struct hk_needs *needs, double step_error, struct hk_needs_part *part) {
   if (part->change <= RESOLVED * step_error || part->change_fine <= RESOLVED * step_error) {
     hk_print(part->note, sizeof part->note,
-             "the changes are within the error of the step, %.3g m: the resolution is fine enough, and its "
-             "order cannot be seen",
+             "the changes are within the error of the step, %.3g m: the "
+             "resolution is fine enough, and its order cannot be seen",
              step_error);
     if (part->change <= needs->want) part->factor = 1.0;
     return;
@@ -51,8 +51,8 @@ static void extrapolate(const struct hk_needs *needs, double step_error, struct 
   part->order = log2(part->change / part->change_fine);
   if (!(part->order >= LOWEST_ORDER && part->order <= HIGHEST_ORDER)) {
     hk_print(part->note, sizeof part->note,
-             "the changes do not fall as a power of the resolution (order %.2g), so nothing can be said of a "
-             "finer one",
+             "the changes do not fall as a power of the resolution "
+             "(order %.2g), so nothing can be said of a finer one",
              part->order);
     return;
   }

@@ -16,8 +16,8 @@ static const uint64_t SEED = 1;          /* of the displaced start */
 static const double RESTS = 1e-3;        /* of the wanted error: a smaller motion shows nothing */
 static const double TURNS_TAKE = 0.2;    /* [s]: time for repeating two runs in turns */
 
-int32_t hk_needs_tell(struct hk_needs *needs, double share) {
-  const double done = ((double)needs->pieces_done + share) / fmax(1.0, (double)needs->pieces);
+int32_t hk_needs_tell(struct hk_needs *needs, double fraction) {
+  const double done = ((double)needs->pieces_done + fraction) / fmax(1.0, (double)needs->pieces);
   needs->told = fmax(needs->told, fmin(1.0, done));
   return hk_measurement_tell(needs->measurement, needs->told, needs->under_way);
 }
@@ -130,9 +130,9 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
   return 0;
 }
 
-static int32_t see_progress(double share, void *ctx) {
+static int32_t see_progress(double fraction, void *ctx) {
   struct hk_needs_recorder *recorder = ctx;
-  return hk_needs_tell(recorder->needs, recorder->share_begun + recorder->share * share);
+  return hk_needs_tell(recorder->needs, recorder->share_begun + recorder->fraction * fraction);
 }
 
 /* All variants by the same, particle by particle of the full system. */

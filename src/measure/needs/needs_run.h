@@ -10,8 +10,8 @@ struct hk_needs_recorder {
   const struct hk_needs_trial *trial;
   struct hk_needs_path *path; /* NULL: only the time is needed */
   double last_step;
-  double share_begun, share; /* of the measurement: before this run, and for it */
-  int32_t displaced;         /* 1: it starts from a displaced start */
+  double share_begun, fraction; /* of the measurement: before this run, and for it */
+  int32_t displaced;            /* 1: it starts from a displaced start */
   int32_t judges, sound; /* 1: its step and its energy are judged; they are sound (recommend/soundness.h) */
   struct hk_soundness soundness;
 };

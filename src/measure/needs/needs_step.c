@@ -174,7 +174,7 @@ static int32_t begin_search(struct search *search, double limit) {
   const struct hk_needs *needs = search->recorder.needs;
   const double unit = needs->unit;
   search->ratio = hooke_options_number(needs->run, "atol") / hooke_options_number(needs->run, "rtol");
-  search->recorder.share = 0.25;
+  search->recorder.fraction = 0.25;
   if (search->adaptive) {
     search->value = -log10(COARSEST_RTOL);
     return HOOKE_OK;

@@ -34,10 +34,9 @@ static const struct hk_column needs_columns[] = {
     HOOKE_COLUMN_BY(method, method, TEXT, "", "method of all runs"),
     HOOKE_COLUMN(struct hk_needs, method_picked, FLAG, "", "no method was given, so one was picked"),
     HOOKE_COLUMN(struct hk_needs, duration, NUMBER, "s", "duration of the run"),
-    HOOKE_COLUMN_BY(
-        judged_until, judged_until, NUMBER, "s",
-        "time up to which changes are judged; beyond it differences grow so fast that no step would "
-        "keep its error small"),
+    HOOKE_COLUMN_BY(judged_until, judged_until, NUMBER, "s",
+                    "time up to which changes are judged; beyond it differences "
+                    "grow so fast that no step would keep its error small"),
     HOOKE_COLUMN(struct hk_needs, runs, COUNT, "", "runs made so far"),
     HOOKE_COLUMN_AS(struct hk_needs, watch_count, watched, COUNT, "", "watched particles"),
     HOOKE_COLUMN(struct hk_needs, spread, NUMBER, "",
@@ -64,10 +63,9 @@ HOOKE_READER(double, times_less, struct hk_needs, it->cheapest.wall_seconds / it
 HOOKE_COUNTER(count_lean, struct hk_needs, it->lean != NULL)
 
 static const struct hk_column lean_columns[] = {
-    HOOKE_COLUMN_AS(
-        struct hk_needs, lean_error, error, NUMBER, "m",
-        "at most that far from the full system: the distance from its finer run and \"own_error\" "
-        "together"),
+    HOOKE_COLUMN_AS(struct hk_needs, lean_error, error, NUMBER, "m",
+                    "at most that far from the full system: the distance "
+                    "from its finer run and \"own_error\" together"),
     COST_COLUMNS(struct hk_needs, lean_cost),
     HOOKE_COLUMN_BY(times_less, times_less, NUMBER, "",
                     "wall time of \"cheapest\" over that of the lean system, taken in turns"),
@@ -101,10 +99,9 @@ HOOKE_READER(double, needed, struct hk_needs, it->row[row].untold ? NAN : (doubl
 
 static const struct hk_column row_columns[] = {
     HOOKE_COLUMN(struct hk_needs_row, without, TEXT, "", "what was left out"),
-    HOOKE_COLUMN(
-        struct hk_needs_row, kind, TEXT, "",
-        "springs, bending, altitude, damping, drag, gravity, callback, idle, loose, part, rigid, compression "
-        "or resolution"),
+    HOOKE_COLUMN(struct hk_needs_row, kind, TEXT, "",
+                 "springs, bending, altitude, damping, drag, gravity, "
+                 "callback, idle, loose, part, rigid, compression or resolution"),
     HOOKE_COLUMN(struct hk_needs_row, error, NUMBER, "m",
                  "largest change of position of a watched particle without it; NaN if the run did not end"),
     HOOKE_COLUMN_BY(needed, needed, FLAG, "",

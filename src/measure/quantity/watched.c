@@ -15,7 +15,7 @@ enum { NAMES_SIZE = 256, TEXT_SIZE = 512 };
 /* Parser state: for messages the option and the original text. */
 struct reading {
   const hooke_system *system;
-  const char *place, *whole;
+  const char *where, *whole;
 };
 
 /* ---- names ---- */
@@ -77,19 +77,18 @@ static int64_t cut_index(char *text) {
 static int32_t refuse(const struct reading *reading) {
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
-  return hk_fail(
-      HOOKE_BAD_VALUE, reading->place,
-      "\"%s\" is nothing to watch; allowed: 0.x, 0.y or 0.z (a particle), part:0.y, group:0.length, .strain "
-      "or "
-      ".tension (a spring), energy, kinetic, potential, and period:0.y (of any of these); indices begin at 0",
-      shown);
+  return hk_fail(HOOKE_BAD_VALUE, reading->where,
+                 "\"%s\" is nothing to watch; allowed: 0.x, 0.y or 0.z (a particle), "
+                 "part:0.y, group:0.length, .strain or .tension (a spring), energy, "
+                 "kinetic, potential, and period:0.y (of any of these); indices begin at 0",
+                 shown);
 }
 
 static int32_t refuse_name(const struct reading *reading, const char *what, name_of *name) {
   char shown[HOOKE_OPTION_SHOWN], known[NAMES_SIZE] = "";
   hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
   list_names(reading->system, name, known);
-  return hk_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": there is no %s of that name; allowed: %s", shown,
+  return hk_fail(HOOKE_BAD_VALUE, reading->where, "\"%s\": there is no %s of that name; allowed: %s", shown,
                  what, known[0] ? known : "none, since the scene names none");
 }
 
@@ -97,9 +96,9 @@ static int32_t refuse_index(const struct reading *reading, const char *of, const
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
   if (count == 0) {
-    return hk_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has no %ss", shown, of, what);
+    return hk_fail(HOOKE_BAD_VALUE, reading->where, "\"%s\": %.80s has no %ss", shown, of, what);
   }
-  return hk_fail(HOOKE_BAD_VALUE, reading->place, "\"%s\": %.80s has the %ss 0 to %lld", shown, of, what,
+  return hk_fail(HOOKE_BAD_VALUE, reading->where, "\"%s\": %.80s has the %ss 0 to %lld", shown, of, what,
                  (long long)count - 1);
 }
 
@@ -131,10 +130,9 @@ static int32_t read_particle(const struct reading *reading, char *text, struct h
 static int32_t refuse_gaps(const struct reading *reading, const struct hk_group *group) {
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
-  return hk_fail(HOOKE_BAD_VALUE, reading->place,
-                 "\"%s\": %lld springs of %.80s have neither stiffness nor damping and are left out, so "
-                 "the others have no "
-                 "index; give those another group",
+  return hk_fail(HOOKE_BAD_VALUE, reading->where,
+                 "\"%s\": %lld springs of %.80s have neither stiffness nor damping and "
+                 "are left out, so the others have no index; give those another group",
                  shown, (long long)group->dropped, group->name);
 }
 
@@ -156,7 +154,7 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
   if (!known) return refuse_name(reading, "group of springs", group_name);
   if (asked >= count) return refuse_index(reading, text, "spring", count);
   if (watched->kind != HOOKE_WATCHED_STRAIN || watched->spring.rest_length > 0.0) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, reading->place,
+  return hk_fail(HOOKE_BAD_VALUE, reading->where,
                  "%.80s:%lld.strain: a spring of rest length 0 has no strain; allowed: length, tension", text,
                  (long long)asked);
 }
@@ -205,8 +203,8 @@ int64_t hk_watched_find(const struct hk_watched_list *list, const char *text) {
   return -1;
 }
 
-static int32_t add(struct hk_watched_list *list, const char *place, const char *text) {
-  const struct reading reading = {list->system, place, text};
+static int32_t add(struct hk_watched_list *list, const char *where, const char *text) {
+  const struct reading reading = {list->system, where, text};
   struct hk_watched watched = {.particle = -1};
   if (hk_watched_find(list, text) >= 0) return HOOKE_OK;
   char *pieces = hk_copy_text(text);
@@ -223,7 +221,7 @@ static int32_t add(struct hk_watched_list *list, const char *place, const char *
   return status;
 }
 
-int32_t hk_watched_read(struct hk_watched_list *list, const char *place, const char *text) {
+int32_t hk_watched_read(struct hk_watched_list *list, const char *where, const char *text) {
   const int64_t had = list->count;
   int32_t status = HOOKE_OK;
   for (const char *at = text; status == HOOKE_OK && at;) {
@@ -233,11 +231,11 @@ int32_t hk_watched_read(struct hk_watched_list *list, const char *place, const c
     while (length > 0 && at[length - 1] == ' ')
       length--;
     char one[TEXT_SIZE];
-    const struct reading reading = {list->system, place, at};
+    const struct reading reading = {list->system, where, at};
     if (length < sizeof one) {
       memcpy(one, at, length);
       one[length] = '\0';
-      status = add(list, place, one);
+      status = add(list, where, one);
     } else {
       status = refuse(&reading);
     }
@@ -294,15 +292,15 @@ static int mark_group(const hooke_system *system, const char *text, uint8_t *mar
   return found;
 }
 
-int32_t hk_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
+int32_t hk_watched_mark_particles(const hooke_system *system, const char *where, const char *text,
                                   uint8_t *mark) {
   char known[NAMES_SIZE] = "";
   if (mark_part(system, text, mark) == 0 || mark_group(system, text, mark) == 0) return HOOKE_OK;
   if (mark_numbers(text, system->particle_count, mark) == 0) return HOOKE_OK;
   list_names(system, part_name, known);
   list_names(system, group_name, known);
-  return hk_fail(HOOKE_BAD_VALUE, place,
-                 "\"%.60s\" is no part, group or list of particles; allowed: %s%s particle numbers such as "
-                 "0,7-9 (0 to %lld)",
+  return hk_fail(HOOKE_BAD_VALUE, where,
+                 "\"%.60s\" is no part, group or list of particles; "
+                 "allowed: %s%s particle numbers such as 0,7-9 (0 to %lld)",
                  text, known, known[0] ? ", or" : "", (long long)system->particle_count - 1);
 }

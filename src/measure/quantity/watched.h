@@ -39,15 +39,15 @@ struct hk_watched_list {
 };
 
 /* Adds the quantities in `text` to a list, which starts as zeros with the committed system; repeated ones are
- * not added again. HOOKE_BAD_VALUE, for the option `place`; HOOKE_NO_MEMORY. In either case the list
+ * not added again. HOOKE_BAD_VALUE, for the option `where`; HOOKE_NO_MEMORY. In either case the list
  * keeps its contents. */
-int32_t hk_watched_read(struct hk_watched_list *list, const char *place, const char *text);
+int32_t hk_watched_read(struct hk_watched_list *list, const char *where, const char *text);
 void hk_watched_release(struct hk_watched_list *list);
 /* Number of the quantity with that text; -1 if there is none. */
 int64_t hk_watched_find(const struct hk_watched_list *list, const char *text);
 
 /* Sets mark[p] to 1 for the particles of a part, of a group or of a list of numbers. HOOKE_BAD_VALUE. */
-int32_t hk_watched_mark_particles(const hooke_system *system, const char *place, const char *text,
+int32_t hk_watched_mark_particles(const hooke_system *system, const char *where, const char *text,
                                   uint8_t *mark);
 
 /* "m", "N", "J", "s", "" */

@@ -65,10 +65,10 @@ int32_t hk_pick_largest_step(struct hk_pick *pick, const char *method, const dou
   *bound = INFINITY;
   int32_t status = hooke_step_bound(pick->system, method, q, bound);
   if (status == HOOKE_OK && isnan(*bound) && hk_step_is_bounded(method)) {
-    struct hk_patience patience = hk_patience_of_work(LIMITS_SHARE * LEAST_WORK, NULL, NULL);
+    struct hk_budget budget = hk_budget_of_work(LIMITS_SHARE * LEAST_WORK, NULL, NULL);
     double limit = 0.0;
-    status = hk_limit_sure(pick->system, q, NULL, method, &patience, &limit);
-    pick->work += patience.work;
+    status = hk_limit_sure(pick->system, q, NULL, method, &budget, &limit);
+    pick->work += budget.work;
     if (limit > 0.0) *bound = limit;
   }
   if (isnan(*bound)) *bound = INFINITY;
@@ -76,9 +76,9 @@ int32_t hk_pick_largest_step(struct hk_pick *pick, const char *method, const dou
   return status;
 }
 
-static int32_t tell_quickest(double share, void *ctx) {
+static int32_t tell_quickest(double fraction, void *ctx) {
   const struct hk_pick *pick = ctx;
-  (void)share;
+  (void)fraction;
   return pick->progress ? pick->progress(0.0, "quick runs", pick->ctx) : 0;
 }
 
@@ -128,9 +128,9 @@ static int32_t find_quickest(struct hk_pick *pick) {
 
 /* ---- the reference ---- */
 
-static int32_t tell_reference(double share, void *ctx) {
+static int32_t tell_reference(double fraction, void *ctx) {
   const struct hk_pick *pick = ctx;
-  return pick->progress ? pick->progress(REFERENCE_SHARE * share, "reference", pick->ctx) : 0;
+  return pick->progress ? pick->progress(REFERENCE_SHARE * fraction, "reference", pick->ctx) : 0;
 }
 
 static int32_t make_reference(struct hk_pick *pick, double budget) {
@@ -154,7 +154,7 @@ static int32_t shorten(struct hk_pick *pick) {
   const struct hk_reference *r = &pick->reference;
   if (!r->hurried || r->trusted >= r->frames.count || r->trusted < 2) return HOOKE_OK;
   const double reached = r->frames.time[r->trusted - 1] - r->frames.time[0];
-  pick->share = reached / pick->duration;
+  pick->fraction = reached / pick->duration;
   return hooke_options_set_number(pick->run, "duration", reached);
 }
 
@@ -176,7 +176,7 @@ static int32_t find_reference(struct hk_pick *pick) {
   if (status != HOOKE_OK && status != HOOKE_BAD_VALUE) return status;
   hk_reference_release(&pick->reference);
   const double units = ceil(BEGINNING * round(pick->duration / pick->unit));
-  pick->share = units * pick->unit / pick->duration;
+  pick->fraction = units * pick->unit / pick->duration;
   status = hooke_options_set_number(pick->run, "every", pick->unit);
   if (status == HOOKE_OK) status = hooke_options_set_number(pick->run, "duration", units * pick->unit);
   if (status == HOOKE_OK) status = insist(pick, budget);
@@ -198,7 +198,7 @@ int32_t hk_pick_options(const hooke_options *run, const char *method, double val
 
 double hk_pick_trusted(const struct hk_pick *pick) {
   const struct hk_reference *r = &pick->reference;
-  if (r->trusted == r->frames.count) return pick->share * pick->duration;
+  if (r->trusted == r->frames.count) return pick->fraction * pick->duration;
   return r->trusted > 0 ? r->frames.time[r->trusted - 1] - r->frames.time[0] : 0.0;
 }
 

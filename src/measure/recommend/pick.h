@@ -28,11 +28,11 @@ struct hk_pick_row {
 
 struct hk_pick {
   const hooke_system *system;
-  hooke_options *run;     /* options of the runs: duration and frames as studied */
-  double want;            /* over the whole run [m] */
-  double duration, share; /* of the run [s]; studied part of it */
-  double unit;            /* largest step that fits frames and duration [s] */
-  int32_t method_count;   /* methods allowed; 0: any */
+  hooke_options *run;        /* options of the runs: duration and frames as studied */
+  double want;               /* over the whole run [m] */
+  double duration, fraction; /* of the run [s]; studied part of it */
+  double unit;               /* largest step that fits frames and duration [s] */
+  int32_t method_count;      /* methods allowed; 0: any */
   const char *const *methods;
   struct hk_reference reference;
   struct hk_pick_row best;   /* the cheapest that meets the want, or else the closest */
@@ -59,8 +59,8 @@ double hk_pick_most_work(const struct hk_pick *pick);
 int32_t hk_pick_allows(const struct hk_pick *pick, const char *method);
 /* Before the search: frames, the quickest run and the reference. */
 int32_t hk_pick_prepare(struct hk_pick *pick, const hooke_options *run);
-/* The largest step of a method that is to be tried [s], of which `bound` is certain to be stable at the start:
- * infinity if nothing limits it. */
+/* The largest step of a method that is to be tried [s], of which `bound` is certain to be stable at the
+ * start: infinity if nothing limits it. */
 int32_t hk_pick_largest_step(struct hk_pick *pick, const char *method, const double *q, double *bound,
                              double *largest);
 /* Options of a run by a method with a step or tolerance. */

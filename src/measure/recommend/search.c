@@ -70,10 +70,10 @@ struct looker {
   int32_t status;
 };
 
-static int32_t on_progress(double share, void *ctx) {
+static int32_t on_progress(double fraction, void *ctx) {
   const struct search *s = ((struct looker *)ctx)->search;
   const struct hk_pick *pick = s->pick;
-  (void)share;
+  (void)fraction;
   const double done = pick->work / hk_pick_most_work(pick);
   return pick->progress ? pick->progress(fmin(done, 0.99), s->method, pick->ctx) : 0;
 }
@@ -100,11 +100,10 @@ static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, v
 
 /* Judges the step and the energy of a run. */
 static int32_t judge(struct search *s, struct hk_soundness *soundness, struct result *result) {
-  struct hk_patience patience =
-      hk_patience_of_work(SHARE_OF_LIMITS * fmax(0.0, work_left(s->pick)), NULL, NULL);
+  struct hk_budget budget = hk_budget_of_work(SHARE_OF_LIMITS * fmax(0.0, work_left(s->pick)), NULL, NULL);
   if (isnan(result->error)) soundness->at[1].bound = INFINITY; /* nothing is sure of where it went */
-  const int32_t status = hk_soundness_find_limits(soundness, &patience);
-  s->pick->work += hk_soundness_work(soundness) + patience.work;
+  const int32_t status = hk_soundness_find_limits(soundness, &budget);
+  s->pick->work += hk_soundness_work(soundness) + budget.work;
   result->allowed = hk_soundness_limit_share * soundness->least_limit;
   result->unknown = soundness->unknown_limit;
   result->gains = hk_soundness_rise(soundness) > hk_soundness_most_rise;
@@ -220,7 +219,7 @@ static double next_value(const struct search *s) {
 static double cost_of(const struct search *s, double value) {
   const struct hk_pick *pick = s->pick;
   if (s->last.work > 0.0) return s->last.work * pow(s->last.value / value, s->adaptive ? COST_POWER : 1.0);
-  const double steps = ceil(pick->share * pick->duration / value);
+  const double steps = ceil(pick->fraction * pick->duration / value);
   const double work = s->adaptive ? NAN : hk_work_of_steps(pick->system, s->method, (int64_t)steps);
   return isnan(work) ? 0.0 : work;
 }
@@ -231,10 +230,9 @@ static int32_t raise_largest(struct search *s) {
   double limit = s->bound;
   if (s->adaptive || s->raised || s->largest < hk_soundness_limit_share * s->bound) return HOOKE_OK;
   s->raised = 1;
-  struct hk_patience patience =
-      hk_patience_of_work(SHARE_OF_LIMITS * fmax(0.0, work_left(s->pick)), NULL, NULL);
-  const int32_t status = hk_limit_sure(s->pick->system, q, NULL, s->method, &patience, &limit);
-  s->pick->work += patience.work;
+  struct hk_budget budget = hk_budget_of_work(SHARE_OF_LIMITS * fmax(0.0, work_left(s->pick)), NULL, NULL);
+  const int32_t status = hk_limit_sure(s->pick->system, q, NULL, s->method, &budget, &limit);
+  s->pick->work += budget.work;
   if (status == HOOKE_OK) s->largest = fmin(s->pick->unit, hk_soundness_limit_share * limit);
   return status;
 }
@@ -258,7 +256,7 @@ static int32_t begin(struct hk_pick *pick, const char *method, struct search *s)
   *s = (struct search){.pick = pick,
                        .method = method,
                        .adaptive = hooke_method_is_adaptive(method),
-                       .most = pick->want * pick->share - pick->reference.agreement,
+                       .most = pick->want * pick->fraction - pick->reference.agreement,
                        .meets = NAN,
                        .fails = NAN,
                        .error_meets = NAN,
@@ -443,7 +441,7 @@ int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hook
                            .want = want,
                            .method_count = count,
                            .methods = methods,
-                           .share = 1.0,
+                           .fraction = 1.0,
                            .progress = progress,
                            .ctx = ctx};
   const int32_t status = hk_pick_prepare(pick, run);

@@ -72,12 +72,12 @@ void hk_soundness_see(struct hk_soundness *s, const hooke_state *state) {
   s->energy[s->count++] = at.kinetic + at.elastic + (at.gravity - s->gravity0);
 }
 
-int32_t hk_soundness_find_limits(struct hk_soundness *s, struct hk_patience *patience) {
+int32_t hk_soundness_find_limits(struct hk_soundness *s, struct hk_budget *budget) {
   int32_t status = HOOKE_OK;
   for (int k = 0; k < HOOKE_SOUNDNESS_STATES && !isnan(s->step) && status == HOOKE_OK; k++) {
     double limit = s->at[k].bound;
     if (isinf(limit)) continue;
-    status = hk_limit_sure(s->system, s->at[k].q, s->at[k].v, s->method, patience, &limit);
+    status = hk_limit_sure(s->system, s->at[k].q, s->at[k].v, s->method, budget, &limit);
     s->unknown_limit |= !(limit > 0.0) && s->system->mover_count > 0;
     if (!(limit > 0.0) && s->system->mover_count > 0) continue;
     if (s->step > hk_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);

@@ -34,8 +34,8 @@ int32_t hk_soundness_begin(struct hk_soundness *soundness, const hooke_system *s
                            double step, const hooke_state *state, int64_t capacity);
 /* Records another state, such as a frame; those beyond the capacity are ignored. */
 void hk_soundness_see(struct hk_soundness *soundness, const hooke_state *state);
-/* Finds the limits, within the patience; without it the bounds are the limits. HOOKE_NO_MEMORY. */
-int32_t hk_soundness_find_limits(struct hk_soundness *soundness, struct hk_patience *patience);
+/* Finds the limits, within the budget; without it the bounds are the limits. HOOKE_NO_MEMORY. */
+int32_t hk_soundness_find_limits(struct hk_soundness *soundness, struct hk_budget *budget);
 void hk_soundness_release(struct hk_soundness *soundness);
 
 /* Counted work of the bounds so far [s]. */

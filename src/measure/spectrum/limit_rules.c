@@ -30,12 +30,12 @@ static double symplectic_step(double k, double c) {
 }
 
 /* x.Cx */
-static int32_t damping_of(struct hk_linearised *lin, const double *x, double *room, double *c) {
+static int32_t damping_of(struct hk_linearised *lin, const double *x, double *work, double *c) {
   *c = 0.0;
   if (!lin->damped) return HOOKE_OK;
   hk_linearised_combine(lin, 0.0, 1.0);
-  hk_linearised_multiply(lin, x, room);
-  *c = hk_linearised_dot(lin, x, room);
+  hk_linearised_multiply(lin, x, work);
+  *c = hk_linearised_dot(lin, x, work);
   return HOOKE_OK;
 }
 
@@ -49,9 +49,9 @@ static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out
   if (s->proportional) return HOOKE_OK;
   const double tolerance =
       lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? fmin(1e-7, 1e-2 * s->accuracy) : s->accuracy;
-  double *room = hk_new(lin->size, sizeof(double)), c = 0.0, value = 0.0, change = INFINITY;
-  if (room == NULL) return HOOKE_NO_MEMORY;
-  int32_t status = damping_of(lin, out->mode, room, &c);
+  double *work = hk_new(lin->size, sizeof(double)), c = 0.0, value = 0.0, change = INFINITY;
+  if (work == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = damping_of(lin, out->mode, work, &c);
   double h = symplectic_step(s->stiffest, c);
   /* nothing stiff: the start is no mode at all */
   if (!(h < INFINITY)) {
@@ -59,15 +59,15 @@ static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out
     h = symplectic_step(0.0, c);
   }
   for (int k = 0; k < MOST_TURNS && status == HOOKE_OK && change > tolerance; k++) {
-    memcpy(room, out->mode, (size_t)lin->size * sizeof(double));
-    status = hk_dominant_mode(lin, h * h, 2.0 * h, room, WARM * s->accuracy, &value, out->mode);
-    if (status == HOOKE_OK) status = damping_of(lin, out->mode, room, &c);
+    memcpy(work, out->mode, (size_t)lin->size * sizeof(double));
+    status = hk_dominant_mode(lin, h * h, 2.0 * h, work, WARM * s->accuracy, &value, out->mode);
+    if (status == HOOKE_OK) status = damping_of(lin, out->mode, work, &c);
     const double next = symplectic_step(fmax(0.0, (value - 2.0 * h * c) / (h * h)), c);
     change = fabs(next - h) / next;
     h = next;
   }
   out->limit = h;
-  hk_free(room);
+  hk_free(work);
   return status;
 }
 

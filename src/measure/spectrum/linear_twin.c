@@ -71,9 +71,9 @@ static void find_factor(struct making *making) {
   making->factor = SHORTEST / sqrt(fmax(1.0, making->extent / shortest)) / shortest;
 }
 
-static void place_particles(const struct making *making, double *place) {
+static void place_particles(const struct making *making, double *origin) {
   for (int64_t k = 0; k < 3 * making->system->particle_count; k++)
-    place[k] = making->factor * (making->q[k] - making->middle[k % 3]);
+    origin[k] = making->factor * (making->q[k] - making->middle[k % 3]);
 }
 
 static void keep_element(struct making *making, struct hk_twin *twin, const struct hk_element *e) {
@@ -102,7 +102,7 @@ static int join_spring(struct making *making, const struct hk_spring *spring, do
 
 static void keep_spring(struct making *making, struct hk_twin *twin, int64_t number) {
   const struct hk_spring spring = hk_springs_find(making->system->springs, number);
-  const double before = length_at(&spring, making->q), after = length_at(&spring, twin->place);
+  const double before = length_at(&spring, making->q), after = length_at(&spring, twin->origin);
   struct hk_element e = {.count = 0};
   hk_spring_element(&spring, making->q, NULL, &e);
   if (!hk_element_moves(making->system->constrained, &e)) return;
@@ -134,13 +134,13 @@ static void keep_others(struct making *making, struct hk_twin *twin) {
 static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
   const int64_t n = making->system->particle_count, springs = making->system->springs->count;
   const int64_t count = springs + hk_elements_of(making->system, HOOKE_OTHERS);
-  twin->place = hk_new(3 * n, sizeof(double));
+  twin->origin = hk_new(3 * n, sizeof(double));
   twin->balance = hk_new(3 * n, sizeof(double));
   twin->moved = hk_new(6 * n, sizeof(double));
   twin->element = hk_new(count, sizeof *twin->element);
   making->ends = hk_new(2 * springs + n, sizeof(int64_t));
   making->kappa = hk_new(3 * springs, sizeof(double));
-  if (!twin->place || !twin->balance || !twin->moved || !twin->element || !making->ends || !making->kappa)
+  if (!twin->origin || !twin->balance || !twin->moved || !twin->element || !making->ends || !making->kappa)
     return HOOKE_NO_MEMORY;
   making->last = making->ends + 2 * springs;
   making->gamma = making->kappa + springs;
@@ -175,7 +175,7 @@ static int32_t hold(int64_t n, double t, const double *q, const double *v, doubl
     force[k] += twin->balance[k];
   if (!(twin->lin.rigid.stiffest > 0.0)) return 0;
   for (int64_t k = 0; k < 3 * n; k++)
-    twin->moved[k] = q[k] - twin->place[k];
+    twin->moved[k] = q[k] - twin->origin[k];
   turn(twin, twin->moved, force);
   return 0;
 }
@@ -199,7 +199,7 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
   if (status == HOOKE_OK) system->rest->memory_limit = old->rest->memory_limit;
   if (status == HOOKE_OK) status = hooke_system_set_dynamics(system, hooke_system_dynamics(old));
   if (status == HOOKE_OK)
-    status = hooke_system_add_particles(system, old->particle_count, twin->place, NULL, old->particle_count,
+    status = hooke_system_add_particles(system, old->particle_count, twin->origin, NULL, old->particle_count,
                                         old->mass, NULL);
   for (int64_t p = 0; p < old->particle_count && status == HOOKE_OK; p++) {
     if (old->constrained[p]) status = hooke_system_pin(system, 1, &p);
@@ -207,7 +207,7 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
   if (status == HOOKE_OK && making->springs > 0) status = add_springs(making, making->springs, system);
   for (int64_t k = 0; k < old->mover_count && status == HOOKE_OK; k++)
     status = old->mover[k].row->copy_one(old->mover[k].thing, system);
-  if (status == HOOKE_OK) hk_system_set_linear(system, making->elements, twin->element, twin->place);
+  if (status == HOOKE_OK) hk_system_set_linear(system, making->elements, twin->element, twin->origin);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
   if (status == HOOKE_OK && held) status = hooke_system_set_force(system, hold, hold_product, twin);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
@@ -223,7 +223,7 @@ static int32_t find_balance(struct hk_twin *twin, int *needed) {
   const int64_t size = 3 * twin->system->particle_count;
   double *still = hk_new(size, sizeof(double));
   if (still == NULL) return HOOKE_NO_MEMORY;
-  const int32_t status = hooke_system_force(twin->system, 0.0, twin->place, still, twin->balance);
+  const int32_t status = hooke_system_force(twin->system, 0.0, twin->origin, still, twin->balance);
   *needed = 0;
   for (int64_t k = 0; k < size; k++) {
     *needed |= twin->balance[k] != 0.0;
@@ -239,7 +239,7 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
   find_extent(making);
   find_shortest(making);
   find_factor(making);
-  place_particles(making, twin->place);
+  place_particles(making, twin->origin);
   for (int64_t s = 0; s < making->system->springs->count; s++)
     keep_spring(making, twin, s);
   keep_others(making, twin);
@@ -269,7 +269,7 @@ int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_tw
 void hk_twin_release(struct hk_twin *twin) {
   hk_linearised_release(&twin->lin);
   hooke_system_destroy(twin->system);
-  hk_free(twin->place);
+  hk_free(twin->origin);
   hk_free(twin->balance);
   hk_free(twin->moved);
   hk_free(twin->element);
@@ -285,7 +285,7 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
   for (int64_t p = 0; p < n; p++) {
     const double *u = v + 3 * p;
     for (int64_t a = 0; a < 3; a++)
-      twin->moved[a * n + p] = q[3 * p + a] - twin->place[3 * p + a];
+      twin->moved[a * n + p] = q[3 * p + a] - twin->origin[3 * p + a];
     if (!twin->system->overdamped) sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
   }
   return sum + rate * (rate * hk_linearised_energy(&twin->lin, twin->moved));

@@ -20,7 +20,7 @@
 struct hk_twin {
   hooke_system *system;     /* committed */
   struct hk_linearised lin; /* of the original, which has the same K, C and M; the matrix of products is K */
-  double *place;            /* its rest positions, 3n */
+  double *origin;           /* its rest positions, 3n */
   double *balance;          /* the constant force, 3n */
   double *moved;            /* scratch, 6n */
   /* clamped, with a free particle: springs of no length, and those of other forces but springs and drag */
@@ -32,7 +32,7 @@ struct hk_twin {
 int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin);
 void hk_twin_release(struct hk_twin *twin);
 
-/* Twice the energy of the displacement from `place` and the velocity (3n each): x.Kx + v.Mv. */
+/* Twice the energy of the displacement from `origin` and the velocity (3n each): x.Kx + v.Mv. */
 double hk_twin_energy(const struct hk_twin *twin, const double *q, const double *v);
 
 /* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: projects any x onto motion that springs and

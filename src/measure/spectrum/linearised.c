@@ -49,14 +49,14 @@ static void see_runs(struct hk_linearised *lin, const double *q, const double *s
 
 static void see_batches(struct hk_linearised *lin, const double *q) {
   int32_t *head = lin->ends, *tail = lin->ends + lin->own.count;
-  int64_t place = 0;
+  int64_t slot = 0;
   struct hk_spring_batch batch;
   for (hk_begin_batches(&batch); hk_next_batch(lin->system, &batch);) {
-    for (int64_t k = 0; k < batch.count; k++, place++) {
+    for (int64_t k = 0; k < batch.count; k++, slot++) {
       const struct hk_spring spring = hk_batch_spring(&batch, k);
-      head[place] = batch.head[k];
-      tail[place] = batch.tail[k];
-      if (moves(lin->system, &spring)) see_spring(lin, place, &spring, q, 1.0);
+      head[slot] = batch.head[k];
+      tail[slot] = batch.tail[k];
+      if (moves(lin->system, &spring)) see_spring(lin, slot, &spring, q, 1.0);
     }
   }
 }
@@ -324,7 +324,7 @@ void hk_linearised_add_product(struct hk_linearised *lin, const double *x, doubl
   const double *const from[3] = {x, x + n, x + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
   lin->products++;
-  if (lin->patience) hk_patience_spend(lin->patience, hk_work_of_product(lin->system));
+  if (lin->budget) hk_budget_spend(lin->budget, hk_work_of_product(lin->system));
   for (int64_t k = 0; k < lin->run_count; k++)
     hk_tangent_product(&lin->run[k], &lin->tangent, from, to);
   for (int32_t k = 0; k < lin->system->force_row_count; k++) {
@@ -426,9 +426,9 @@ void hk_linearised_unpack(const struct hk_linearised *lin, const double *unknown
 
 int32_t hk_linearised_assemble(struct hk_linearised *lin, double *matrix) {
   const int64_t n = lin->unknowns;
-  double *room = hk_new(2 * lin->size + n, sizeof(double));
-  if (room == NULL) return HOOKE_NO_MEMORY;
-  double *x = room, *out = x + lin->size, *one = out + lin->size;
+  double *work = hk_new(2 * lin->size + n, sizeof(double));
+  if (work == NULL) return HOOKE_NO_MEMORY;
+  double *x = work, *out = x + lin->size, *one = out + lin->size;
   for (int64_t k = 0; k < n; k++) {
     one[k] = 1.0;
     hk_linearised_unpack(lin, one, x);
@@ -441,6 +441,6 @@ int32_t hk_linearised_assemble(struct hk_linearised *lin, double *matrix) {
     for (int64_t j = 0; j < i; j++)
       matrix[i * n + j] = matrix[j * n + i] = 0.5 * (matrix[i * n + j] + matrix[j * n + i]);
   }
-  hk_free(room);
+  hk_free(work);
   return HOOKE_OK;
 }

@@ -4,8 +4,8 @@
  *
  * each in the pattern (B, -B; -B, B) over the ends of a spring; and the elements of all other forces
  * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A spring
- * that only pulls counts as taut; one of no length as stiff and damped in all directions. Particles of a rigid
- * body move as one (rigid.h).
+ * that only pulls counts as taut; one of no length as stiff and damped in all directions. Particles of a
+ * rigid body move as one (rigid.h).
  *
  * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is constrained.
  * Eigenvalues come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses
@@ -15,7 +15,7 @@
 
 #include "kernel/spring/tangent_loops.h"
 #include "measure/spectrum/rigid.h"
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 #include "model/force/force.h"
 
 struct hk_linearised {
@@ -46,10 +46,10 @@ struct hk_linearised {
   struct hk_tangent tangent;
   double *g[3], *g_across, brake, constant_k, constant_c;
   double *along, *beside; /* of each element: its coefficients along and across */
-  /* set by the owner of a search for eigenvalues: patience that ends it with HOOKE_STOPPED (NULL: none); and
+  /* set by the owner of a search for eigenvalues: budget that ends it with HOOKE_STOPPED (NULL: none); and
    * bytes that a basis may take (0: the default) */
-  struct hk_patience *patience;
-  double room;
+  struct hk_budget *budget;
+  double memory;
 };
 
 /* Maximum memory [bytes], including that of a search for the largest eigenvalue. */

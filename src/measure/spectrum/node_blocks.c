@@ -62,13 +62,13 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q) {
   memset(blocks->stiffness, 0, bytes);
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
-  if (blocks->patience) hk_patience_spend(blocks->patience, hk_work_of_pass(system));
+  if (blocks->budget) hk_budget_spend(blocks->budget, hk_work_of_pass(system));
   blocks->unknown = 0;
   struct hk_elements at;
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (at.k == at.count && at.batches % HOOKE_BATCHES_PER_LOOK == 0 &&
-        hk_patience_ends(blocks->patience, "bounds"))
+        hk_budget_ends(blocks->budget, "bounds"))
       return;
     add_element(blocks, e);
   }

@@ -7,7 +7,7 @@
 #ifndef HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 #define HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 #include "model/particles.h"
 
 struct hk_node_blocks {
@@ -15,7 +15,7 @@ struct hk_node_blocks {
   double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
   double least_ratio; /* smallest damping over stiffness of an element, in any direction; infinity: none */
   int32_t unknown;    /* 1: some element is so long that its square overflows */
-  struct hk_patience *patience; /* ends filling midway (NULL: none) */
+  struct hk_budget *budget; /* ends filling midway (NULL: none) */
 };
 
 /* At positions q (3n). HOOKE_NO_MEMORY. */

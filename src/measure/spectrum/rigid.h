@@ -1,11 +1,10 @@
-/* Movers (model/coordinates) in a linearised system, rigid bodies in the first place. Displacements are those of
- * all particles still, restricted to motions x = J y of each body, where y are the motions of its point and
- * about its axes, times the roots of mass and inertia, so that J^T M J = I: K, C and M of particles give those
- * of bodies by the restriction.
- * What it leaves out is that forces at rest turn with the arms of a body, the geometric stiffness
- * (model/body_tangent.h): of gravity and tensions, callbacks left out. It is made symmetric, which it is by
- * itself in equilibrium, and what would tip a body over, like the transverse stiffness of compressed
- * springs, counts as 0. Components are `stride` apart. */
+/* Movers (model/coordinates) in a linearised system, rigid bodies in the first place. Displacements are those
+ * of all particles still, restricted to motions x = J y of each body, where y are the motions of its point
+ * and about its axes, times the roots of mass and inertia, so that J^T M J = I: K, C and M of particles give
+ * those of bodies by the restriction. What it leaves out is that forces at rest turn with the arms of a body,
+ * the geometric stiffness (model/body_tangent.h): of gravity and tensions, callbacks left out. It is made
+ * symmetric, which it is by itself in equilibrium, and what would tip a body over, like the transverse
+ * stiffness of compressed springs, counts as 0. Components are `stride` apart. */
 #ifndef HOOKE_MEASURE_SPECTRUM_RIGID_H
 #define HOOKE_MEASURE_SPECTRUM_RIGID_H
 

@@ -28,7 +28,7 @@ void hk_spectrum_release(struct hk_spectrum *s) {
   memset(s, 0, sizeof *s);
 }
 
-static int32_t make_room(struct hk_spectrum *s, int64_t count, int64_t modes) {
+static int32_t make_space(struct hk_spectrum *s, int64_t count, int64_t modes) {
   s->value = hk_new(count, sizeof *s->value);
   s->block = hk_new(modes * s->linearised->size, sizeof(double));
   return s->value && s->block ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -107,8 +107,8 @@ static int32_t find_softest(struct hk_spectrum *s, double *matrix) {
   return status;
 }
 
-/* Where not all modes are known, the stiffest is, and with drag the softest, also of all that is as soft beside
- * drag: one of the two limits every method. */
+/* Where not all modes are known, the stiffest is, and with drag the softest, also of all that is as soft
+ * beside drag: one of the two limits every method. */
 static const double *end_of(const struct hk_spectrum *s, int64_t j, double k) {
   const int soft = j == s->linearised->unknowns - 1 || k <= SOFT * s->delta * s->delta;
   return j == 0 ? s->stiffest_mode : s->delta > 0.0 && soft ? s->block : NULL;
@@ -120,8 +120,9 @@ static int32_t solve_proportional(struct hk_spectrum *s) {
   const int64_t n = lin->unknowns, modes = n <= HOOKE_SPECTRUM_DAMPED ? n : 0;
   double *matrix = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
   double *vector = modes ? hk_new(n * n, sizeof(double)) : NULL;
-  int32_t status = matrix && value && (vector || !modes) ? make_room(s, 2 * n, modes ? modes : s->delta > 0.0)
-                                                         : HOOKE_NO_MEMORY;
+  int32_t status = matrix && value && (vector || !modes)
+                       ? make_space(s, 2 * n, modes ? modes : s->delta > 0.0)
+                       : HOOKE_NO_MEMORY;
   hk_linearised_combine(lin, 1.0, 0.0);
   if (status == HOOKE_OK) status = hk_linearised_assemble(lin, matrix);
   if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, value, vector);
@@ -165,16 +166,16 @@ static void turn(const struct hk_linearised *lin, double *re, const double *im) 
 }
 
 /* x = the combination of modes of the basis, or of unknowns. */
-static void expand(const struct hk_linearised *lin, int64_t r, const double *basis, const double *share,
+static void expand(const struct hk_linearised *lin, int64_t r, const double *basis, const double *fraction,
                    double *x) {
   if (basis == NULL) {
-    hk_linearised_unpack(lin, share, x);
+    hk_linearised_unpack(lin, fraction, x);
     return;
   }
   memset(x, 0, (size_t)lin->size * sizeof(double));
   for (int64_t j = 0; j < r; j++) {
     for (int64_t k = 0; k < lin->size; k++)
-      x[k] += share[j] * basis[j * lin->size + k];
+      x[k] += fraction[j] * basis[j * lin->size + k];
   }
 }
 
@@ -183,7 +184,7 @@ static int32_t take_modes(struct hk_spectrum *s, int64_t r, const double *basis,
                           const struct hk_damped_modes *found) {
   struct hk_linearised *lin = s->linearised;
   double *im = hk_new(lin->size, sizeof(double));
-  int32_t status = im ? make_room(s, found->count, found->count) : HOOKE_NO_MEMORY;
+  int32_t status = im ? make_space(s, found->count, found->count) : HOOKE_NO_MEMORY;
   for (int64_t j = 0; j < found->count && status == HOOKE_OK; j++) {
     double *re = s->block + j * lin->size, real[2], imaginary[2];
     expand(lin, r, basis, found->vector_real + j * r, re);
@@ -300,7 +301,7 @@ static int32_t solve_part(struct hk_spectrum *s, const double *decaying) {
  * Runge-Kutta the stable distance along a ray changes less than they do. With drag a softer one may limit,
  * which only drag damps. */
 static int32_t solve_stiffest(struct hk_spectrum *s) {
-  const int32_t status = make_room(s, 4, 0);
+  const int32_t status = make_space(s, 4, 0);
   if (status == HOOKE_OK) add_both(s, s->beta * s->stiffest + s->delta, s->stiffest, s->stiffest_mode);
   s->decisive = s->delta == 0.0;
   return status;
@@ -324,8 +325,8 @@ static int32_t has_time_for_all(const struct hk_spectrum *s) {
   const double n = (double)s->linearised->unknowns;
   if (n > (s->proportional ? HOOKE_SPECTRUM_PROPORTIONAL : HOOKE_SPECTRUM_DAMPED)) return 1;
   const double seconds = (s->proportional ? SECONDS_PROPORTIONAL : SECONDS_DAMPED) * n * n * n;
-  if (!hk_patience_has(s->linearised->patience, seconds)) return 0;
-  if (s->linearised->patience) hk_patience_spend(s->linearised->patience, seconds);
+  if (!hk_budget_has(s->linearised->budget, seconds)) return 0;
+  if (s->linearised->budget) hk_budget_spend(s->linearised->budget, seconds);
   return 1;
 }
 

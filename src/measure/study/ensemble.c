@@ -107,8 +107,8 @@ struct member {
   struct hk_watched_series *series; /* at these frames */
 };
 
-static int32_t tell(double share, void *ctx) {
-  return hk_study_tell_row(share, ((struct member *)ctx)->study);
+static int32_t tell(double fraction, void *ctx) {
+  return hk_study_tell_row(fraction, ((struct member *)ctx)->study);
 }
 
 static void displace(hooke_state *state, void *ctx) {

@@ -1,4 +1,5 @@
-/* The recommendation: what 'run --want' picks (measure/recommend), held against the reference of the study. */
+/* The recommendation: what 'run --want' picks (measure/recommend), held against the reference of the study.
+ */
 #include "measure/study/study.h"
 
 #include "core/clock.h"
@@ -14,10 +15,10 @@
 enum { MOST_PICKS = 3 };
 static const double AIM = 0.6; /* of the want, where a pick of the beginning was too coarse for the run */
 
-static int32_t tell_pick(double share, const char *what, void *ctx) {
+static int32_t tell_pick(double fraction, const char *what, void *ctx) {
   struct hk_study *study = ctx;
   study->under_way = what;
-  return hk_study_tell_row(share, study);
+  return hk_study_tell_row(fraction, study);
 }
 
 static int32_t method_number(const struct hk_study *study, const char *name) {
@@ -120,7 +121,7 @@ static int is_untrusted(struct hk_study *study) {
  * where that of the pick was short of work alone. */
 static int32_t measure(struct hk_study *study, const struct hk_pick *pick) {
   struct hk_study_recommendation *r = &study->recommendation;
-  const double until = pick->share < 1.0 ? INFINITY : hk_pick_trusted(pick);
+  const double until = pick->fraction < 1.0 ? INFINITY : hk_pick_trusted(pick);
   const int32_t method = pick->best.method ? method_number(study, pick->best.method) : -1;
   struct hk_study_row row;
   if (method < 0) return HOOKE_OK;

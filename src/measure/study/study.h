@@ -98,9 +98,9 @@ int32_t hk_study_check_ladder(struct hk_study *study);
 
 /* Progress of the whole study, which never decreases. Listeners of the reference and of a row; their context
  * is the study. The last one also stops a row at its deadline and marks the study as late. */
-int32_t hk_study_tell_reference(double share, void *ctx);
-int32_t hk_study_tell(double share, void *ctx);
-int32_t hk_study_tell_row(double share, void *ctx);
+int32_t hk_study_tell_reference(double fraction, void *ctx);
+int32_t hk_study_tell(double fraction, void *ctx);
+int32_t hk_study_tell_row(double fraction, void *ctx);
 /* Times a force evaluation at the start, and counts the rows of the ladders. */
 int32_t hk_study_prepare_guesses(struct hk_study *study);
 /* Rough prediction of the time of a row [s], for a method without rows so far. */

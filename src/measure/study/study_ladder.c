@@ -90,9 +90,9 @@ static int32_t check_list(const hooke_options *options, const char *name) {
   const double *value = hooke_options_numbers(options, name);
   for (int64_t k = 1; k < count; k++) {
     if (value[k] < value[k - 1]) continue;
-    char place[64];
-    snprintf(place, sizeof place, "%s[%lld]", name, (long long)k);
-    return hk_fail(HOOKE_BAD_VALUE, place, "%g is not below %g; a ladder goes from coarse to fine", value[k],
+    char where[64];
+    snprintf(where, sizeof where, "%s[%lld]", name, (long long)k);
+    return hk_fail(HOOKE_BAD_VALUE, where, "%g is not below %g; a ladder goes from coarse to fine", value[k],
                    value[k - 1]);
   }
   return HOOKE_OK;
@@ -103,11 +103,11 @@ static int32_t check_steps(const struct hk_study *study) {
   for (int64_t k = 0; k < count; k++) {
     const double step = hooke_options_numbers(study->options, "steps")[k];
     if (hk_step_is_whole(study->every / step) && hk_step_is_whole(study->duration / step)) continue;
-    char place[64], fitting[HOOKE_NUMBER_SIZE];
-    snprintf(place, sizeof place, "steps[%lld]", (long long)k);
+    char where[64], fitting[HOOKE_NUMBER_SIZE];
+    snprintf(where, sizeof where, "steps[%lld]", (long long)k);
     hk_number_print(hk_study_fitting_step(study, step), fitting);
     return hk_fail(
-        HOOKE_BAD_VALUE, place,
+        HOOKE_BAD_VALUE, where,
         "every %.6g s and duration %.6g s are not whole multiples of %.6g s; a step near it that fits is %s",
         study->every, study->duration, step, fitting);
   }

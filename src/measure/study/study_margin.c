@@ -56,7 +56,8 @@ static double judge(const struct hk_study *study, const struct hk_reference *r,
   return r->trusted >= study->reference.trusted && error + r->agreement <= want ? 1.0 : NAN;
 }
 
-/* The recommended run on a slightly changed system; NaN if the work was too little for it or its reference. */
+/* The recommended run on a slightly changed system; NaN if the work was too little for it or its reference.
+ */
 static int32_t try_change(struct hk_study *study, const hooke_system *changed, double work, double *holds,
                           double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;

@@ -59,23 +59,23 @@ static int32_t tell(struct hk_study *study, double spent, double ahead) {
   return hk_measurement_tell(study->measurement, study->told, study->under_way);
 }
 
-int32_t hk_study_tell_reference(double share, void *ctx) {
+int32_t hk_study_tell_reference(double fraction, void *ctx) {
   struct hk_study *study = ctx;
   const double spent = hk_clock_seconds() - study->begun;
-  const double reference = spent / share; /* infinite at first, when nothing is done */
+  const double reference = spent / fraction; /* infinite at first, when nothing is done */
   const double rows = study->fixed_rows + study->adaptive_rows * SHARE_OF_REFERENCE * reference;
   return tell(study, spent, reference - spent + rows);
 }
 
-int32_t hk_study_tell(double share, void *ctx) {
+int32_t hk_study_tell(double fraction, void *ctx) {
   struct hk_study *study = ctx;
-  (void)share;
+  (void)fraction;
   return tell(study, hk_clock_seconds() - study->begun, study->work_ahead);
 }
 
-int32_t hk_study_tell_row(double share, void *ctx) {
+int32_t hk_study_tell_row(double fraction, void *ctx) {
   struct hk_study *study = ctx;
-  const int32_t value = hk_study_tell(share, ctx);
+  const int32_t value = hk_study_tell(fraction, ctx);
   if (value != 0 || hk_clock_seconds() < study->row_deadline) return value;
   study->late = 1;
   return 1;

@@ -55,7 +55,7 @@ static double seconds_ahead(const struct hk_study *study, int32_t level) {
 struct job {
   int32_t method;
   double value, expected; /* step or rtol; time [s] */
-  double share;           /* maximum fraction of the remaining time when it begins */
+  double fraction;        /* maximum fraction of the remaining time when it begins */
   double deadline;
   struct level *level;
   struct hk_study_row row;
@@ -70,15 +70,15 @@ struct level {
   atomic_int next, stop, running;
 };
 
-static int32_t asked_to_stop(double share, void *ctx) {
+static int32_t asked_to_stop(double fraction, void *ctx) {
   const struct job *job = ctx;
-  (void)share;
+  (void)fraction;
   return atomic_load(&job->level->stop) || hk_clock_seconds() >= job->deadline;
 }
 
 static double deadline_of(const struct job *job, const struct hk_study *study) {
   const double now = hk_clock_seconds();
-  return now + job->share * (study->deadline - now);
+  return now + job->fraction * (study->deadline - now);
 }
 
 static void *work(void *ctx) {
@@ -191,7 +191,7 @@ static void plan_level(struct hk_study *study, int32_t number, struct level *lev
     level->job[level->count++] = (struct job){.method = m,
                                               .value = value,
                                               .expected = expect_seconds(study, m, value),
-                                              .share = isnan(predicted) ? UNKNOWN_SHARE : 1.0,
+                                              .fraction = isnan(predicted) ? UNKNOWN_SHARE : 1.0,
                                               .level = level};
   }
   qsort(level->job, (size_t)level->count, sizeof level->job[0], compare_jobs);

@@ -44,10 +44,9 @@ static const struct hk_column reference_columns[] = {
         "much; NaN if no frame after the start is trusted"),
     HOOKE_COLUMN_BY(trusted_until, trusted_until, NUMBER, "s",
                     "time up to which the two agree to the wanted digits; errors are judged up to there"),
-    HOOKE_COLUMN(
-        struct hk_reference, growth, NUMBER, "",
-        "factor by which a small displacement of the start grows at most, with growth_probability; NaN "
-        "where that is not known"),
+    HOOKE_COLUMN(struct hk_reference, growth, NUMBER, "",
+                 "factor by which a small displacement of the start grows at "
+                 "most, with growth_probability; NaN where that is not known"),
     HOOKE_COLUMN(struct hk_reference, growth_probability, NUMBER, "", "probability that growth holds"),
     HOOKE_COLUMN(struct hk_reference, growth_seen, NUMBER, "",
                  "the largest growth of the displacements tried"),
@@ -122,10 +121,9 @@ static const struct hk_column order_columns[] = {
         struct hk_study_order, order, NUMBER, "",
         "slope of log error over log step by least squares, over the finest rows clear of the floor; NaN "
         "with fewer than three of them, and for an error-controlled method"),
-    HOOKE_COLUMN(
-        struct hk_study_order, low, NUMBER, "",
-        "lower end of the 95 % confidence interval of that slope, as if errors scattered about a line by "
-        "chance"),
+    HOOKE_COLUMN(struct hk_study_order, low, NUMBER, "",
+                 "lower end of the 95 % confidence interval of that "
+                 "slope, as if errors scattered about a line by chance"),
     HOOKE_COLUMN(struct hk_study_order, high, NUMBER, "", "upper end of that interval"),
     HOOKE_COLUMN(struct hk_study_order, theory, NUMBER, "", "the method's order"),
     HOOKE_COLUMN(struct hk_study_order, note, TEXT, "", "why they may differ"),
@@ -196,10 +194,9 @@ static const struct hk_column margin_columns[] = {
                     FLAG, "", "the wanted error is met with 10 % more stiffness, and with 10 % less"),
     HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.error[HOOKE_STUDY_STIFFNESS], error_stiffness,
                     NUMBER, "m", "the larger error of those two"),
-    HOOKE_COLUMN_AS(
-        struct hk_study, recommendation.margin.holds[HOOKE_STUDY_START], holds_start, FLAG, "",
-        "the wanted error is met with 10 % of the largest speed added along (1, 1, 1) at the start, and "
-        "against it"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.holds[HOOKE_STUDY_START], holds_start, FLAG, "",
+                    "the wanted error is met with 10 % of the largest speed "
+                    "added along (1, 1, 1) at the start, and against it"),
     HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.error[HOOKE_STUDY_START], error_start, NUMBER, "m",
                     "the larger error of those two"),
 };
@@ -216,10 +213,9 @@ HOOKE_READER(const double *, watched_value, struct hk_study,
 static const struct hk_column watched_columns[] = {
     HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
     HOOKE_COLUMN_BY(watched_unit, unit, TEXT, "", "its unit"),
-    HOOKE_COLUMN_BY(
-        agreement, agreement, NUMBER, "of the quantity",
-        "twice the largest difference in it between the two integrators of the reference, the floor "
-        "of its errors"),
+    HOOKE_COLUMN_BY(agreement, agreement, NUMBER, "of the quantity",
+                    "twice the largest difference in it between the two "
+                    "integrators of the reference, the floor of its errors"),
     HOOKE_COLUMN_BY(watched_value, value, SERIES, "of the quantity",
                     "the reference's values at every frame; of a period those of the quantity that it is of"),
 };
@@ -244,9 +240,9 @@ static const struct hk_column error_columns[] = {
     HOOKE_COLUMN_ALONG(INNER, error_unit, unit, TEXT, "", "unit of the quantity"),
     HOOKE_COLUMN_ALONG(INNER, error_quantity, quantity, TEXT, "", "watched quantity"),
     HOOKE_COLUMN_BY(error, error, NUMBER, "of the quantity",
-                    "the largest difference from the reference over the frames that are trusted; of a period "
-                    "that of the two periods over these, NaN with fewer than two passages or four frames a "
-                    "period"),
+                    "the largest difference from the reference over the frames "
+                    "that are trusted; of a period that of the two periods over "
+                    "these, NaN with fewer than two passages or four frames a period"),
     HOOKE_COLUMN_BY(error_value, value, SERIES, "of the quantity", "its values at every frame"),
 };
 
@@ -347,10 +343,9 @@ static const struct hk_column statistic_columns[] = {
                  "runs that did not come to their end; a method that has one has no statistics"),
     HOOKE_COLUMN_BY(mean, mean, NUMBER, "of the quantity", "mean over the runs of each run's mean over time"),
     HOOKE_COLUMN_BY(spread, spread, NUMBER, "of the quantity", "standard deviation of the runs"),
-    HOOKE_COLUMN_BY(
-        bias, bias, NUMBER, "",
-        "the mean less the reference's, in standard errors of that difference; below 2 in size none "
-        "is seen"),
+    HOOKE_COLUMN_BY(bias, bias, NUMBER, "",
+                    "the mean less the reference's, in standard errors "
+                    "of that difference; below 2 in size none is seen"),
 };
 
 /* ---- the tables ---- */

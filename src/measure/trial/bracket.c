@@ -23,12 +23,12 @@ static int32_t see(struct hk_bracket *b, double step) {
  * 16, ... Not alike on both sides, since halving would then end at a good guess itself, where nothing can be
  * seen to grow or decay. */
 struct reach {
-  double share, factor;
+  double fraction, factor;
 };
 
 static double outwards(struct reach *reach, double guess, int up) {
-  reach->share *= 4.0;
-  if (reach->share < 0.5) return up ? guess * (1.0 + reach->share) : guess * (1.0 - reach->share);
+  reach->fraction *= 4.0;
+  if (reach->fraction < 0.5) return up ? guess * (1.0 + reach->fraction) : guess * (1.0 - reach->fraction);
   reach->factor = fmin(16.0, reach->factor * reach->factor);
   return up ? guess * reach->factor : guess / reach->factor;
 }

@@ -104,14 +104,14 @@ static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, d
                      struct hk_trial *check) {
   const double budget = watch->request->budget;
   const int first = r->check == NULL;
-  const double share = watch->request->enough ? FIRST_OF_FEW : FIRST_RUN_SHARE;
+  const double fraction = watch->request->enough ? FIRST_OF_FEW : FIRST_RUN_SHARE;
   const double deadline = watch->start + LEVELS_SHARE * budget;
   struct hk_run_cost cost;
   r->rtol = fmax(TIGHTEST, 0.1 * tolerance);
   watch->levels++;
   watch->ahead = ahead_of_level(watch) + CHECK_COST;
   int32_t status =
-      hk_reference_make_frames(watch, r, first ? watch->start + share * budget : deadline, &cost);
+      hk_reference_make_frames(watch, r, first ? watch->start + fraction * budget : deadline, &cost);
   if (status != HOOKE_OK || r->frames.recorded < 2) return status;
   if (first) status = hk_reference_choose_check(watch, r, tolerance, cost);
   watch->ahead = ahead_of_level(watch);
@@ -157,7 +157,8 @@ static int is_enough(const struct hk_reference_request *request, const struct hk
   return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
 }
 
-/* 1 if rounding alone is above the distance that tightening aims at, where more steps would only add to it. */
+/* 1 if rounding alone is above the distance that tightening aims at, where more steps would only add to it.
+ */
 static int is_drowned(const struct hk_reference *r) {
   const int64_t frame = r->trusted < r->frames.recorded ? r->trusted : r->frames.recorded - 1;
   return SAFETY * r->frames.rounding[frame] > aim_of(r);
@@ -195,9 +196,9 @@ static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *
  * within the budget for levels. */
 static int has_time(const struct hk_reference_watch *watch, const struct hk_reference *r, double times,
                     double seconds) {
-  const double share = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
+  const double fraction = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
   const double expected = COST_SPARE * pow(times, COST_POWER) * seconds;
-  return hk_reference_now(watch) + expected <= watch->start + share * watch->request->budget;
+  return hk_reference_now(watch) + expected <= watch->start + fraction * watch->request->budget;
 }
 
 /* Tightens until the two agree, or tolerances or time are exhausted. */

@@ -48,19 +48,19 @@ double hk_reference_diagonal(int64_t rows, const double *position) {
   return sqrt(square);
 }
 
-static double share_of_all(const struct hk_reference_watch *watch, double share, double now) {
+static double share_of_all(const struct hk_reference_watch *watch, double fraction, double now) {
   const double spent = now - watch->begun, of_run = now - watch->run_begun;
-  if (!(share > 0.0) || !(spent > 0.0)) return 0.0;
-  const double run = of_run / share, unit = watch->unit > 0.0 ? watch->unit : run;
+  if (!(fraction > 0.0) || !(spent > 0.0)) return 0.0;
+  const double run = of_run / fraction, unit = watch->unit > 0.0 ? watch->unit : run;
   return spent / (spent + run - of_run + watch->ahead * unit);
 }
 
-static int32_t watch_progress(double share, void *ctx) {
+static int32_t watch_progress(double fraction, void *ctx) {
   struct hk_reference_watch *watch = ctx;
   const struct hk_listener *listener = watch->request->listener;
   const double now = hk_clock_seconds();
   if (listener && listener->on_progress) {
-    const int32_t value = listener->on_progress(share_of_all(watch, share, now), listener->ctx);
+    const int32_t value = listener->on_progress(share_of_all(watch, fraction, now), listener->ctx);
     if (value != 0) return value;
   }
   if (watch->request->counted || now < watch->deadline) return 0;
@@ -135,8 +135,8 @@ int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_ref
 
 /* ---- choice of integrators ---- */
 
-/* A trial over a fraction of the duration, with a limit on counted work [s] and steps; infinite if it does not
- * finish. */
+/* A trial over a fraction of the duration, with a limit on counted work [s] and steps; infinite if it does
+ * not finish. */
 static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_reference *r,
                              const char *method, double rtol, double most_work, double most_steps,
                              double duration, struct hk_run_cost *cost) {
@@ -176,7 +176,8 @@ int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_re
   return status;
 }
 
-/* Counted work of rk8pd in a short trial, relative to that of the first method for the same part of its run. */
+/* Counted work of rk8pd in a short trial, relative to that of the first method for the same part of its run.
+ */
 static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
                              struct hk_run_cost first, double *ratio) {
   struct hk_run_cost trial;

@@ -70,12 +70,12 @@ static double work_of(struct run *run) {
   return works_too_long(run) ? run->listener->most_work : hk_work_of(run->integrator);
 }
 
-static int32_t tell(double share, const char *method, void *ctx) {
+static int32_t tell(double fraction, const char *method, void *ctx) {
   struct run *run = ctx;
   (void)method;
   if (works_too_long(run)) return 1;
   if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
-  return run->listener->on_progress(fmin(1.0, share), run->listener->ctx);
+  return run->listener->on_progress(fmin(1.0, fraction), run->listener->ctx);
 }
 
 static void judge(const struct run *run, int64_t f, const hooke_state *state) {
@@ -204,11 +204,11 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
 }
 
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value) {
-  const double share = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
+  const double fraction = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
   int32_t status = hooke_options_set_text(run, "method", method);
   if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
     return hooke_options_set_number(run, "step", value);
   if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * share);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * fraction);
   return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
 }

@@ -10,7 +10,7 @@
 /* Callbacks during a run; any may be NULL. A non-zero result of the first two stops the run; the third may
  * change the initial state. */
 struct hk_listener {
-  int32_t (*on_progress)(double share, void *ctx);
+  int32_t (*on_progress)(double fraction, void *ctx);
   int32_t (*on_frame)(int64_t frame, int64_t step, const hooke_state *state, void *ctx);
   void (*on_start)(hooke_state *state, void *ctx);
   double most_work; /* counted work [s] after which a trial is stopped, as a result; 0: any */

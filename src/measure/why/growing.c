@@ -12,18 +12,18 @@
 /* ---- products ---- */
 
 /* out = (a K + b C) x, without constrained particles and the transverse stiffness of compressed springs; 0 if
- * patience ends. */
+ * budget ends. */
 static int32_t multiply(struct hk_growing *g, const double *q, double a, double b) {
   const hooke_system *system = g->system;
   const double *const x[3] = {g->x, g->x + 1, g->x + 2};
   double *const out[3] = {g->out, g->out + 1, g->out + 2};
   memset(g->out, 0, 3 * (size_t)system->particle_count * sizeof(double));
-  if (g->patience) hk_patience_spend(g->patience, hk_work_of_pass(system));
+  if (g->budget) hk_budget_spend(g->budget, hk_work_of_pass(system));
   struct hk_elements at;
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (at.k == at.count && at.batches % HOOKE_BATCHES_PER_LOOK == 0 &&
-        hk_patience_ends(g->patience, "the motion that grows"))
+        hk_budget_ends(g->budget, "the motion that grows"))
       return 0;
     hk_element_multiply(e, a * e->k_along + b * e->c_along, a * fmax(0.0, e->k_across) + b * e->c_across, 3,
                         x, out);
@@ -59,10 +59,10 @@ double hk_growing_bytes(const hooke_system *system) {
   return 6.0 * (double)system->particle_count * sizeof(double);
 }
 
-int32_t hk_growing_create(const hooke_system *system, const double *v, struct hk_patience *patience,
+int32_t hk_growing_create(const hooke_system *system, const double *v, struct hk_budget *budget,
                           struct hk_growing *g) {
   const int64_t size = 3 * system->particle_count;
-  *g = (struct hk_growing){.system = system, .patience = patience};
+  *g = (struct hk_growing){.system = system, .budget = budget};
   g->x = hk_new(size, sizeof(double));
   g->out = hk_new(size, sizeof(double));
   if (g->x == NULL || g->out == NULL) {
@@ -102,7 +102,7 @@ double hk_growing_turn(struct hk_growing *g, const double *q, double a, double b
                        int64_t turns) {
   double quotient = hk_growing_quotient(g, q, a, b), before = 0.0;
   for (int64_t k = 0; k < turns && !(quotient > most) && quotient > (1.0 + rise) * before; k++) {
-    if (hk_patience_ends(g->patience, "the motion that grows")) break;
+    if (hk_budget_ends(g->budget, "the motion that grows")) break;
     before = quotient;
     for (int64_t p = 0; p < g->system->particle_count; p++) {
       for (int64_t i = 3 * p; i < 3 * p + 3; i++)

@@ -5,13 +5,13 @@
 #ifndef HOOKE_MEASURE_WHY_GROWING_H
 #define HOOKE_MEASURE_WHY_GROWING_H
 
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 #include "model/particles.h"
 
 struct hk_growing {
   const hooke_system *system;
-  double *x, *out;              /* 3n, in rows of x y z; x.Mx = 1 after an iteration */
-  struct hk_patience *patience; /* when it ends every quotient is 0 */
+  double *x, *out;          /* 3n, in rows of x y z; x.Mx = 1 after an iteration */
+  struct hk_budget *budget; /* when it ends every quotient is 0 */
 };
 
 /* Bytes of memory. */
@@ -19,7 +19,7 @@ double hk_growing_bytes(const hooke_system *system);
 
 /* Starts with the direction `v` (3n) or, if that is 0 at all free particles, with an arbitrary one.
  * HOOKE_NO_MEMORY. */
-int32_t hk_growing_create(const hooke_system *system, const double *v, struct hk_patience *patience,
+int32_t hk_growing_create(const hooke_system *system, const double *v, struct hk_budget *budget,
                           struct hk_growing *growing);
 void hk_growing_release(struct hk_growing *growing);
 

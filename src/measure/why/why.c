@@ -39,16 +39,16 @@ static void tell_left_out(struct hk_inquiry *inquiry) {
   const size_t size = sizeof inquiry->why->left_out;
   if (inquiry->no_time[0])
     hk_print(text, size, "not known, since time was short (%.3g s%s): %s",
-             (inquiry->patience.end - inquiry->patience.begun) / PUNCTUAL,
-             inquiry->patience.counted ? " of counted work" : "", inquiry->no_time);
-  if (inquiry->no_room[0])
+             (inquiry->budget.end - inquiry->budget.begun) / PUNCTUAL,
+             inquiry->budget.counted ? " of counted work" : "", inquiry->no_time);
+  if (inquiry->no_space[0])
     hk_append(text, size, "%snot known, since memory was short (%.3g MB): %s", text[0] ? "; " : "",
-              1e-6 * inquiry->memory_limit, inquiry->no_room);
+              1e-6 * inquiry->memory_limit, inquiry->no_space);
 }
 
 /* Nearly half of the memory of the run, as memory has gaps: its current memory, or that of building the
  * scene. */
-static double usual_room(const hooke_integrator *run) {
+static double usual_space(const hooke_integrator *run) {
   const hooke_system *system = run->system;
   const double built = hk_system_needed_bytes(system, (struct hk_more){0});
   const double held =
@@ -60,7 +60,7 @@ static double usual_room(const hooke_integrator *run) {
 static void begin_inquiry(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   enum { SHAPES = 16 }; /* numbers a coordinate, of a limit with its modes */
-  inquiry->memory_limit = usual_room(inquiry->run);
+  inquiry->memory_limit = usual_space(inquiry->run);
   const double spectrum = hk_linearised_bytes(system) + SHAPES * (double)inquiry->run->size * sizeof(double);
   inquiry->large = spectrum > inquiry->memory_limit;
   inquiry->violation.bound = NAN;
@@ -70,8 +70,8 @@ static int32_t replay(struct hk_inquiry *inquiry) {
   enum { NUMBERS = 4 + 1 + 2 }; /* a coordinate: blocks, positions one step ago, a state */
   const double bytes = (double)hooke_integrator_count(inquiry->run, "memory_bytes") +
                        NUMBERS * (double)inquiry->run->size * sizeof(double);
-  if (!hk_inquiry_has_room(inquiry, bytes, "the last steps again")) return HOOKE_OK;
-  hk_patience_lend(&inquiry->patience, 0.4);
+  if (!hk_inquiry_has_memory(inquiry, bytes, "the last steps again")) return HOOKE_OK;
+  hk_budget_lend(&inquiry->budget, 0.4);
   int32_t status = hk_state_create_sized(hk_integrator_numbers(inquiry->run), 1, &inquiry->last);
   if (status == HOOKE_OK) status = hk_inquiry_replay(inquiry);
   hk_inquiry_end_part(inquiry, "the last steps again");
@@ -83,17 +83,17 @@ static int32_t survey(struct hk_inquiry *inquiry) {
   struct hk_node_blocks blocks;
   const double bytes = 12.0 * (double)inquiry->system->particle_count * sizeof(double);
   if (!inquiry->large || inquiry->run->method->adaptive) return HOOKE_OK;
-  if (!hk_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
+  if (!hk_inquiry_has_memory(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
   inquiry->memory_used += bytes;
-  hk_patience_lend(&inquiry->patience, 0.8);
+  hk_budget_lend(&inquiry->budget, 0.8);
   int32_t status = hk_node_blocks_begin(inquiry->system, &blocks);
-  blocks.patience = &inquiry->patience;
+  blocks.budget = &inquiry->budget;
   if (status == HOOKE_OK) {
     status = hk_inquiry_survey(inquiry, &blocks);
     hk_node_blocks_release(&blocks);
   }
   if (inquiry->violation.found)
-    hk_patience_take_back(&inquiry->patience);
+    hk_budget_take_back(&inquiry->budget);
   else
     hk_inquiry_end_part(inquiry, "whether the step is above the limit");
   inquiry->memory_used -= bytes;
@@ -107,11 +107,11 @@ static void release_growing(struct hk_inquiry *inquiry) {
 
 static int32_t find_out(struct hk_inquiry *inquiry) {
   int32_t status = survey(inquiry);
-  if (status == HOOKE_OK && !inquiry->violation.found && !inquiry->patience.stopped) status = replay(inquiry);
+  if (status == HOOKE_OK && !inquiry->violation.found && !inquiry->budget.stopped) status = replay(inquiry);
   release_growing(inquiry);
-  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hk_inquiry_judge(inquiry);
-  if (status == HOOKE_OK && !inquiry->patience.stopped) status = hk_inquiry_advise(inquiry);
-  if (!inquiry->patience.stopped) return status;
+  if (status == HOOKE_OK && !inquiry->budget.stopped) status = hk_inquiry_judge(inquiry);
+  if (status == HOOKE_OK && !inquiry->budget.stopped) status = hk_inquiry_advise(inquiry);
+  if (!inquiry->budget.stopped) return status;
   return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
@@ -137,7 +137,7 @@ static int32_t check(const hooke_integrator *run) {
   if (!ended_early(run))
     return hk_fail(HOOKE_BAD_CALL, NULL,
                    "the last run of this integrator did not blow up: there is nothing to explain");
-  if (run->recent.room == 0)
+  if (run->recent.capacity == 0)
     return hk_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
   return HOOKE_OK;
 }
@@ -222,11 +222,10 @@ static int32_t run_on(struct hk_why *why) {
 }
 
 /* The caller's in wall time; else as much work as the run was. */
-static struct hk_patience patience_of(const hooke_integrator *run, const hooke_measurement *m) {
+static struct hk_budget budget_of(const hooke_integrator *run, const hooke_measurement *m) {
   const double budget = hooke_options_number(m->options, "budget");
-  if (!isnan(budget)) return hk_patience_of(PUNCTUAL * budget, m->progress, m->progress_ctx);
-  return hk_patience_of_work(PUNCTUAL * fmax(LEAST_SECONDS, hk_why_work_of(run)), m->progress,
-                             m->progress_ctx);
+  if (!isnan(budget)) return hk_budget_of(PUNCTUAL * budget, m->progress, m->progress_ctx);
+  return hk_budget_of_work(PUNCTUAL * fmax(LEAST_SECONDS, hk_why_work_of(run)), m->progress, m->progress_ctx);
 }
 
 static int32_t explain(struct hk_why *why, const hooke_measurement *m) {
@@ -242,7 +241,7 @@ static int32_t explain(struct hk_why *why, const hooke_measurement *m) {
                                .bad_particle = -1,
                                .force = -1,
                                .flipped = -1,
-                               .patience = patience_of(run, m)};
+                               .budget = budget_of(run, m)};
   return inquire(&inquiry);
 }
 

@@ -6,7 +6,7 @@
 #include "measure/limit/limit_participation.h"
 #include "measure/measurement.h"
 #include "measure/spectrum/node_blocks.h"
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 #include "measure/why/growing.h"
 #include "measure/why/why_walk.h"
 
@@ -55,9 +55,9 @@ struct hk_inquiry {
   const hooke_integrator *run;
   const hooke_system *system;
   struct hk_why *why;
-  struct hk_patience patience;
+  struct hk_budget budget;
   double memory_limit, memory_used; /* [bytes] allowed, and in use */
-  char no_time[200], no_room[200];  /* skipped work */
+  char no_time[200], no_space[200]; /* skipped work */
   int32_t large;                    /* the spectrum is out of reach: growing motion is used instead */
   struct hk_growing growing;
 
@@ -111,14 +111,14 @@ int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry);
 const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry);
 
 /* 1 if that many more bytes fit; otherwise `what` is recorded as skipped. */
-int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what);
+int32_t hk_inquiry_has_memory(struct hk_inquiry *inquiry, double bytes, const char *what);
 
 /* Counted work of a run so far [s], in which every evaluation with a callback stands for as much as a script
  * may take; and the spending of what it did since `before`, which follows. */
 double hk_why_work_of(const hooke_integrator *run);
 void hk_inquiry_spend(struct hk_inquiry *inquiry, const hooke_integrator *run, double *before);
 
-/* Ends a part with limited patience; if that was spent, `what` is recorded as skipped for lack of time. */
+/* Ends a part with limited budget; if that was spent, `what` is recorded as skipped for lack of time. */
 void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what);
 
 /* Determines cause, place and time. */

@@ -42,8 +42,8 @@ static const char *method_of(const struct hk_trials *trials) {
   return trials->inquiry->run->method->name;
 }
 
-/* The largest step known to be stable by `method`: what is known of the run; of others at the start, and where
- * the step was found too large. */
+/* The largest step known to be stable by `method`: what is known of the run; of others at the start, and
+ * where the step was found too large. */
 static int32_t stable_step(struct hk_trials *trials, const char *method, double *limit) {
   struct hk_inquiry *inquiry = trials->inquiry;
   const struct hk_violation *violation = &inquiry->violation;
@@ -54,7 +54,7 @@ static int32_t stable_step(struct hk_trials *trials, const char *method, double 
     *limit = violation->found && !isnan(violation->limit) ? violation->limit : violation->bound;
     return HOOKE_OK;
   }
-  hk_patience_lend(&inquiry->patience, 0.3);
+  hk_budget_lend(&inquiry->budget, 0.3);
   int32_t status = hk_inquiry_limit(inquiry, trials->first->q, method, ACCURACY, limit, &known);
   if (status == HOOKE_OK && violation->found)
     status = hk_inquiry_limit(inquiry, violation->q, method, ACCURACY, &later, &known);
@@ -274,7 +274,8 @@ static int32_t offer_for_squares(struct hk_trials *trials) {
                     ", by which nothing moves beyond numbers that have squares", &taken);
 }
 
-/* A known limit gives a step even where no trial of one below it ran on: something else goes wrong as well. */
+/* A known limit gives a step even where no trial of one below it ran on: something else goes wrong as well.
+ */
 static int32_t give_step(struct hk_trials *trials) {
   const struct hk_why *why = trials->inquiry->why;
   struct hk_change change;
@@ -324,10 +325,9 @@ static void advise_scene(struct hk_inquiry *inquiry) {
     snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->suggestion);
   } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&
              !isnan(why->particle) && why->limiting.count == 0) {
-    snprintf(
-        advice->change, sizeof advice->change,
-        "look at the units of the scene: positions in m, velocities in m/s; no square of them may be beyond "
-        "1.8e308");
+    snprintf(advice->change, sizeof advice->change,
+             "look at the units of the scene: positions in m, "
+             "velocities in m/s; no square of them may be beyond 1.8e308");
   } else if (strcmp(why->cause, "overflow") == 0) {
     snprintf(
         advice->change, sizeof advice->change,

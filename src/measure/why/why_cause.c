@@ -58,15 +58,13 @@ static void judge_bad_value(struct hk_inquiry *inquiry) {
   inquiry->why->particle = (double)bad_value->particle;
   if (bad_value->of_drive) {
     say(inquiry, "force-not-finite",
-        "the drive callback moves particle %lld with numbers that are not finite at t = %.6g s; whatever "
-        "pulls at "
-        "it then has a force that is not finite",
+        "the drive callback moves particle %lld with numbers that are not finite "
+        "at t = %.6g s; whatever pulls at it then has a force that is not finite",
         (long long)bad_value->particle, bad_value->time);
   } else {
     say(inquiry, "force-not-finite",
-        "the force callback gives particle %lld a force that is not finite at t = %.6g s, while all "
-        "positions and "
-        "velocities are",
+        "the force callback gives particle %lld a force that is not "
+        "finite at t = %.6g s, while all positions and velocities are",
         (long long)bad_value->particle, bad_value->time);
   }
 }
@@ -134,9 +132,8 @@ static int32_t judge_violation(struct hk_inquiry *inquiry) {
         inquiry->why->step, method, violation->time, violation->bound, violation->at_most, where, end);
   } else {
     say(inquiry, "step-above-limit",
-        "the step %.6g s is above %.6g s, the largest stable one of %s at t = %.6g s, so motion grows in "
-        "every step, "
-        "most of all in %s; %s",
+        "the step %.6g s is above %.6g s, the largest stable one of %s at "
+        "t = %.6g s, so motion grows in every step, most of all in %s; %s",
         inquiry->why->step, violation->limit, method, violation->time, where, end);
   }
   return status;
@@ -223,8 +220,8 @@ static int32_t judge_squares(struct hk_inquiry *inquiry, double t, const double 
     inquiry->why->particle = (double)particle;
     inquiry->squares = k == 0 ? 1e-4 * HAS_SQUARE / most : 0.0;
     say(inquiry, "overflow",
-        "particle %lld %s %.3g %s at t = %.6g s, and squares of numbers above 1.3e154 leave the range of "
-        "double precision",
+        "particle %lld %s %.3g %s at t = %.6g s, and squares of "
+        "numbers above 1.3e154 leave the range of double precision",
         (long long)particle, words[k], most, units[k], t);
     return 1;
   }
@@ -308,9 +305,9 @@ static int32_t judge_solver(struct hk_inquiry *inquiry) {
 /* Failures that no step or tolerance cures. */
 static const char *altitude_words(const struct hk_inquiry *inquiry) {
   return inquiry->system->altitudes->count == 0 ? ""
-                                                : ", or altitude springs gave it energy, which they do far "
-                                                  "from rest wherever another altitude comes "
-                                                  "to be the shortest";
+                                                : ", or altitude springs gave it energy, "
+                                                  "which they do far from rest wherever "
+                                                  "another altitude comes to be the shortest";
 }
 
 /* 1 if the step exceeded the limit for longer than a sudden failure: forces that rise faster than in
@@ -323,9 +320,8 @@ static int grew_before(const struct hk_inquiry *inquiry) {
 static int32_t judge_gain(struct hk_inquiry *inquiry) {
   char end[160];
   say(inquiry, "model-gains-energy",
-      "the model gains energy by itself, with %s as well; altitude springs do so wherever another altitude "
-      "of a "
-      "tetrahedron comes to be the shortest, far from rest; %s",
+      "the model gains energy by itself, with %s as well; altitude springs do so wherever "
+      "another altitude of a tetrahedron comes to be the shortest, far from rest; %s",
       inquiry->run->method->adaptive ? "far tighter tolerances" : "16 times smaller steps",
       show(inquiry, end));
   return HOOKE_OK;
@@ -340,9 +336,8 @@ static void judge_unknown(struct hk_inquiry *inquiry) {
     say(inquiry, "unknown", "why is not known: the steps that led to it were not all looked at; %s", end);
   } else {
     say(inquiry, "unknown",
-        "the step %.6g s is above %.6g s, up to which %s is certain to be stable, but whether it is above "
-        "the "
-        "limit itself is not known; %s",
+        "the step %.6g s is above %.6g s, up to which %s is certain to be "
+        "stable, but whether it is above the limit itself is not known; %s",
         inquiry->why->step, violation->bound, inquiry->run->method->name, end);
   }
 }
@@ -369,15 +364,13 @@ static int32_t judge_divergence(struct hk_inquiry *inquiry) {
     judge_unknown(inquiry);
   } else if (inquiry->run->method->adaptive) {
     say(inquiry, "solver-failed",
-        "no spring collapsed and no callback failed, but the tolerances (rtol %.3g) let errors grow until "
-        "they were "
-        "larger than the motion%s; %s",
+        "no spring collapsed and no callback failed, but the tolerances (rtol "
+        "%.3g) let errors grow until they were larger than the motion%s; %s",
         hooke_options_number(inquiry->run->options, "rtol"), altitude_words(inquiry), show(inquiry, end));
   } else {
     say(inquiry, "step-above-limit",
-        "the step %.6g s is too large for how quickly this motion changes%s; no step was seen above the "
-        "limit of "
-        "the motion frozen at one moment, no spring collapsed and no callback failed; %s",
+        "the step %.6g s is too large for how quickly this motion changes%s; no step was seen above "
+        "the limit of the motion frozen at one moment, no spring collapsed and no callback failed; %s",
         inquiry->why->step, altitude_words(inquiry), show(inquiry, end));
   }
   return HOOKE_OK;

@@ -56,11 +56,11 @@ int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
     return HOOKE_OK;
   int32_t status = hk_trials_begin(inquiry, &trials);
   *gains = status == HOOKE_OK && trials.duration > 0.0 && !trials.late;
-  hk_patience_lend(&inquiry->patience, 0.5);
+  hk_budget_lend(&inquiry->budget, 0.5);
   for (int k = 0; k < FINER_TRIES && status == HOOKE_OK && *gains; k++)
     status = diverges_finer(&trials, k, gains);
-  *gains = *gains && !inquiry->patience.spent;
-  inquiry->cut |= inquiry->patience.spent;
+  *gains = *gains && !inquiry->budget.spent;
+  inquiry->cut |= inquiry->budget.spent;
   hk_inquiry_end_part(inquiry, "whether smaller steps gain energy, too");
   hk_trials_release(&trials);
   return status;

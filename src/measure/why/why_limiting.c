@@ -20,8 +20,8 @@ static void take_participation(struct hk_inquiry *inquiry, const struct hk_parti
 }
 
 static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
-  limit->patience = &inquiry->patience;
-  limit->room = inquiry->memory_limit - inquiry->memory_used;
+  limit->budget = &inquiry->budget;
+  limit->memory = inquiry->memory_limit - inquiry->memory_used;
   const int32_t status = hk_limit_look(limit, inquiry->violation.q, NULL, inquiry->violation.time);
   if (limit->found) take_participation(inquiry, &limit->participation);
   const struct hk_suggestion *suggestion = &limit->suggestion;
@@ -50,7 +50,7 @@ int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry) {
   int32_t status = HOOKE_OK;
   if (violation->has_participation) take_participation(inquiry, &violation->participation);
   if (!inquiry->large) {
-    hk_patience_lend(&inquiry->patience, 0.5);
+    hk_budget_lend(&inquiry->budget, 0.5);
     status = ask_limit(inquiry);
     hk_inquiry_end_part(inquiry, "what determines the limit");
   }

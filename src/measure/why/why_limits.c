@@ -19,9 +19,9 @@ static void leave_out(char *list, size_t size, const char *what) {
   if (strstr(list, what) == NULL) hk_append(list, size, "%s%s", list[0] ? ", " : "", what);
 }
 
-int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what) {
+int32_t hk_inquiry_has_memory(struct hk_inquiry *inquiry, double bytes, const char *what) {
   if (bytes <= inquiry->memory_limit - inquiry->memory_used) return 1;
-  leave_out(inquiry->no_room, sizeof inquiry->no_room, what);
+  leave_out(inquiry->no_space, sizeof inquiry->no_space, what);
   return 0;
 }
 
@@ -32,12 +32,12 @@ double hk_why_work_of(const hooke_integrator *run) {
 
 void hk_inquiry_spend(struct hk_inquiry *inquiry, const hooke_integrator *run, double *before) {
   const double now = hk_why_work_of(run);
-  hk_patience_spend(&inquiry->patience, now - *before);
+  hk_budget_spend(&inquiry->budget, now - *before);
   *before = now;
 }
 
 void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what) {
-  if (hk_patience_take_back(&inquiry->patience)) leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
+  if (hk_budget_take_back(&inquiry->budget)) leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
 }
 
 int32_t hk_why_apply(const hooke_options *changes, hooke_options *run) {

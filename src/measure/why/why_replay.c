@@ -180,7 +180,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
     replay->size[k] = largest_of(state);
   replay->work = hk_why_work_of(replay->again);
   for (int64_t k = 0; k < steps && status == HOOKE_OK; k++) {
-    inquiry->cut = hk_patience_ends(&inquiry->patience, "the last steps again");
+    inquiry->cut = hk_budget_ends(&inquiry->budget, "the last steps again");
     if (inquiry->cut) return HOOKE_OK;
     if (k % (steps - k > LAST_STEPS ? replay->stride : LAST_STRIDE) == 0)
       status = hk_inquiry_consider(inquiry, &replay->blocks, state);
@@ -235,7 +235,7 @@ static int32_t replay_with(struct replay *replay, const hooke_system *observed) 
   if (status != HOOKE_OK) return status;
   replay->again->thorough = 1;
   status = hk_node_blocks_begin(inquiry->system, &replay->blocks);
-  replay->blocks.patience = &inquiry->patience;
+  replay->blocks.budget = &inquiry->budget;
   replay->before = hk_new(run->size, sizeof(double));
   if (status == HOOKE_OK && replay->before == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = start(replay, inquiry->last, &steps);

@@ -99,14 +99,14 @@ static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
   (void)step, (void)state;
   hk_inquiry_spend(effort->inquiry, effort->integrator, &effort->work);
   effort->spent = effort->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK ||
-                  !hk_patience_has(&effort->inquiry->patience, 0.0);
+                  !hk_budget_has(&effort->inquiry->budget, 0.0);
   return effort->spent;
 }
 
 static int32_t watch_time(double done, const char *method, void *ctx) {
   struct effort *effort = ctx;
   (void)done, (void)method;
-  effort->spent = hk_patience_ends(&effort->inquiry->patience, "trying what to do");
+  effort->spent = hk_budget_ends(&effort->inquiry->budget, "trying what to do");
   return effort->spent;
 }
 
@@ -182,8 +182,8 @@ static int proves(const struct hk_trials *trials, double reached, int32_t finish
 static int32_t can_try(const struct hk_trials *trials, const hooke_options *options) {
   struct hk_inquiry *inquiry = trials->inquiry;
   const double bytes = bytes_of_trial(trials, hooke_options_text(options, "method"));
-  if (hk_patience_ends(&inquiry->patience, "trying what to do")) return 0;
-  return hk_inquiry_has_room(inquiry, bytes, "trials of what to do");
+  if (hk_budget_ends(&inquiry->budget, "trying what to do")) return 0;
+  return hk_inquiry_has_memory(inquiry, bytes, "trials of what to do");
 }
 
 int32_t hk_trials_try(struct hk_trials *trials, const hooke_system *system, const struct hk_change *change,
@@ -242,10 +242,10 @@ int32_t hk_trials_offer(struct hk_trials *trials, struct hk_change *change, int3
     struct hk_trial trial;
     status = hk_trials_try(trials, inquiry->system, change, &trial);
     /* another method is worth the trial of a third one */
-    const int32_t cut = !trial.tried || inquiry->patience.spent || strcmp(change->option, "step") == 0;
+    const int32_t cut = !trial.tried || inquiry->budget.spent || strcmp(change->option, "step") == 0;
     if (!trial.proof[0] && trials->backed && cut && !trial.failed) {
       snprintf(trial.proof, sizeof trial.proof, " (not tried%s, for want of %s)",
-               trial.tried ? " to its end" : "", trial.tried || inquiry->patience.spent ? "time" : "memory");
+               trial.tried ? " to its end" : "", trial.tried || inquiry->budget.spent ? "time" : "memory");
     }
     *taken = status == HOOKE_OK && trial.proof[0];
     if (*taken) hk_trials_take(trials, change, trial.proof);

@@ -29,13 +29,13 @@ static void take(struct hk_inquiry *inquiry, const double *q, double t, double l
   memcpy(violation->q, q, (size_t)inquiry->run->size * sizeof(double));
 }
 
-/* 0 if patience ends or the numbers overflow: unknown is not above. */
+/* 0 if budget ends or the numbers overflow: unknown is not above. */
 static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, const double *v, double t,
                            int64_t particle) {
   double limit = 0.0;
   const int32_t status =
       hk_limit_predict_within(inquiry->system, q, v, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
-                              inquiry->memory_limit - inquiry->memory_used, &inquiry->patience, &limit);
+                              inquiry->memory_limit - inquiry->memory_used, &inquiry->budget, &limit);
   if (status == HOOKE_NO_MEMORY) return status;
   if (status == HOOKE_OK && inquiry->run->schedule.step > limit) take(inquiry, q, t, limit, limit, particle);
   return HOOKE_OK;
@@ -45,10 +45,10 @@ static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, const do
 static int32_t begin_growing(struct hk_inquiry *inquiry) {
   if (inquiry->growing.x) return HOOKE_OK;
   const double bytes = hk_growing_bytes(inquiry->system);
-  if (!hk_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
+  if (!hk_inquiry_has_memory(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
   inquiry->memory_used += bytes;
   return hk_growing_create(inquiry->system, hk_recent_state(&inquiry->run->recent, 0, NULL)->v,
-                           &inquiry->patience, &inquiry->growing);
+                           &inquiry->budget, &inquiry->growing);
 }
 
 static int32_t find_growing_participation(struct hk_inquiry *inquiry, double h) {
@@ -93,7 +93,7 @@ int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *b
     return HOOKE_OK;
   if (!hk_all_finite(inquiry->run->size, q)) return HOOKE_OK;
   hk_node_blocks_fill(blocks, q);
-  if (hk_patience_ends(&inquiry->patience, "bounds")) return HOOKE_OK;
+  if (hk_budget_ends(&inquiry->budget, "bounds")) return HOOKE_OK;
   const int32_t bodies = inquiry->system->mover_count > 0; /* without a bound, nor growing motion */
   if (bodies && inquiry->large) return HOOKE_OK;
   if (!bodies && hk_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle))
@@ -142,12 +142,12 @@ int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char
   int32_t status = HOOKE_STOPPED;
   if (!inquiry->large)
     status = hk_limit_predict_within(inquiry->system, q, NULL, method, NULL, NULL, accuracy,
-                                     inquiry->memory_limit - inquiry->memory_used, &inquiry->patience, limit);
+                                     inquiry->memory_limit - inquiry->memory_used, &inquiry->budget, limit);
   *known = status == HOOKE_OK && !isnan(*limit);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   *limit = 0.0;
   const double work = PASSES * hk_work_of_pass(inquiry->system);
-  if (!hk_patience_has(&inquiry->patience, work)) return HOOKE_OK;
-  hk_patience_spend(&inquiry->patience, work);
+  if (!hk_budget_has(&inquiry->budget, work)) return HOOKE_OK;
+  hk_budget_spend(&inquiry->budget, work);
   return hooke_step_bound(inquiry->system, method, q, limit);
 }

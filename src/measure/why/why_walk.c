@@ -15,8 +15,8 @@ static const hooke_state *choose(const hooke_integrator *run, int64_t *step) {
   const double size = (double)(run->system->particle_count + hk_system_member_count(run->system));
   *step = 0;
   if (run->recent.first && (double)run->k * size <= LONGEST_WAY) return run->recent.first;
-  for (int64_t place = run->recent.count - 1; place > 0; place--) {
-    const hooke_state *state = hk_recent_state(&run->recent, place, step);
+  for (int64_t back = run->recent.count - 1; back > 0; back--) {
+    const hooke_state *state = hk_recent_state(&run->recent, back, step);
     if ((double)(run->k - *step) * size <= LONGEST_WAY) return state;
   }
   return hk_recent_state(&run->recent, 0, step);

@@ -213,15 +213,15 @@ static int32_t check_velocities(hooke_system *system, const struct hk_body *body
 
 static int32_t check_all_velocities(hooke_system *system) {
   const struct hk_bodies *bodies = system->bodies;
-  double *room = hk_new(6 * system->particle_count, sizeof(double));
-  int32_t status = room ? HOOKE_OK : HOOKE_NO_MEMORY;
+  double *work = hk_new(6 * system->particle_count, sizeof(double));
+  int32_t status = work ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
     const struct hk_body *body = &bodies->body[k];
     if (system->constrained[body->particle[0]] == HOOKE_IS_DRIVEN) continue; /* it follows its drive */
-    status = check_velocities(system, body, room, room + 3 * system->particle_count);
+    status = check_velocities(system, body, work, work + 3 * system->particle_count);
     if (status != HOOKE_OK) at_body(status, bodies, k);
   }
-  hk_free(room);
+  hk_free(work);
   return status;
 }
 
@@ -266,8 +266,8 @@ static int32_t check_rows(const struct hk_body *body, const char *name, const ch
     const double distance = fabs(found[at] - rigid[at]);
     if (distance <= STATE_ROUNDING * scale) continue;
     hk_fail(HOOKE_BAD_VALUE, NULL,
-            "the body \"%.40s\" is rigid, and this particle is %.3g %s from where three others of it say; "
-            "allowed: a rigid motion",
+            "the body \"%.40s\" is rigid, and this particle is %.3g %s "
+            "from where three others of it say; allowed: a rigid motion",
             body->name, distance, unit);
     return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", name, (long long)p, (long long)(i % 3));
   }

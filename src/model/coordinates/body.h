@@ -1,7 +1,7 @@
-/* Rigid bodies: particles that move as one. A body's own coordinates are 13 numbers (HOOKE_BODY_*): its point,
- * a unit quaternion, the velocity of the point, and the angular momentum about it. The point is the centre of
- * mass or, if particles are pinned, the first pinned one. They are a function of the rows of three of its
- * particles (docs/design.md), so that a state is (t, q, v) with bodies as without. */
+/* Rigid bodies: particles that move as one. A body's own coordinates are 13 numbers (HOOKE_BODY_*): its
+ * point, a unit quaternion, the velocity of the point, and the angular momentum about it. The point is the
+ * centre of mass or, if particles are pinned, the first pinned one. They are a function of the rows of three
+ * of its particles (docs/design.md), so that a state is (t, q, v) with bodies as without. */
 #ifndef HOOKE_MODEL_COORDINATES_BODY_H
 #define HOOKE_MODEL_COORDINATES_BODY_H
 

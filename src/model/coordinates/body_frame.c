@@ -250,8 +250,8 @@ static int32_t check_driven(const hooke_system *system, const struct hk_body *bo
   while (system->constrained[body->particle[k]] != HOOKE_IS_DRIVEN)
     k++;
   return hk_fail(HOOKE_BAD_VALUE, NULL,
-                 "particle %d is driven and others of the body are not; allowed: all, and the body follows "
-                 "its drive, or none",
+                 "particle %d is driven and others of the body are not; "
+                 "allowed: all, and the body follows its drive, or none",
                  (int)body->particle[k]);
 }
 

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-/* The matrix of a quaternion of any length but 0: m[i][k] is component i of axis k of the body. A sum of squares
- * that is 1 but for rounding is rounded to 1 more often from one side than from the other, which would add up
- * step by step; so the length becomes one that is no power of two. */
+/* The matrix of a quaternion of any length but 0: m[i][k] is component i of axis k of the body. A sum of
+ * squares that is 1 but for rounding is rounded to 1 more often from one side than from the other, which
+ * would add up step by step; so the length becomes one that is no power of two. */
 void hk_body_axes(const double turn[4], double m[3][3]) {
   const double scale = 1.3, w = scale * turn[0], x = scale * turn[1], y = scale * turn[2],
                z = scale * turn[3];

@@ -1,8 +1,8 @@
-/* Small motions of movers (coordinates.h) about a state, and of rigid bodies among them. A motion of a body is `move`, of its point [m], and `turn`,
- * about the point in the axes of space [rad]; it displaces the body's free particles by move + turn x arm
- * (spread), and forces on these act as force and torque (gather). Where forces f act at the state, a turn
- * takes their arms along: the torque changes by sum (turn x arm) x f = -geometric turn, too. Components are
- * `stride` apart. */
+/* Small motions of movers (coordinates.h) about a state, and of rigid bodies among them. A motion of a body
+ * is `move`, of its point [m], and `turn`, about the point in the axes of space [rad]; it displaces the
+ * body's free particles by move + turn x arm (spread), and forces on these act as force and torque (gather).
+ * Where forces f act at the state, a turn takes their arms along: the torque changes by sum (turn x arm) x f
+ * = -geometric turn, too. Components are `stride` apart. */
 #ifndef HOOKE_MODEL_COORDINATES_BODY_TANGENT_H
 #define HOOKE_MODEL_COORDINATES_BODY_TANGENT_H
 

@@ -1,7 +1,7 @@
 /* The table of coordinates, twin of the table of forces: things whose particles move by coordinates of their
- * own in place of each by itself. A new kind is one file and one row. A state is (t, q, v) with such things as
- * without: their own coordinates are a function of the rows of their particles. Components of x, y and z are
- * `stride` apart. */
+ * own in place of each by itself. A new kind is one file and one row. A state is (t, q, v) with such things
+ * as without: their own coordinates are a function of the rows of their particles. Components of x, y and z
+ * are `stride` apart. */
 #ifndef HOOKE_MODEL_COORDINATES_COORDINATES_H
 #define HOOKE_MODEL_COORDINATES_COORDINATES_H
 
@@ -35,8 +35,9 @@ struct hk_coordinates_row {
   int32_t (*copy_one)(const void *thing, struct hooke_system *to);
   int32_t (*check_state)(const struct hooke_system *system, const struct hooke_state *state);
 
-  /* Motion of one thing. `push` has its acceleration, gravity included, and what turns it, by the forces of the
-   * working copy; `own` += h push; free motion over h; d own/dt; accelerations of its particles, 3 each of all. */
+  /* Motion of one thing. `push` has its acceleration, gravity included, and what turns it, by the forces of
+   * the working copy; `own` += h push; free motion over h; d own/dt; accelerations of its particles, 3 each
+   * of all. */
   const int32_t *(*particles)(const void *thing, int64_t *count);
   void (*read)(const void *thing, const double *const q[3], const double *const v[3], int64_t stride,
                double *own);
@@ -54,7 +55,8 @@ struct hk_coordinates_row {
   void (*tolerance)(const void *thing, double position, double velocity, double *tolerance);
 
   /* Small motions x = J y of its particles, with J^T M J = I (measure/spectrum/rigid.h): J y, J^T times the
-   * weights (NULL: 1) times x, whether it has unknown k < HOOKE_PUSH, and an upper bound on the square of J's row of one. */
+   * weights (NULL: 1) times x, whether it has unknown k < HOOKE_PUSH, and an upper bound on the square of J's
+   * row of one. */
   void (*spread)(const struct hooke_system *system, const struct hk_body_tangent *tangent, const double *y,
                  double *const x[3], int64_t stride);
   void (*gather)(const struct hooke_system *system, const struct hk_body_tangent *tangent,

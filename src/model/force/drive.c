@@ -142,17 +142,17 @@ static int32_t check_driven(const hooke_system *system, int64_t count, const int
   return status;
 }
 
-static int32_t require_finite(const char *place, double value) {
+static int32_t require_finite(const char *where, double value) {
   if (isfinite(value)) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, place, "%g is not allowed; a finite number is", value);
+  return hk_fail(HOOKE_BAD_VALUE, where, "%g is not allowed; a finite number is", value);
 }
 
 int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
                                     const double *amplitude, double frequency, double phase) {
   int32_t status = check_driven(system, count, particles);
   for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
-    const char *place[] = {"amplitude[0]", "amplitude[1]", "amplitude[2]"};
-    status = require_finite(place[a], amplitude[a]);
+    const char *where[] = {"amplitude[0]", "amplitude[1]", "amplitude[2]"};
+    status = require_finite(where[a], amplitude[a]);
   }
   if (status == HOOKE_OK) status = require_finite("frequency", frequency);
   if (status == HOOKE_OK) status = require_finite("phase", phase);

@@ -74,7 +74,8 @@ struct hk_force_row {
   /* potential energy [J], and power dissipated as heat [W] */
   double (*energy)(const hooke_system *system, const double *q);
   double (*heat)(const hooke_system *system, const double *q, const double *v);
-  /* change of the forces of member `number` along dq and dv; 0 if there is none, which the particles still say */
+  /* change of the forces of member `number` along dq and dv; 0 if there is none, which the particles still
+   * say */
   int32_t (*change)(const hooke_system *system, int64_t number, const struct hk_point *point,
                     struct hk_member_change *out);
   /* out += (df/dq) dq + (df/dv) dv */
@@ -82,12 +83,13 @@ struct hk_force_row {
   /* adds df/dq and df/dv to 3x3 blocks; either may be NULL */
   void (*add_blocks)(const hooke_system *system, const double *q, const double *v,
                      const struct hk_pattern *pattern, double *dfdq, double *dfdv);
-  /* number of elements (NULL: in a force with groups an element is a member), and those from number `first` on:
-   * see element.h */
+  /* number of elements (NULL: in a force with groups an element is a member), and those from number `first`
+   * on: see element.h */
   int64_t (*count)(const hooke_system *system);
   void (*elements)(const hooke_system *system, const double *q, const double *v, int64_t first, int64_t count,
                    struct hk_element *out);
-  /* the next ones in a faster memory order, and their number; NULL or -1: that is the order of their numbers */
+  /* the next ones in a faster memory order, and their number; NULL or -1: that is the order of their numbers
+   */
   int64_t (*stored_elements)(struct hk_elements *at);
   /* for a force with constant K and C: out += (a K + b C) x, with x, y and z apart */
   void (*multiply)(const hooke_system *system, double a, double b, const double *const x[3],

@@ -70,9 +70,9 @@ static double extent(int64_t n, const double *q) {
 static int32_t add_difference(const hooke_system *system, const struct hk_point *point, double *out) {
   const int64_t n = system->particle_count, size = 3 * n;
   const double length = fmax(extent(n, point->q), 1e-3), speed = fmax(largest(size, point->v), length);
-  const double share = fmax(largest(size, point->dq) / length, largest(size, point->dv) / speed);
-  if (!(share > 0.0)) return 0;
-  const double step = 6e-6 / share;
+  const double fraction = fmax(largest(size, point->dq) / length, largest(size, point->dv) / speed);
+  if (!(fraction > 0.0)) return 0;
+  const double step = 6e-6 / fraction;
   double *rows[2] = {hk_rows_new(3 * size), hk_rows_new(3 * size)}; /* ahead and behind */
   int32_t value = 0;
   for (int side = 0; side < 2 && rows[0] && rows[1] && value == 0; side++) {

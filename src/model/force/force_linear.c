@@ -11,8 +11,8 @@
 #include <string.h>
 
 void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_element *element,
-                          const double *place) {
-  system->rest->linear = (struct hk_linear){count, element, place};
+                          const double *origin) {
+  system->rest->linear = (struct hk_linear){count, element, origin};
 }
 
 static int64_t count(const hooke_system *system) {
@@ -37,7 +37,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     for (int j = 0; j < e->count; j++) {
       const int64_t p = e->particle[j];
       for (int a = 0; a < 3; a++) {
-        x[a] += e->weight[j] * (motion->q[a][p] - linear->place[3 * p + a]);
+        x[a] += e->weight[j] * (motion->q[a][p] - linear->origin[3 * p + a]);
         v[a] += e->weight[j] * (motion->zero ? 0.0 : motion->v[a][p]);
       }
     }
@@ -59,7 +59,7 @@ static double energy(const hooke_system *system, const double *q) {
     double x[3] = {0.0};
     for (int k = 0; k < 3 * e->count; k++) {
       const int64_t at = 3 * (int64_t)e->particle[k / 3] + k % 3;
-      x[k % 3] += e->weight[k / 3] * (q[at] - linear->place[at]);
+      x[k % 3] += e->weight[k / 3] * (q[at] - linear->origin[at]);
     }
     const double along = hk_dot3(e->u, x);
     hk_sum_add(&sum, 0.5 * ((e->k_along - e->k_across) * along * along + e->k_across * hk_dot3(x, x)));

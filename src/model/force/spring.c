@@ -52,13 +52,13 @@ void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, str
 /* ---- adding a group ---- */
 
 static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
-  char place[64];
+  char where[64];
   if (given > 1) {
-    snprintf(place, sizeof place, "rest_length[%lld]", (long long)k);
+    snprintf(where, sizeof where, "rest_length[%lld]", (long long)k);
   } else {
-    snprintf(place, sizeof place, given == 1 ? "rest_length" : "between[%lld]", (long long)k);
+    snprintf(where, sizeof where, given == 1 ? "rest_length" : "between[%lld]", (long long)k);
   }
-  return hk_fail(HOOKE_BAD_VALUE, place,
+  return hk_fail(HOOKE_BAD_VALUE, where,
                  "rest length %g of spring %lld; the strain law needs one > 0 (the length law takes 0)",
                  length, (long long)k);
 }

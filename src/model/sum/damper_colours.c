@@ -93,15 +93,15 @@ static int32_t create_palette(const hooke_system *system, int64_t damped, struct
   return HOOKE_OK;
 }
 
-/* The class of each damped spring into `place`, -1 of the others; returns how many classes there are. */
-static int64_t classify(const hooke_system *system, struct palette *palette, int64_t *place) {
+/* The class of each damped spring into `slot`, -1 of the others; returns how many classes there are. */
+static int64_t classify(const hooke_system *system, struct palette *palette, int64_t *slot) {
   int64_t classes = 0;
-  memset(place, -1, (size_t)system->springs->count * sizeof *place);
+  memset(slot, -1, (size_t)system->springs->count * sizeof *slot);
   for (struct walk at = {0}; next_damped(system, &at);) {
     const int32_t colour = find_colour(palette, &at.spring);
     take(palette, at.spring.head, colour);
     take(palette, at.spring.tail, colour);
-    place[at.number] = 2 * (int64_t)colour + at.spring.pull_only;
+    slot[at.number] = 2 * (int64_t)colour + at.spring.pull_only;
     if (2 * (int64_t)colour + 2 > classes) classes = 2 * (int64_t)colour + 2;
   }
   return classes;
@@ -118,13 +118,13 @@ static int32_t sort(const hooke_system *system, struct hk_damper_colours *colour
   colours->tail = hk_new(colours->springs, sizeof *colours->tail);
   const int there = next && colours->first && colours->head && colours->tail;
   for (struct walk at = {0}; there && next_damped(system, &at);)
-    next[colours->place[at.number] + 1]++;
+    next[colours->slot[at.number] + 1]++;
   for (int64_t c = 0; there && c < classes; c++)
     next[c + 1] += next[c];
   if (there) memcpy(colours->first, next, (size_t)(classes + 1) * sizeof *next);
   for (struct walk at = {0}; there && next_damped(system, &at);) {
-    const int64_t to = next[colours->place[at.number]]++;
-    colours->place[at.number] = to;
+    const int64_t to = next[colours->slot[at.number]]++;
+    colours->slot[at.number] = to;
     colours->head[to] = (int32_t)at.spring.head;
     colours->tail[to] = (int32_t)at.spring.tail;
   }
@@ -140,23 +140,23 @@ int32_t hk_damper_colours_create(const hooke_system *system, struct hk_damper_co
   }
   struct palette palette;
   int32_t status = create_palette(system, colours->springs, &palette);
-  colours->place = status == HOOKE_OK ? hk_new(system->springs->count, sizeof *colours->place) : NULL;
-  if (colours->place == NULL) status = HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) colours->classes = classify(system, &palette, colours->place);
+  colours->slot = status == HOOKE_OK ? hk_new(system->springs->count, sizeof *colours->slot) : NULL;
+  if (colours->slot == NULL) status = HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) colours->classes = classify(system, &palette, colours->slot);
   release_palette(&palette);
   return status == HOOKE_OK ? sort(system, colours) : status;
 }
 
 void hk_damper_colours_drop_places(struct hk_damper_colours *colours) {
-  hk_free(colours->place);
-  colours->place = NULL;
+  hk_free(colours->slot);
+  colours->slot = NULL;
 }
 
 void hk_damper_colours_release(struct hk_damper_colours *colours) {
   hk_free(colours->first);
   hk_free(colours->head);
   hk_free(colours->tail);
-  hk_free(colours->place);
+  hk_free(colours->slot);
 }
 
 int64_t hk_damper_colours_memory(const struct hk_damper_colours *colours) {

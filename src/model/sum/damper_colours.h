@@ -12,7 +12,7 @@ struct hk_damper_colours {
   int32_t pulling; /* 1: some only pull */
   int64_t *first;  /* classes + 1 */
   int32_t *head, *tail;
-  int64_t *place; /* of each spring of the system, -1 of one without a colour; NULL once dropped */
+  int64_t *slot; /* of each spring of the system, -1 of one without a colour; NULL once dropped */
 };
 
 /* HOOKE_NO_MEMORY leaves what hk_damper_colours_release() releases. */

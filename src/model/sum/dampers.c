@@ -53,7 +53,7 @@ static int32_t take_springs(const hooke_system *system, struct hk_dampers *d) {
   for (int64_t r = 0; r < system->springs->run_count && status == HOOKE_OK; r++) {
     const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const int64_t at = colours->place[run->first + k];
+      const int64_t at = colours->slot[run->first + k];
       if (at < 0) continue;
       const struct hk_spring spring = hk_run_spring(run, k);
       const double w = system->inverse_mass[spring.head] + system->inverse_mass[spring.tail];

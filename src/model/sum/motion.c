@@ -64,7 +64,7 @@ static int32_t new_arrays(const hooke_system *system, int32_t how, struct hk_mot
   const int64_t beyond = system->strided->count > 0 ? system->strided->reach + HOOKE_STRIDED_UNIT : 0;
   const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = how == HOOKE_MOTION_BY_TILES ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0; /* in their own block */
-  const int64_t numbers = components + 3 * system->anchor_count;
+  const int64_t numbers = components + 3 * system->pin_count;
   double *block = hk_reserve(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   struct arrays cleared = {block, n, arrays, stride, numbers - components};
@@ -88,16 +88,16 @@ static int32_t new_arrays(const hooke_system *system, int32_t how, struct hk_mot
   return system->force && motion->rows == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
-/* Working numbers of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by the
+/* Working numbers of anchored and driven particles. `slot` (NULL: the caller's numbers) is indexed by the
  * caller's. */
-static void number_held(const hooke_system *system, const int32_t *place, struct hk_motion *motion) {
+static void number_held(const hooke_system *system, const int32_t *slot, struct hk_motion *motion) {
   int32_t *moved = motion->moved;
-  for (int64_t k = 0; k < system->anchor_count; k++)
-    motion->anchor[k] = place ? place[system->anchor[k]] : system->anchor[k];
+  for (int64_t k = 0; k < system->pin_count; k++)
+    motion->pin[k] = slot ? slot[system->pin[k]] : system->pin[k];
   for (int64_t d = 0; d < system->drive_count; d++) {
     for (int64_t k = 0; k < system->drive[d].count; k++) {
       const int32_t p = system->drive[d].particle[k];
-      *moved++ = place ? place[p] : p;
+      *moved++ = slot ? slot[p] : p;
     }
   }
 }
@@ -111,18 +111,18 @@ static int32_t *invert_order(const struct hk_motion *motion) {
 }
 
 static int32_t new_numbers(const hooke_system *system, struct hk_motion *motion) {
-  const int64_t count = system->anchor_count + driven_count(system);
-  motion->anchor = hk_new(count, sizeof *motion->anchor);
-  if (motion->anchor == NULL) return HOOKE_NO_MEMORY;
-  motion->moved = motion->anchor + system->anchor_count;
-  motion->memory += count * (int64_t)sizeof *motion->anchor;
-  int32_t *place = NULL;
+  const int64_t count = system->pin_count + driven_count(system);
+  motion->pin = hk_new(count, sizeof *motion->pin);
+  if (motion->pin == NULL) return HOOKE_NO_MEMORY;
+  motion->moved = motion->pin + system->pin_count;
+  motion->memory += count * (int64_t)sizeof *motion->pin;
+  int32_t *slot = NULL;
   if (motion->order && count > 0) {
-    place = invert_order(motion);
-    if (place == NULL) return HOOKE_NO_MEMORY;
+    slot = invert_order(motion);
+    if (slot == NULL) return HOOKE_NO_MEMORY;
   }
-  number_held(system, place, motion);
-  hk_free(place);
+  number_held(system, slot, motion);
+  hk_free(slot);
   return HOOKE_OK;
 }
 
@@ -160,7 +160,7 @@ void hk_motion_destroy(struct hk_motion *motion) {
   if (motion == NULL) return;
   hk_rings_destroy(motion->rings);
   hk_tiled_scratch_destroy(motion->tiled);
-  hk_free(motion->anchor);
+  hk_free(motion->pin);
   hk_free(motion->number);
   hooke_rows_hold(motion->rows, -1);
   for (int64_t k = 0; k < motion->drive_count; k++)
@@ -211,8 +211,8 @@ static void store_rows(const struct hk_motion *motion, double *const component[3
 void hk_motion_load(const hooke_system *system, struct hk_motion *motion, const double *q, const double *v) {
   load_rows(motion, q, motion->q);
   load_rows(motion, v, motion->v);
-  for (int64_t k = 0; k < system->anchor_count; k++)
-    memcpy(motion->still + 3 * k, q + 3 * (int64_t)system->anchor[k], 3 * sizeof(double));
+  for (int64_t k = 0; k < system->pin_count; k++)
+    memcpy(motion->still + 3 * k, q + 3 * (int64_t)system->pin[k], 3 * sizeof(double));
   motion->stop_value = 0;
 }
 
@@ -269,11 +269,11 @@ int64_t hk_motion_number(const struct hk_motion *motion, int64_t particle) {
 
 /* Index of a particle among the anchored ones, which ascend; for another particle that of one before it, or
  * 0. */
-static int64_t find_anchor(const hooke_system *system, int64_t particle) {
-  int64_t low = 0, high = system->anchor_count;
+static int64_t find_pin(const hooke_system *system, int64_t particle) {
+  int64_t low = 0, high = system->pin_count;
   while (high - low > 1) {
     const int64_t middle = low + (high - low) / 2;
-    if (system->anchor[middle] > particle)
+    if (system->pin[middle] > particle)
       high = middle;
     else
       low = middle;
@@ -288,14 +288,14 @@ void hk_motion_place(const hooke_system *system, struct hk_motion *motion, int64
     if (q) motion->q[a][p] = q[a];
     if (v) motion->v[a][p] = v[a];
   }
-  const int64_t k = find_anchor(system, particle);
-  if (q && k < system->anchor_count && system->anchor[k] == particle)
+  const int64_t k = find_pin(system, particle);
+  if (q && k < system->pin_count && system->pin[k] == particle)
     memcpy(motion->still + 3 * k, q, 3 * sizeof(double));
 }
 
 struct copying {
   const struct hk_motion *motion;
-  double *place;
+  double *slot;
   int32_t back;
 };
 
@@ -305,17 +305,17 @@ static void copy_share(int32_t worker, int32_t workers, void *ctx) {
   const int64_t from = hk_pool_share(m->n, HOOKE_TILE, worker, workers),
                 count = hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers) - from;
   for (int a = 0; a < 6; a++) {
-    double *here = (a < 3 ? m->q[a] : m->v[a - 3]) + from, *there = copying->place + a * m->n + from;
+    double *here = (a < 3 ? m->q[a] : m->v[a - 3]) + from, *there = copying->slot + a * m->n + from;
     memcpy(copying->back ? here : there, copying->back ? there : here, (size_t)count * sizeof(double));
   }
 }
 
-void hk_motion_save(const struct hk_motion *motion, double *place) {
-  hk_pool_run(motion->pool, copy_share, &(struct copying){motion, place, 0});
+void hk_motion_save(const struct hk_motion *motion, double *slot) {
+  hk_pool_run(motion->pool, copy_share, &(struct copying){motion, slot, 0});
 }
 
-void hk_motion_restore(struct hk_motion *motion, double *place) {
-  hk_pool_run(motion->pool, copy_share, &(struct copying){motion, place, 1});
+void hk_motion_restore(struct hk_motion *motion, double *slot) {
+  hk_pool_run(motion->pool, copy_share, &(struct copying){motion, slot, 1});
 }
 
 static void clear_forces(int32_t worker, int32_t workers, void *ctx) {
@@ -369,8 +369,8 @@ static void hold_driven(int64_t count, const int32_t *moved, const double *q, st
 }
 
 void hk_motion_hold(const hooke_system *system, struct hk_motion *motion) {
-  for (int64_t k = 0; k < system->anchor_count; k++) {
-    const int32_t p = motion->anchor[k];
+  for (int64_t k = 0; k < system->pin_count; k++) {
+    const int32_t p = motion->pin[k];
     for (int a = 0; a < 3; a++) {
       motion->q[a][p] = motion->still[3 * k + a];
       motion->v[a][p] = 0.0;

@@ -24,7 +24,7 @@ struct hk_motion {
   double *still;              /* positions of anchored particles, 3 each */
   int64_t drive_count;
   double **driven; /* rows of each drive: q and v, 3 a particle each */
-  int32_t *anchor,
+  int32_t *pin,
       *moved; /* numbers here of the anchored particles of the system, and of those of its drives in turn */
   struct hk_rings *rings;         /* of the pass over strided batches; NULL without strided batches */
   struct hk_tiled_scratch *tiled; /* of the pass over a tiled batch; NULL without one */
@@ -68,9 +68,9 @@ int64_t hk_motion_number(const struct hk_motion *motion, int64_t particle);
 /* Moves a particle of the caller to q, with v (NULL: unchanged), permanently if it is pinned. */
 void hk_motion_place(const hooke_system *system, struct hk_motion *motion, int64_t particle, const double *q,
                      const double *v);
-/* Positions and velocities to and from `place`: 6 components of n each. */
-void hk_motion_save(const struct hk_motion *motion, double *place);
-void hk_motion_restore(struct hk_motion *motion, double *place);
+/* Positions and velocities to and from `slot`: 6 components of n each. */
+void hk_motion_save(const struct hk_motion *motion, double *slot);
+void hk_motion_restore(struct hk_motion *motion, double *slot);
 void hk_rows_from_components(int64_t n, double *const component[3], double *rows);
 void hk_components_from_rows(int64_t n, const double *rows, double *const component[3]);
 

@@ -72,16 +72,16 @@ static uint64_t mix(const double *value) {
 
 /* Finds for each unit the first equal one, by a hash table of `room` slots, a power of two; returns the
  * number of distinct ones, or 0 if they exceed half the table. */
-static int64_t find_equal(const struct column *column, int32_t *table, int64_t room) {
+static int64_t find_equal(const struct column *column, int32_t *table, int64_t capacity) {
   int64_t kinds = 0;
   for (int64_t u = 0; u < column->units; u++) {
     const double *value = column->value + HOOKE_STRIDED_UNIT * u;
-    int64_t at = (int64_t)(mix(value) & (uint64_t)(room - 1));
+    int64_t at = (int64_t)(mix(value) & (uint64_t)(capacity - 1));
     while (table[at] &&
            memcmp(column->value + HOOKE_STRIDED_UNIT * (int64_t)(table[at] - 1), value, UNIT_BYTES))
-      at = (at + 1) & (room - 1);
+      at = (at + 1) & (capacity - 1);
     if (table[at] == 0) {
-      if (2 * ++kinds > room) return 0;
+      if (2 * ++kinds > capacity) return 0;
       table[at] = (int32_t)u + 1;
     }
     column->kind[u] = table[at] - 1;
@@ -91,12 +91,12 @@ static int64_t find_equal(const struct column *column, int32_t *table, int64_t r
 
 /* Shares units if at most a quarter are distinct, so that it pays; otherwise stores all. */
 static int32_t find_kinds(struct column *column) {
-  int64_t room = 2;
-  while (2 * room <= column->units / 2)
-    room *= 2;
-  int32_t *table = hk_new(room, sizeof *table);
+  int64_t capacity = 2;
+  while (2 * capacity <= column->units / 2)
+    capacity *= 2;
+  int32_t *table = hk_new(capacity, sizeof *table);
   if (table == NULL) return HOOKE_NO_MEMORY;
-  const int64_t kinds = find_equal(column, table, room);
+  const int64_t kinds = find_equal(column, table, capacity);
   hk_free(table);
   for (int64_t u = 0; u < column->units && kinds == 0; u++)
     column->kind[u] = (int32_t)u;

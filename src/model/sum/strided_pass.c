@@ -45,11 +45,11 @@ static int64_t whole_units(int64_t count) {
   return (count + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
 }
 
-static int64_t ring_room(const struct hk_strided_batch *batch) {
-  int64_t room = HOOKE_STRIDED_UNIT;
-  while (room < batch->offset + HOOKE_RING_SLACK)
-    room *= 2;
-  return room;
+static int64_t ring_capacity(const struct hk_strided_batch *batch) {
+  int64_t capacity = HOOKE_STRIDED_UNIT;
+  while (capacity < batch->offset + HOOKE_RING_SLACK)
+    capacity *= 2;
+  return capacity;
 }
 
 static struct hk_strided_view view_of(const struct hk_strided_batches *strided, int32_t k, double *ring) {
@@ -57,7 +57,7 @@ static struct hk_strided_view view_of(const struct hk_strided_batches *strided, 
   struct hk_strided_view view = {.shape = batch->shape,
                                  .present = batch->present,
                                  .offset = batch->offset,
-                                 .mask = ring_room(batch) - 1,
+                                 .mask = ring_capacity(batch) - 1,
                                  .ring = ring,
                                  .material = strided->material[k]};
   for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
@@ -66,7 +66,7 @@ static struct hk_strided_view view_of(const struct hk_strided_batches *strided, 
 }
 
 static int64_t ring_size(const struct hk_strided_batch *batch) {
-  return 3 * hk_ring_stride(ring_room(batch) - 1);
+  return 3 * hk_ring_stride(ring_capacity(batch) - 1);
 }
 
 struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32_t workers) {
@@ -110,13 +110,13 @@ int64_t hk_rings_memory(const struct hk_rings *rings) {
 
 /* Clears the springs below particle `from`, as far as the ring is read from there on. */
 static void clear_below(const struct hk_strided_view *batch, int64_t from) {
-  const int64_t room = batch->mask + 1, first = (from - batch->offset) & batch->mask,
-                before_end = lesser(batch->offset, room - first), wrapped = batch->offset - before_end;
+  const int64_t capacity = batch->mask + 1, first = (from - batch->offset) & batch->mask,
+                before_end = lesser(batch->offset, capacity - first), wrapped = batch->offset - before_end;
   for (int a = 0; a < 3; a++) {
     double *x = batch->ring + a * hk_ring_stride(batch->mask);
     memset(x + first, 0, (size_t)before_end * sizeof(double));
     memset(x, 0, (size_t)wrapped * sizeof(double));
-    memset(x + room, 0, (size_t)lesser(wrapped, HOOKE_STRIDED_UNIT) * sizeof(double));
+    memset(x + capacity, 0, (size_t)lesser(wrapped, HOOKE_STRIDED_UNIT) * sizeof(double));
   }
 }
 

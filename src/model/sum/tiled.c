@@ -23,8 +23,8 @@ static const double WORTH_NUMBERING = 0.6;
 struct maker {
   struct hk_tiled *tiled;
   struct hk_springs *springs;
-  int32_t *lower, *upper; /* ends of all springs, by number in `place` */
-  int32_t *order, *place; /* of particles */
+  int32_t *lower, *upper; /* ends of all springs, by number in `slot` */
+  int32_t *order, *slot;  /* of particles */
   int32_t *kind_of;       /* of runs */
   int32_t *at;            /* index of each spring */
   int64_t *next;          /* counters */
@@ -41,7 +41,7 @@ static int32_t maker_create(struct hk_springs *springs, struct hk_tiled *tiled, 
                           .next = hk_new(n > bins ? n : bins, sizeof(int64_t))};
   if (!maker->lower || !maker->order || !maker->kind_of || !maker->at || !maker->next) return HOOKE_NO_MEMORY;
   maker->upper = maker->lower + m;
-  maker->place = maker->order + n;
+  maker->slot = maker->order + n;
   return HOOKE_OK;
 }
 
@@ -64,7 +64,7 @@ static int64_t ahead(int64_t s, int64_t count) {
 
 static void number_as_given(const struct maker *maker) {
   for (int64_t p = 0; p < maker->tiled->particles; p++)
-    maker->order[p] = maker->place[p] = (int32_t)p;
+    maker->order[p] = maker->slot[p] = (int32_t)p;
 }
 
 static void number_ends(const struct maker *maker) {
@@ -73,7 +73,7 @@ static void number_ends(const struct maker *maker) {
     const struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hk_spring spring = hk_run_spring(run, k);
-      const int32_t i = maker->place[spring.head], j = maker->place[spring.tail];
+      const int32_t i = maker->slot[spring.head], j = maker->slot[spring.tail];
       maker->lower[run->first + k] = i < j ? i : j;
       maker->upper[run->first + k] = i < j ? j : i;
     }
@@ -94,7 +94,7 @@ static int32_t number(struct maker *maker, const double *inverse_mass) {
   if (!tiled->stored) return HOOKE_OK;
   const double given = sum_of_reaches(maker);
   const int32_t status = hk_tiled_number(tiled->particles, maker->springs->count, maker->lower, maker->upper,
-                                         maker->order, maker->place);
+                                         maker->order, maker->slot);
   if (status != HOOKE_OK) return status;
   number_ends(maker);
   if (sum_of_reaches(maker) >= WORTH_NUMBERING * given) {
@@ -245,16 +245,16 @@ static int32_t fill_ends(struct maker *maker) {
 
 static int32_t new_material(struct hk_tiled *tiled, int32_t mixed) {
   tiled->rest_length = hk_new(tiled->springs, sizeof(double));
-  tiled->place = hk_new(tiled->springs, sizeof(int32_t));
+  tiled->slot = hk_new(tiled->springs, sizeof(int32_t));
   if (mixed) tiled->kappa = hk_new(tiled->springs, sizeof(double));
   if (mixed) tiled->gamma = hk_new(tiled->springs, sizeof(double));
-  const int there = tiled->rest_length && tiled->place && (!mixed || (tiled->kappa && tiled->gamma));
+  const int there = tiled->rest_length && tiled->slot && (!mixed || (tiled->kappa && tiled->gamma));
   return there ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 static void point_to_tiled(const struct hk_tiled *tiled, const struct hk_tiled_kind *kind,
                            struct hk_run *run) {
-  run->place = tiled->place + run->first;
+  run->slot = tiled->slot + run->first;
   run->kappas = tiled->kappa;
   run->gammas = tiled->gamma;
   run->rest_lengths = tiled->rest_length;
@@ -271,7 +271,7 @@ static int32_t move_material(struct maker *maker) {
   if (material == 0) return HOOKE_OK;
   const int32_t status = new_material(tiled, material == HOOKE_TILED_MIXED);
   if (status != HOOKE_OK) return status;
-  memcpy(tiled->place, maker->at, (size_t)tiled->springs * sizeof *tiled->place);
+  memcpy(tiled->slot, maker->at, (size_t)tiled->springs * sizeof *tiled->slot);
   for (int64_t r = 0; r < springs->run_count; r++) {
     struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
@@ -338,7 +338,7 @@ int32_t hk_tiled_create(struct hk_springs *springs, int64_t particle_count, cons
 void hk_tiled_release(struct hk_tiled *tiled) {
   void *const block[] = {tiled->tile,        tiled->order, tiled->inverse_mass, tiled->batch,
                          tiled->lower,       tiled->upper, tiled->kappa,        tiled->gamma,
-                         tiled->rest_length, tiled->place, tiled->degree,       tiled->force};
+                         tiled->rest_length, tiled->slot,  tiled->degree,       tiled->force};
   for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
     hk_free(block[k]);
   memset(tiled, 0, sizeof *tiled);

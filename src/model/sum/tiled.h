@@ -44,7 +44,7 @@ struct hk_tiled {
   uint8_t *lower;                      /* from the first particle of the tile */
   void *upper;                         /* uint16_t, or uint32_t if wide: row of the window */
   double *kappa, *gamma, *rest_length; /* NULL: by kind */
-  int32_t *place;                      /* of each spring; NULL without arrays of material */
+  int32_t *slot;                       /* of each spring; NULL without arrays of material */
 
   /* by particle */
   uint16_t *degree;
@@ -67,7 +67,7 @@ int64_t hk_tiled_spring_memory(const struct hk_tiled *tiled);
 /* Numbers particles by breadth-first search along the springs, starting from an end of each piece: order[k]
  * is number k, place[p] the number of p. HOOKE_NO_MEMORY. */
 int32_t hk_tiled_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
-                        int32_t *order, int32_t *place);
+                        int32_t *order, int32_t *slot);
 
 /* Finds the kinds of the springs of all runs, in tiled->kind; kind_of has one for each run. */
 void hk_tiled_sort_kinds(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of);

@@ -43,17 +43,17 @@ static void ask_for_neighbours(const struct graph *graph, const int32_t *order, 
 }
 
 static int64_t add_piece(const struct graph *graph, int32_t start, int64_t count, int32_t *order,
-                         int32_t *place) {
+                         int32_t *slot) {
   int64_t done = count;
-  place[start] = (int32_t)count;
+  slot[start] = (int32_t)count;
   order[count++] = start;
   for (; done < count; done++) {
     const int32_t p = order[done];
     ask_for_neighbours(graph, order, done, count);
     for (int64_t k = graph->first[p]; k < graph->first[p + 1]; k++) {
       const int32_t other = graph->neighbour[k];
-      if (place[other] >= 0) continue;
-      place[other] = (int32_t)count;
+      if (slot[other] >= 0) continue;
+      slot[other] = (int32_t)count;
       order[count++] = other;
     }
   }
@@ -62,25 +62,25 @@ static int64_t add_piece(const struct graph *graph, int32_t start, int64_t count
 
 /* Searches each piece, in the order of their first particles: once from there to find an end, once more from
  * that end. */
-static void number_pieces(const struct graph *graph, int64_t particles, int32_t *order, int32_t *place) {
+static void number_pieces(const struct graph *graph, int64_t particles, int32_t *order, int32_t *slot) {
   for (int64_t p = 0; p < particles; p++)
-    place[p] = -1;
+    slot[p] = -1;
   int64_t count = 0;
   for (int64_t p = 0; p < particles; p++) {
-    if (place[p] >= 0) continue;
-    const int64_t end = add_piece(graph, (int32_t)p, count, order, place);
+    if (slot[p] >= 0) continue;
+    const int64_t end = add_piece(graph, (int32_t)p, count, order, slot);
     const int32_t last = order[end - 1];
     for (int64_t k = count; k < end; k++)
-      place[order[k]] = -1;
-    count = add_piece(graph, last, count, order, place);
+      slot[order[k]] = -1;
+    count = add_piece(graph, last, count, order, slot);
   }
 }
 
 int32_t hk_tiled_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
-                        int32_t *order, int32_t *place) {
+                        int32_t *order, int32_t *slot) {
   struct graph graph = {NULL, NULL};
   const int32_t status = graph_create(particles, springs, head, tail, &graph);
-  if (status == HOOKE_OK) number_pieces(&graph, particles, order, place);
+  if (status == HOOKE_OK) number_pieces(&graph, particles, order, slot);
   hk_free(graph.first);
   hk_free(graph.neighbour);
   return status;

@@ -42,14 +42,14 @@ static const void *place_of(const struct hk_tiled *tiled, int64_t particle) {
                      : (const void *)((const uint16_t *)tiled->force + at);
 }
 
-static void place(const struct hk_tiled *tiled, int32_t worker, int32_t workers,
-                  struct hk_tiled_partition *partition) {
+static void slot(const struct hk_tiled *tiled, int32_t worker, int32_t workers,
+                 struct hk_tiled_partition *partition) {
   const int64_t work = work_before(tiled, tiled->tiles);
   partition->first = tile_at(tiled, work * worker / workers);
   partition->end = tile_at(tiled, work * (worker + 1) / workers);
   partition->begin = begin_of(tiled, partition->first, partition->end);
   const int64_t first = partition->first * HOOKE_TILE; /* past the last particle if no tile is left */
-  partition->place = place_of(tiled, first < tiled->particles ? first : tiled->particles);
+  partition->slot = place_of(tiled, first < tiled->particles ? first : tiled->particles);
   partition->saved_end = partition->end > partition->first ? tiled->tile[partition->end - 1].reach : 0;
 }
 
@@ -85,7 +85,7 @@ struct hk_tiled_scratch *hk_tiled_scratch_create(const struct hk_tiled *tiled, i
   scratch->memory = (int64_t)sizeof *scratch + workers * (int64_t)sizeof *scratch->partition;
   int there = scratch->partition != NULL;
   for (int32_t m = 0; m < workers && there; m++) {
-    place(tiled, m, workers, &scratch->partition[m]);
+    slot(tiled, m, workers, &scratch->partition[m]);
     there = new_block(tiled, &scratch->partition[m], &scratch->memory);
   }
   if (there) return scratch;

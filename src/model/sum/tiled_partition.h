@@ -9,7 +9,7 @@
  * 1, which others move. */
 struct hk_tiled_partition {
   int64_t begin, first, end, saved_end;
-  const void *place;                    /* of the first force on the first particle */
+  const void *slot;                     /* of the first force on the first particle */
   double *rows, *forces, *saved, *f[3]; /* saved: NULL without; f: HOOKE_TILE each */
   int64_t seen, done;                   /* particles in the window and springs in the ring so far */
   int64_t lost;

@@ -106,14 +106,14 @@ static void go_over(int32_t worker, int32_t workers, void *ctx) {
   const struct hk_tiled *tiled = pass->tiled;
   struct hk_motion *m = pass->motion;
   struct hk_tiled_partition *partition = &m->tiled->partition[worker];
-  const void *place = partition->place;
+  const void *slot = partition->slot;
   prepare(pass, partition);
   hk_pool_barrier(m->pool);
   for (int64_t t = partition->first; t < partition->end; t++) {
     const int64_t from = t * HOOKE_TILE, end = least(from + HOOKE_TILE, tiled->particles);
     fill_tile(pass, partition, t, partition->end * HOOKE_TILE);
-    place = m->tiled->loops->sum[tiled->wide](end - from, tiled->degree + from, place, partition->forces,
-                                              partition->f);
+    slot = m->tiled->loops->sum[tiled->wide](end - from, tiled->degree + from, slot, partition->forces,
+                                             partition->f);
     pass->tile(from, end - from, partition->f, pass->ctx);
   }
 }

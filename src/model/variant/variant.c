@@ -183,11 +183,10 @@ static int32_t require_whole(const hooke_system *from) {
   hk_variant_map_release(&map);
   hooke_system_destroy(copy);
   if (different)
-    return hk_fail(
-        HOOKE_INTERNAL, NULL,
-        "a copy of the scene loses or changes its %s, so nothing is known of variants of it; this is "
-        "a defect of hooke",
-        different);
+    return hk_fail(HOOKE_INTERNAL, NULL,
+                   "a copy of the scene loses or changes its %s, so nothing "
+                   "is known of variants of it; this is a defect of hooke",
+                   different);
   from->rest->is_copied_whole = 1;
   return HOOKE_OK;
 }

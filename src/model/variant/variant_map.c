@@ -57,14 +57,14 @@ int32_t hk_variant_corners(const struct hk_variant_part *part, int64_t offset, i
     const int64_t index = offset % (part->cells[a] + 1);
     /* integer arithmetic: coinciding grid points coincide exactly */
     const int64_t low = index * part->made[a] / part->cells[a];
-    const double share = (double)(index * part->made[a] % part->cells[a]) / (double)part->cells[a];
+    const double fraction = (double)(index * part->made[a] % part->cells[a]) / (double)part->cells[a];
     const int32_t before = count;
     for (int32_t k = 0; k < before; k++) {
       corner[k] += low * stride;
-      if (share == 0.0) continue;
+      if (fraction == 0.0) continue;
       corner[count] = corner[k] + stride;
-      weight[count++] = weight[k] * share;
-      weight[k] *= 1.0 - share;
+      weight[count++] = weight[k] * fraction;
+      weight[k] *= 1.0 - fraction;
     }
     offset /= part->cells[a] + 1;
     stride *= part->made[a] + 1;

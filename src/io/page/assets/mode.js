@@ -45,9 +45,9 @@ function frameOf([across, up]) {
   const near = looking.zoom === "mode" ? movers.filter((k) => sizes[k] > 0.4) : particles;
   const [left, right] = extentOf(near, across), [bottom, top] = extentOf(near, up);
   const size = Math.max(right - left, top - bottom) || longestBlamed() || 1;
-  const room = (looking.zoom === "mode" ? 0.35 : 0.14) * size;
-  return { arrow: Math.min(0.12 * (size + room), longestBlamed() || Infinity),
-    box: { left: left - room, right: right + room, bottom: bottom - room, top: top + room } };
+  const margin = (looking.zoom === "mode" ? 0.35 : 0.14) * size;
+  return { arrow: Math.min(0.12 * (size + margin), longestBlamed() || Infinity),
+    box: { left: left - margin, right: right + margin, bottom: bottom - margin, top: top + margin } };
 }
 
 /* Arrows over everything else, from where a particle is to where the mode takes it. */

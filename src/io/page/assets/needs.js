@@ -164,11 +164,11 @@ function drawPicture(key) {
   const both = [...picture.position, ...picture.lean];
   const [left, right] = extentBy(all, (k) => both[3 * k + view[0]]);
   const [bottom, top] = extentBy(all, (k) => both[3 * k + view[1]]);
-  const room = 0.05 * (Math.max(right - left, top - bottom) || 1), many = listed.length > MANY;
+  const margin = 0.05 * (Math.max(right - left, top - bottom) || 1), many = listed.length > MANY;
   const chart = drawEqual("picture", [
     layer("the full scene", picture.position, view, "#7fb2e5", many ? 2 : 4, 3),
     layer("the lean scene", picture.lean, view, "#b00020", many ? 0.7 : 1.5, 2),
   ], view.map((axis) => `${AXES[axis]} [m]`),
-  { left: left - room, right: right + room, bottom: bottom - room, top: top + room }, () => "");
+  { left: left - margin, right: right + margin, bottom: bottom - margin, top: top + margin }, () => "");
   Object.assign(chart.canvas.dataset, { springs: listed.length, particles: shown.length, view: key });
 }

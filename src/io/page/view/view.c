@@ -87,23 +87,23 @@ static int32_t read_rest_lengths(struct hk_view *view, const double *ends) {
 /* ---- selection ---- */
 
 /* Smallest stride that reduces `count` items to at most `room`. */
-static int64_t stride_for(int64_t count, int64_t room) {
-  return count > room ? 1 + (count - 1) / room : 1;
+static int64_t stride_for(int64_t count, int64_t most) {
+  return count > most ? 1 + (count - 1) / most : 1;
 }
 
 /* Particles in order: the ends of the springs shown, constrained ones, and those without any spring. */
 static int32_t choose_particles(struct hk_view *view, const double *ends, const double *species) {
-  const int64_t all = view->particles_there, room = (int64_t)hooke_options_number(view->options, "springs");
+  const int64_t all = view->particles_there, most = (int64_t)hooke_options_number(view->options, "springs");
   char *tied = hk_new(all, 1);
-  int64_t *place = hk_new(all, sizeof *place), loose = 0;
+  int64_t *slot = hk_new(all, sizeof *slot), loose = 0;
   view->particle = hk_new(all, sizeof *view->particle);
   view->mark = hk_new(all, 1);
-  int32_t status = tied && place && view->particle && view->mark ? HOOKE_OK : HOOKE_NO_MEMORY;
+  int32_t status = tied && slot && view->particle && view->mark ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < 2 * view->springs_there && status == HOOKE_OK; k++)
     tied[(int64_t)ends[k]] |= (k / 2 % view->spring_stride == 0) ? 2 : 1;
   for (int64_t k = 0; k < all && status == HOOKE_OK; k++)
     view->loose_there += tied[k] == 0 && species[k] == 0.0;
-  view->loose_stride = stride_for(view->loose_there, room);
+  view->loose_stride = stride_for(view->loose_there, most);
   for (int64_t k = 0; k < all && status == HOOKE_OK; k++) {
     const int is_loose = tied[k] == 0 && species[k] == 0.0;
     if (species[k] == 0.0 && !(tied[k] & 2) && !(is_loose && loose++ % view->loose_stride == 0)) continue;
@@ -111,19 +111,19 @@ static int32_t choose_particles(struct hk_view *view, const double *ends, const 
                                   : species[k] == 2.0 ? HOOKE_VIEW_DRIVEN
                                   : is_loose          ? HOOKE_VIEW_LOOSE
                                                       : HOOKE_VIEW_FREE;
-    place[k] = view->particles;
+    slot[k] = view->particles;
     view->particle[view->particles++] = k;
   }
   for (int64_t k = 0; k < 2 * view->springs && status == HOOKE_OK; k++)
-    view->end[k] = place[(int64_t)ends[2 * view->spring[k / 2] + k % 2]];
-  hk_free(place);
+    view->end[k] = slot[(int64_t)ends[2 * view->spring[k / 2] + k % 2]];
+  hk_free(slot);
   hk_free(tied);
   return status;
 }
 
 static int32_t choose_springs(struct hk_view *view) {
-  const int64_t room = (int64_t)hooke_options_number(view->options, "springs");
-  view->spring_stride = stride_for(view->springs_there, room);
+  const int64_t most = (int64_t)hooke_options_number(view->options, "springs");
+  view->spring_stride = stride_for(view->springs_there, most);
   view->springs = (view->springs_there + view->spring_stride - 1) / view->spring_stride;
   view->spring = hk_new(view->springs, sizeof *view->spring);
   view->end = hk_new(2 * view->springs, sizeof *view->end);
@@ -163,8 +163,8 @@ static int32_t choose_frames(struct hk_view *view) {
   const double size = 1e6 * hooke_options_number(view->options, "size");
   const double each = (double)hk_base64_length(hk_view_frame_bytes(view)) + NUMBERS_OF_FRAME;
   const int64_t open = frames_open(view), gaps = open - 1, least = open < 2 ? 1 : 2;
-  double room = floor((size - fixed) / each);
-  if (room < (double)least) {
+  double most = floor((size - fixed) / each);
+  if (most < (double)least) {
     return hk_fail(
         HOOKE_BAD_VALUE, "size",
         "%g MB are too few for this trajectory: its page takes %.3g MB and %.3g MB for each frame; allow "
@@ -172,8 +172,8 @@ static int32_t choose_frames(struct hk_view *view) {
         size / 1e6, fixed / 1e6, each / 1e6, ceil((fixed + (double)least * each) / 1e5) / 10.0);
   }
   if (hooke_options_is_set(view->options, "frames"))
-    room = fmin(room, hooke_options_number(view->options, "frames"));
-  view->frame_stride = room > (double)gaps ? 1 : stride_for(gaps, (int64_t)room - 1);
+    most = fmin(most, hooke_options_number(view->options, "frames"));
+  view->frame_stride = most > (double)gaps ? 1 : stride_for(gaps, (int64_t)most - 1);
   view->frames = 1 + (gaps + view->frame_stride - 1) / view->frame_stride;
   view->frame = hk_new(view->frames, sizeof *view->frame);
   for (int64_t k = 0; k < view->frames && view->frame; k++)

@@ -74,10 +74,10 @@ static int compare(const void *a, const void *b) {
 }
 
 /* Value of the given quantile. */
-static double quantile(double *values, int64_t count, double share) {
+static double quantile(double *values, int64_t count, double fraction) {
   if (count == 0) return 0.0;
   qsort(values, (size_t)count, sizeof *values, compare);
-  return values[(int64_t)(share * (double)(count - 1))];
+  return values[(int64_t)(fraction * (double)(count - 1))];
 }
 
 /* 1, 2 or 5 times a power of ten, not below `value`. Only powers without a negative exponent are exact. */
@@ -172,8 +172,8 @@ int32_t hk_view_find_strain(struct hk_view *view) {
 static uint32_t place_in(double x, double low, double high) {
   const double span = 0.5 * high - 0.5 * low;
   if (!(span > 0.0) || !isfinite(x)) return 0;
-  const double share = (0.5 * x - 0.5 * low) / span * WIDEST + 0.5;
-  return share >= WIDEST ? WIDEST : share > 0.0 ? (uint32_t)share : 0;
+  const double fraction = (0.5 * x - 0.5 * low) / span * WIDEST + 0.5;
+  return fraction >= WIDEST ? WIDEST : fraction > 0.0 ? (uint32_t)fraction : 0;
 }
 
 static uint8_t *put(uint8_t *bytes, uint32_t word) {

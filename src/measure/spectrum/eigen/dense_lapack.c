@@ -18,17 +18,17 @@ void hk_damped_modes_release(struct hk_damped_modes *modes) {
 
 /* In Fortran: matrices by columns, everything by address, the lengths of texts at the end. */
 extern void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride,
-                   double *value, double *room, const int *room_size, int *info, size_t, size_t);
+                   double *value, double *work, const int *work_size, int *info, size_t, size_t);
 extern void dsyevx_(const char *job, const char *range, const char *triangle, const int *n, double *a,
                     const int *stride, const double *low, const double *high, const int *first,
                     const int *last, const double *accuracy, int *found, double *value, double *vector,
-                    const int *vector_stride, double *room, const int *room_size, int *whole, int *failed,
+                    const int *vector_stride, double *work, const int *work_size, int *whole, int *failed,
                     int *info, size_t, size_t, size_t);
 extern void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,
-                   const int *stride, double *room, int *info, size_t);
+                   const int *stride, double *work, int *info, size_t);
 extern void dgeev_(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
                    double *real, double *imaginary, double *left, const int *left_stride, double *right,
-                   const int *right_stride, double *room, const int *room_size, int *info, size_t, size_t);
+                   const int *right_stride, double *work, const int *work_size, int *info, size_t, size_t);
 
 /* LAPACK ends the process for some non-finite matrices, and counts by int. */
 static int32_t check(int64_t n, int64_t count, const double *matrix) {
@@ -65,11 +65,11 @@ int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vec
   int info = 0;
   double best = 0.0;
   dsyev_(job, "U", &size, matrix, &size, value, &best, &ask, &info, 1, 1);
-  const int room_size = (int)best;
-  double *room = hk_new(room_size, sizeof(double));
-  if (room == NULL) return HOOKE_NO_MEMORY;
-  dsyev_(job, "U", &size, matrix, &size, value, room, &room_size, &info, 1, 1);
-  hk_free(room);
+  const int work_size = (int)best;
+  double *work = hk_new(work_size, sizeof(double));
+  if (work == NULL) return HOOKE_NO_MEMORY;
+  dsyev_(job, "U", &size, matrix, &size, value, work, &work_size, &info, 1, 1);
+  hk_free(work);
   if (info != 0) return not_found();
   /* the smallest is first; its columns are our rows */
   for (int64_t k = 0; k < n / 2; k++) {
@@ -83,16 +83,16 @@ int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vec
 int32_t hk_dense_softest(int64_t n, double *matrix, double *vector) {
   int32_t status = check(n, n * n, matrix);
   if (status != HOOKE_OK) return status;
-  const int size = (int)n, room_size = 40 * size, first = 1;
+  const int size = (int)n, work_size = 40 * size, first = 1;
   const double none = 0.0;
-  double *room = hk_new(room_size + n, sizeof(double));
+  double *work = hk_new(work_size + n, sizeof(double));
   int *whole = hk_new(6 * n, sizeof(int)), found = 0, info = 0;
-  if (room && whole)
+  if (work && whole)
     dsyevx_("V", "I", "U", &size, matrix, &size, &none, &none, &first, &first, &none, &found,
-            room + room_size, vector, &size, room, &room_size, whole, whole + 5 * n, &info, 1, 1, 1);
+            work + work_size, vector, &size, work, &work_size, whole, whole + 5 * n, &info, 1, 1, 1);
   else
     status = HOOKE_NO_MEMORY;
-  hk_free(room);
+  hk_free(work);
   hk_free(whole);
   return status != HOOKE_OK || (info == 0 && found == 1) ? status : not_found();
 }
@@ -102,17 +102,17 @@ int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *be
   int32_t status = check(n, n, diagonal);
   if (status == HOOKE_OK) status = check(n, n - 1, beside);
   if (status != HOOKE_OK) return status;
-  double *room = hk_new(4 * n + (vector ? n * n : 0), sizeof(double));
-  if (room == NULL) return HOOKE_NO_MEMORY;
-  double *values = room + 2 * n, *off = values + n, *all = off + n;
+  double *work = hk_new(4 * n + (vector ? n * n : 0), sizeof(double));
+  if (work == NULL) return HOOKE_NO_MEMORY;
+  double *values = work + 2 * n, *off = values + n, *all = off + n;
   const int size = (int)n;
   int info = 0;
   memcpy(values, diagonal, (size_t)n * sizeof(double));
   memcpy(off, beside, (size_t)(n - 1) * sizeof(double));
-  dstev_(vector ? "V" : "N", &size, values, off, all, &size, room, &info, 1);
+  dstev_(vector ? "V" : "N", &size, values, off, all, &size, work, &info, 1);
   *value = values[n - 1];
   if (vector) memcpy(vector, all + (n - 1) * n, (size_t)n * sizeof(double));
-  hk_free(room);
+  hk_free(work);
   return info == 0 ? HOOKE_OK : not_found();
 }
 
@@ -170,7 +170,7 @@ static int32_t find_basis(int64_t n, const double *stiffness, const double *damp
   return status;
 }
 
-static int32_t make_room(int64_t n, struct hk_damped_modes *modes) {
+static int32_t make_space(int64_t n, struct hk_damped_modes *modes) {
   double *block = hk_new(2 * n * (2 + 2 * n), sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   *modes = (struct hk_damped_modes){.real = block, .imaginary = block + 2 * n};
@@ -218,10 +218,10 @@ static int32_t solve_companion(int64_t n, int64_t r, const double *basis, double
   double *real = block, *imaginary = real + 2 * r, *vector = imaginary + 2 * r;
   dgeev_("N", "V", &size, companion, &size, real, imaginary, NULL, &one, vector, &size, &best, &ask, &info, 1,
          1);
-  const int room_size = (int)best;
-  double *room = hk_new(room_size, sizeof(double));
-  if (room) {
-    dgeev_("N", "V", &size, companion, &size, real, imaginary, NULL, &one, vector, &size, room, &room_size,
+  const int work_size = (int)best;
+  double *work = hk_new(work_size, sizeof(double));
+  if (work) {
+    dgeev_("N", "V", &size, companion, &size, real, imaginary, NULL, &one, vector, &size, work, &work_size,
            &info, 1, 1);
     if (info == 0)
       take_all(n, r, basis, real, imaginary, vector, modes);
@@ -230,7 +230,7 @@ static int32_t solve_companion(int64_t n, int64_t r, const double *basis, double
   } else {
     status = HOOKE_NO_MEMORY;
   }
-  hk_free(room);
+  hk_free(work);
   hk_free(block);
   return status;
 }
@@ -240,7 +240,7 @@ int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *dampin
   *modes = (struct hk_damped_modes){.count = 0};
   double *basis = hk_new(n * n, sizeof(double)), *row = hk_new(n, sizeof(double)), *matrix = NULL;
   int64_t r = 0;
-  int32_t status = basis && row ? make_room(n, modes) : HOOKE_NO_MEMORY;
+  int32_t status = basis && row ? make_space(n, modes) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = find_basis(n, stiffness, damping, basis, &r);
   if (status == HOOKE_OK && r > 0) {
     matrix = hk_new(4 * r * r, sizeof(double));

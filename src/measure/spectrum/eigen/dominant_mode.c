@@ -48,20 +48,20 @@ int32_t hk_dominant_mode(struct hk_linearised *lin, double a, double b, const do
   if (lin->unknowns == 0) return HOOKE_OK;
   hk_linearised_combine(lin, a, b);
   if (lin->unknowns <= DENSE_UNKNOWNS) return dense(lin, value, mode);
-  double *room = hk_new(lin->size, sizeof(double));
-  if (room == NULL) return HOOKE_NO_MEMORY;
-  begin(lin, start, room);
+  double *work = hk_new(lin->size, sizeof(double));
+  if (work == NULL) return HOOKE_NO_MEMORY;
+  begin(lin, start, work);
   int32_t status = HOOKE_SOLVER_FAILED;
   if (HOOKE_HAVE_ARPACK && lin->unknowns <= HOOKE_ARPACK_UNKNOWNS)
-    status = hk_dominant_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, room);
+    status = hk_dominant_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, work);
   if (status == HOOKE_SOLVER_FAILED) {
-    begin(lin, start, room);
+    begin(lin, start, work);
     /* few unknowns, high accuracy: iterations are cheap, and converge quickly beyond the accuracy */
     const int few = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS;
     status = hk_dominant_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * TIGHTER * accuracy) : accuracy, value,
-                                      room);
+                                      work);
   }
-  memcpy(mode, room, (size_t)lin->size * sizeof(double));
-  hk_free(room);
+  memcpy(mode, work, (size_t)lin->size * sizeof(double));
+  hk_free(work);
   return status;
 }

@@ -21,17 +21,17 @@ struct lanczos {
   double **vector; /* up to most + 1, not normalised */
   double *length;  /* of each vector, in the norm of masses */
   double *diagonal,
-      *share; /* tridiagonal matrix with off-diagonals length[1..]; vector of its largest value */
+      *fraction; /* tridiagonal matrix with off-diagonals length[1..]; vector of its largest value */
 };
 
-static int32_t make_room(struct hk_linearised *lin, struct lanczos *z) {
-  const double fit = (lin->room > 0.0 ? fmin(lin->room, MEMORY) : MEMORY) / (8.0 * (double)lin->size);
+static int32_t make_space(struct hk_linearised *lin, struct lanczos *z) {
+  const double fit = (lin->memory > 0.0 ? fmin(lin->memory, MEMORY) : MEMORY) / (8.0 * (double)lin->size);
   *z = (struct lanczos){.lin = lin, .most = fit < FEWEST ? FEWEST : fit > MOST ? MOST : (int64_t)fit};
   z->vector = hk_new(z->most + 1, sizeof *z->vector);
   z->length = hk_new(3 * (z->most + 1), sizeof(double));
   if (z->vector == NULL || z->length == NULL) return HOOKE_NO_MEMORY;
   z->diagonal = z->length + z->most + 1;
-  z->share = z->diagonal + z->most + 1;
+  z->fraction = z->diagonal + z->most + 1;
   return HOOKE_OK;
 }
 
@@ -64,15 +64,15 @@ static int32_t turn(struct lanczos *z) {
 }
 
 /* The largest value of the first `count` rows. */
-static int32_t largest(const struct lanczos *z, int64_t count, double *value, double *share) {
-  return hk_dense_tridiagonal(count, z->diagonal, z->length + 1, value, share);
+static int32_t largest(const struct lanczos *z, int64_t count, double *value, double *fraction) {
+  return hk_dense_tridiagonal(count, z->diagonal, z->length + 1, value, fraction);
 }
 
 /* x = the vector of the largest value, normalised. */
 static void combine(const struct lanczos *z, double *x) {
   memset(x, 0, (size_t)z->lin->size * sizeof(double));
   for (int64_t k = 0; k < z->count; k++)
-    hk_add_multiple(z->lin->size, z->share[k] / z->length[k], z->vector[k], x);
+    hk_add_multiple(z->lin->size, z->fraction[k] / z->length[k], z->vector[k], x);
   const double length = sqrt(hk_linearised_dot(z->lin, x, x));
   for (int64_t k = 0; k < z->lin->size && length > 0.0; k++)
     x[k] /= length;
@@ -83,8 +83,8 @@ static void combine(const struct lanczos *z, double *x) {
  * is a third of that rise, and was observed to be up to four fifths: half of it is added. */
 static int32_t judge(struct lanczos *z, double accuracy, double *value, int *done) {
   double half = 0.0;
-  int32_t status = largest(z, z->count, value, z->share);
-  const double residual = z->length[z->count] * fabs(z->share[z->count - 1]);
+  int32_t status = largest(z, z->count, value, z->fraction);
+  const double residual = z->length[z->count] * fabs(z->fraction[z->count - 1]);
   *done = z->length[z->count] <= EXHAUSTED * *value || residual <= accuracy * *value;
   if (status != HOOKE_OK || *done || z->count < FEWEST) return status;
   status = largest(z, z->count / 2, &half, NULL);
@@ -102,7 +102,7 @@ static int32_t sweep(struct lanczos *z, double accuracy, double *value, double *
   z->length[0] = sqrt(hk_linearised_dot(z->lin, mode, mode));
   int32_t status = HOOKE_OK;
   for (int64_t check = 4; status == HOOKE_OK && !*done && z->count < z->most;) {
-    if (hk_patience_ends(z->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
+    if (hk_budget_ends(z->lin->budget, "eigenvalues")) return HOOKE_STOPPED;
     status = turn(z);
     const int exhausted = !(z->length[z->count] > EXHAUSTED * fabs(z->diagonal[0]));
     if (status != HOOKE_OK || (z->count < check && z->count < z->most && !exhausted)) continue;
@@ -119,7 +119,7 @@ int32_t hk_dominant_mode_lanczos(struct hk_linearised *lin, double accuracy, dou
   int done = 0;
   const int64_t begun = lin->products;
   double before = 0.0;
-  int32_t status = make_room(lin, &z);
+  int32_t status = make_space(lin, &z);
   while (status == HOOKE_OK && !done) {
     status = sweep(&z, accuracy, value, mode, &done);
     done |= *value - before <= accuracy * *value || lin->products - begun > MOST_PRODUCTS;

@@ -19,22 +19,22 @@ static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
 
 struct search {
   struct hk_linearised *lin;
-  a_int size, count, vectors, room_size;
+  a_int size, count, vectors, work_size;
   a_int parameter[11], pointer[14], info;
   double tolerance;
-  double *residual, *basis, *work, *room, *value, *place, *product;
+  double *residual, *basis, *work, *workspace, *value, *place, *product;
   a_int *select;
 };
 
-static int32_t make_room(struct hk_linearised *lin, int64_t count, struct search *s) {
+static int32_t make_space(struct hk_linearised *lin, int64_t count, struct search *s) {
   const int64_t n = lin->unknowns, vectors = 2 * count + SPARE_VECTORS < n ? 2 * count + SPARE_VECTORS : n;
-  const int64_t room_size = vectors * (vectors + 8);
+  const int64_t work_size = vectors * (vectors + 8);
   s->lin = lin;
   s->size = (a_int)n;
   s->count = (a_int)count;
   s->vectors = (a_int)vectors;
-  s->room_size = (a_int)room_size;
-  double *block = hk_new(n * (vectors + 4) + room_size + count + 2 * lin->size, sizeof(double));
+  s->work_size = (a_int)work_size;
+  double *block = hk_new(n * (vectors + 4) + work_size + count + 2 * lin->size, sizeof(double));
   s->select = hk_new(vectors, sizeof *s->select);
   if (block == NULL || s->select == NULL) {
     hk_free(block);
@@ -43,7 +43,7 @@ static int32_t make_room(struct hk_linearised *lin, int64_t count, struct search
   s->residual = hk_part(&block, n);
   s->basis = hk_part(&block, n * vectors);
   s->work = hk_part(&block, 3 * n);
-  s->room = hk_part(&block, room_size);
+  s->workspace = hk_part(&block, work_size);
   s->value = hk_part(&block, count);
   s->place = hk_part(&block, lin->size);
   s->product = hk_part(&block, lin->size);
@@ -69,15 +69,15 @@ static int32_t run(struct search *s) {
   s->info = 1;         /* the start is in `residual` */
   a_int wants = 0;
   do {
-    if (hk_patience_ends(s->lin->patience, "eigenvalues")) return HOOKE_STOPPED;
+    if (hk_budget_ends(s->lin->budget, "eigenvalues")) return HOOKE_STOPPED;
     dsaupd_c(&wants, "I", s->size, "LA", s->count, s->tolerance, s->residual, s->vectors, s->basis, s->size,
-             s->parameter, s->pointer, s->work, s->room, s->room_size, &s->info);
+             s->parameter, s->pointer, s->work, s->workspace, s->work_size, &s->info);
     if (wants == 1 || wants == -1) multiply(s, s->work + s->pointer[0] - 1, s->work + s->pointer[1] - 1);
   } while (wants == 1 || wants == -1);
   if (s->info != 0) return HOOKE_SOLVER_FAILED;
   dseupd_c(1, "A", s->select, s->value, s->basis, s->size, 0.0, "I", s->size, "LA", s->count, s->tolerance,
-           s->residual, s->vectors, s->basis, s->size, s->parameter, s->pointer, s->work, s->room,
-           s->room_size, &s->info);
+           s->residual, s->vectors, s->basis, s->size, s->parameter, s->pointer, s->work, s->workspace,
+           s->work_size, &s->info);
   return s->info == 0 && s->parameter[4] >= s->count ? HOOKE_OK : HOOKE_SOLVER_FAILED;
 }
 
@@ -85,7 +85,7 @@ int32_t hk_dominant_modes_arpack(struct hk_linearised *lin, int64_t count, doubl
                                  double *mode) {
   struct search s = {.tolerance = tolerance};
   if (lin->unknowns <= count) return HOOKE_SOLVER_FAILED;
-  int32_t status = make_room(lin, count, &s);
+  int32_t status = make_space(lin, count, &s);
   if (status != HOOKE_OK) return status;
   hk_linearised_pack(lin, mode, s.residual);
   pthread_mutex_lock(&alone);

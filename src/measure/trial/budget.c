@@ -1,33 +1,33 @@
-#include "measure/trial/patience.h"
+#include "measure/trial/budget.h"
 
 #include "core/clock.h"
 
 #include <math.h>
 #include <stddef.h>
 
-static double now_of(const struct hk_patience *p) {
+static double now_of(const struct hk_budget *p) {
   return p->counted ? p->work : hk_clock_seconds();
 }
 
-struct hk_patience hk_patience_of(double seconds, hooke_progress *progress, void *ctx) {
+struct hk_budget hk_budget_of(double seconds, hooke_progress *progress, void *ctx) {
   const double now = hk_clock_seconds();
-  return (struct hk_patience){
+  return (struct hk_budget){
       .begun = now, .until = now + seconds, .end = now + seconds, .progress = progress, .ctx = ctx};
 }
 
-struct hk_patience hk_patience_of_work(double work, hooke_progress *progress, void *ctx) {
-  return (struct hk_patience){.counted = 1, .until = work, .end = work, .progress = progress, .ctx = ctx};
+struct hk_budget hk_budget_of_work(double work, hooke_progress *progress, void *ctx) {
+  return (struct hk_budget){.counted = 1, .until = work, .end = work, .progress = progress, .ctx = ctx};
 }
 
-void hk_patience_spend(struct hk_patience *p, double work) {
+void hk_budget_spend(struct hk_budget *p, double work) {
   p->work += work;
 }
 
-double hk_patience_left(const struct hk_patience *p) {
+double hk_budget_left(const struct hk_budget *p) {
   return p ? fmax(0.0, p->until - now_of(p)) : INFINITY;
 }
 
-int32_t hk_patience_ends(struct hk_patience *p, const char *what) {
+int32_t hk_budget_ends(struct hk_budget *p, const char *what) {
   if (p == NULL) return 0;
   if (p->spent || p->stopped) return 1;
   const double now = now_of(p);
@@ -37,18 +37,18 @@ int32_t hk_patience_ends(struct hk_patience *p, const char *what) {
   return p->spent || p->stopped;
 }
 
-int32_t hk_patience_has(struct hk_patience *p, double seconds) {
+int32_t hk_budget_has(struct hk_budget *p, double seconds) {
   if (p == NULL) return 1;
   p->spent |= !(now_of(p) + seconds <= p->until);
   return !p->spent && !p->stopped;
 }
 
-void hk_patience_lend(struct hk_patience *p, double share) {
+void hk_budget_lend(struct hk_budget *p, double fraction) {
   const double now = now_of(p);
-  p->until = now + share * (p->end - now);
+  p->until = now + fraction * (p->end - now);
 }
 
-int32_t hk_patience_take_back(struct hk_patience *p) {
+int32_t hk_budget_take_back(struct hk_budget *p) {
   const int32_t spent = p->spent;
   p->until = p->end;
   p->spent = !(now_of(p) < p->end);
