@@ -112,10 +112,13 @@ def code(text: str) -> str:
 
 
 def python_code(text: str) -> str:
+    """Without texts and types."""
     tree = ast.parse(text)
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             node.value = ""
+        for types in {"annotation", "returns"} & set(node._fields):
+            setattr(node, types, None)
     return ast.dump(tree)
 
 

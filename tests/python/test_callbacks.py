@@ -336,6 +336,16 @@ def test_an_exception_stops_at_once():
     assert state.t == pytest.approx(1.3)
 
 
+def test_an_observer_is_let_go_when_its_run_is_over():
+    system, seen = free_particle(), []
+    integrator, state = hooke.Integrator(system, **RUN), system.state()
+    integrator.run(state, on_step=(1, lambda step, _: seen.append(step)))
+    told = len(seen)
+    gc.collect()
+    integrator.step(state, 3)
+    assert len(seen) == told > 0
+
+
 def test_a_number_stops_the_run_and_comes_out():
     result = hooke.run(free_particle(), on_step=(1, lambda step, state: 42 if step == 5 else None), **RUN)
     assert (result.status, result.stop_value, result.counts["steps"]) == ("stopped", 42, 5)
