@@ -1,6 +1,6 @@
-/* Extended position-based dynamics with one iteration a substep, for make_graphics.py: Macklin et al. 2019, "Small
- * steps in physics simulation", algorithm 1 without damping. Springs come sorted by colour, so that those of one colour
- * share no particle and the compiler may do several at once. */
+/* Extended position-based dynamics with one iteration a substep, for make_graphics.py: Macklin et al. 2019,
+ * "Small steps in physics simulation", algorithm 1 without damping. Springs come sorted by colour, so that
+ * those of one colour share no particle and the compiler may do several at once. */
 #include <math.h>
 #include <stdint.h>
 

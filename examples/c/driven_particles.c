@@ -1,5 +1,5 @@
-/* Driven particles: the upper end of a rope goes round in a circle, by a callback; a second rope is shaken at one end, as a
- * sine. A driven particle has no mass to be moved by: it is where its motion says. */
+/* Driven particles: the upper end of a rope goes round in a circle, by a callback; a second rope is shaken at
+ * one end, as a sine. A driven particle has no mass to be moved by: it is where its motion says. */
 #include <hooke.h>
 
 #include <math.h>

@@ -1,6 +1,7 @@
-/* Many systems in threads: ropes of eight stiffnesses, each made, run and destroyed by whichever thread is free. Objects of
- * different systems share nothing, and a committed system may be shared, so no locks are needed but the one that hands out
- * the work. Done again in one thread, every rope ends up in the same bits. */
+/* Many systems in threads: ropes of eight stiffnesses, each made, run and destroyed by whichever thread is
+ * free. Objects of different systems share nothing, and a committed system may be shared, so no locks are
+ * needed but the one that hands out the work. Done again in one thread, every rope ends up in the same bits.
+ */
 #include <hooke.h>
 
 #include <pthread.h>

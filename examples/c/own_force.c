@@ -1,5 +1,6 @@
-/* A force of one's own: a cloth is held up by a ball, which pushes particles out by 2000 N/m of depth. The second callback
- * gives the derivative of the force, so that implicit methods need no difference quotients. */
+/* A force of one's own: a cloth is held up by a ball, which pushes particles out by 2000 N/m of depth. The
+ * second callback gives the derivative of the force, so that implicit methods need no difference quotients.
+ */
 #include <hooke.h>
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* A time loop of one's own: a cloth falls on the floor. hooke takes the steps; between two of them the program looks at
- * the particles and bounces those that are below the floor, by writing into the state. */
+/* A time loop of one's own: a cloth falls on the floor. hooke takes the steps; between two of them the
+ * program looks at the particles and bounces those that are below the floor, by writing into the state. */
 #include <hooke.h>
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* A study from C: what error does each method buy for what time on this rope, which one is the cheapest for a tenth of a
- * millimetre, and a run with it. */
+/* A study from C: what error does each method buy for what time on this rope, which one is the cheapest for a
+ * tenth of a millimetre, and a run with it. */
 #include <hooke.h>
 
 #include <math.h>

@@ -16,6 +16,7 @@
 #include "hooke.h"
 #include "report.h"
 #include "small.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdarg.h>

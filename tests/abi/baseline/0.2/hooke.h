@@ -158,6 +158,7 @@ extern "C" {
 HOOKE_API const char *hooke_part_kind(int64_t kind, const char *what);
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);
+HOOKE_API int64_t hooke_system_part_count(const hooke_system *system, const char *part, const char *what);
 HOOKE_API int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                                  int64_t triangle_count, const int64_t *triangles);
 #ifdef __cplusplus
@@ -270,6 +271,7 @@ HOOKE_API const char *hooke_measurement_text(const hooke_measurement *measuremen
 HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measurement, const char *table,
                                                  int64_t row, const char *column, int64_t *count);
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
+HOOKE_API const char *hooke_measurement_json(hooke_measurement *measurement, const char *table, int64_t row);
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
@@ -319,6 +321,9 @@ HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char
                                     const hooke_options *limits, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
 HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);
+HOOKE_API int32_t hooke_system_add_members(hooke_system *system, const char *key, const char *name,
+                                           int64_t count, const int64_t *particles,
+                                           const hooke_options *options);
 HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                                     const hooke_options *run);
 HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
