@@ -16,8 +16,9 @@ NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_
 OPTIONAL = {"command", "folder", "run", "scene", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first",
             "observer", "product", "progress", "rest_length", "stiffness", "velocity", "warning"}
 OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"), ("hooke_measurement_label", "text"),
-               ("hooke_measurement_json", "table"), ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"), ("hooke_system_members", "particles"),
-               ("hooke_system_body_particles", "particles"), ("hooke_system_with_force", "force"),
+               ("hooke_measurement_json", "table"), ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"),
+               ("hooke_system_members", "particles"), ("hooke_system_body_particles", "particles"),
+               ("hooke_system_with_force", "force"),
                *((f"hooke_{name}", what) for what in "qv"
                  for name in ("integrator_get", "integrator_put", "system_energy"))}
 # Handles that a callback takes for its `ctx`, by the names of their parameters.

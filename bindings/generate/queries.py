@@ -282,8 +282,13 @@ class Procedure:
     def fitting(self, given, count_of):
         """Lines that return where arrays of rows have not as many as they should: as a list, or one a particle."""
         status = ", status" if headers.is_status(self.result, self.name) else ""
-        counts_of = [(p.what, count_of.get(what, "int(self%particle_count(), c_int64_t)")) for what, p in given.items() if p.rows]
-        return [f"if (.not. is_3_by({rows}, {count}{status})) return" for rows, count in counts_of]
+        lines = []
+        for what, p in given.items():
+            count = count_of.get(what, "int(self%particle_count(), c_int64_t)")
+            fits = f"if (.not. is_3_by({p.what}, {count}{status})) return"
+            if p.rows:  # an array that is not there has no bounds
+                lines += [f"if (present({p.what})) then", f"  {fits}", "end if"] if p.optional else [fits]
+        return lines
 
     def taking(self):
         """Lines that take the object that is made."""

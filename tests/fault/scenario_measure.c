@@ -115,7 +115,7 @@ end:
 SCENARIO(compare) {
   struct made m = {.system = make_rope(a, 3)};
   m.run = make_options(a, "run", "step=1e-3 duration=0.02 every=0.01");
-  m.measurement = make_measurement(a, "comparison", m.system, m.run, "methods=verlet,cvode-bdf");
+  m.measurement = make_measurement(a, "study", m.system, m.run, "methods=verlet,cvode-bdf once=1");
   if (m.measurement == NULL) goto end;
   TRY(a, hooke_measurement_run(m.measurement, NULL));
   TAKE(m.measurement, "rows", "status", "#error", "#energy_drift");

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-static int32_t check_alone(const hooke_options *options) {
+int32_t hk_mesh_check_source(const hooke_options *options) {
   static const char *const others[] = {"vertices", "triangles"};
   for (int k = 0; k < 2; k++) {
     if (hooke_options_is_set(options, others[k]))
@@ -61,7 +61,7 @@ static int32_t finish(int32_t status, int64_t line, const char *name, hooke_opti
 int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
                       hooke_options *options) {
   int64_t line = 0;
-  int32_t status = check_alone(options);
+  int32_t status = hk_mesh_check_source(options);
   if (status != HOOKE_OK) return status;
   status = hk_memory_require(memory_limit, hk_obj_bytes(text, length), "the mesh");
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);
@@ -71,7 +71,7 @@ int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double
 int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit, hooke_options *options) {
   char *text = NULL;
   int64_t length = 0;
-  int32_t status = check_alone(options);
+  int32_t status = hk_mesh_check_source(options);
   if (status != HOOKE_OK) return status;
   status = hk_scene_read_file(path, NULL, &text, &length);
   status = status == HOOKE_OK ? hk_mesh_parse(text, length, name, memory_limit, options)

@@ -95,7 +95,8 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
   const char *file = hooke_options_text(options, "file");
   char *path = NULL;
-  int32_t status = hk_scene_reader_file(reader, file, &path);
+  int32_t status = hk_mesh_check_source(options);
+  if (status == HOOKE_OK) status = hk_scene_reader_file(reader, file, &path);
   if (status == HOOKE_OK) status = hk_mesh_read_as(path, file, reader->scene->memory_limit, options);
   hk_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
