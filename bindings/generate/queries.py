@@ -246,6 +246,13 @@ def answer(result, name, whats):
     return ("logical", "{} == 1") if "_is_" in name else ("integer", "int({})")
 
 
+def partial_call(function, whats, passed, absent):
+    """A call without some of its arguments, after which the others go by name."""
+    given = [what for what in whats if what not in absent]
+    first = next((k for k, what in enumerate(whats) if what in absent), len(whats))
+    return f"{function}({', '.join(passed[what] if whats.index(what) < first else f'{what}={passed[what]}' for what in given)})"
+
+
 class Procedure:
     """A function of C as a procedure of the type `own`, or of none."""
 
@@ -265,7 +272,8 @@ class Procedure:
                  if what not in {itself, self.filled, *told} and (kind, what) not in BY_OTHERS and not kind.endswith("**")}
         force = next((p for p in given.values() if p.callback), None)
         passed = {itself: "self%address()", **self.passing(given, told, force), last if self.makes else None: "made"}
-        self.call = f"c_{self.short}({', '.join(passed[what] for _, what in parameters)})"
+        self.call_without = lambda absent: partial_call(f"c_{self.short}", [what for _, what in parameters], passed, absent)
+        self.call = self.call_without([])
         self.fit = self.fitting(given, {what: passed[count] for count, arrays in told.items() for what in arrays})
         self.given = sorted(given.values(), key=lambda p: p.rank)
         place = 0 if self.name in SEVERAL else 10 + every.index(function)
@@ -334,7 +342,21 @@ class Procedure:
             call = f"call {self.call}" if self.filled else f"found {'=>' if is_series else '='} {made.format(self.call)}"
             body = [*(["found = 0", *self.fit] if self.fit else []), *before, call]
         title = f"  {kind} {self.short}({', '.join([*(['self'] if self.own else []), *whats])}){found}"
+        body = [one for line in body for one in self.by_presence(line)]
         return [*wrapped([title]), *(f"    {line}" for line in wrapped([*head, *first, *body])), f"  end {kind}", ""]
+
+    def by_presence(self, line):
+        """The line as it is for all rows that may be absent, present and absent: passed on, an absent array would have its
+        bounds computed."""
+        rows = [p.what for p in self.given if p.rows and p.optional]
+        if self.call not in line or not rows:
+            return [line]
+        lines = []
+        for there in [rows, *([one] for one in rows if len(rows) > 1)]:
+            condition = " .and. ".join(f"present({what})" for what in there)
+            absent = [what for what in rows if what not in there]
+            lines += [f"{'else ' * bool(lines)}if ({condition}) then", "  " + line.replace(self.call, self.call_without(absent))]
+        return [*lines, "else", "  " + line.replace(self.call, self.call_without(rows)), "end if"]
 
 
 def ender(own, every):
