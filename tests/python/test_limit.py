@@ -199,3 +199,14 @@ def test_files(tmp_path):
         assert '"a chain"' in (tmp_path / "limit.html").read_text()
     with pytest.raises(hooke.BadValue, match="end in"):
         found.write(tmp_path / "limit.pdf")
+
+
+def test_few_steps_measure_a_limit():
+    """Each start is one of motion that turns round at its ends, as that at the limit does."""
+    system = hooke.System()
+    system.add_particles([[0, 0, 0], [1, 0, 0], [2, 0, 0]], mass=1.0)
+    system.pin([0])
+    system.add_springs("rods", [[0, 1], [1, 2]], stiffness=100.0, damping=1.0)
+    rows = hooke.limit(system, methods=["verlet", "shardlow"]).rows
+    np.testing.assert_allclose(rows["measured"], rows["predicted"], rtol=1e-3)
+    assert (rows["steps_run"] < 3000).all(), rows["steps_run"]
