@@ -145,8 +145,8 @@ struct hooke_integrator {
 };
 
 extern const struct hk_option_table hk_run_options;
-/* HOOKE_BAD_VALUE for the argument `place` unless these are options of a run. */
-int32_t hk_run_options_require(const hooke_options *options, const char *place);
+/* HOOKE_BAD_VALUE for the argument `where` unless these are options of a run. */
+int32_t hk_run_options_require(const hooke_options *options, const char *where);
 
 /* Reports progress within a long step, if it is due: HOOKE_STOPPED. */
 int32_t hk_integrator_tell(hooke_integrator *integrator);

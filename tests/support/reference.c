@@ -3,6 +3,8 @@
 #include "check.h"
 #include "small.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 const struct reference references[REFERENCE_COUNT] = {
@@ -56,4 +58,18 @@ hooke_system *build_reference(const struct reference *reference) {
   if (reference->gravity != NULL) check_ok(hooke_system_set_gravity(system, reference->gravity));
   check_ok(hooke_system_commit(system));
   return system;
+}
+
+double true_error(const struct reference_state *expected, const hooke_system *system, struct run run) {
+  const int64_t n = hooke_system_particle_count(system);
+  double *q = new_doubles(3 * n), sum = 0.0, count = 0.0;
+  run_to_end(system, run, q, NULL);
+  for (int64_t p = 0; p < n; p++) {
+    if (hooke_system_inverse_mass(system)[p] == 0.0) continue;
+    for (int a = 0; a < 3; a++)
+      sum += pow(q[3 * p + a] - expected->position[3 * p + a], 2.0);
+    count += 1.0;
+  }
+  free(q);
+  return sqrt(sum / count);
 }

@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_REFERENCE_H
 #define TESTS_SUPPORT_REFERENCE_H
 
-#include "hooke/system.h"
+#include "run.h"
 
 struct reference_group {
   const char *name, *law;
@@ -35,6 +35,9 @@ const struct reference *find_reference(const char *name);
 
 /* A committed system of the scene; the caller destroys it. */
 hooke_system *build_reference(const struct reference *reference);
+
+/* Root mean square distance of the free particles at the end of a run from the solution there [m]. */
+double true_error(const struct reference_state *expected, const hooke_system *system, struct run run);
 
 struct reference_errors {
   const char *method, *newton, *verlet_damping; /* NULL: the default */

@@ -39,8 +39,7 @@ static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   own->where = where;
   int flag = CVodeSetLinearSolver(own->memory, own->linear, NULL);
   if (flag == CV_SUCCESS) flag = CVodeSetEpsLin(own->memory, hk_sundials_linear_share(it));
-  if (flag != CV_SUCCESS || !hk_unknowns_have_products(it, &own->unknowns) || hk_sundials_linear_is_own(it))
-    return flag;
+  if (flag != CV_SUCCESS || !hk_unknowns_have_products(it) || hk_sundials_linear_is_own(it)) return flag;
   return CVodeSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 

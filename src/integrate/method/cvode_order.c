@@ -30,8 +30,8 @@ static const double DAMPING_OF_ORDER_3 = 0.0692;
 
 int32_t hk_order_choice_create(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
-  if (!hk_unknowns_have_products(it, &own->unknowns) || own->unknowns.free_count == 0 ||
-      !own->unknowns.has_v || !isnan(hooke_options_number(it->options, "max_order")) ||
+  if (!hk_unknowns_have_products(it) || own->unknowns.free_count == 0 || !own->unknowns.has_v ||
+      !isnan(hooke_options_number(it->options, "max_order")) ||
       hooke_options_number(it->options, "rtol") < LOOSE_RTOL)
     return HOOKE_OK;
   own->choice = hk_new(1, sizeof *own->choice);

@@ -287,8 +287,8 @@ int32_t hk_sundials_linear_create(hooke_integrator *it) {
                    "direct needs CHOLMOD, which this build is without; take auto or blocks");
   /* a space that holds every unknown is exact without it */
   const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
-  if (hk_unknowns_have_products(it, &own->unknowns) && own->unknowns.free_count > 0 &&
-      strcmp(word, "gmres") != 0 && !(few && strcmp(word, "auto") == 0))
+  if (hk_unknowns_have_products(it) && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&
+      !(few && strcmp(word, "auto") == 0))
     return create_own(it, word, own);
   own->linear = SUNLinSol_SPGMR(own->y, SUN_PREC_NONE, HOOKE_KRYLOV_VECTORS, own->context);
   it->own_memory += HOOKE_KRYLOV_VECTORS * own->unknowns.size * (int64_t)sizeof(double);

@@ -40,7 +40,7 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
     u->push = hk_new(HOOKE_PUSH * it->system->mover_count, sizeof(double));
     if (u->push == NULL) return HOOKE_NO_MEMORY;
   }
-  if (!products || !hk_unknowns_have_products(it, u)) return HOOKE_OK;
+  if (!products || !hk_unknowns_have_products(it)) return HOOKE_OK;
   u->rows = hk_rows_new(5 * it->size);
   it->own_memory += 5 * it->size * (int64_t)sizeof(double);
   return u->rows ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -61,8 +61,7 @@ void hk_unknowns_tolerance(const hooke_integrator *it, const struct hk_unknowns 
   if (it->system) hk_movers_tolerance(it->system, position, velocity, tolerance + 6 * u->free_count);
 }
 
-int32_t hk_unknowns_have_products(const hooke_integrator *it, const struct hk_unknowns *u) {
-  (void)u;
+int32_t hk_unknowns_have_products(const hooke_integrator *it) {
   return it->rate == NULL && it->system->mover_count == 0;
 }
 

@@ -44,7 +44,7 @@ int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns
 void hk_unknowns_take(const hooke_integrator *integrator, const struct hk_unknowns *unknowns, double *y);
 
 /* 1 if hk_unknowns_product() knows the derivative: not that of first-order problems and bodies. */
-int32_t hk_unknowns_have_products(const hooke_integrator *integrator, const struct hk_unknowns *unknowns);
+int32_t hk_unknowns_have_products(const hooke_integrator *integrator);
 
 /* Three components of the free particles (3 free_count) from and to those of all (3 n); others are unchanged.
  */

@@ -1,5 +1,6 @@
 #include "measure/counted_work/work.h"
 
+#include "model/coordinates/coordinates.h"
 #include "model/sum/tiled.h"
 
 #include <math.h>
@@ -50,8 +51,11 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
 
 static void add_bodies(const hooke_system *system, const struct hk_counts *count, double *amount) {
   int64_t particles = 0;
-  for (int64_t p = 0; p < system->particle_count; p++)
-    particles += hk_is_carried(system, p);
+  for (int64_t k = 0; k < system->mover_count; k++) {
+    int64_t some;
+    system->mover[k].row->particles(system->mover[k].thing, &some);
+    particles += some;
+  }
   amount[HOOKE_WORK_BODY] = (double)count->force_evaluations * (double)system->mover_count;
   amount[HOOKE_WORK_BODY_PARTICLE] =
       (double)(count->force_evaluations + count->derivative_products) * (double)particles;

@@ -120,7 +120,7 @@ static const char *name_of(int32_t adaptive, double factor) {
   return factor < 1.0 ? "error, half the step" : "error, a larger step";
 }
 
-/* `done` and `share` of all other runs. */
+/* `done` and `fraction` of all other runs. */
 static int32_t run_level(struct hk_estimate *e, double factor, double done, double fraction,
                          struct level *level) {
   const int32_t adaptive = method_of(e)->adaptive;

@@ -16,7 +16,7 @@
 int32_t hk_limit_predict(const hooke_system *system, const double *q, const double *v, const char *method,
                          double accuracy, hooke_progress *progress, void *ctx, double *limit);
 
-/* The same for a changed system, within the budget, with `room` bytes for a basis (0: the default);
+/* The same for a changed system, within the budget, with `memory` bytes for a basis (0: the default);
  * otherwise HOOKE_STOPPED. `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale` (n) may
  * be NULL. */
 int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const double *v,

@@ -23,10 +23,6 @@ void hk_budget_spend(struct hk_budget *p, double work) {
   p->work += work;
 }
 
-double hk_budget_left(const struct hk_budget *p) {
-  return p ? fmax(0.0, p->until - now_of(p)) : INFINITY;
-}
-
 int32_t hk_budget_ends(struct hk_budget *p, const char *what) {
   if (p == NULL) return 0;
   if (p->spent || p->stopped) return 1;

@@ -25,8 +25,6 @@ struct hk_budget hk_budget_of(double seconds, hooke_progress *progress, void *ct
 struct hk_budget hk_budget_of_work(double work, hooke_progress *progress, void *ctx);
 /* Adds counted work [s]. */
 void hk_budget_spend(struct hk_budget *budget, double work);
-/* What the current part has left [s]; infinity without budget. */
-double hk_budget_left(const struct hk_budget *budget);
 
 /* Reports `what` to the caller; 1 if the work is to end, and from then on at every call. Without budget
  * (NULL) it never ends. */

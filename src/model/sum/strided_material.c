@@ -70,7 +70,7 @@ static uint64_t mix(const double *value) {
   return sum;
 }
 
-/* Finds for each unit the first equal one, by a hash table of `room` slots, a power of two; returns the
+/* Finds for each unit the first equal one, by a hash table of `capacity` slots, a power of two; returns the
  * number of distinct ones, or 0 if they exceed half the table. */
 static int64_t find_equal(const struct column *column, int32_t *table, int64_t capacity) {
   int64_t kinds = 0;

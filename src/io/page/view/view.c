@@ -86,7 +86,7 @@ static int32_t read_rest_lengths(struct hk_view *view, const double *ends) {
 
 /* ---- selection ---- */
 
-/* Smallest stride that reduces `count` items to at most `room`. */
+/* Smallest stride that reduces `count` items to at most `most`. */
 static int64_t stride_for(int64_t count, int64_t most) {
   return count > most ? 1 + (count - 1) / most : 1;
 }
