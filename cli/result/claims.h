@@ -1,0 +1,17 @@
+/* What a measurement says of its result, as the library composes it. */
+#ifndef HOOKE_CLI_CLAIMS_H
+#define HOOKE_CLI_CLAIMS_H
+
+#include "arguments.h"
+
+/* Prints the claims beside their keys, with --quiet the first alone; and after the first the command that it
+ * leads to (NULL: none). */
+void cli_claims_print(const struct cli_arguments *arguments, const hooke_measurement *measurement,
+                      const char *command);
+
+/* Prints the whole document of the measurement after the names that only the program knows: the file, under
+ * `key`. HOOKE_NO_MEMORY if something is left out. */
+int32_t cli_claims_print_json(const struct cli_arguments *arguments, const char *key,
+                              hooke_measurement *measurement);
+
+#endif
