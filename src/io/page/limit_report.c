@@ -55,12 +55,12 @@ static void add_unlimited(struct hk_text *data, const hooke_measurement *m, cons
   hk_text_close(data, ']');
 }
 
-static void add_row(struct hk_text *data, const hooke_measurement *m, const struct hk_table *table,
-                    int64_t row) {
+/* What diagrams and tables need of a row beside its columns. */
+static void add_curves(struct hk_text *data, const hooke_measurement *m, const struct hk_table *table,
+                       int64_t row) {
   const char *method = hooke_measurement_text(m, table->name, row, "method");
   const double alone = hk_limit_of_mode_in(m->system, method, 1.0, 0.5);
   hk_text_open(data, NULL, '{');
-  hk_measurement_add_row(data, m, table->name, row);
   add_unlimited(data, m, table, row);
   hk_limit_page_add_reach(data, m->system, method);
   if (isfinite(alone) && hooke_measurement_number(m, table->name, row, "by_eigenvalue") == 1.0)
@@ -75,14 +75,10 @@ void hk_limit_page_add(struct hk_text *data, const void *measurement) {
     data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report before the limits were found");
     return;
   }
-  hk_measurement_add_row(data, m, "limit", 0);
-  hk_text_open(data, "rows", '[');
+  hk_measurement_add_all(data, m);
+  hk_text_open(data, "curves", '[');
   for (int64_t row = 0; row < hk_table_count(rows, m->object); row++)
-    add_row(data, m, rows, row);
+    add_curves(data, m, rows, row);
   hk_text_close(data, ']');
-  hk_measurement_add_table(data, m, "modes");
-  hk_measurement_add_table(data, m, "blame");
-  hk_measurement_add_table(data, m, "participation");
-  hk_measurement_add_table(data, m, "changes");
   hk_limit_picture_add(data, m->object);
 }

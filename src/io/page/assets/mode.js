@@ -130,6 +130,12 @@ function look(what, key) {
   if (looking.view !== null) drawPicture();
 }
 
+function startPicture() {
+  if (moving && movers.length < particles.length)
+    choice("zoom", [["all", ["whole scene"]], ["mode", ["where it moves"]]], "all", (key) => look("zoom", key));
+  choice("view", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), firstView(), (key) => look("view", key));
+}
+
 /* ---- the table ---- */
 
 const MOST_BLAMED = 12;
@@ -141,22 +147,24 @@ const describeBlame = (one) =>
   [`spring ${one.number}, between particles ${one.first} and ${one.second}`, `${groupOf(one)}, ${percent(one.share)}`];
 
 function writeBlame() {
-  const body = element("tbody"), most = blames.slice(0, MOST_BLAMED);
-  for (const one of most) {
-    const line = element("tr"), name = element("td", undefined, { className: "word" });
-    const swatch = element("span", undefined, { className: "swatch" });
-    swatch.style.background = shareColour(one.share);
-    name.append(swatch, `spring ${one.number}`);
-    line.append(name, element("td", `${one.first} and ${one.second}`), element("td", one.group, { className: "word" }),
-      element("td", percent(one.share), { title: String(one.share) }));
-    body.append(line);
-  }
+  const most = blames.slice(0, MOST_BLAMED);
   if (most.length === 0) return;
-  if (blames.length > most.length) {
-    const line = element("tr");
-    line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
-    body.append(line);
-  }
-  document.getElementById("blame").append(headOf([["", "to blame", "", "word"], ["", "between particles"],
-    ["", "group", "", "word"], ["", "share of the mode"]]), body);
+  const body = writeTable("blame", [["", "to blame", "", "word"], ["", "between particles"], ["", "group", "", "word"],
+    ["", "share of the mode"]], most, (one) => [swatchCell(shareColour(one.share), `spring ${one.number}`),
+    element("td", `${one.first} and ${one.second}`), element("td", one.group, { className: "word" }),
+    element("td", percent(one.share), { title: String(one.share) })]);
+  if (blames.length === most.length) return;
+  const line = element("tr");
+  line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
+  body.append(line);
+}
+
+/* What of the scene is drawn, as facts. */
+function writePicture() {
+  const known = (count) => (picture.particles ? whole(count) : "");
+  fact("about", "particles", known(picture.particles));
+  fact("about", "springs", known(picture.springs));
+  fact("about", "springs drawn", known(listed.length));
+  fact("about", "springs left out", known(picture.springs - listed.length));
+  fact("about", "particles drawn that move", known(movers.length));
 }

@@ -186,12 +186,27 @@ function headOf(columns) {
   return head;
 }
 
-function methodCell(method) {
+/* A cell of a word beside a colour. */
+function swatchCell(colour, text) {
   const cell = element("td", undefined, { className: "word" });
   const swatch = element("span", undefined, { className: "swatch" });
-  swatch.style.background = colourOf(method);
-  cell.append(swatch, method);
+  swatch.style.background = colour;
+  cell.append(swatch, text);
   return cell;
+}
+
+const methodCell = (method) => swatchCell(colourOf(method), method);
+
+/* A table with a line of cells for each row; returns its body. */
+function writeTable(id, columns, rows, cellsOf) {
+  const body = element("tbody");
+  for (const row of rows) {
+    const line = element("tr");
+    line.append(...cellsOf(row));
+    body.append(line);
+  }
+  document.getElementById(id).append(headOf(columns), body);
+  return body;
 }
 
 function writeMachine() {
