@@ -19,6 +19,7 @@ VERSION = re.search(r'#define HOOKE_VERSION +"(.+)"', (ROOT / "include/hooke/bas
     ("vcpkg/vcpkg.json", r'^  "version": "([^"]+)"'),
     ("homebrew/hooke.rb", r"/v([^/]+)/hooke-\1\.tar\.gz"),
     ("debian/changelog", r"^hooke \(([^-]+)-[^)]*\)"),
+    ("../CITATION.cff", r"^version: (.+)"),
 ])
 def test_version(file, pattern):
     assert re.search(pattern, (ROOT / "packaging" / file).read_text(), re.MULTILINE).group(1) == VERSION
