@@ -29,6 +29,13 @@ def test_changelog():
     assert re.search(r"^## ([0-9.]+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE).group(1) == VERSION
 
 
+@pytest.mark.parametrize("file", ["conda-forge/recipe.yaml", "homebrew/hooke.rb", "spack/package.py"])
+def test_place_of_the_digest(file):
+    """Which `make release` fills."""
+    assert len(re.findall(r"\b0{64}\b", (ROOT / "packaging" / file).read_text())) == 1
+    assert f'"{file}"' in (ROOT / "packaging/dist.py").read_text()
+
+
 def test_form():
     json.loads((ROOT / "packaging/vcpkg/vcpkg.json").read_text())
     ast.parse((ROOT / "packaging/spack/package.py").read_text())
