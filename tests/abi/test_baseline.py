@@ -2,6 +2,7 @@
 removed or changed since, and the names of Python and Fortran are there and take what they took. What this version would be
 as a baseline is held in the same way, so that the tests have something to hold before the first version is closed."""
 
+import functools
 import os
 import re
 import shutil
@@ -38,9 +39,13 @@ def changed_numbers(old, new):
             if numbers(new).get(name, "").strip() != value.strip() and name not in ("HOOKE_VERSION", "HOOKE_API")}
 
 
-def library_of(header, folder):
+@pytest.fixture(scope="module")
+def library_of(tmp_path_factory):
+    return functools.cache(lambda header: compiled(header, tmp_path_factory.mktemp("library")))
+
+
+def compiled(header, folder):
     """A shared library with the functions of a header, and empty bodies, called as the library of that ABI is."""
-    folder.mkdir()
     abi = numbers(header)["HOOKE_ABI"].strip()
     (folder / "hooke.h").write_text(header)
     (folder / "hooke.map").write_text(f"HOOKE_{abi} {{ global: hooke_*; local: *; }};\n")
@@ -65,16 +70,16 @@ def differences(old, new, *options):
     return (tuple(int(n) for n in counts.groups()) if counts else (0, 0, 0)), text
 
 
-def differences_of_headers(old, new, tmp_path):
+def differences_of_headers(old, new, library_of):
     """The same between two headers. Opaque structs are opaque on both sides, so that no change is suppressed as
     harmless."""
-    return differences(library_of(old, tmp_path / "one"), library_of(new, tmp_path / "other"), "--harmless")
+    return differences(library_of(old), library_of(new), "--harmless")
 
 
-def test_old_program(baseline, tmp_path):
+def test_old_program(baseline, tmp_path, library_of):
     """Linked with a library of that version, of which it keeps the name, and run with this one."""
     header, program = (baseline / "hooke.h").read_text(), tmp_path / "program"
-    old = library_of(header, tmp_path / "old")
+    old = library_of(header)
     subprocess.run([CC, *WARNINGS, baseline / "program.c", f"-I{baseline}", old, "-lm", "-o", program], check=True)
     result = subprocess.run([program], capture_output=True, text=True, env=os.environ | {"LD_LIBRARY_PATH": str(LIBRARY.parent)})
     assert result.returncode == 0, result.stderr
@@ -113,11 +118,10 @@ def test_planted_number():
 
 
 @abigail
-def test_library_has_the_baseline(baseline, tmp_path):
+def test_library_has_the_baseline(baseline, library_of):
     header = (baseline / "hooke.h").read_text()
-    old = library_of(header, tmp_path / "old")
-    for (removed, changed, _), text in (differences(old, LIBRARY),
-                                        differences_of_headers(header, freeze.one_header(), tmp_path)):
+    for (removed, changed, _), text in (differences(library_of(header), LIBRARY),
+                                        differences_of_headers(header, freeze.one_header(), library_of)):
         assert (removed, changed) == (0, 0), text
 
 
@@ -168,18 +172,18 @@ def test_planted_baselines(tmp_path):
         (r"(HOOKE_API int32_t hooke_abi\(void\);)", r"\1 HOOKE_API int32_t hooke_new(void);", (0, 0, 1)),
     ],
 )
-def test_planted_change(pattern, by, expected, tmp_path):
+def test_planted_change(pattern, by, expected, library_of):
     old = freeze.one_header()
     new, count = re.subn(pattern, by, old)
     assert count == 1
-    counts, text = differences_of_headers(old, new, tmp_path)
+    counts, text = differences_of_headers(old, new, library_of)
     assert counts == expected, text
 
 
 @abigail
-def test_planted_library(tmp_path):
+def test_planted_library(library_of):
     """A library that lacks a function, and one that takes another type."""
     header = freeze.one_header().replace("hooke_system_create(", "hooke_system_made(")
     new = re.sub(r"(hooke_state_set_time\(hooke_state \*state, )double", r"\1int32_t", header)
-    (removed, changed, added), text = differences(LIBRARY, library_of(new, tmp_path / "new"))
+    (removed, changed, added), text = differences(LIBRARY, library_of(new))
     assert (removed, changed, added) == (1, 1, 1), text
