@@ -22,8 +22,8 @@ def taken(thing, is_method):
     for parameter in list(inspect.signature(thing).parameters.values())[is_method:]:
         if parameter.kind is kinds.KEYWORD_ONLY and not any(word[0] == "*" for word in words):
             words.append("*")
-        stars = {kinds.VAR_POSITIONAL: "*", kinds.VAR_KEYWORD: "**"}.get(parameter.kind, "")
-        words.append(stars + parameter.name + "=" * (parameter.default is not kinds.empty))
+        stars = {kinds.VAR_POSITIONAL: "*any", kinds.VAR_KEYWORD: "**any"}.get(parameter.kind)
+        words.append(stars or parameter.name + "=" * (parameter.default is not kinds.empty))
     return f"({', '.join(words)})"
 
 
@@ -41,18 +41,22 @@ def of_class(cls):
             yield member + (taken(getattr(cls, member), not is_bound) if is_bound or inspect.isfunction(value) else "")
 
 
+def public(module):
+    own = [name for name, thing in vars(module).items() if getattr(thing, "__module__", "") == module.__name__]
+    return sorted(getattr(module, "__all__", [name for name in own if not name.startswith("_")]))
+
+
 def of_python():
     import hooke
 
-    modules = [getattr(hooke, name) for name in hooke.__all__ if inspect.ismodule(getattr(hooke, name))]
-    for module, names in [(hooke, hooke.__all__), *((module, vars(module)) for module in modules)]:
-        for name in sorted(names):
+    modules = [thing for name in public(hooke) if inspect.ismodule(thing := getattr(hooke, name))]
+    for module in (hooke, *modules):
+        for name in public(module):
             thing = getattr(module, name)
-            if module is hooke or (not name.startswith("_") and getattr(thing, "__module__", "") == module.__name__):
-                called = inspect.isfunction(thing) or (module is hooke and name in MADE)
-                yield f"{module.__name__}.{name}" + (taken(thing, False) if called else "")
-                if inspect.isclass(thing):
-                    yield from (f"{module.__name__}.{name}.{member}" for member in of_class(thing))
+            called = inspect.isfunction(thing) or (inspect.isclass(thing) and name in MADE)
+            yield f"{module.__name__}.{name}" + (taken(thing, False) if called else "")
+            if inspect.isclass(thing):
+                yield from (f"{module.__name__}.{name}.{member}" for member in of_class(thing))
 
 
 # ---- Fortran ----
