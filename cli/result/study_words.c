@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 110, TIMES = 5 };
+enum { INDENT = 16, WIDTH = 110, TIMES = 5 };
 
 static char mark_of(const hooke_measurement *study, int64_t row, const char *what) {
   if (strcmp(what, "error") == 0)
@@ -107,7 +107,7 @@ void cli_study_results_print(const struct cli_study_results *results) {
   cli_say("%s, %s s\n", cli_setup_title(arguments, &results->setup),
           cli_format_rounded(cli_number(results->study, "study", "duration"), text));
   const int met = cli_number(results->study, "recommendation", "met") == 1.0;
-  cli_claims_print(arguments, results->study, met ? results->command : NULL);
+  cli_claims_print(arguments, results->study, INDENT, met ? results->command : NULL);
   if (rows.count > 0) {
     if (results->once) print_errors(&rows, width);
     printf("\n");

@@ -79,7 +79,7 @@ const char *hooke_measurement_kind(const hooke_measurement *m) {
 }
 
 int32_t hooke_measurement_label(hooke_measurement *m, const char *what, const char *text) {
-  static const char *const names[HOOKE_LABELS] = {"title", "command", "scene"};
+  static const char *const names[HOOKE_LABELS] = {"title", "command", "scene", "output"};
   for (int k = 0; k < HOOKE_LABELS; k++) {
     if (strcmp(what, names[k]) != 0) continue;
     char *copy = text ? hk_copy_text(text) : NULL;
@@ -88,7 +88,8 @@ int32_t hooke_measurement_label(hooke_measurement *m, const char *what, const ch
     m->label[k] = copy;
     return HOOKE_OK;
   }
-  return hk_fail(HOOKE_BAD_VALUE, "what", "\"%s\" is not allowed; title, command and scene are", what);
+  return hk_fail(HOOKE_BAD_VALUE, "what", "\"%s\" is not allowed; title, command, scene and output are",
+                 what);
 }
 
 /* ---- running ---- */
@@ -120,6 +121,7 @@ int32_t hk_measurement_claim(hooke_measurement *m) {
 
 int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
   const int32_t outcome = m->kind->takes_state ? run_at(m, state) : m->kind->run(m, state);
+  if (outcome < 0) hk_claims_release(&m->claims);
   if (outcome < 0) return outcome;
   m->has_run = 1;
   m->outcome = outcome;

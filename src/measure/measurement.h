@@ -8,7 +8,7 @@
 #include "hooke/measurement.h"
 #include "measure/claims.h"
 
-enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABELS };
+enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABEL_OUTPUT, HOOKE_LABELS };
 
 struct hk_measurement_kind {
   const char *name;
