@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-enum { MOST = 5, LABEL = 16 };
+enum { MOST = 5, LABEL = 12 };
 
 static double number(const hooke_measurement *m, int64_t row, const char *what) {
   return hooke_measurement_number(m, "blame", row, what);

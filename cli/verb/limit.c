@@ -15,6 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { INDENT = 12 };
+
 struct limit {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
@@ -104,7 +106,7 @@ static void print_words(const struct limit *l) {
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, at t = %s s\n", cli_setup_title(l->arguments, &l->setup),
           cli_format_rounded(number_of(l, "time"), text));
-  cli_claims_print(l->arguments, l->limit, NULL);
+  cli_claims_print(l->arguments, l->limit, INDENT, NULL);
   printf("\nfastest motion %.6g rad/s, fastest damping %.6g 1/s\n\n", number_of(l, "frequency_max"),
          number_of(l, "rate_max"));
   print_table(l);
@@ -144,7 +146,7 @@ static int do_limit(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&l);
     if (!isnan(number_of(&l, "frequency_max")))
-      code = cli_output_file_write_report(arguments, &l.setup, l.limit, NULL, code);
+      code = cli_output_file_write_report(arguments, &l.setup, l.limit, code);
   }
   hooke_measurement_destroy(l.limit);
   cli_setup_destroy(&l.setup);

@@ -13,10 +13,7 @@ void hk_why_page_add(struct hk_text *data, const void *measurement) {
     data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report: no explanation was found");
     return;
   }
-  hk_measurement_add_row(data, m, "why", 0);
-  hk_measurement_add_table(data, m, "blame");
-  hk_measurement_add_table(data, m, "advice");
-  hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
+  hk_measurement_add_all(data, m);
   hk_text_open(data, "rows", '[');
   hk_text_open(data, NULL, '{');
   hk_text_word(data, "method", why->method);

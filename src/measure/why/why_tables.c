@@ -33,12 +33,14 @@ HOOKE_READER(const void *, find_limiting, struct hk_why, &it->limiting.row[row])
 /* ---- advice ---- */
 
 HOOKE_READER(const void *, find_advice, struct hk_why, &it->advice[row])
+HOOKE_READER(const char *, command, struct hk_why, it->measurement->label[HOOKE_LABEL_COMMAND + row])
 
 static const struct hk_column advice_columns[] = {
     HOOKE_COLUMN(struct hk_why_advice, change, TEXT, "", "the change in words"),
     HOOKE_COLUMN(struct hk_why_advice, option, TEXT, "",
                  "run option that is the point of it; empty where the scene is to be changed"),
     HOOKE_COLUMN(struct hk_why_advice, value, TEXT, "", "its new value"),
+    HOOKE_COLUMN_BY(command, command, TEXT, "", "its command line, where the caller gave one as a label"),
 };
 
 /* ---- the tables ---- */
