@@ -97,8 +97,8 @@ struct hk_suggestion {
   char sentence[640];
 };
 
-/* Adds the groups with the largest shares, at most three: "group `hem` has 60 % of it, ..."; nothing if all are
- * small. */
+/* Adds the groups with the largest shares, at most three: "group `hem` has 60 % of it, ..."; nothing if all
+ * are small. */
 void hk_suggestion_add_groups(const hooke_system *system, const struct hk_participation *participation,
                               char *text, size_t size);
 

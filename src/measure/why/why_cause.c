@@ -50,7 +50,7 @@ static void tell_failure(struct hk_inquiry *inquiry) {
               (long long)inquiry->bad_particle,
               isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
                                           : "numbers are no longer finite");
-  else
+  else if (t > inquiry->why->time)
     hk_append(text, size, "; at t = %.6g s it ended", t);
 }
 
@@ -299,7 +299,8 @@ static int32_t judge_solver(struct hk_inquiry *inquiry) {
     judge_collapse(inquiry, shortest, "is pressed to no length");
   } else {
     inquiry->why->limit = INFINITY;
-    say(inquiry, "solver-failed", "%s", inquiry->run->message);
+    const char *message = inquiry->run->message, *rest = strstr(message, "; "); /* what to try */
+    say(inquiry, "solver-failed", "%.*s", (int)(rest ? rest - message : (ptrdiff_t)strlen(message)), message);
   }
   return HOOKE_OK;
 }
