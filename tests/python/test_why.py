@@ -93,7 +93,7 @@ def test_a_solver_that_failed():
     with pytest.raises(hooke.SolverFailed) as caught:
         hooke.run(system, **options)
     why = hooke.why(caught.value)
-    assert why.cause == "solver-failed" and str(caught.value) in why.sentence
+    assert why.cause == "solver-failed" and str(caught.value).partition("; ")[0] in why.sentence
     assert caught.value.diagnosis == why.sentence
     assert hooke.why(system, **options).sentence == why.sentence
     assert math.isinf(why.limit)
