@@ -2,29 +2,16 @@
 module hooke_base
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, &
     c_null_char, c_ptr, c_size_t
-  use hooke_c_base, only: c_last_error, c_status_name
+  use hooke_c_base, only: c_last_error, c_status_name, hooke_bad_value
   implicit none
   private
   public :: hooke_real, hooke_long
-  public :: message, status_name ! hooke_message() and so on for users
+  public :: last_error, status_name ! hooke_message() and hooke_status_name() for users
   public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_list, to_number, to_series
   public :: zero_based, from_zero, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
-
-  integer, parameter, public :: hooke_ok = 0
-  integer, parameter, public :: hooke_stopped = 1        ! a callback or an observer asked to stop
-  integer, parameter, public :: hooke_diverged = 2       ! the run left every physical bound
-  integer, parameter, public :: hooke_step_limit = 3     ! an error-controlled method used up `max_steps`
-  integer, parameter, public :: hooke_no_memory = -1     ! an allocation failed
-  integer, parameter, public :: hooke_bad_value = -2     ! an argument, an option or a scene is not allowed
-  integer, parameter, public :: hooke_bad_call = -3      ! calls out of order
-  integer, parameter, public :: hooke_io_failed = -4     ! a file could not be read or written
-  integer, parameter, public :: hooke_not_built = -5     ! this build of the library lacks it
-  integer, parameter, public :: hooke_unsuited = -6      ! the method does not support this problem
-  integer, parameter, public :: hooke_solver_failed = -7 ! a solver gave up
-  integer, parameter, public :: hooke_internal = -8      ! hooke found a defect of its own
 
   ! The last message of this module itself, in this thread; of length 0 if the library's is newer.
   character(400), save :: refusal = ""
@@ -46,7 +33,7 @@ module hooke_base
 contains
 
   ! The message of the last failure or outcome in this thread; "" if there was none.
-  function message() result(text)
+  function last_error() result(text)
     character(:), allocatable :: text
     if (refusal_length > 0) then
       text = refusal(:refusal_length)
@@ -74,7 +61,7 @@ contains
     if (present(status)) then
       status = int(code)
     else if (code /= 0) then
-      call stop_with(status_name(int(code)) // ": " // message())
+      call stop_with(status_name(int(code)) // ": " // last_error())
     end if
   end subroutine
 

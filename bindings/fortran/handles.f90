@@ -3,7 +3,8 @@
 module hooke_handles
   use, intrinsic :: iso_c_binding, only: c_associated, c_funptr, c_int32_t, c_intptr_t, c_loc, c_null_funptr, &
     c_null_ptr, c_ptr
-  use hooke_base, only: accept, hooke_bad_call, refuse, stop_with
+  use hooke_base, only: accept, refuse, stop_with
+  use hooke_c_base, only: hooke_bad_call
   implicit none
   private
   public :: hooke_handle, hooke_callback, called_object, callback_to, address_or_null, missing

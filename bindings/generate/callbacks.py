@@ -8,37 +8,32 @@ import headers
 
 FORCE = "Called with every q and v that a method tries, never concurrently for one integrator."
 PRODUCT = "with its derivative, which replaces difference quotients: adds (df/dq) dq + (df/dv) dv to `out`."
-# By module and type: the type that it extends, the callback of C, the procedure, the shape of arrays, the intent of
+# By type: the type that it extends, the callback of C, the procedure, the shape of arrays, the intent of
 # results, and what it is.
 TYPES = {
-    "forces": {
-        "hooke_force": (None, "hooke_force", "add", "3, n", "inout",
-                        f"A force on all particles: adds newtons to `force`. {FORCE}"),
-        "hooke_force_with_product": ("hooke_force", "hooke_force_product", "add_product", "3, n", "inout", f"A force {PRODUCT}"),
-        "hooke_coordinate_force": (None, "hooke_force", "add", "n", "inout",
-                                   f"A force f of q'' = W f(t, q, v): adds it to `force`, which is zero. {FORCE}"),
-        "hooke_coordinate_force_with_product": ("hooke_coordinate_force", "hooke_force_product", "add_product", "n", "inout",
-                                                f"A force f {PRODUCT}"),
-        "hooke_drive": (None, "hooke_drive", "move", "3, n", "out",
-                        "A prescribed motion: sets position [m] and velocity [m/s] of the driven particles, by t alone."),
-        "hooke_rate": (None, "hooke_rate", "evaluate", "n", "out", "The right-hand side of x' = phi(t, x)."),
-    },
-    "observers": {
-        "hooke_observer": (None, "hooke_observer", "see", "", "",
-                           "Receives the state after `step` steps; must not change it, nor keep it."),
-        "hooke_progress": (None, "hooke_progress", "tell", "", "",
-                           "Receives progress: the fraction done (0..1) and the name of the running task."),
-        "hooke_warning": (None, "hooke_warning", "warn", "", "",
-                          'Receives a warning that the step is no longer safe: "near-limit", "above-limit" or "never-stable"; '
-                          "the bound [s]; and what determines it, 0 for no spring."),
-    },
+    "hooke_force": (None, "hooke_force", "add", "3, n", "inout",
+                    f"A force on all particles: adds newtons to `force`. {FORCE}"),
+    "hooke_force_with_product": ("hooke_force", "hooke_force_product", "add_product", "3, n", "inout", f"A force {PRODUCT}"),
+    "hooke_coordinate_force": (None, "hooke_force", "add", "n", "inout",
+                               f"A force f of q'' = W f(t, q, v): adds it to `force`, which is zero. {FORCE}"),
+    "hooke_coordinate_force_with_product": ("hooke_coordinate_force", "hooke_force_product", "add_product", "n", "inout",
+                                            f"A force f {PRODUCT}"),
+    "hooke_drive": (None, "hooke_drive", "move", "3, n", "out",
+                    "A prescribed motion: sets position [m] and velocity [m/s] of the driven particles, by t alone."),
+    "hooke_rate": (None, "hooke_rate", "evaluate", "n", "out", "The right-hand side of x' = phi(t, x)."),
+    "hooke_observer": (None, "hooke_observer", "see", "", "",
+                       "Receives the state after `step` steps; must not change it, nor keep it."),
+    "hooke_progress": (None, "hooke_progress", "tell", "", "",
+                       "Receives progress: the fraction done (0..1) and the name of the running task."),
+    "hooke_warning": (None, "hooke_warning", "warn", "", "",
+                      'Receives a warning that the step is no longer safe: "near-limit", "above-limit" or "never-stable"; '
+                      "the bound [s]; and what determines it, 0 for no spring."),
 }
-HEADS = {"forces": "Forces, motions and rates", "observers": "Observers"}
 
 
 def of_callback(callback, function=""):
     """The type that stands for a callback of C in procedures that are made; None if there is no such type."""
-    names = [name for types in TYPES.values() for name, row in types.items() if row[1] == callback]
+    names = [name for name, row in TYPES.items() if row[1] == callback]
     return next((name for name in names if "coordinate" in name or "second_order" not in function), None)
 
 
@@ -90,20 +85,9 @@ def pieces(name, row, parameters):
     return type_, interface, call
 
 
-def module(which, public):
-    """The text of forces.f90 or observers.f90, from {header: text}."""
+def module(public):
+    """(names, types, interfaces, procedures) of the module, the latter three as lines, from {header: text}."""
     found = {name: parameters for _, name, parameters in headers.declared("".join(public.values()), "typedef")}
-    types, interfaces, calls = zip(*(pieces(name, row, found[row[1]]) for name, row in TYPES[which].items()))
-    public_names = [f"  public :: {name}, call_{name[len('hooke_'):]}" for name in TYPES[which]]
-    products = [(row[0], name) for name, row in TYPES[which].items() if row[0]]
-    public_names += [f"  public :: product_of_{parent[len('hooke_'):]}" for parent, _ in products]
-    uses = {"forces": [], "observers": ["  use hooke_base, only: hooke_long, to_text", "  use hooke_states, only: hooke_state"]}
-    others = {"forces": "&\n    c_funloc, c_funptr, c_null_funptr, ", "observers": "c_null_ptr, "}
-    kinds = f"c_double, c_f_pointer, c_int32_t, c_int64_t, {others[which]}c_ptr"
-    return "\n".join([
-        f"! {HEADS[which]}: types to extend, and their interface to C; made by bindings/generate/callbacks.py.", "!",
-        "! A `stop_value` is initially 0; any other value stops the run and is returned by hooke_integrator's", "! stop_value().",
-        f"module hooke_{which}", f"  use, intrinsic :: iso_c_binding, only: {kinds}", *uses[which],
-        "  use hooke_handles, only: called_object", "  implicit none", "  private", *public_names, "",
-        *chain(*types), "  abstract interface", *list(chain(*interfaces))[:-1], "  end interface", "", "contains", "",
-        *chain(*calls), *chain(*(product_of(*product) for product in products)), "end module", ""])
+    types, interfaces, calls = zip(*(pieces(name, row, found[row[1]]) for name, row in TYPES.items()))
+    products = [product_of(row[0], name) for name, row in TYPES.items() if row[0]]
+    return TYPES, [*chain(*types)], ["  abstract interface", *[*chain(*interfaces)][:-1], "  end interface"], [*chain(*calls, *products)]

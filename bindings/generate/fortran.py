@@ -1,9 +1,9 @@
 """Writes the generated part of the Fortran module: python bindings/generate/fortran.py FOLDER
 
-FOLDER/queries.f90 and queries_of_runs.f90 have the procedures that only convert arguments and results (queries.py),
-FOLDER/forces.f90 and observers.f90 the types of callbacks (callbacks.py). FOLDER/c.f90 has the interfaces of C: a module
-hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create(). Pointers to numbers and text are
-optional arguments: an absent one is passed as NULL."""
+FOLDER/c.f90 has the interfaces of C: a module hooke_c_<header> for each header, and in it hooke_state_create() as
+c_state_create(). Pointers to numbers and text are optional arguments: an absent one is passed as NULL. FOLDER/hooke.f90 is
+bindings/fortran/hooke.template.f90 with the procedures that only convert arguments and results (procedures.py), and the
+types of callbacks (callbacks.py)."""
 
 import re
 import sys
@@ -12,7 +12,7 @@ from pathlib import Path
 
 import callbacks
 import headers
-import queries
+import procedures
 
 HAND = Path(__file__).resolve().parents[1] / "fortran"
 
@@ -57,12 +57,19 @@ def interface(function, callbacks):
     return lines + [f"    end {'function' if returned else 'subroutine'}"]
 
 
+def statuses(text):
+    """{name: declaration} of the statuses that a header defines."""
+    found = re.findall(r"^#define (HOOKE_\w+) +\(?(-?\d+)\)?(?: +/\* (.*) \*/)?$", text, re.MULTILINE)
+    return {name.lower(): f"  integer, parameter :: {name.lower()} = {value}{f' ! {doc}' if doc else ''}"
+            for name, value, doc in found if name != "HOOKE_ABI"}
+
+
 def module(header, text, callbacks):
     body = [line for function in headers.declared(text) for line in interface(function, callbacks)]
     kinds = [k for k in ("c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_ptr")
              if any(re.search(rf"\b{k}\b", line) for line in body)]
     return "\n".join([f"module hooke_c_{header}", f"  use, intrinsic :: iso_c_binding, only: {', '.join(kinds)}",
-                      "  implicit none", "", "  interface", *body, "  end interface", "end module", ""])
+                      "  implicit none", "", *statuses(text).values(), "  interface", *body, "  end interface", "end module", ""])
 
 
 def interfaces(public):
@@ -72,11 +79,30 @@ def interfaces(public):
                       *(module(Path(header).stem, text, callbacks) for header, text in public.items())])
 
 
+def completed(template, public, base):
+    """The text of hooke.f90, from that of its template, {header: text}, and a module whose procedures are not made here."""
+    parts = {name: re.findall(r"^    type\(hooke_\w+\) :: (\w+)", inside, re.MULTILINE)
+             for name, inside in re.findall(r"^  type, extends[^\n]*:: (\w+)\n(.*?)  end type", template, re.DOTALL | re.MULTILINE)}
+    by_hand = re.findall(r"^  .*?(?:subroutine|function) (?:hooke_)?(\w+)\(", template + base, re.MULTILINE)
+    made = procedures.all_of(public, parts, by_hand)
+    names, types, declared, called = callbacks.module(public)
+    head = [*(f"  use hooke_c_{Path(header).stem}" for header in public), "  implicit none"]
+    shown = [f"  public :: {name}" for name in [*statuses(public["base.h"]), *parts, *names, *(f"hooke_{name}" for name in made[None])]]
+    text = template.replace("  implicit none", "\n".join(head), 1).replace("  private\n", "\n".join(["  private", *shown, ""]), 1)
+    for type_ in parts:
+        short = type_[len("hooke_"):]
+        own = [*made[type_], *re.findall(rf"^  .*(?:subroutine|function) ({short}_\w+)\(self", template, re.MULTILINE)]
+        bound = ["  contains", *(f"    procedure :: {name[len(short) + 1:]} => {name}" for name in own),
+                 f"    procedure, private :: assign => assign_{short}", "    generic :: assignment(=) => assign"]
+        text = re.sub(rf"(hooke_handle\) :: {type_}\n(?:    [^g].*\n)*)", lambda m: m[1] + "\n".join([*bound, ""]), text, count=1)
+    text = text.replace("\ncontains\n", "\n".join(["", *types, *declared, "", "contains", ""]), 1)
+    lines = [line for type_ in parts for line in procedures.assigning(type_)]
+    lines += [*(line for of_type in made.values() for one in of_type.values() for line in one), *called]
+    return text.replace("\nend module\n", "\n".join(["", *lines, "end module", ""]))
+
+
 if __name__ == "__main__":
     public, folder = headers.public(), Path(sys.argv[1])
-    sources = [HAND / name for name in (HAND / "sources.txt").read_text(encoding="utf-8").split()]
-    by_hand = {path.name: path.read_text(encoding="utf-8") for path in sources if path.exists()}
-    made = {"c.f90": interfaces(public), **queries.modules(public, by_hand)}
-    made.update((f"{which}.f90", callbacks.module(which, public)) for which in callbacks.TYPES)
-    for name, text in made.items():
-        headers.write(folder / name, text)
+    template, base = ((HAND / name).read_text(encoding="utf-8") for name in ("hooke.template.f90", "base.f90"))
+    headers.write(folder / "c.f90", interfaces(public))
+    headers.write(folder / "hooke.f90", completed(template, public, base))

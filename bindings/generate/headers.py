@@ -55,6 +55,17 @@ def callback_types(text):
     return {name for _, name, _ in declared(text, "typedef")}
 
 
+def counts(parameters, fixed=()):
+    """{array: how many numbers or rows it has} of the parameters of a function, where another one says so."""
+    found, count = {}, None
+    for kind, what in parameters:
+        if kind == "int64_t":
+            count = what if re.fullmatch(r"(\w+_)?count|samples", what) else None
+        elif count and (kind == "const int64_t *" or kind.endswith("double *")) and what not in fixed:
+            found[what] = count
+    return found
+
+
 def is_status(result, name):
     """Whether the result of a function is a status: every int32_t is, except answers (yes or no) and these numbers."""
     return result == "int32_t" and "_is_" not in name and name not in NUMBER_RESULTS
