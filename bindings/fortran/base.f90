@@ -13,10 +13,9 @@ module hooke_base
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
 
-  ! The last message of this module itself, in this thread; of length 0 if the library's is newer.
+  ! The last message of this module itself, in this thread; "" if the library's is newer.
   character(400), save :: refusal = ""
-  integer, save :: refusal_length = 0
-  !$omp threadprivate(refusal, refusal_length)
+  !$omp threadprivate(refusal)
 
   ! One number or several as a list for C, where particles and the like count from 0.
   interface to_list
@@ -35,20 +34,15 @@ contains
   ! The message of the last failure or outcome in this thread; "" if there was none.
   function last_error() result(text)
     character(:), allocatable :: text
-    if (refusal_length > 0) then
-      text = refusal(:refusal_length)
-    else
-      text = to_text(c_last_error())
-    end if
+    text = trim(refusal)
+    if (text == "") text = to_text(c_last_error())
   end function
 
   ! Short name of a status, such as "bad value".
   function status_name(status) result(text)
     integer, intent(in) :: status
     character(:), allocatable :: text
-    type(c_ptr) :: name
-    name = c_status_name(int(status, c_int32_t))
-    text = to_text(name)
+    text = to_text(c_status_name(int(status, c_int32_t)))
   end function
 
   ! ---- for the other modules ----
@@ -57,7 +51,7 @@ contains
   subroutine accept(code, status)
     integer(c_int32_t), intent(in) :: code
     integer, intent(out), optional :: status
-    refusal_length = 0
+    refusal = ""
     if (present(status)) then
       status = int(code)
     else if (code /= 0) then
@@ -72,7 +66,6 @@ contains
     integer, intent(out), optional :: status
     if (.not. present(status)) call stop_with(text)
     refusal = text
-    refusal_length = len_trim(refusal)
     status = code
   end subroutine
 
@@ -86,17 +79,11 @@ contains
     type(c_ptr), intent(in) :: address
     character(:), allocatable :: text
     character(kind=c_char), pointer :: letters(:)
-    integer :: k, length
-    if (.not. c_associated(address)) then
-      text = ""
-      return
-    end if
-    length = int(strlen(address))
-    call c_f_pointer(address, letters, [length])
-    allocate (character(length) :: text)
-    do k = 1, length
-      text(k:k) = letters(k)
-    end do
+    text = ""
+    if (.not. c_associated(address)) return
+    call c_f_pointer(address, letters, [strlen(address)])
+    text = repeat(" ", size(letters))
+    text = transfer(letters, text)
   end function
 
   pure function to_c(text) result(terminated)

@@ -7,7 +7,6 @@ types of callbacks (callbacks.py)."""
 
 import re
 import sys
-import textwrap
 from pathlib import Path
 
 import callbacks
@@ -16,45 +15,29 @@ import procedures
 
 HAND = Path(__file__).resolve().parents[1] / "fortran"
 
-NUMBERS = {"double": "real(c_double)", "int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)"}
-WIDTH = 120
+NUMBERS = {"double": "real(c_double)", "int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)",
+           "char": "character(kind=c_char)"}
 
 
-def argument(kind, callbacks):
-    """(declaration without the name, is an array) of a parameter of a type such as "const double *"."""
+def argument(kind, what, callbacks):
+    """The declaration of a parameter of a type such as "const double *"."""
     const, plain, stars = re.fullmatch(r"(const )?(\w+) ?(\**)", kind).groups()
-    intent = "intent(in)" if const else "intent(inout)"
     if plain in callbacks:
-        return "type(c_funptr), value", False
+        return f"type(c_funptr), value :: {what}"
     if plain == "void" or plain.startswith("hooke_"):
-        return "type(c_ptr), intent(out)" if stars == "**" else "type(c_ptr), value", False
-    if plain == "char":
-        return f"character(kind=c_char), {intent}, optional", True
-    return (f"{NUMBERS[plain]}, {intent}, optional", True) if stars else (f"{NUMBERS[plain]}, value", False)
-
-
-def result(words):
-    """Type of a result; None if there is none."""
-    if "*" in words:
-        return "type(c_ptr)"
-    return None if words == "void" else NUMBERS[words]
+        return f"type(c_ptr), {'intent(out)' if stars == '**' else 'value'} :: {what}"
+    intent = f"intent({'in' if const else 'inout'}), optional :: {what}(*)" if stars else f"value :: {what}"
+    return f"{NUMBERS[plain]}, {intent}"
 
 
 def interface(function, callbacks):
     """One function as lines of Fortran."""
-    kind, name, parameters = function
-    arguments = [(what, *argument(of, callbacks)) for of, what in parameters]
-    returned = result(kind)
-    what = f"{returned} function" if returned else "subroutine"
-    short = "c_" + name[len("hooke_"):]
-    lines = textwrap.wrap(f'{what} {short}({", ".join(a[0] for a in arguments)}) bind(c,name="{name}")', WIDTH - 4)
-    lines = [line.replace("bind(c,", "bind(c, ") for line in lines]
-    lines = [line + " &" for line in lines[:-1]] + lines[-1:]
-    lines = ["    " + ("  " if k else "") + line for k, line in enumerate(lines)] + ["      import"]
-    for declaration in dict.fromkeys(a[1] for a in arguments):
-        names = ", ".join(n + ("(*)" if array else "") for n, d, array in arguments if d == declaration)
-        lines.append(f"      {declaration} :: {names}")
-    return lines + [f"    end {'function' if returned else 'subroutine'}"]
+    result, name, parameters = function
+    returned = "type(c_ptr)" if "*" in result else NUMBERS.get(result)
+    kind = "function" if returned else "subroutine"
+    title = f"{kind} c_{name[len('hooke_'):]}({', '.join(what for _, what in parameters)}) bind(c, name=\"{name}\")"
+    return procedures.written(kind, f"{returned} {title}" if returned else title,
+                              ["import", *(argument(*parameter, callbacks) for parameter in parameters)])
 
 
 def statuses(text):

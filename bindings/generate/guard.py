@@ -31,8 +31,7 @@ def handle(kind, what, types):
     """Type of the handle that a parameter is; None for other parameters."""
     if kind == "void *" and what != "ctx":
         return BY_CONTEXT[what]
-    match = re.fullmatch(r"(?:const )?(hooke_\w+) \*", kind)
-    return match.group(1) if match and match.group(1) in types else None
+    return headers.object_of(kind) if headers.object_of(kind) in types else None
 
 
 def refused(result, name):
@@ -62,13 +61,9 @@ def check_of_text(result, name, what):
 def required(function, types):
     """(parameter, count) of arrays, callbacks and places that have to be there unless the count, a parameter or 1, is 0."""
     _, name, parameters = function
-    count = "1"
-    for kind, what in parameters:
-        if kind == "int64_t" and re.search(r"count$|^size$|^samples$", what):
-            count = what
-        elif kind.endswith("**") or not (kind[-1] != "*" or kind == "const char *" or handle(kind, what, types)
-                                         or is_optional(name, what)):
-            yield what, "1" if what in ("amplitude", "drive") else count  # which are no arrays of so many
+    counts = headers.counts(parameters)
+    return [(what, counts.get(what, "1")) for kind, what in parameters if kind.endswith("**") or
+            kind.endswith("*") and not (kind == "const char *" or handle(kind, what, types) or is_optional(name, what))]
 
 
 def call(function, types):

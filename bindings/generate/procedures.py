@@ -2,7 +2,7 @@
 the same name, or make objects. A type has those whose names begin with its own; the others are hooke_<name>()."""
 
 import re
-from types import SimpleNamespace
+from typing import NamedTuple, Sequence
 
 import callbacks
 import guard
@@ -48,11 +48,6 @@ RENAMED = {
     "system_force.force": "forces", "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
     "estimate_number.column": "what", "estimate_text.column": "what", "view_number.column": "what",
 }
-# What arrays have, by the names of their parameters: a row for every particle, so many numbers, a list of members with so
-# many particles.
-ROWS = {"q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"}
-FIXED = {"gravity": 3, "amplitude": 3, "momentum": 3, "angular_momentum": 3}
-LISTS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
 # Several results in one array.
 PARTS = {"bound": "bound", "inertia": "mass inertia(3)", "motion": "point(3) quaternion(4) velocity(3) angular_momentum(3)"}
 # Arrays that are allocated for results, with their sizes; whole numbers in them are indices, and C has rows of matrices.
@@ -67,154 +62,134 @@ OUTPUTS = {
     "system_members.rest_length": [f'merge(7, 1, force == "altitude")*{MEMBERS}'],
     "system_step_bounds.bound": ["c_method_count()"],
 }
-COUNTS = {"count", "size", "steps", "stride", "rows", "columns"}  # other whole numbers are indices, and count from 1 in Fortran
+WIDTHS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
+# The forms of arrays by their names; others are lists.
+ARRAYS = {
+    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"], "rows"),
+    **dict.fromkeys(headers.VECTORS, "vector"), **dict.fromkeys(WIDTHS, "members"), **dict.fromkeys(PARTS, "parts"),
+}
+# The forms of numbers; other whole numbers are indices, which count from 1 in Fortran.
+DEFAULTS = ("phase", "project")
+NEEDED = {("system_step_bound", "method")}  # although C takes NULL
+NUMBERS = {**dict.fromkeys(["count", "size", "stride", "more", "rows", "columns"], "count"),
+           **{what: what for what in ("frame", "step", "steps", *DEFAULTS)}}
 # Endings of procedures whose results are default integers; the first two are indices.
-NUMBERS = ("_find", "_particle", "_count", "_size", "_springs", "_value", "_hold")
-# Whole numbers that are not of the default kind, which a compiler may have made that of C's; there may be many steps.
-OF_KINDS = {"step": "integer(c_int64_t)", "steps": "integer(c_int32_t)"}
-# Of indices, or of other numbers: the kind in Fortran, that in C, and zero.
-KINDS = {True: ("integer", "integer(c_int64_t)", "0_c_int64_t"), False: ("real(c_double)", "real(c_double)", "0.0_c_double")}
-# Parameters that are 0 where they are absent: their types, and how C is given them.
-DEFAULTS = {"phase": ("real(c_double)", "real(c_double)", "phase"), "project": ("logical", "integer(c_int32_t)", "merge(1, 0, project)")}
+DEFAULT_INTEGERS = ("_find", "_particle", "_count", "_size", "_springs", "_value", "_hold")
 # Parameters that other ones stand for.
 BY_OTHERS = {("void *", "ctx"), ("int64_t", "length"), ("hooke_force_product *", "product")}
-SEVERAL = {"hooke_system_drive_callback"}  # callbacks that are kept beside those given before
+SEVERAL = {"system_drive_callback"}  # callbacks that are kept beside those given before
 RESULTS = {"int32_t", "int64_t", "double", "const char *", "const double *", "void"}
 
 
-def object_of(kind):
-    """The type of an object that is passed or returned; None for other types."""
-    match = re.fullmatch(r"(?:const )?(hooke_\w+) \*", kind)
-    return match.group(1) if match else None
+class Form(NamedTuple):
+    """How a parameter {w} is declared for users and, as {c}, inside; what comes before the call, after it, and first of all;
+    what C is passed, and how many it has."""
+
+    declared: str
+    inside: str = ""
+    before: Sequence[str] = ()
+    after: Sequence[str] = ()
+    first: Sequence[str] = ()
+    passed: str = ""
+    size: str = ""
 
 
-class Parameter(SimpleNamespace):
-    """One of a procedure: its names, what is declared for users and inside, what C is given for it, what comes first, before
-    the call and after. By `rank` those that may be absent come after the others, and behind the status."""
+def refused(condition, message):
+    return f"if ({condition}) then", f'  call refuse(hooke_bad_value, "{message}", status)', "  return", "end if"
+
+
+ROW_COUNT = "size({w}, 2, c_int64_t)"
+PLACE = "integer, intent(out){optional} :: {w}", "integer(c_int64_t) :: {c}(1)"
+FORMS = {
+    "callback": Form("class({type}), target, intent(inout){optional} :: {w}", "type(hooke_callback) :: callback",
+                     ["callback = callback_to(c_funloc(call_{short}), {w})"], passed="callback%function"),
+    "object": Form("class({type}), {intent} :: {w}", passed="{w}%address()"),
+    "object?": Form("class({type}), {intent}, optional :: {w}", passed="address_or_null({w})"),
+    "text": Form("character(*), intent(in) :: {w}", passed="to_c({w})"),
+    "text?": Form("character(*), intent(in), optional :: {w}", "character(:), allocatable :: {c}", ["call to_c_if({w}, {c})"]),
+    "whole text": Form("character(*), intent(in) :: {w}"),
+    "real": Form("real(c_double), intent(in) :: {w}"),
+    "count": Form("integer, intent(in) :: {w}", passed="int({w}, c_{plain})"),
+    "index": Form("integer, intent(in) :: {w}", passed="zero_based({w})"),
+    "frame": Form("integer, intent(in) :: {w}", passed="from_zero({w})",
+                  before=refused("{w} == 0", "frame 0: frames count from 1, from the end with -1")),
+    # whole numbers that are not of the default kind, which a compiler may have made that of C's; there may be many steps
+    "step": Form("integer(c_int64_t), intent(in) :: {w}"),
+    "steps": Form("integer(c_int32_t), intent(in) :: {w}", passed="int({w}, c_int64_t)"),
+    # numbers that are 0 where they are absent
+    "phase": Form("real(c_double), intent(in), optional :: {w}", "real(c_double) :: {c}",
+                  ["{c} = 0", "if (present({w})) {c} = {w}"]),
+    "project": Form("logical, intent(in), optional :: {w}", "integer(c_int32_t) :: {c}",
+                    ["{c} = 0", "if (present({w})) {c} = merge(1, 0, {w})"]),
+    "vector": Form("real(c_double), intent(in) :: {w}(3)"),
+    "list": Form("{kind}, intent(in) :: {w}(..)", "{in_c}, allocatable :: {c}(:)", ["call to_list({w}, {c})"],
+                 size="ubound({c}, 1, c_int64_t)"),
+    "members": Form("integer, intent(in) :: {w}(:, :)", passed="zero_based({w})", size=ROW_COUNT,
+                    before=refused("size({w}, 1) /= {width}", "{w} have the shape ({width}, n)")),
+    "rows": Form("real(c_double), {intent}, contiguous :: {w}(:, :)", size=ROW_COUNT),
+    # passed on as a pointer to nothing: of an array that is not there the bounds would be computed
+    "rows?": Form("real(c_double), {intent}, contiguous, target, optional :: {w}(:, :)",
+                  "real(c_double), pointer, contiguous :: {c}(:, :)",
+                  ["{c} => null()", "if (present({w})) {c} => {w}"], size=ROW_COUNT),
+    "output": Form("{kind}, allocatable, intent(out){optional} :: {w}({colons})", "{in_c}, allocatable :: {c}({colons})",
+                   ["allocate ({c}({sizes}), source={zero})"], ["{there}{w} = {found}"]),
+    "count's place": Form(*PLACE, after=["{there}{w} = int({c}(1))"], first=["{there}{w} = 0", "{c} = 0"]),
+    "index's place": Form(*PLACE, after=["{there}{w} = int({c}(1)) + 1"], first=["{there}{w} = 0", "{c} = -1"]),
+}
+# What forms say of whole numbers, and of others.
+INDICES = {"kind": "integer", "in_c": "integer(c_int64_t)", "zero": "0_c_int64_t", "found": "int({c}) + 1"}
+REALS = {"kind": "real(c_double)", "in_c": "real(c_double)", "zero": "0.0_c_double", "found": "{c}"}
+
+
+def form_of_parts(parts):
+    """(names, form) of several results in one array."""
+    names, sizes = zip(*((name, int(size or 0)) for name, size in re.findall(r"([a-z_]+)(?:\((\d)\))?", parts)))
+    ends = [sum(max(size, 1) for size in sizes[:k + 1]) for k in range(len(sizes))]
+    after = [f"{name} = {{c}}({f'{end - size + 1}:' * bool(size)}{end})" for name, size, end in zip(names, sizes, ends)]
+    return names, Form(f"real(c_double), intent(out) :: {', '.join(parts.split())}", f"real(c_double) :: {{c}}({ends[-1]})",
+                       after=after, first=[f"{name} = 0" for name in [*names, "{c}"]])
+
+
+class Parameter:
+    """One of a procedure. By `rank` those that may be absent come after the others, and behind the status."""
 
     def __init__(self, of, kind, what):
-        self.key, self.kind, self.type = f"{of.c_name}.{what}", kind, object_of(kind)
-        key = f"{of.name}.{what}"
-        self.what = RENAMED.get(key) or RENAMED.get(self.key, what)
-        super().__init__(names=[self.what], inside=[], first=[], before=[], after=[], object=None, rows=False, size=None,
-                         passed=self.what, callback=callbacks.of_callback(self.type or "", of.c_name))
-        self.optional = what in DEFAULTS or guard.is_optional(f"hooke_{of.c_name}", what) and key != "system_step_bound.method"
-        self.sizes = OUTPUTS.get(key)
-        self.intent = f"intent({'in' if kind.startswith('const') else 'inout'})"
-        if self.callback:
-            self.of_callback()
-        elif self.type:
-            self.of_object(of)
-        elif kind == "const char *":
-            self.of_text(is_as_it_is=what == "text" and of.has("length"))
-        elif kind.endswith("*"):
-            self.of_array(what)
-        else:
-            self.of_number(what)
-        self.rank = (3 if (of.own, what) == ("hooke_scene", "limits") else 2 if self.first and self.optional
-                     else int(self.optional and not self.callback and not self.object and of.own is not None))
+        type_, sizes = headers.object_of(kind), OUTPUTS.get(f"{of.name}.{what}", ())
+        self.kind, self.what = kind, RENAMED.get(f"{of.name}.{what}") or RENAMED.get(f"{of.c_name}.{what}", what)
+        self.callback = callbacks.of_callback(type_ or "", of.c_name)
+        self.object = None if self.callback else of.own if type_ and type_ == IN_C.get(of.own) else type_
+        # NULL or 0 then
+        self.optional = (guard.is_optional(f"hooke_{of.c_name}", what) or what in DEFAULTS) and (of.name, what) not in NEEDED
+        if self.object:
+            self.optional = (guard.may_be_null(f"hooke_{of.c_name}", type_) and not of.c_name.startswith("system_add_")
+                             and (kind.startswith("const") or type_ != "hooke_options"))
+        self.form = self.name_of_form(of, what, bool(sizes))
+        self.names, form = form_of_parts(PARTS[what]) if self.form == "parts" else ([self.what], FORMS[self.form])
+        type_ = self.callback or self.object or ""
+        words = {**(INDICES if "int64" in kind else REALS), "w": self.what, "c": f"c_{self.what}", "type": type_,
+                 "short": type_[len("hooke_"):], "plain": kind, "width": WIDTHS.get(what),
+                 "intent": f"intent({'in' if kind.startswith('const') else 'inout'})", "optional": ", optional" * self.optional,
+                 "there": f"if (present({self.what})) " * self.optional, "colons": ", ".join(":" * len(sizes)),
+                 "sizes": ", ".join(sizes)}
+        words["found"] = ("reshape({c}, shape({c}), order=[2, 1, 3])" if len(sizes) == 3 else words["found"]).format(**words)
+        self.declared, self.inside, self.before, self.after, self.first, self.passed, self.size = (
+            part.format(**words) if isinstance(part, str) else [line.format(**words) for line in part] for part in form)
+        self.passed = self.passed or (words["c"] if self.inside else self.what)
+        is_last = of.own and self.optional and (not type_ or of.c_name.startswith("scene_"))
+        self.rank = 3 if (of.own, what) == ("hooke_scene", "limits") else 2 if "place" in self.form else int(bool(is_last))
 
-    def declare(self, words, shape=""):
-        self.declared = [f"{words}{', optional' if self.optional else ''} :: {self.what}{shape}"]
-
-    def pass_on(self, words, shape=""):
-        """A variable of C's kind."""
-        self.passed = f"c_{self.what}"
-        self.inside = [f"{words} :: {self.passed}{shape}"]
-
-    def of_callback(self):
-        self.declare(f"class({self.callback}), target, intent(inout)")
-        self.inside, self.passed = ["type(hooke_callback) :: callback"], "callback%function"
-        self.before = [f"callback = callback_to(c_funloc(call_{self.callback[len('hooke_'):]}), {self.what})"]
-
-    def of_object(self, of):
-        self.optional = (guard.may_be_null(f"hooke_{of.c_name}", self.type) and not of.c_name.startswith("system_add_")
-                         and (self.intent == "intent(in)" or self.type != "hooke_options"))
-        self.object = of.own if self.type == IN_C.get(of.own) else self.type
-        self.declare(f"class({self.object}), {self.intent}")
-        self.passed = f"address_or_null({self.what})" if self.optional else f"{self.what}%address()"
-
-    def of_text(self, is_as_it_is):
-        self.declare("character(*), intent(in)")
-        if self.optional:
-            self.pass_on("character(:), allocatable")
-            self.before = [f"call to_c_if({self.what}, {self.passed})"]
-        elif not is_as_it_is:
-            self.passed = f"to_c({self.what})"
-
-    def of_array(self, what):
-        indices = "int64" in self.kind
-        if self.sizes:
-            self.of_output(*KINDS[indices])
-        elif self.kind == "int64_t *":
-            self.of_place(0 if what in COUNTS else 1)
-        elif what in PARTS:
-            self.of_parts(PARTS[what])
-        elif what in FIXED:
-            self.declare("real(c_double), intent(in)", f"({FIXED[what]})")
-        elif what in ROWS:
-            self.of_rows()
-        elif what in LISTS:
-            self.declare("integer, intent(in)", "(:, :)")
-            self.before = self.refused(f"size({self.what}, 1) /= {LISTS[what]}", f"{what} have the shape ({LISTS[what]}, n)")
-            self.passed, self.size = f"zero_based({self.what})", f"size({self.what}, 2, c_int64_t)"
-        else:  # one number or several
-            self.declare(f"{KINDS[indices][0]}, intent(in)", "(..)")
-            self.pass_on(f"{KINDS[indices][1]}, allocatable", "(:)")
-            self.before, self.size = [f"call to_list({self.what}, {self.passed})"], f"ubound({self.passed}, 1, c_int64_t)"
-
-    def refused(self, condition, message):
-        return [f"if ({condition}) then", f'  call refuse(hooke_bad_value, "{message}", status)', "  return", "end if"]
-
-    def of_rows(self):
-        """Rows of particles. An absent array is passed on as a pointer to nothing: of the array the bounds would be computed."""
-        self.rows, self.size = True, f"size({self.what}, 2, c_int64_t)"
-        self.declare(f"real(c_double), {self.intent}, contiguous{', target' if self.optional else ''}", "(:, :)")
-        if self.optional:
-            self.pass_on("real(c_double), pointer, contiguous", "(:, :)")
-            self.before = [f"{self.passed} => null()", f"if (present({self.what})) {self.passed} => {self.what}"]
-
-    def of_place(self, first):
-        """The place for a number; `first` is the one that C calls 0."""
-        self.declare("integer, intent(out)")
-        self.pass_on("integer(c_int64_t)", "(1)")
-        there = f"if (present({self.what})) " * self.optional
-        self.first = [f"{there}{self.what} = 0", f"{self.passed} = {-first}"]
-        self.after = [f"{there}{self.what} = int({self.passed}(1)){' + 1' * first}"]
-
-    def of_parts(self, parts):
-        names, sizes = zip(*((name, int(size or 1)) for name, size in re.findall(r"(\w+)(?:\((\d)\))?", parts)))
-        self.declared, self.names = [f"real(c_double), intent(out) :: {', '.join(parts.split())}"], names
-        self.pass_on("real(c_double)", f"({sum(sizes)})")
-        self.first = [f"{name} = 0" for name in [*names, self.passed]]
-        for k, (name, size) in enumerate(zip(names, sizes)):
-            start = sum(sizes[:k]) + 1
-            part = f"{start}:{start + size - 1}" if f"{name}(" in parts else f"{start}"
-            self.after.append(f"{name} = {self.passed}({part})")
-
-    def of_output(self, kind, in_c, zero):
-        shape = f"({', '.join(':' * len(self.sizes))})"
-        self.declare(f"{kind}, allocatable, intent(out)", shape)
-        self.pass_on(f"{in_c}, allocatable", shape)
-        self.before = [f"allocate ({self.passed}({', '.join(self.sizes)}), source={zero})"]
-        found = f"int({self.passed}) + 1" if kind == "integer" else self.passed
-        found = found if len(self.sizes) < 3 else f"reshape({found}, shape({found}), order=[2, 1, 3])"
-        self.after = [f"{f'if (present({self.what})) ' * self.optional}{self.what} = {found}"]
-
-    def of_number(self, what):
-        if what in DEFAULTS:
-            words, in_c, given = DEFAULTS[what]
-            self.pass_on(in_c)
-            self.before = [f"{self.passed} = 0", f"if (present({what})) {self.passed} = {given}"]
-        else:
-            words = "real(c_double)" if self.kind == "double" else OF_KINDS.get(what, "integer")
-        self.declare(f"{words}, intent(in)")
-        if what == "frame":
-            self.before = self.refused("frame == 0", "frame 0: frames count from 1, from the end with -1")
-            self.passed = "from_zero(frame)"
-        elif words == "integer" or what == "steps":
-            is_number = self.kind == "int32_t" or what in COUNTS
-            self.passed = f"int({self.what}, c_{self.kind})" if is_number else f"zero_based({self.what})"
+    def name_of_form(self, of, what, is_output):
+        absent = "?" * self.optional
+        if self.callback or self.object:
+            return "callback" if self.callback else f"object{absent}"
+        if self.kind == "const char *":
+            return "whole text" if what == "text" and ("int64_t", "length") in of.parameters else f"text{absent}"
+        if self.kind == "int64_t *" and not is_output:
+            return "count's place" if what in NUMBERS else "index's place"
+        if self.kind.endswith("*"):
+            form = "output" if is_output else ARRAYS.get(what, "list")
+            return f"rows{absent}" if form == "rows" else form
+        return NUMBERS.get(what, "real" if self.kind == "double" else "index")
 
 
 def answer(result, name, whats):
@@ -227,8 +202,8 @@ def answer(result, name, whats):
         named = [what for what in whats if what in ("what", "column")]
         return "real(c_double)", f"to_number({{}}, {named[0]})" if named else "{}"
     if result == "int64_t":
-        number = f"to_integer({{}}){' + 1' if name.endswith(NUMBERS[:2]) else ''}"
-        return ("integer", number) if name.endswith(NUMBERS) else ("integer(c_int64_t)", "{}")
+        number = f"to_integer({{}}){' + 1' if name.endswith(DEFAULT_INTEGERS[:2]) else ''}"
+        return ("integer", number) if name.endswith(DEFAULT_INTEGERS) else ("integer(c_int64_t)", "{}")
     return ("logical", "{} == 1") if "_is_" in name else ("integer", "int({})")
 
 
@@ -236,21 +211,21 @@ class Procedure:
     """A function of C as a procedure of the type `own`, or of none; `given`: what C has for some parameters."""
 
     def __init__(self, name, own, function, given, place, ends):
-        self.name, self.own, self.result, self.c_name = name, own, function[0], function[1][len("hooke_"):]
-        self.parameters, self.ends = function[2], ends
+        self.name, self.own, self.result, self.c_name, self.ends = name, own, function[0], function[1][len("hooke_"):], ends
+        self.parameters = function[2]
         last_kind, last = self.parameters[-1] if self.parameters else ("", "")
         itself, self.is_const = next(((what, kind.startswith("const")) for kind, what in self.parameters
-                                      if own and object_of(kind) == IN_C.get(own, own)), (None, True))
+                                      if own and headers.object_of(kind) == IN_C.get(own, own)), (None, True))
         self.makes = last_kind.endswith("**")
         self.takes_self = bool(itself or (own and not self.makes))
         # what is made or written is the object itself, another object, or the result of a function
         self.made = RENAMED.get(f"{self.c_name}.{last}", last) if self.makes and itself else "self"
-        self.filled = last if self.result == "void" and last in FIXED else None
-        count_of = headers.counts(self.parameters, FIXED)
+        self.filled = last if self.result == "void" and last in headers.VECTORS else None
+        count_of = headers.counts(self.parameters)
         known = {itself, self.filled, *count_of.values(), *given}
         taken = {what: Parameter(self, kind, what) for kind, what in self.parameters
                  if what not in known and (kind, what) not in BY_OTHERS and not kind.endswith("**")}
-        self.given = sorted(self.ranked(taken.values()), key=lambda p: p.rank)
+        self.given = sorted(taken.values(), key=lambda p: p.rank)
         force = next((p for p in self.given if p.callback), None)
         passed = {itself: "self%address()", "ctx": "callback%data", "length": "len(text, c_int64_t)", self.filled: "found",
                   last if self.makes else None: "made",
@@ -258,21 +233,11 @@ class Procedure:
                   **{count: taken[what].size for what, count in reversed(count_of.items()) if what in taken},
                   **{what: p.passed for what, p in taken.items()}, **{what: in_c(value) for what, value in given.items()}}
         by_name = None in given.values()
-        self.call = f"c_{self.c_name}({', '.join(f'{what}={passed[what]}' if by_name else passed[what] for _, what in self.parameters if passed[what])})"
-        self.fit = [line for what, p in taken.items() if p.rows and own for line in self.fitting(p, passed.get(count_of.get(what, "")))]
-        self.keep = f"call {self.made}%keep(callback, {0 if function[1] in SEVERAL else place}, " if force else None
-
-    def has(self, name):
-        return name in [what for _, what in self.parameters]
-
-    @staticmethod
-    def ranked(parameters):
-        """Options that may be absent stay behind a text that may be."""
-        last = 0
-        for p in parameters:
-            p.rank = max(p.rank, last) if p.object and p.optional else p.rank
-            last = max(last, p.rank) if p.kind == "const char *" else last
-        return parameters
+        arguments = [f"{what}={passed[what]}" if by_name else passed[what] for _, what in self.parameters if passed[what]]
+        self.call = f"c_{self.c_name}({', '.join(arguments)})"
+        self.fit = [line for what, p in taken.items() if "rows" in p.form and own
+                    for line in self.fitting(p, passed.get(count_of.get(what, "")))]
+        self.keep = f"call {self.made}%keep(callback, {0 if self.c_name in SEVERAL else place}, " if force else None
 
     def fitting(self, p, count):
         """Lines that return where an array has not as many rows as it should: as a list, or one a particle."""
@@ -303,8 +268,8 @@ class Procedure:
         whats, before = [what for p in self.given for what in p.names], [line for p in self.given for line in p.before]
         is_const = self.is_const and not (self.makes and self.made == "self")
         head = [f"class({self.own}), intent({'in' if is_const else 'inout'}) :: self"] * bool(self.own)
-        head += [line for p in self.given for line in p.declared]
-        inside, kind, found = [line for p in self.given for line in p.inside], "subroutine", ""
+        head += [p.declared for p in self.given]
+        inside, kind, found = [p.inside for p in self.given if p.inside], "subroutine", ""
         if self.made != "self":
             whats, head = [*whats, self.made], [*head, f"class({self.own}), intent(inout) :: {self.made}"]
         if self.is_status():
@@ -317,7 +282,7 @@ class Procedure:
         else:
             of_result, made = answer("double" if self.filled else self.result, self.name, whats)
             is_series = self.result == "const double *"
-            shape = f"({FIXED[self.filled]})" if self.filled else "(:)" * is_series
+            shape = "(3)" if self.filled else "(:)" * is_series
             kind, found, inside = "function", " result(found)", [f"{of_result} :: found{shape}", *inside]
             call = f"call {self.call}" if self.filled else f"found {'=>' if is_series else '='} {made.format(self.call)}"
             body = [*(["found = 0", *self.fit] if self.fit else []), *before, call]
@@ -388,8 +353,8 @@ def all_of(public, types, by_hand):
         own = own if any("hooke_" in kind for kind, _ in parameters) else None
         if name in by_hand:
             continue
-        if object_of(result) and NAMES.get(c_name, c_name) in asked and c_name in NAMES:
-            found[own][name] = borrowing(name, own, c_name, object_of(result))
+        if headers.object_of(result) and NAMES.get(c_name, c_name) in asked and c_name in NAMES:
+            found[own][name] = borrowing(name, own, c_name, headers.object_of(result))
         elif result in RESULTS:
             lines = Procedure(name, own, functions[c_name], given, places[c_name], ends).lines()
             many = any(what == "steps" for _, what in parameters)
