@@ -7,7 +7,7 @@ module hooke_base
   private
   public :: hooke_real, hooke_long
   public :: last_error, status_name ! hooke_message() and hooke_status_name() for users
-  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_list, to_number, to_series
+  public :: accept, refuse, stop_with, to_text, to_c, to_integer, to_list, to_number, to_series
   public :: zero_based, from_zero, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
@@ -92,13 +92,6 @@ contains
     terminated = trim(text) // c_null_char
   end function
 
-  ! The same for optional text: unallocated text is passed as NULL.
-  subroutine to_c_if(text, terminated)
-    character(*), intent(in), optional :: text
-    character(:, kind=c_char), allocatable, intent(out) :: terminated
-    if (present(text)) terminated = to_c(text)
-  end subroutine
-
   integer function to_integer(count)
     integer(c_int64_t), intent(in) :: count
     if (count > huge(to_integer)) call stop_with("a count is too large for a default integer")
@@ -163,14 +156,13 @@ contains
     if (c_associated(address)) call c_f_pointer(address, series, [count])
   end function
 
-  ! Whether an array, if there is one, has 3 numbers for each of `count` things; without an argument `status` it must.
+  ! Whether an array has 3 numbers for each of `count` things; without an argument `status` it must.
   logical function is_3_by(array, count, status)
-    real(c_double), intent(in), optional :: array(:, :)
+    real(c_double), intent(in) :: array(:, :)
     integer(c_int64_t), intent(in) :: count
     integer, intent(out), optional :: status
     character(20) :: n
-    is_3_by = .true.
-    if (present(array)) is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
+    is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
     if (is_3_by) return
     write (n, "(i0)") count
     call refuse(hooke_bad_value, "an array has not the shape (3, n), n = " // n, status)

@@ -15,7 +15,7 @@
 ! A `stop_value` of a callback is initially 0; any other value stops the run and is returned by hooke_integrator's
 ! stop_value().
 !
-! A procedure of a type is the function of C of its name, or one from below: hooke_state%time() is state_time().
+! Most procedures are made from the headers of C: hooke_state%time() is hooke_state_time() there.
 module hooke
   use, intrinsic :: iso_c_binding
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
@@ -282,7 +282,7 @@ contains
     character(:), allocatable :: c_title
     integer(c_int32_t) :: code
     if (missing(status, self)) return
-    call to_c_if(title, c_title)
+    if (present(title)) c_title = to_c(title)
     code = c_measurement_label(self%address(), to_c("title"), c_title)
     if (code == 0) code = c_measurement_write(self%address(), to_c(path))
     call accept(code, status)

@@ -45,21 +45,20 @@ def product_of(parent, name):
             f"    class is ({name})", f"      {of} = c_funloc({call})", "    end select", "  end function", ""]
 
 
+# Of parameters that are no arrays: the type for users, that for C, and what is passed on.
+SCALARS = {"const hooke_state *": ("type(hooke_state)", "type(c_ptr)", "seen"),
+           "const char *": ("character(*)", "type(c_ptr)", "to_text({})"), "double": ("real(c_double)", "real(c_double)", "{}"),
+           "int64_t": ("integer", "integer(c_int64_t)", "int({}) + 1"), "count": ("integer", "integer(c_int64_t)", "int({})"),
+           "step": ("integer(hooke_long)", "integer(c_int64_t)", "{}")}
+
+
 def argument(kind, what, shape, intent):
     """(declaration for users, declaration for C, what is passed on) of one parameter of a callback."""
-    what = "n" if what == "count" else what
-    if kind == "const hooke_state *":
-        return f"type(hooke_state), intent(in) :: {what}", f"type(c_ptr), value :: {what}", "seen"
-    if kind == "const char *":
-        return f"character(*), intent(in) :: {what}", f"type(c_ptr), value :: {what}", f"to_text({what})"
-    if kind.endswith("*"):
-        array = f"real(c_double), intent({'in' if kind.startswith('const') else intent}) :: {what}({shape})"
-        return array, array, what
-    if kind == "double":
-        return f"real(c_double), intent(in) :: {what}", f"real(c_double), value :: {what}", what
-    inside = {"n": "int(n)", "step": "step"}.get(what, f"int({what}) + 1")
-    outside = "integer(hooke_long)" if what == "step" else "integer"
-    return f"{outside}, intent(in) :: {what}", f"integer(c_int64_t), value :: {what}", inside
+    if kind in SCALARS:
+        outside, inside, passed = SCALARS.get({"n": "count"}.get(what, what), SCALARS[kind])
+        return f"{outside}, intent(in) :: {what}", f"{inside}, value :: {what}", passed.format(what)
+    array = f"real(c_double), intent({'in' if kind.startswith('const') else intent}) :: {what}({shape})"
+    return array, array, what
 
 
 def pieces(name, row, parameters):
@@ -90,4 +89,5 @@ def module(public):
     found = {name: parameters for _, name, parameters in headers.declared("".join(public.values()), "typedef")}
     types, interfaces, calls = zip(*(pieces(name, row, found[row[1]]) for name, row in TYPES.items()))
     products = [product_of(row[0], name) for name, row in TYPES.items() if row[0]]
-    return TYPES, [*chain(*types)], ["  abstract interface", *[*chain(*interfaces)][:-1], "  end interface"], [*chain(*calls, *products)]
+    declared = ["  abstract interface", *[*chain(*interfaces)][:-1], "  end interface"]
+    return TYPES, [*chain(*types)], declared, [*chain(*calls, *products)]

@@ -64,23 +64,24 @@ def interfaces(public):
 
 def completed(template, public, base):
     """The text of hooke.f90, from that of its template, {header: text}, and a module whose procedures are not made here."""
-    parts = {name: re.findall(r"^    type\(hooke_\w+\) :: (\w+)", inside, re.MULTILINE)
-             for name, inside in re.findall(r"^  type, extends[^\n]*:: (\w+)\n(.*?)  end type", template, re.DOTALL | re.MULTILINE)}
+    types = re.findall(r"^(  type, extends\(hooke_handle\) :: (\w+)\n)((?:    type.*\n|    real.*\n)*)", template, re.MULTILINE)
+    parts = {name: re.findall(r"type\(hooke_\w+\) :: (\w+)", inside) for _, name, inside in types}
     by_hand = re.findall(r"^  .*?(?:subroutine|function) (?:hooke_)?(\w+)\(", template + base, re.MULTILINE)
     made = procedures.all_of(public, parts, by_hand)
-    names, types, declared, called = callbacks.module(public)
-    head = [*(f"  use hooke_c_{Path(header).stem}" for header in public), "  implicit none"]
-    shown = [f"  public :: {name}" for name in [*statuses(public["base.h"]), *parts, *names, *(f"hooke_{name}" for name in made[None])]]
-    text = template.replace("  implicit none", "\n".join(head), 1).replace("  private\n", "\n".join(["  private", *shown, ""]), 1)
-    for type_ in parts:
+    names, of_callbacks, interfaces, calls = callbacks.module(public)
+    shown = [*statuses(public["base.h"]), *parts, *names, *(f"hooke_{name}" for name in made[None])]
+    uses = "".join(f"  use hooke_c_{Path(header).stem}\n" for header in public)
+    text = template.replace("  implicit none\n", f"{uses}  implicit none\n", 1)
+    text = text.replace("  private\n", "".join(["  private\n", *(f"  public :: {name}\n" for name in shown)]), 1)
+    for head, type_, inside in types:
         short = type_[len("hooke_"):]
         own = [*made[type_], *re.findall(rf"^  .*(?:subroutine|function) ({short}_\w+)\(self", template, re.MULTILINE)]
         bound = ["  contains", *(f"    procedure :: {name[len(short) + 1:]} => {name}" for name in own),
-                 f"    procedure, private :: assign => assign_{short}", "    generic :: assignment(=) => assign"]
-        text = re.sub(rf"(hooke_handle\) :: {type_}\n(?:    [^g].*\n)*)", lambda m: m[1] + "\n".join([*bound, ""]), text, count=1)
-    text = text.replace("\ncontains\n", "\n".join(["", *types, *declared, "", "contains", ""]), 1)
+                 f"    procedure, private :: assign => assign_{short}", "    generic :: assignment(=) => assign", ""]
+        text = text.replace(head + inside, head + inside + "\n".join(bound), 1)
+    text = text.replace("\ncontains\n", "\n".join(["", *of_callbacks, *interfaces, "", "contains", ""]), 1)
     lines = [line for type_ in parts for line in procedures.assigning(type_)]
-    lines += [*(line for of_type in made.values() for one in of_type.values() for line in one), *called]
+    lines += [*(line for of_type in made.values() for one in of_type.values() for line in one), *calls]
     return text.replace("\nend module\n", "\n".join(["", *lines, "end module", ""]))
 
 

@@ -3,7 +3,6 @@
 FOLDER/guard/calls.inc, the functions, their texts, arrays and handles, for src/guard/guard.c; FOLDER/guard/names.h,
 other names for the functions that they call, included by every file of the library."""
 
-import re
 import sys
 from pathlib import Path
 
@@ -62,8 +61,9 @@ def required(function, types):
     """(parameter, count) of arrays, callbacks and places that have to be there unless the count, a parameter or 1, is 0."""
     _, name, parameters = function
     counts = headers.counts(parameters)
-    return [(what, counts.get(what, "1")) for kind, what in parameters if kind.endswith("**") or
-            kind.endswith("*") and not (kind == "const char *" or handle(kind, what, types) or is_optional(name, what))]
+    free = {what for kind, what in parameters if kind == "const char *" or handle(kind, what, types) or is_optional(name, what)}
+    return [(what, counts.get(what, "1")) for kind, what in parameters
+            if kind.endswith("**") or (kind.endswith("*") and what not in free)]
 
 
 def call(function, types):

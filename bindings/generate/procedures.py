@@ -2,7 +2,7 @@
 the same name, or make objects. A type has those whose names begin with its own; the others are hooke_<name>()."""
 
 import re
-from typing import NamedTuple, Sequence
+from collections import namedtuple
 
 import callbacks
 import guard
@@ -65,7 +65,8 @@ OUTPUTS = {
 WIDTHS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
 # The forms of arrays by their names; others are lists.
 ARRAYS = {
-    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"], "rows"),
+    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"],
+                    "rows"),
     **dict.fromkeys(headers.VECTORS, "vector"), **dict.fromkeys(WIDTHS, "members"), **dict.fromkeys(PARTS, "parts"),
 }
 # The forms of numbers; other whole numbers are indices, which count from 1 in Fortran.
@@ -81,17 +82,9 @@ SEVERAL = {"system_drive_callback"}  # callbacks that are kept beside those give
 RESULTS = {"int32_t", "int64_t", "double", "const char *", "const double *", "void"}
 
 
-class Form(NamedTuple):
-    """How a parameter {w} is declared for users and, as {c}, inside; what comes before the call, after it, and first of all;
-    what C is passed, and how many it has."""
-
-    declared: str
-    inside: str = ""
-    before: Sequence[str] = ()
-    after: Sequence[str] = ()
-    first: Sequence[str] = ()
-    passed: str = ""
-    size: str = ""
+# How a parameter {w} is declared for users and, as {c}, inside; what comes before the call, after it, and first of all; what
+# C is passed, and how many it has.
+Form = namedtuple("Form", "declared inside before after first passed size", defaults=("", (), (), (), "", ""))
 
 
 def refused(condition, message):
@@ -106,7 +99,8 @@ FORMS = {
     "object": Form("class({type}), {intent} :: {w}", passed="{w}%address()"),
     "object?": Form("class({type}), {intent}, optional :: {w}", passed="address_or_null({w})"),
     "text": Form("character(*), intent(in) :: {w}", passed="to_c({w})"),
-    "text?": Form("character(*), intent(in), optional :: {w}", "character(:), allocatable :: {c}", ["call to_c_if({w}, {c})"]),
+    "text?": Form("character(*), intent(in), optional :: {w}", "character(:), allocatable :: {c}",
+                  ["if (present({w})) {c} = to_c({w})"]),
     "whole text": Form("character(*), intent(in) :: {w}"),
     "real": Form("real(c_double), intent(in) :: {w}"),
     "count": Form("integer, intent(in) :: {w}", passed="int({w}, c_{plain})"),
@@ -115,7 +109,7 @@ FORMS = {
                   before=refused("{w} == 0", "frame 0: frames count from 1, from the end with -1")),
     # whole numbers that are not of the default kind, which a compiler may have made that of C's; there may be many steps
     "step": Form("integer(c_int64_t), intent(in) :: {w}"),
-    "steps": Form("integer(c_int32_t), intent(in) :: {w}", passed="int({w}, c_int64_t)"),
+    "steps": Form("integer(c_{bits}_t), intent(in) :: {w}", passed="int({w}, c_int64_t)"),
     # numbers that are 0 where they are absent
     "phase": Form("real(c_double), intent(in), optional :: {w}", "real(c_double) :: {c}",
                   ["{c} = 0", "if (present({w})) {c} = {w}"]),
@@ -167,7 +161,7 @@ class Parameter:
         self.names, form = form_of_parts(PARTS[what]) if self.form == "parts" else ([self.what], FORMS[self.form])
         type_ = self.callback or self.object or ""
         words = {**(INDICES if "int64" in kind else REALS), "w": self.what, "c": f"c_{self.what}", "type": type_,
-                 "short": type_[len("hooke_"):], "plain": kind, "width": WIDTHS.get(what),
+                 "short": type_[len("hooke_"):], "plain": kind, "bits": of.bits, "width": WIDTHS.get(what),
                  "intent": f"intent({'in' if kind.startswith('const') else 'inout'})", "optional": ", optional" * self.optional,
                  "there": f"if (present({self.what})) " * self.optional, "colons": ", ".join(":" * len(sizes)),
                  "sizes": ", ".join(sizes)}
@@ -208,10 +202,12 @@ def answer(result, name, whats):
 
 
 class Procedure:
-    """A function of C as a procedure of the type `own`, or of none; `given`: what C has for some parameters."""
+    """A function of C as a procedure of the type `own`, or of none; `given`: what C has for some parameters;
+    `bits`: the kind of many steps."""
 
-    def __init__(self, name, own, function, given, place, ends):
+    def __init__(self, name, own, function, given, place, ends, bits):
         self.name, self.own, self.result, self.c_name, self.ends = name, own, function[0], function[1][len("hooke_"):], ends
+        self.bits = bits
         self.parameters = function[2]
         last_kind, last = self.parameters[-1] if self.parameters else ("", "")
         itself, self.is_const = next(((what, kind.startswith("const")) for kind, what in self.parameters
@@ -353,14 +349,13 @@ def all_of(public, types, by_hand):
         own = own if any("hooke_" in kind for kind, _ in parameters) else None
         if name in by_hand:
             continue
-        if headers.object_of(result) and NAMES.get(c_name, c_name) in asked and c_name in NAMES:
+        if headers.object_of(result) and c_name in NAMES:
             found[own][name] = borrowing(name, own, c_name, headers.object_of(result))
         elif result in RESULTS:
-            lines = Procedure(name, own, functions[c_name], given, places[c_name], ends).lines()
-            many = any(what == "steps" for _, what in parameters)
-            for bits in ("_int32", "_int64") if many else ("",):
-                text = "\n".join(lines).replace(f" {name}(", f" {name}{bits}(")
-                found[own][name + bits] = text.replace("(c_int32_t), intent(in) :: steps", f"(c{bits}_t), intent(in) :: steps").split("\n")
+            many = ("int64_t", "steps") in parameters
+            for bits in ("int32", "int64") if many else (None,):
+                full = f"{name}_{bits}" if bits else name
+                found[own][full] = Procedure(full, own, functions[c_name], given, places[c_name], ends, bits).lines()
     for type_, parts in types.items():
         if parts:
             found[type_][f"{type_[len('hooke_'):]}_refresh"] = refreshing(type_, parts, functions)

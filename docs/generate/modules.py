@@ -116,10 +116,12 @@ def page(root: Path, made: Path) -> str:
     base = logical_lines((root / "bindings/fortran/base.f90").read_text("utf-8"))
     found = entries(lines, exported(lines)) + [one for one in entries(base, exported(lines)) if one[0] != one[1]]
     types = [name for name, _, _, code in found if code.startswith("type")]
-    of_type: dict[str, list[str]] = {name: [] for name in [*types, "Procedures of no type"]}
+    rest = "Procedures of no type"
+    of_type: dict[str, list[str]] = {name: [] for name in [*types, rest]}
     for inside, name, comment, code in found:
-        owner = max((t for t in types if f"hooke_{inside}".startswith(f"{t}_") or inside == t), key=len, default="Procedures of no type")
-        of_type[owner].append("\n\n".join(filter(None, [f"### {name}" * (name != owner), markdown(comment), f"```text\n{code}\n```"])))
+        owner = max((t for t in types if f"hooke_{inside}".startswith(f"{t}_") or inside == t), key=len, default=rest)
+        pieces = [f"### {name}" * (name != owner), markdown(comment), f"```text\n{code}\n```"]
+        of_type[owner].append("\n\n".join(filter(None, pieces)))
     pieces = ["# Fortran reference", "The types and procedures that `use hooke` brings, with their comments. [The Fortran "
               "interface](../fortran.md) is the way in.", EXAMPLE, intro(lines)]
     return "\n\n".join([*pieces, *("\n\n".join([f"## {title}", *words]) for title, words in of_type.items())]) + "\n"
