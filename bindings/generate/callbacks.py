@@ -85,9 +85,9 @@ def pieces(name, row, parameters):
 
 
 def module(public):
-    """(names, types, interfaces, procedures) of the module, the latter three as lines, from {header: text}."""
+    """(types, interfaces, procedures) of the module as lines, from {header: text}."""
     found = {name: parameters for _, name, parameters in headers.declared("".join(public.values()), "typedef")}
     types, interfaces, calls = zip(*(pieces(name, row, found[row[1]]) for name, row in TYPES.items()))
     products = [product_of(row[0], name) for name, row in TYPES.items() if row[0]]
     declared = ["  abstract interface", *[*chain(*interfaces)][:-1], "  end interface"]
-    return TYPES, [*chain(*types)], declared, [*chain(*calls, *products)]
+    return [*chain(*types)], declared, [*chain(*calls, *products)]

@@ -62,22 +62,29 @@ def interfaces(public):
                       *(module(Path(header).stem, text, callbacks) for header, text in public.items())])
 
 
+def bindings(short, made, template, functions):
+    """The procedures of a type, made and by hand; those that C has not and a generic name has are private."""
+    own = [*made, *re.findall(rf"^  .*(?:subroutine|function) ({short}_\w+)\(self", template, re.MULTILINE)]
+    generic = re.findall(r"\w+", " ".join(re.findall(r"generic :: \w+ => (.*)", template)))
+    names = [name[len(short) + 1:] for name in own]
+    hidden = {name for name in names if name in generic and f"hooke_{short}_{name}" not in functions}
+    return ["  contains", *(f"    procedure{', private' * (name in hidden)} :: {name} => {short}_{name}" for name in names),
+            f"    procedure, private :: assign => assign_{short}", "    generic :: assignment(=) => assign", ""]
+
+
 def completed(template, public, base):
     """The text of hooke.f90, from that of its template, {header: text}, and a module whose procedures are not made here."""
     types = re.findall(r"^(  type, extends\(hooke_handle\) :: (\w+)\n)((?:    type.*\n|    real.*\n)*)", template, re.MULTILINE)
     parts = {name: re.findall(r"type\(hooke_\w+\) :: (\w+)", inside) for _, name, inside in types}
     by_hand = re.findall(r"^  .*?(?:subroutine|function) (?:hooke_)?(\w+)\(", template + base, re.MULTILINE)
     made = procedures.all_of(public, parts, by_hand)
-    names, of_callbacks, interfaces, calls = callbacks.module(public)
-    shown = [*statuses(public["base.h"]), *parts, *names, *(f"hooke_{name}" for name in made[None])]
+    of_callbacks, interfaces, calls = callbacks.module(public)
+    shown = [*statuses(public["base.h"]), *parts, *callbacks.TYPES, *(f"hooke_{name}" for name in made[None])]
     uses = "".join(f"  use hooke_c_{Path(header).stem}\n" for header in public)
     text = template.replace("  implicit none\n", f"{uses}  implicit none\n", 1)
     text = text.replace("  private\n", "".join(["  private\n", *(f"  public :: {name}\n" for name in shown)]), 1)
     for head, type_, inside in types:
-        short = type_[len("hooke_"):]
-        own = [*made[type_], *re.findall(rf"^  .*(?:subroutine|function) ({short}_\w+)\(self", template, re.MULTILINE)]
-        bound = ["  contains", *(f"    procedure :: {name[len(short) + 1:]} => {name}" for name in own),
-                 f"    procedure, private :: assign => assign_{short}", "    generic :: assignment(=) => assign", ""]
+        bound = bindings(type_[len("hooke_"):], made[type_], template, headers.functions("".join(public.values())))
         text = text.replace(head + inside, head + inside + "\n".join(bound), 1)
     text = text.replace("\ncontains\n", "\n".join(["", *of_callbacks, *interfaces, "", "contains", ""]), 1)
     lines = [line for type_ in parts for line in procedures.assigning(type_)]

@@ -38,7 +38,7 @@ def bound_names(lines: list[str]) -> set[str]:
 
 def names_of(lines: list[str]) -> dict[str, str]:
     """Names by which users call procedures, where they differ."""
-    bound_to = re.findall(r"^\s*procedure :: (\w+) => (\w+)\s*(?:!.*)?$", "\n".join(lines), re.MULTILINE)
+    bound_to = re.findall(r"^\s*procedure(?:, private)? :: (\w+) => (\w+)\s*(?:!.*)?$", "\n".join(lines), re.MULTILINE)
     return {inside: outside for outside, inside in bound_to}
 
 
