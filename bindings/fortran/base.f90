@@ -8,7 +8,7 @@ module hooke_base
   public :: hooke_real, hooke_long
   public :: last_error, status_name ! hooke_message() and hooke_status_name() for users
   public :: accept, refuse, stop_with, to_text, to_c, to_integer, to_list, to_number, to_series
-  public :: zero_based, from_zero, is_3_by
+  public :: zero_based, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
@@ -102,12 +102,6 @@ contains
   elemental integer(c_int64_t) function zero_based(number)
     integer, intent(in) :: number
     zero_based = int(number, c_int64_t) - 1
-  end function
-
-  ! A frame as C counts: 1 is the first, -1 the last.
-  pure integer(c_int64_t) function from_zero(frame)
-    integer, intent(in) :: frame
-    from_zero = merge(frame - 1, frame, frame > 0)
   end function
 
   subroutine to_list_of_reals(numbers, list)

@@ -113,8 +113,7 @@ contains
     integer, allocatable :: particles(:)
     integer(c_int64_t), allocatable :: numbers(:)
     integer(c_int64_t) :: count
-    count = c_system_body_particles(self%address(), zero_based(body))
-    allocate (numbers(count), source=0_c_int64_t)
+    allocate (numbers(c_system_body_particles(self%address(), zero_based(body))), source=0_c_int64_t)
     count = c_system_body_particles(self%address(), zero_based(body), numbers)
     particles = int(numbers) + 1
   end function

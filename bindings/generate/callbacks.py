@@ -39,7 +39,7 @@ def of_callback(callback, function=""):
 
 def product_of(parent, name):
     """The function that finds what C calls for the product of a force, as lines."""
-    of, call = f"product_of_{parent[len('hooke_'):]}", f"call_{name[len('hooke_'):]}"
+    of, call = f"product_of_{headers.short(parent)}", f"call_{headers.short(name)}"
     return [f"  type(c_funptr) function {of}(force)", f"    class({parent}), intent(in), optional :: force",
             f"    {of} = c_null_funptr", "    if (.not. present(force)) return", "    select type (force)",
             f"    class is ({name})", f"      {of} = c_funloc({call})", "    end select", "  end function", ""]
@@ -66,7 +66,7 @@ def pieces(name, row, parameters):
     parent, _, procedure, shape, intent, doc = row
     parameters = [(kind, "n" if what == "count" else what) for kind, what in parameters if what != "ctx"]
     arguments = [argument(kind, what, shape, intent) for kind, what in parameters]
-    whats, short = ", ".join(what for _, what in parameters), name[len("hooke_"):]
+    whats, short = ", ".join(what for _, what in parameters), headers.short(name)
     seen = "const hooke_state *" in [kind for kind, _ in parameters]
     type_ = [*textwrap.wrap(doc, 108, initial_indent="  ! ", subsequent_indent="  ! "),
              f"  type, abstract{f', extends({parent})' if parent else ''} :: {name}", "  contains",

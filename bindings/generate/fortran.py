@@ -35,7 +35,7 @@ def interface(function, callbacks):
     result, name, parameters = function
     returned = "type(c_ptr)" if "*" in result else NUMBERS.get(result)
     kind = "function" if returned else "subroutine"
-    title = f"{kind} c_{name[len('hooke_'):]}({', '.join(what for _, what in parameters)}) bind(c, name=\"{name}\")"
+    title = f"{kind} c_{headers.short(name)}({', '.join(what for _, what in parameters)}) bind(c, name=\"{name}\")"
     return procedures.written(kind, f"{returned} {title}" if returned else title,
                               ["import", *(argument(*parameter, callbacks) for parameter in parameters)])
 
@@ -84,7 +84,7 @@ def completed(template, public, base):
     text = template.replace("  implicit none\n", f"{uses}  implicit none\n", 1)
     text = text.replace("  private\n", "".join(["  private\n", *(f"  public :: {name}\n" for name in shown)]), 1)
     for head, type_, inside in types:
-        bound = bindings(type_[len("hooke_"):], made[type_], template, headers.functions("".join(public.values())))
+        bound = bindings(headers.short(type_), made[type_], template, headers.functions("".join(public.values())))
         text = text.replace(head + inside, head + inside + "\n".join(bound), 1)
     text = text.replace("\ncontains\n", "\n".join(["", *of_callbacks, *interfaces, "", "contains", ""]), 1)
     lines = [line for type_ in parts for line in procedures.assigning(type_)]

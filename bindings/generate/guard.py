@@ -80,7 +80,7 @@ def call(function, types):
     checks += [f"GIVEN({what}, {count}, {no_array})" for what, count in required(function, types)]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
-    return f"{head}{name[len('hooke_'):]}, ({declared}), ({arguments}), {' '.join(checks)})"
+    return f"{head}{headers.short(name)}, ({declared}), ({arguments}), {' '.join(checks)})"
 
 
 def texts(public):
@@ -88,7 +88,7 @@ def texts(public):
     types = headers.opaque_types("".join(public.values()))
     every = [function for text in public.values() for function in headers.declared(text)]
     includes = "".join(f'#include "hooke/{header}"\n' for header in public)
-    names = "".join(f"#define {name} hooke_unchecked_{name[len('hooke_'):]}\n" for _, name, _ in every)
+    names = "".join(f"#define {name} hooke_unchecked_{headers.short(name)}\n" for _, name, _ in every)
     return {
         "guard/calls.inc": MADE_BY + includes + "\n".join(call(f, types) for f in every) + "\n",
         "guard/names.h": MADE_BY + "#ifndef HOOKE_GUARD_NAMES_H\n#define HOOKE_GUARD_NAMES_H\n\n"

@@ -43,6 +43,11 @@ def declared(text, lead="HOOKE_API"):
             yield result.strip(), name, [(kind.strip(), what) for kind, what in parameters]
 
 
+def short(name):
+    """state_time of hooke_state_time."""
+    return name[len("hooke_"):]
+
+
 def functions(text):
     """Names of the functions declared with HOOKE_API."""
     return {name for _, name, _ in declared(text)}

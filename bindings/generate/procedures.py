@@ -105,7 +105,7 @@ FORMS = {
     "real": Form("real(c_double), intent(in) :: {w}"),
     "count": Form("integer, intent(in) :: {w}", passed="int({w}, c_{plain})"),
     "index": Form("integer, intent(in) :: {w}", passed="zero_based({w})"),
-    "frame": Form("integer, intent(in) :: {w}", passed="from_zero({w})",
+    "frame": Form("integer, intent(in) :: {w}", passed="int(merge({w} - 1, {w}, {w} > 0), c_int64_t)",
                   before=refused("{w} == 0", "frame 0: frames count from 1, from the end with -1")),
     # whole numbers that are not of the default kind, which a compiler may have made that of C's; there may be many steps
     "step": Form("integer(c_int64_t), intent(in) :: {w}"),
@@ -161,7 +161,7 @@ class Parameter:
         self.names, form = form_of_parts(PARTS[what]) if self.form == "parts" else ([self.what], FORMS[self.form])
         type_ = self.callback or self.object or ""
         words = {**(INDICES if "int64" in kind else REALS), "w": self.what, "c": f"c_{self.what}", "type": type_,
-                 "short": type_[len("hooke_"):], "plain": kind, "bits": of.bits, "width": WIDTHS.get(what),
+                 "short": headers.short(type_), "plain": kind, "bits": of.bits, "width": WIDTHS.get(what),
                  "intent": f"intent({'in' if kind.startswith('const') else 'inout'})", "optional": ", optional" * self.optional,
                  "there": f"if (present({self.what})) " * self.optional, "colons": ", ".join(":" * len(sizes)),
                  "sizes": ", ".join(sizes)}
@@ -202,13 +202,13 @@ def answer(result, name, whats):
 
 
 class Procedure:
-    """A function of C as a procedure of the type `own`, or of none; `given`: what C has for some parameters;
-    `bits`: the kind of many steps."""
+    """A function of C as a procedure of the type `own`, or of none; `given`: what C has for some parameters; `end`: what
+    releases an object that is made; `bits`: the kind of many steps."""
 
-    def __init__(self, name, own, function, given, place, ends, bits):
-        self.name, self.own, self.result, self.c_name, self.ends = name, own, function[0], function[1][len("hooke_"):], ends
-        self.bits = bits
-        self.parameters = function[2]
+    def __init__(self, name, own, function, given, place, end, bits):
+        self.name, self.own, self.end, self.bits = name, own, end, bits
+        self.result, self.c_name, self.parameters = function[0], headers.short(function[1]), function[2]
+        self.is_status = headers.is_status(*function[:2])
         last_kind, last = self.parameters[-1] if self.parameters else ("", "")
         itself, self.is_const = next(((what, kind.startswith("const")) for kind, what in self.parameters
                                       if own and headers.object_of(kind) == IN_C.get(own, own)), (None, True))
@@ -222,68 +222,70 @@ class Procedure:
         taken = {what: Parameter(self, kind, what) for kind, what in self.parameters
                  if what not in known and (kind, what) not in BY_OTHERS and not kind.endswith("**")}
         self.given = sorted(taken.values(), key=lambda p: p.rank)
-        force = next((p for p in self.given if p.callback), None)
-        passed = {itself: "self%address()", "ctx": "callback%data", "length": "len(text, c_int64_t)", self.filled: "found",
-                  last if self.makes else None: "made",
-                  "product": force and f"product_of_{force.callback[len('hooke_'):]}({force.what})",
-                  **{count: taken[what].size for what, count in reversed(count_of.items()) if what in taken},
+        callback = next((p for p in self.given if p.callback), None)
+        sizes = {count: taken[what].size for what, count in reversed(count_of.items()) if what in taken}
+        passed = {"ctx": "callback%data", "length": "len(text, c_int64_t)", itself: "self%address()", self.filled: "found",
+                  "product": callback and f"product_of_{headers.short(callback.callback)}({callback.what})", **sizes,
                   **{what: p.passed for what, p in taken.items()}, **{what: in_c(value) for what, value in given.items()}}
+        passed.update({last: "made"} if self.makes else {})
         by_name = None in given.values()
         arguments = [f"{what}={passed[what]}" if by_name else passed[what] for _, what in self.parameters if passed[what]]
         self.call = f"c_{self.c_name}({', '.join(arguments)})"
         self.fit = [line for what, p in taken.items() if "rows" in p.form and own
-                    for line in self.fitting(p, passed.get(count_of.get(what, "")))]
-        self.keep = f"call {self.made}%keep(callback, {0 if self.c_name in SEVERAL else place}, " if force else None
+                    for line in self.fitting(p, sizes.get(count_of.get(what)))]
+        self.keep = f"call {self.made}%keep(callback, {0 if self.c_name in SEVERAL else place}, " if callback else None
 
     def fitting(self, p, count):
         """Lines that return where an array has not as many rows as it should: as a list, or one a particle."""
-        status = ", status" if self.is_status() else ""
+        status = ", status" if self.is_status else ""
         fits = f"if (.not. is_3_by({p.what}, {count or 'int(self%particle_count(), c_int64_t)'}{status})) return"
         return [f"if (present({p.what})) then", f"  {fits}", "end if"] if p.optional else [fits]
 
-    def is_status(self):
-        return headers.is_status(self.result, f"hooke_{self.c_name}")
+    def lines_of(self, part):
+        return [line for p in self.given for line in getattr(p, part)]
 
-    def body(self):
+    def with_status(self):
         """(variables, statements) of a procedure that returns a status."""
         needed = [*(["self"] if self.takes_self else []), *(p.what for p in self.given if p.object)]
-        lines = [line for p in self.given for line in p.first]
-        lines += [f"if (missing(status, {', '.join(needed)})) return"] if needed else []
-        lines += [line for p in self.given for line in p.before] + self.fit
+        lines = [*self.lines_of("first"), *([f"if (missing(status, {', '.join(needed)})) return"] if needed else []),
+                 *self.lines_of("before"), *self.fit]
         call, variables = self.call, []
         if self.makes:
             objects = [("self", self.own)] * self.takes_self + [(p.what, p.object) for p in self.given if p.object]
             owner = next((f", {what}" for what, type_ in objects if type_ != "hooke_options"), "")
             call, variables = "code", ["type(c_ptr) :: made", "integer(c_int32_t) :: code"]
-            lines += [f"code = {self.call}", f"if (code == 0) call {self.made}%take(made, {self.ends[self.own]}{owner})"]
+            lines += [f"code = {self.call}", f"if (code == 0) call {self.made}%take(made, {self.end}{owner})"]
         lines.append(f"{self.keep}{call}, status)" if self.keep else f"call accept({call}, status)")
-        return variables, lines + [line for p in self.given for line in p.after]
+        return variables, lines + self.lines_of("after")
+
+    def with_result(self, whats):
+        """The same of a function."""
+        of_result, made = answer("double" if self.filled else self.result, self.name, whats)
+        is_series = self.result == "const double *"
+        shape = "(3)" if self.filled else "(:)" * is_series
+        call = f"call {self.call}" if self.filled else f"found {'=>' if is_series else '='} {made.format(self.call)}"
+        unfit = ["found = 0", *self.fit] if self.fit else []
+        return [f"{of_result} :: found{shape}"], [*unfit, *self.lines_of("before"), call]
 
     def lines(self):
         """The whole procedure."""
-        whats, before = [what for p in self.given for what in p.names], [line for p in self.given for line in p.before]
+        whats, inside = self.lines_of("names"), [p.inside for p in self.given if p.inside]
         is_const = self.is_const and not (self.makes and self.made == "self")
         head = [f"class({self.own}), intent({'in' if is_const else 'inout'}) :: self"] * bool(self.own)
         head += [p.declared for p in self.given]
-        inside, kind, found = [p.inside for p in self.given if p.inside], "subroutine", ""
         if self.made != "self":
             whats, head = [*whats, self.made], [*head, f"class({self.own}), intent(inout) :: {self.made}"]
-        if self.is_status():
-            variables, body = self.body()
-            behind = sum(p.rank == 3 for p in self.given)
-            whats.insert(len(whats) - behind, "status")
+        kind, found = "subroutine", ""
+        if self.is_status:
+            variables, body = self.with_status()
+            whats.insert(len(whats) - sum(p.rank == 3 for p in self.given), "status")
             head, inside = [*head, "integer, intent(out), optional :: status"], [*inside, *variables]
         elif self.result == "void" and not self.filled:
-            body = [*before, f"call {self.call}", *([f"{self.keep}0_c_int32_t)"] if self.keep else [])]
+            body = [*self.lines_of("before"), f"call {self.call}", *([f"{self.keep}0_c_int32_t)"] if self.keep else [])]
         else:
-            of_result, made = answer("double" if self.filled else self.result, self.name, whats)
-            is_series = self.result == "const double *"
-            shape = "(3)" if self.filled else "(:)" * is_series
-            kind, found, inside = "function", " result(found)", [f"{of_result} :: found{shape}", *inside]
-            call = f"call {self.call}" if self.filled else f"found {'=>' if is_series else '='} {made.format(self.call)}"
-            body = [*(["found = 0", *self.fit] if self.fit else []), *before, call]
-        name = self.name if self.own else f"hooke_{self.name}"
-        title = f"{kind} {name}({', '.join([*(['self'] if self.own else []), *whats])}){found}"
+            kind, found, (variables, body) = "function", " result(found)", self.with_result(whats)
+            inside = [*variables, *inside]
+        title = f"{kind} {'' if self.own else 'hooke_'}{self.name}({', '.join(['self'] * bool(self.own) + whats)}){found}"
         return written(kind, title, [*head, *inside, *body])
 
 
@@ -308,7 +310,7 @@ def wrapped(lines):
 
 def borrowing(name, own, c_name, type_):
     """A procedure that hands out an object that another one has, if it has one."""
-    what = type_[len("hooke_"):]
+    what = headers.short(type_)
     return written("subroutine", f"subroutine {name}(self, {what}, status)", [
         f"class({own}), intent(in) :: self", f"class({type_}), intent(inout) :: {what}",
         "integer, intent(out), optional :: status", "type(c_ptr) :: there", "if (missing(status, self)) return",
@@ -318,7 +320,7 @@ def borrowing(name, own, c_name, type_):
 
 def refreshing(own, parts, functions):
     """The procedure that sets the objects that one of type `own` has as parts."""
-    short = own[len("hooke_"):]
+    short = headers.short(own)
     of_part = {part: next(name for name in (f"{short}_{part}", f"{short}_{part}_options") if name in functions) for part in parts}
     return written("subroutine", f"subroutine {short}_refresh(self)", [
         f"class({own}), intent(inout) :: self", *(f"call self%{part}%destroy()" for part in parts),
@@ -328,35 +330,36 @@ def refreshing(own, parts, functions):
 
 def assigning(own):
     """The assignment that makes another reference to the same object."""
-    name = f"assign_{own[len('hooke_'):]}"
+    name = f"assign_{headers.short(own)}"
     return written("subroutine", f"impure elemental subroutine {name}(self, other)", [
         f"class({own}), intent(inout) :: self", f"class({own}), intent(in) :: other", "call self%share(other)"])
+
+
+def end_of(type_, functions):
+    """The procedure that releases objects of a type; one by hand where closing one may fail."""
+    names = (f"{headers.short(IN_C.get(type_, type_))}_destroy", f"{headers.short(type_)}_close")
+    found = [f"c_{name}" for name in names if name in functions and functions[name][0] == "void"]
+    return found[0] if found else f"abandon_{headers.short(type_)}"
 
 
 def all_of(public, types, by_hand):
     """{type: {name: lines}} of the procedures that are made, from {header: text}, {type: its parts} and the names of those
     that are written by hand; None has those of no type."""
-    functions = {f[1][len("hooke_"):]: f for text in public.values() for f in headers.declared(text)}
+    functions = {headers.short(f[1]): f for text in public.values() for f in headers.declared(text)}
     places = {name: 10 + k for k, name in enumerate(functions)}
-    ends = {type_: f"abandon_{type_[len('hooke_'):]}" for type_ in types}
-    ends.update((type_, f"c_{name}") for type_ in types for name, (result, *_) in functions.items() if result == "void"
-                and f"hooke_{name}" in (f"{IN_C.get(type_, type_)}_destroy", f"{type_}_close"))
     found = {type_: {} for type_ in [*types, None]}
     asked = {NAMES.get(name, name): (name, {}) for name in functions if not name.endswith(("_destroy", "_close"))}
     for name, (c_name, given) in {**asked, **FURTHER}.items():
-        own = max((t for t in types if f"hooke_{name}".startswith(f"{t}_")), key=len, default=None)
         result, _, parameters = functions[c_name]
+        own = max((t for t in types if f"hooke_{name}".startswith(f"{t}_")), key=len, default=None)
         own = own if any("hooke_" in kind for kind, _ in parameters) else None
-        if name in by_hand:
-            continue
-        if headers.object_of(result) and c_name in NAMES:
+        if name not in by_hand and result in RESULTS:
+            for bits in ("int32", "int64") if ("int64_t", "steps") in parameters else (None,):
+                full, end = f"{name}_{bits}" if bits else name, own and end_of(own, functions)
+                found[own][full] = Procedure(full, own, functions[c_name], given, places[c_name], end, bits).lines()
+        elif name not in by_hand and headers.object_of(result) and c_name in NAMES:
             found[own][name] = borrowing(name, own, c_name, headers.object_of(result))
-        elif result in RESULTS:
-            many = ("int64_t", "steps") in parameters
-            for bits in ("int32", "int64") if many else (None,):
-                full = f"{name}_{bits}" if bits else name
-                found[own][full] = Procedure(full, own, functions[c_name], given, places[c_name], ends, bits).lines()
     for type_, parts in types.items():
         if parts:
-            found[type_][f"{type_[len('hooke_'):]}_refresh"] = refreshing(type_, parts, functions)
+            found[type_][f"{headers.short(type_)}_refresh"] = refreshing(type_, parts, functions)
     return found

@@ -38,7 +38,7 @@ TYPES = {"int32_t": "INT32", "int64_t": "INT64", "double": "DOUBLE", "double *":
 
 def short(name):
     """STATE for hooke_state."""
-    return name[len("hooke_"):].upper()
+    return headers.short(name).upper()
 
 
 def argument(kind):
