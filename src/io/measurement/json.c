@@ -29,14 +29,16 @@ static const char *key_of(const struct hk_table *table) {
 static double number_of(const hooke_measurement *m, const struct hk_table *table,
                         const struct hk_column *column, int64_t row) {
   const int is_met = m->kind == &hk_study_kind && is_named("met", column->name);
-  return is_met && !hk_study_knows_met(m->object) ? NAN : hk_table_number(table, column, m->object, row);
+  return is_met && !hk_study_knows_met(m->object)
+             ? NAN
+             : hk_table_number(table, column, hk_measured(m, table), row);
 }
 
 static void add_value(struct hk_text *text, const hooke_measurement *m, const char *key,
                       const struct hk_table *table, const struct hk_column *column, int64_t row) {
   const double number = number_of(m, table, column, row);
   if (column->type == HOOKE_COLUMN_TEXT)
-    hk_text_word(text, key, hk_table_text(table, column, m->object, row));
+    hk_text_word(text, key, hk_table_text(table, column, hk_measured(m, table), row));
   else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
     hk_text_flag(text, key, number != 0.0);
   else
@@ -45,8 +47,8 @@ static void add_value(struct hk_text *text, const hooke_measurement *m, const ch
 
 static int is_known(const hooke_measurement *m, const struct hk_table *table, const struct hk_column *column,
                     int64_t row) {
-  return hk_table_text(table, column, m->object, row) != NULL ||
-         !isnan(hk_table_number(table, column, m->object, row));
+  return hk_table_text(table, column, hk_measured(m, table), row) != NULL ||
+         !isnan(hk_table_number(table, column, hk_measured(m, table), row));
 }
 
 /* An array that is named like its first column stands in place of all of them. */
@@ -100,11 +102,12 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
     add_value(text, m, column->name, table, column, row);
   }
   if (table == hk_measurement_table(&hk_needs_kind, "lean")) add_left_out(text, m);
-  for (const struct hk_table *other = m->kind->tables; other->name; other++) {
+  const struct hk_table *other;
+  for (int64_t k = 0; (other = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
     if (!is_named(other->inside, table->name)) continue;
     if (is_named(other->key, "quantities"))
       add_quantities(text, m, other);
-    else if (other->record || hk_table_count(other, m->object) > 0)
+    else if (other->record || hk_table_count(other, hk_measured(m, other)) > 0)
       add_table(text, m, key_of(other), other, row);
   }
 }
@@ -120,12 +123,12 @@ static void add_object(struct hk_text *text, const hooke_measurement *m, const s
 
 static const char *text_of(const hooke_measurement *m, const struct hk_table *table, int64_t row,
                            const char *column) {
-  return hk_table_text(table, hk_table_find(table, column), m->object, row);
+  return hk_table_text(table, hk_table_find(table, column), hk_measured(m, table), row);
 }
 
 /* The statistics of each quantity: of the reference, and by method. */
 static void add_quantities(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table) {
-  const int64_t count = hk_table_count(table, m->object), inner = table->inner(m->object);
+  const int64_t count = hk_table_count(table, hk_measured(m, table)), inner = table->inner(m->object);
   hk_text_open(text, "quantities", '[');
   for (int64_t k = 0; k < inner; k++) {
     hk_text_open(text, NULL, '{');
@@ -145,7 +148,7 @@ static void add_quantities(struct hk_text *text, const hooke_measurement *m, con
 static int is_there(const hooke_measurement *m, const struct hk_table *table, int64_t row) {
   int there = table->by == NULL;
   for (int32_t k = 0; k < table->column_count; k++)
-    there |= !isnan(hk_table_number(table, &table->columns[k], m->object, row));
+    there |= !isnan(hk_table_number(table, &table->columns[k], hk_measured(m, table), row));
   return there;
 }
 
@@ -153,7 +156,7 @@ static int is_there(const hooke_measurement *m, const struct hk_table *table, in
 static void add_table(struct hk_text *text, const hooke_measurement *m, const char *key,
                       const struct hk_table *table, int64_t of) {
   const char *by = table->by;
-  int64_t count = hk_table_count(table, m->object), first = 0;
+  int64_t count = hk_table_count(table, hk_measured(m, table)), first = 0;
   if (table->inside && table->inner) {
     count = table->inner(m->object);
     first = of * count;
@@ -180,16 +183,21 @@ void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, 
 
 /* ---- documents ---- */
 
-static void add_document(struct hk_text *text, const hooke_measurement *m) {
+void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *m) {
   const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
-  hk_text_open(text, NULL, '{');
   if (calls) hk_text_word(text, "callbacks", hk_callbacks_text(calls));
-  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
+  const struct hk_table *table;
+  for (int64_t k = 0; (table = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
     if (is_named(table->name, m->kind->name))
       add_row(text, m, table, 0);
     else if (!table->inside)
       add_table(text, m, key_of(table), table, 0);
   }
+}
+
+static void add_document(struct hk_text *text, const hooke_measurement *m) {
+  hk_text_open(text, NULL, '{');
+  hk_measurement_add_all(text, m);
   hk_text_close(text, '}');
 }
 
@@ -207,7 +215,7 @@ int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) 
 const char *hooke_measurement_json(hooke_measurement *m, const char *table, int64_t row) {
   const struct hk_table *t = table ? hk_measurement_table(m->kind, table) : NULL;
   struct hk_text text = {.is_spaced = 1};
-  if (table && (!t || row < -1 || row >= hk_table_count(t, m->object))) return NULL;
+  if (table && (!t || row < -1 || row >= hk_table_count(t, hk_measured(m, t)))) return NULL;
   if (t && row < 0) add_table(&text, m, NULL, t, 0);
   if (t && row >= 0) add_object(&text, m, t, row, NULL);
   if (!t) add_document(&text, m);

@@ -61,7 +61,7 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
   double *value = hk_new(extent.count, sizeof *value);
   if (value == NULL) return -1;
   for (int64_t k = 0; k < extent.count; k++)
-    value[k] = hk_table_number(table, column, m->object, k * extent.stride);
+    value[k] = hk_table_number(table, column, hk_measured(m, table), k * extent.stride);
   const herr_t result =
       hk_h5_array_of(group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, extent.rank, extent.size, value);
   hk_free(value);
@@ -71,8 +71,8 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
 static int64_t longest_text(const hooke_measurement *m, const struct hk_table *table,
                             const struct hk_column *column) {
   size_t length = LEAST_LENGTH;
-  for (int64_t row = 0; row < hk_table_count(table, m->object); row++) {
-    const char *text = hk_table_text(table, column, m->object, row);
+  for (int64_t row = 0; row < hk_table_count(table, hk_measured(m, table)); row++) {
+    const char *text = hk_table_text(table, column, hk_measured(m, table), row);
     const size_t own = text ? strlen(text) + 1 : 0;
     length = own > length ? own : length;
   }
@@ -84,7 +84,7 @@ static herr_t write_texts(hid_t group, const hooke_measurement *m, const struct 
   hid_t data = hk_h5_texts(group, column->name, extent.count, longest_text(m, table, column));
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t k = 0; result >= 0 && k < extent.count; k++) {
-    const char *text = hk_table_text(table, column, m->object, k * extent.stride);
+    const char *text = hk_table_text(table, column, hk_measured(m, table), k * extent.stride);
     result = hk_h5_write_text(data, k, text ? text : "");
   }
   hk_h5_drop(data);
@@ -107,13 +107,13 @@ static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *
 
 static struct hk_series series_at(const hooke_measurement *m, const struct hk_table *table,
                                   const struct hk_column *column, int64_t row) {
-  if (row >= hk_table_count(table, m->object)) return (struct hk_series){NULL, 0};
-  return hk_table_series(table, column, m->object, row);
+  if (row >= hk_table_count(table, hk_measured(m, table))) return (struct hk_series){NULL, 0};
+  return hk_table_series(table, column, hk_measured(m, table), row);
 }
 
 static herr_t write_series(hid_t group, const hooke_measurement *m, const struct hk_table *table,
                            const struct hk_column *column) {
-  const int64_t rows = hk_table_count(table, m->object);
+  const int64_t rows = hk_table_count(table, hk_measured(m, table));
   struct hk_series series = series_at(m, table, column, 0);
   const hsize_t size[2] = {(hsize_t)rows, (hsize_t)series.count};
   const double none = NAN;
@@ -140,8 +140,8 @@ static herr_t write_record(hid_t group, const hooke_measurement *m, const struct
   herr_t result = 0;
   for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
-    const double number = hk_table_number(table, column, m->object, 0);
-    const char *text = hk_table_text(table, column, m->object, 0);
+    const double number = hk_table_number(table, column, hk_measured(m, table), 0);
+    const char *text = hk_table_text(table, column, hk_measured(m, table), 0);
     if (column->type == HOOKE_COLUMN_TEXT)
       result = hk_h5_text_attribute(group, column->name, text ? text : "");
     else if (column->type != HOOKE_COLUMN_SERIES)
@@ -154,7 +154,7 @@ static herr_t write_columns(hid_t group, const hooke_measurement *m, const struc
   herr_t result = 0;
   for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
-    const struct extent extent = extent_of(table, column, m->object);
+    const struct extent extent = extent_of(table, column, hk_measured(m, table));
     /* tables that share a group share the names of their indices */
     if (column->type == HOOKE_COLUMN_SERIES || H5Lexists(group, column->name, H5P_DEFAULT) > 0) continue;
     result = column->type == HOOKE_COLUMN_TEXT ? write_texts(group, m, table, column, extent)
@@ -177,7 +177,7 @@ static herr_t write_all_series(hid_t kind, const hooke_measurement *m, const str
 static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
   const char *name = table->group ? table->group : table->name;
   const int is_own = strcmp(table->name, m->kind->name) == 0, is_rows = strcmp(table->name, "rows") == 0;
-  if (hk_table_count(table, m->object) == 0 && !is_rows) return 0;
+  if (hk_table_count(table, hk_measured(m, table)) == 0 && !is_rows) return 0;
   hid_t group = is_own || is_rows ? kind : open_group(kind, name);
   herr_t result = group < 0 ? -1 : 0;
   if (result >= 0) result = table->record ? write_record(group, m, table) : write_columns(group, m, table);
@@ -191,7 +191,8 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
   hid_t kind = open_group(file, m->kind->name);
   herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
-  for (const struct hk_table *table = m->kind->tables; result >= 0 && table->name; table++)
+  const struct hk_table *table;
+  for (int64_t k = 0; result >= 0 && (table = hk_measurement_table_at(m->kind, k)) != NULL; k++)
     result = write_table(kind, m, table);
   hk_h5_drop(kind);
   return result;
@@ -200,8 +201,9 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
 /* An approximate, generous size. */
 static double bytes_of(const hooke_measurement *m) {
   double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
-  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
-    const double rows = (double)hk_table_count(table, m->object);
+  const struct hk_table *table;
+  for (int64_t k = 0; (table = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
+    const double rows = (double)hk_table_count(table, hk_measured(m, table));
     for (int32_t c = 0; rows > 0.0 && c < table->column_count; c++) {
       const struct hk_column *column = &table->columns[c];
       const int64_t length = column->type == HOOKE_COLUMN_TEXT     ? longest_text(m, table, column)

@@ -27,7 +27,11 @@
 /* ---- the record ---- */
 
 HOOKE_READER(const char *, method, struct hk_needs, hooke_options_text(it->run, "method"))
-HOOKE_READER(double, judged_until, struct hk_needs, hk_needs_time(it, it->judged - 1))
+HOOKE_READER(double, judged_until, struct hk_needs, hk_needs_judged_until(it))
+
+double hk_needs_judged_until(const struct hk_needs *needs) {
+  return hk_needs_time(needs, needs->judged - 1);
+}
 
 static const struct hk_column needs_columns[] = {
     HOOKE_COLUMN(struct hk_needs, want, NUMBER, "m", "the wanted error"),
@@ -61,6 +65,8 @@ static const struct hk_column full_columns[] = {
 
 HOOKE_READER(double, times_less, struct hk_needs, it->cheapest.wall_seconds / it->lean_cost.wall_seconds)
 HOOKE_COUNTER(count_lean, struct hk_needs, it->lean != NULL)
+HOOKE_READER(const char *, scene, struct hk_needs, it->measurement->label[HOOKE_LABEL_OUTPUT])
+HOOKE_READER(const char *, command, struct hk_needs, it->measurement->label[HOOKE_LABEL_COMMAND])
 
 static const struct hk_column lean_columns[] = {
     HOOKE_COLUMN_AS(struct hk_needs, lean_error, error, NUMBER, "m",
@@ -77,6 +83,9 @@ static const struct hk_column lean_columns[] = {
         struct hk_needs, lean_note, note, TEXT, "",
         "parts that are rigid bodies in the lean system, and groups of parts that it has spring by "
         "spring, since it has some of their springs only"),
+    HOOKE_COLUMN_BY(scene, scene, TEXT, "",
+                    "file with it, where the caller wrote one and said so by a label"),
+    HOOKE_COLUMN_BY(command, command, TEXT, "", "command line that runs it, likewise"),
 };
 
 static const struct hk_column cheapest_columns[] = {
@@ -113,15 +122,15 @@ static const struct hk_column row_columns[] = {
 
 /* ---- resolution ---- */
 
-static double wanted_cells(const struct hk_needs_part *part, int32_t axis) {
-  if (part->cells[axis] < 0 || !isfinite(part->factor)) return NAN;
-  return fmax(1.0, ceil((double)part->cells[axis] * part->factor * (1.0 - 1e-12)));
+double hk_needs_cells(const struct hk_needs_part *part, int32_t axis, double factor) {
+  if (part->cells[axis] < 0 || !isfinite(factor)) return NAN;
+  return fmax(1.0, ceil((double)part->cells[axis] * factor * (1.0 - 1e-12)));
 }
 
 HOOKE_READER(const void *, find_part, struct hk_needs, &it->part[row])
-HOOKE_READER(double, wanted, struct hk_needs, wanted_cells(&it->part[row], 0))
-HOOKE_READER(double, wanted_second, struct hk_needs, wanted_cells(&it->part[row], 1))
-HOOKE_READER(double, wanted_third, struct hk_needs, wanted_cells(&it->part[row], 2))
+HOOKE_READER(double, wanted, struct hk_needs, hk_needs_cells(&it->part[row], 0, it->part[row].factor))
+HOOKE_READER(double, wanted_second, struct hk_needs, hk_needs_cells(&it->part[row], 1, it->part[row].factor))
+HOOKE_READER(double, wanted_third, struct hk_needs, hk_needs_cells(&it->part[row], 2, it->part[row].factor))
 
 static const struct hk_column part_columns[] = {
     HOOKE_COLUMN_AS(struct hk_needs_part, name, part, TEXT, "", "name of the part"),
