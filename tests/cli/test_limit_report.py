@@ -179,7 +179,7 @@ def test_words(chain, tmp_path):
     seen = browse(tmp_path, page)
     assert seen.text["scene"] == TITLE
     assert seen.text["claims"].strip() == "".join(claim["text"] for claim in value["claims"])
-    assert "springs7springs drawn7springs left out0" in seen.text["about"] and "1414.25 rad/s" in seen.text["about"]
+    assert "springs7springs drawn7springs left out0" in seen.text["about"] and "mode in group stiff100.0 %" in seen.text["about"] and "1414.25 rad/s" in seen.text["about"]
     assert "No line: backward-euler" in seen.text["unbounded"]
     assert "spring 6" in seen.text["blame"] and "3 and 4" in seen.text["blame"] and "stiff" in seen.text["blame"]
     assert VERSION.split()[1] in seen.text["machine"] and "ARPACK-NG" in seen.text["machine"]

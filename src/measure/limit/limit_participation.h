@@ -97,11 +97,6 @@ struct hk_suggestion {
   char sentence[640];
 };
 
-/* Adds the groups with the largest shares, at most three: "group `hem` has 60 % of it, ..."; nothing if all
- * are small. */
-void hk_suggestion_add_groups(const hooke_system *system, const struct hk_participation *participation,
-                              char *text, size_t size);
-
 /* The smallest set of springs or particles with 90 % of the mode, if it is small against the scene and the
  * step without it would be larger; `factor` is the cost of the set. `limit` is that of `method` at q as it
  * is. Without such a set `sentence` describes the limiting groups, the counts are 0 and the numbers NaN. The

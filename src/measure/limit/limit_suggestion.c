@@ -182,8 +182,17 @@ static void add_number(const hooke_system *system, int64_t group, char *text, si
             springs ? "" : " of ", springs ? "" : force->members);
 }
 
-void hk_suggestion_add_groups(const hooke_system *system, const struct hk_participation *participation,
-                              char *text, size_t size) {
+/* No small set: shares by group, the largest first. */
+static void tell_groups(const hooke_system *system, const struct hk_participation *participation,
+                        struct hk_suggestion *suggestion) {
+  char *text = suggestion->sentence;
+  const size_t size = sizeof suggestion->sentence;
+  if (!(participation->stiffness_share > 0.0) && participation->spring_count == 0) {
+    hk_append(text, size, "no spring limits the step");
+    return;
+  }
+  hk_append(text, size,
+            "no few springs or particles limit the step: the limiting mode is spread over the scene");
   double before = INFINITY;
   for (int k = 0; k < 3; k++) {
     int64_t best = -1;
@@ -192,28 +201,16 @@ void hk_suggestion_add_groups(const hooke_system *system, const struct hk_partic
           (best < 0 || participation->group_share[g] > participation->group_share[best]))
         best = g;
     }
-    if (best < 0 || participation->group_share[best] < 0.01) return;
+    if (best < 0 || participation->group_share[best] < 0.01) break;
     before = participation->group_share[best];
-    if (k > 0) hk_append(text, size, ", ");
+    hk_append(text, size, k == 0 ? " (" : ", ");
     if (hk_participation_group_name(system, best)[0] != '\0')
       hk_append(text, size, "group `%.60s`", hk_participation_group_name(system, best));
     else
       add_number(system, best, text, size);
     hk_append(text, size, " has %.0f %% of it", 100.0 * before);
   }
-}
-
-static void tell_no_set(const hooke_system *system, const struct hk_participation *participation,
-                        struct hk_suggestion *suggestion) {
-  char groups[320] = "";
-  if (!(participation->stiffness_share > 0.0) && participation->spring_count == 0) {
-    hk_append(suggestion->sentence, sizeof suggestion->sentence, "no spring limits the step");
-    return;
-  }
-  hk_suggestion_add_groups(system, participation, groups, sizeof groups);
-  hk_append(suggestion->sentence, sizeof suggestion->sentence,
-            "no few springs or particles limit the step: the limiting mode is spread over the scene%s%s%s",
-            groups[0] ? " (" : "", groups, groups[0] ? ")" : "");
+  if (isfinite(before)) hk_append(text, size, ")");
 }
 
 /* ---- drag and damping ---- */
@@ -305,7 +302,7 @@ int32_t hk_suggestion_find(const hooke_system *system, const double *q, const ch
   if (status == HOOKE_OK && (hk_participation_is_drag(force) || force == HOOKE_PARTICIPATION_DAMPING))
     status = tell_force(system, q, method, limit, participation, force, suggestion);
   else if (status == HOOKE_OK && suggestion->kind == NULL)
-    tell_no_set(system, participation, suggestion);
+    tell_groups(system, participation, suggestion);
   hk_utf8_make_plain(suggestion->sentence);
   return status;
 }

@@ -149,14 +149,11 @@ const describeBlame = (one) =>
 function writeBlame() {
   const most = blames.slice(0, MOST_BLAMED);
   if (most.length === 0) return;
-  const body = writeTable("blame", [["", "to blame", "", "word"], ["", "between particles"], ["", "group", "", "word"],
-    ["", "share of the mode"]], most, (one) => [swatchCell(shareColour(one.share), `spring ${one.number}`),
-    element("td", `${one.first} and ${one.second}`), element("td", one.group, { className: "word" }),
-    element("td", percent(one.share), { title: String(one.share) })]);
-  if (blames.length === most.length) return;
-  const line = element("tr");
-  line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
-  body.append(line);
+  writeTable("blame", [["", "to blame", "", "word"], ["", "between particles"], ["", "group", "", "word"],
+    ["", "share of the mode"]], blames.length > most.length ? [...most, null] : most, (one) => (one === null
+    ? [element("td", "and others with less", { className: "word note", colSpan: 4 })]
+    : [swatchCell(shareColour(one.share), `spring ${one.number}`), element("td", `${one.first} and ${one.second}`),
+      wordCell(one.group), element("td", percent(one.share), { title: String(one.share) })]));
 }
 
 /* What of the scene is drawn, as facts. */
@@ -167,4 +164,7 @@ function writePicture() {
   fact("about", "springs drawn", known(listed.length));
   fact("about", "springs left out", known(picture.springs - listed.length));
   fact("about", "particles drawn that move", known(movers.length));
+  const shares = new Map();
+  for (const one of blames) shares.set(groupOf(one), (shares.get(groupOf(one)) || 0) + one.share);
+  for (const [group, share] of shares) if (share > 0.001) fact("about", `mode in ${group}`, percent(share));
 }

@@ -23,14 +23,6 @@ function numberCell(row, what) {
   return cell;
 }
 
-function nameCell(name, colour) {
-  const cell = element("td", undefined, { className: "word" }), swatch = element("span", undefined,
-    { className: "swatch" });
-  swatch.style.background = colour;
-  cell.append(swatch, name);
-  return cell;
-}
-
 function writeRows() {
   const lines = [["nothing (the full scene)", FULL, full, ""],
     ...data.rows.map((row) => [row.without, KINDS[kindOf(row)][1], row,
@@ -38,28 +30,17 @@ function writeRows() {
     ...(lean ? [["all that is left out (the lean scene)", LEAN, lean, "within what is wanted"],
       ["nothing, within what is wanted", FULL, lean.full, "within what is wanted"]] : [])];
   const columns = COLUMNS.filter(([what]) => lines.some(([, , row]) => what === "per_step" || (row[what] ?? null) !== null));
-  const body = element("tbody");
-  for (const [name, colour, row, says] of lines) {
-    const line = element("tr");
-    line.append(nameCell(name, colour), ...columns.map(([what]) => numberCell(row, what)),
-      element("td", says, { className: "word note" }));
-    body.append(line);
-  }
-  document.getElementById("rows").append(headOf([["", "without", "", "word"], ...columns, ["", "", "", "word"]]), body);
+  writeTable("rows", [["", "without", "", "word"], ...columns, ["", "", "", "word"]], lines, ([name, colour, row, says]) =>
+    [swatchCell(colour, name), ...columns.map(([what]) => numberCell(row, what)), noteCell(says)]);
 }
 
 function writeParts() {
-  const body = element("tbody");
   const exact = (value) => element("td", words(value, 4), { title: value === null ? "" : String(value) });
-  for (const part of data.parts) {
-    const line = element("tr");
-    line.append(element("td", part.part, { className: "word" }), element("td", cellsOf(part, "cells")),
+  writeTable("parts", [["", "part", "", "word"], ["", "cells N"], ["", "N to 2N", "[m]"], ["", "2N to 4N", "[m]"],
+    ["", "order"], ["", "left", "[m]"], ["", "the want", "asks for"], ["", "", "", "word"]], data.parts, (part) =>
+    [wordCell(part.part), element("td", cellsOf(part, "cells")),
       ...["change", "change_fine", "order", "error"].map((what) => exact(part[what])),
-      element("td", cellsOf(part, "wanted")), element("td", part.note, { className: "word note" }));
-    body.append(line);
-  }
-  document.getElementById("parts").append(headOf([["", "part", "", "word"], ["", "cells N"], ["", "N to 2N", "[m]"],
-    ["", "2N to 4N", "[m]"], ["", "order"], ["", "left", "[m]"], ["", "the want", "asks for"], ["", "", "", "word"]]), body);
+      element("td", cellsOf(part, "wanted")), noteCell(part.note)]);
 }
 
 function writePictured() {

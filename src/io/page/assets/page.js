@@ -197,16 +197,18 @@ function swatchCell(colour, text) {
 
 const methodCell = (method) => swatchCell(colourOf(method), method);
 
-/* A table with a line of cells for each row; returns its body. */
-function writeTable(id, columns, rows, cellsOf) {
+const wordCell = (text) => element("td", text, { className: "word" });
+const noteCell = (text) => element("td", text, { className: "word note" });
+
+/* A table with a line of cells for each row, of the class that `classOf` says. */
+function writeTable(id, columns, rows, cellsOf, classOf = () => "") {
   const body = element("tbody");
-  for (const row of rows) {
-    const line = element("tr");
-    line.append(...cellsOf(row));
+  rows.forEach((row, k) => {
+    const line = element("tr", undefined, { className: classOf(row, k) });
+    line.append(...cellsOf(row, k));
     body.append(line);
-  }
+  });
   document.getElementById(id).append(headOf(columns), body);
-  return body;
 }
 
 function writeMachine() {

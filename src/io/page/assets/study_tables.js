@@ -29,33 +29,24 @@ function numberCell(row, what) {
   return cell;
 }
 
+/* The first line of each method has a rule above. */
+const lineOfRun = (row, k) => row.status + (k > 0 && row.method !== study.rows[k - 1].method ? " first" : "");
+
 function writeRows() {
   const columns = COLUMNS.filter(([what]) =>
     what !== "linear_iterations" || study.rows.some((row) => row[what] > 0));
-  const body = element("tbody");
-  study.rows.forEach((row, k) => {
-    const line = element("tr", undefined, { className: row.status });
-    if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
-    line.append(methodCell(row.method), ...columns.map(([what]) => numberCell(row, what)),
-      element("td", row.status, { className: "word" }));
-    body.append(line);
-  });
-  document.getElementById("rows").append(
-    headOf([["", "method", "", "word"], ...columns, ["", "status", "", "word"]]), body);
+  writeTable("rows", [["", "method", "", "word"], ...columns, ["", "status", "", "word"]], study.rows, (row) =>
+    [methodCell(row.method), ...columns.map(([what]) => numberCell(row, what)), wordCell(row.status)], lineOfRun);
 }
 
 function writeOrders() {
-  const body = element("tbody");
-  for (const [method, order] of Object.entries(study.orders)) {
-    const line = element("tr");
-    const range = order.low === null ? "\u2013" : `${order.low.toFixed(2)} to ${order.high.toFixed(2)}`;
-    line.append(methodCell(method), element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
-      element("td", range), element("td", words(order.theory)), element("td", order.note, { className: "word note" }));
-    body.append(line);
-  }
-  if (body.children.length === 0) return;
-  document.getElementById("orders").append(headOf([["", "method", "", "word"], ["", "observed order"],
-    ["", "95 % interval"], ["", "theory"], ["", "", "", "word"]]), body);
+  const orders = Object.entries(study.orders);
+  if (orders.length === 0) return;
+  writeTable("orders", [["", "method", "", "word"], ["", "observed order"], ["", "95 % interval"], ["", "theory"],
+    ["", "", "", "word"]], orders, ([method, order]) => [methodCell(method),
+    element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
+    element("td", order.low === null ? "\u2013" : `${order.low.toFixed(2)} to ${order.high.toFixed(2)}`),
+    element("td", words(order.theory)), noteCell(order.note)]);
 }
 
 /* ---- watched quantities ---- */
@@ -74,19 +65,12 @@ function writeWatched() {
   const watched = study.reference.watched || [];
   document.getElementById("watched-section").hidden = watched.length === 0;
   if (watched.length === 0) return;
-  const body = element("tbody"), first = element("tr");
-  first.append(element("td", "agreement", { className: "word" }), element("td", ""),
-    ...watched.map((item) => element("td", words(item.agreement, 4))));
-  body.append(first);
-  study.rows.forEach((row, k) => {
-    const line = element("tr", undefined, { className: row.status });
-    if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
-    line.append(methodCell(row.method), numberCell(row, "setting"),
-      ...watched.map((item, q) => errorCell(row.watched[q].error, item.agreement)));
-    body.append(line);
-  });
-  document.getElementById("watched").append(headOf([["", "method", "", "word"], ["", "step [s]", "or rtol"],
-    ...watched.map((item) => ["", item.quantity, inUnit(item)])]), body);
+  writeTable("watched", [["", "method", "", "word"], ["", "step [s]", "or rtol"],
+    ...watched.map((item) => ["", item.quantity, inUnit(item)])], [null, ...study.rows], (row) => (row === null
+    ? [wordCell("agreement"), element("td", ""), ...watched.map((item) => element("td", words(item.agreement, 4)))]
+    : [methodCell(row.method), numberCell(row, "setting"),
+      ...watched.map((item, q) => errorCell(row.watched[q].error, item.agreement))]),
+  (row, k) => (row === null ? "" : lineOfRun(row, k - 1)));
 }
 
 /* ---- statistics ---- */
@@ -103,20 +87,13 @@ function writeStatistics() {
   const found = study.statistics;
   document.getElementById("statistics-section").hidden = !found;
   if (!found) return;
-  const body = element("tbody");
-  for (const { quantity, reference, methods: others } of found.quantities) {
-    [reference, ...Object.values(others)].forEach((source, k) => {
-      const line = element("tr");
-      if (k === 0) line.classList.add("first");
-      line.append(element("td", k === 0 ? `${quantity} ${inUnit(source)}` : "", { className: "word" }),
-        source.method === "reference" ? element("td", source.method, { className: "word" }) : methodCell(source.method),
-        numberCell(source, "setting"), element("td", whole(source.members)), element("td", words(source.mean, 4)),
-        element("td", words(source.spread, 4)), element("td", biasWords(source), { className: "word note" }));
-      body.append(line);
-    });
-  }
-  document.getElementById("statistics").append(headOf([["", "quantity", "", "word"], ["", "method", "", "word"],
-    ["", "step [s]", "or rtol"], ["", "runs"], ["", "mean"], ["", "spread"], ["", "bias", "", "word"]]), body);
+  const sources = found.quantities.flatMap(({ quantity, reference, methods: others }) =>
+    [reference, ...Object.values(others)].map((source, k) => ({ ...source, title: k === 0 ? `${quantity} ${inUnit(source)}` : "" })));
+  writeTable("statistics", [["", "quantity", "", "word"], ["", "method", "", "word"], ["", "step [s]", "or rtol"],
+    ["", "runs"], ["", "mean"], ["", "spread"], ["", "bias", "", "word"]], sources, (source) => [wordCell(source.title),
+    source.method === "reference" ? wordCell(source.method) : methodCell(source.method), numberCell(source, "setting"),
+    element("td", whole(source.members)), element("td", words(source.mean, 4)), element("td", words(source.spread, 4)),
+    noteCell(biasWords(source))], ({ title }) => (title ? "first" : ""));
 }
 
 /* ---- facts ---- */
