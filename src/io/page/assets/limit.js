@@ -8,7 +8,6 @@ data.rows.forEach((row, k) => {
 const modes = Object.fromEntries(["real", "imaginary", "frequency", "decay"]
   .map((name) => [name, data.modes.map((mode) => mode[name])]));
 const modeCount = data.modes.length;
-const pale = (colour) => colour + "1a";
 
 /* ---- stability ---- */
 
@@ -25,16 +24,7 @@ function findSteps() {
 }
 const steps = findSteps();
 
-const pairs = (flat) => Array.from({ length: flat.length / 2 }, (_, k) => ({ x: flat[2 * k], y: flat[2 * k + 1] }));
-
-function region(method, points) {
-  return { label: method, role: "region", data: points, borderColor: colourOf(method),
-    backgroundColor: pale(colourOf(method)), borderWidth: 2, fill: "shape", pointRadius: 0, pointHitRadius: 0,
-    pointStyle: "line", order: 3 };
-}
-
 const mirrored = (points) => [...points, ...[...points].reverse().map(({ x, y }) => ({ x, y: -y }))];
-const fromOrigin = (points) => [{ x: 0, y: 0 }, ...points, { x: 0, y: 0 }];
 
 /* Points of modes, with crosses at the edge for those outside. */
 function pointsOf(list) {

@@ -136,6 +136,16 @@ function startPicture() {
   choice("view", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), firstView(), (key) => look("view", key));
 }
 
+/* ---- regions of stability ---- */
+
+const pairs = (flat) => Array.from({ length: flat.length / 2 }, (_, k) => ({ x: flat[2 * k], y: flat[2 * k + 1] }));
+const fromOrigin = (points) => [{ x: 0, y: 0 }, ...points, { x: 0, y: 0 }];
+
+function region(label, points, colour = colourOf(label)) {
+  return { label, role: "region", data: points, borderColor: colour, backgroundColor: `${colour}1a`, borderWidth: 2,
+    fill: "shape", pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 3 };
+}
+
 /* ---- the table ---- */
 
 const MOST_BLAMED = 12;
