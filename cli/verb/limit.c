@@ -74,30 +74,27 @@ static double number_of(const struct limit *l, const char *what) {
   return cli_number(l->limit, "limit", what);
 }
 
-static const struct column {
-  struct cli_column is;
-  int32_t along; /* 1: along a run only; -1: at one state only */
-} columns[] = {{{"bound", "safe bound", "[s]", 12, "%.6g", "none", "no step", 0}, 0},
-               {{"predicted", "predicted", "[s]", 12, "%.6g", "none", "no step", 0}, 0},
-               {{"measured", "measured", "[s]", 12, "%.6g", "none", "no step", 0}, -1},
-               {{"ratio", "measured /", "predicted", 10, "%.6g", "none", "no step", 0}, -1},
-               {{"steps_run", "steps", "run", 10, "%.0f", "none", NULL, 0}, -1},
-               {{"smallest", "smallest", "met [s]", 12, "%.6g", "none", "no step", 0}, 1},
-               {{"smallest_time", "at time", "[s]", 10, "%.6g", "none", NULL, 0}, 1}};
+static const struct cli_column columns[] = {
+    {"bound", "safe bound", "[s]", 12, "%.6g", "none", "no step", 0},
+    {"predicted", "predicted", "[s]", 12, "%.6g", "none", "no step", 0},
+    {"measured", "measured", "[s]", 12, "%.6g", "none", "no step", 0},
+    {"ratio", "measured /", "predicted", 10, "%.6g", "none", "no step", 0},
+    {"steps_run", "steps", "run", 10, "%.0f", "none", NULL, 0},
+    {"smallest", "smallest", "met [s]", 12, "%.6g", "none", "no step", 0},
+    {"smallest_time", "at time", "[s]", 10, "%.6g", "none", NULL, 0}};
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
-static int32_t is_shown(const struct limit *l, int k) {
-  const int32_t measured = hooke_options_number(l->arguments->more, "predict") == 0.0;
-  return columns[k].along == 0 || (columns[k].along > 0 ? l->along : !l->along && measured);
-}
-
-static void print_table(const struct limit *l) {
+/* The columns in which anything is known. */
+static void print_table(const hooke_measurement *limit) {
   struct cli_column shown[COLUMN_COUNT + 1] = {{.what = NULL}};
   const struct cli_rows rows = {
-      .source = l->limit, .count = hooke_measurement_row_count(l->limit, "rows"), .columns = shown};
+      .source = limit, .count = hooke_measurement_row_count(limit, "rows"), .columns = shown};
   int32_t count = 0;
   for (int k = 0; k < COLUMN_COUNT; k++) {
-    if (is_shown(l, k)) shown[count++] = columns[k].is;
+    int32_t known = 0;
+    for (int64_t row = 0; row < rows.count; row++)
+      known |= !isnan(hooke_measurement_number(limit, "rows", row, columns[k].what));
+    if (known) shown[count++] = columns[k];
   }
   cli_rows_print(&rows, cli_rows_method_width(&rows));
 }
@@ -109,7 +106,7 @@ static void print_words(const struct limit *l) {
   cli_claims_print(l->arguments, l->limit, INDENT, NULL);
   printf("\nfastest motion %.6g rad/s, fastest damping %.6g 1/s\n\n", number_of(l, "frequency_max"),
          number_of(l, "rate_max"));
-  print_table(l);
+  print_table(l->limit);
   if (hooke_measurement_row_count(l->limit, "blame") > 0) printf("\n");
   cli_limiting_print(l->limit);
 }
