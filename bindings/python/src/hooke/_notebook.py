@@ -86,7 +86,7 @@ class Tabled:
 
     rows: Table
 
-    def _repr_html_(self) -> str:
+    def _repr_html_(self) -> str | None:
         return table(self.rows)
 
     def report(self, path: str | os.PathLike[str]) -> Path:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import Any, NamedTuple, Union
+from typing import Any, Union
 
 from ._library import lib
-from ._measurement import Measurement
+from ._measurement import Measurement, Record
 from ._status import BadValue, Unsuited
 from ._types import Path
 from .integrator import Integrator
@@ -20,30 +20,8 @@ Length = Union[float, str]
 _CHOSEN = ("step", "rtol", "atol", "atol_velocity")
 
 
-class RunError(NamedTuple):
-    """The error of a run.
-
-    `estimate` is the distance of the farthest free particle, at any frame, from where it should be [m], and `rms` the
-    root mean square over free particles at the worst frame; NaN if they are not known. They hold up to `known_until`
-    [s]. `by` is "half-step", "tolerance", "other-method" or "reference", None without an estimate; `wanted` the wanted
-    error [m] and `met` whether it was met, None if that is unknown or none was wanted. `energy_rise` is the
-    spontaneous rise of energy over the last half of the run, as a fraction of the energy of the scene, NaN if unknown;
-    `heat_excess` is the energy that damping and drag dissipated beyond the available energy, as such a fraction, since
-    velocities reverse at each step. Where the error is not known, `last_piece` is what the run from `last_from` [s] to
-    its end added to it there [m], NaN if that was not measured. `reason` says why an error is not known or not met.
-    """
-
-    estimate: float
-    rms: float
-    known_until: float
-    by: str | None
-    wanted: float
-    met: bool | None
-    energy_rise: float
-    heat_excess: float
-    last_piece: float
-    last_from: float
-    reason: str
+class RunError(Record, table="estimate.estimate", without=("seconds", "memory_bytes", "reversal"), none=("by",)):
+    """The error of a run; a number that is not known is NaN. `met` is None if that is unknown or no error was wanted."""
 
 
 class Estimate:
@@ -77,8 +55,7 @@ class Estimate:
     def measure(self, state: State) -> RunError:
         """The result, after the run that ended with `state`."""
         self._measurement.run(self._progress, state)
-        found: RunError = self._measurement.one(RunError, "estimate")
-        return found
+        return self._measurement.each(RunError, "estimate")[0]
 
     def write(self, path: Path) -> None:
         """Adds it to the output file of the run."""

@@ -145,6 +145,9 @@ class Options(Owner, MutableMapping[str, Any]):
                 "these are the options that an integrator runs with; make another integrator to change them"
             )
         key = name.encode()
+        if value is not None and not isinstance(value, str) and name in self._rows and self._rows[name].type == "text":
+            many = np.ravel(value) if isinstance(value, np.ndarray) else value if isinstance(value, Iterable) else [value]
+            value = ",".join(map(str, many))
         if name in ("method", "methods") and isinstance(value, str):
             value = ",".join(_method_meant(name, word) for word in value.split(","))
         if value is None:
@@ -233,11 +236,6 @@ def describe(what: str) -> str:
 def option_name(keyword: str) -> str:
     """The option of a keyword: ``from_`` means ``from``, which Python reserves."""
     return keyword[:-1] if keyword.endswith("_") else keyword
-
-
-def joined(words: str | Iterable[str] | None) -> str | None:
-    """Words as one text, as options take them."""
-    return words if words is None or isinstance(words, str) else ",".join(words)
 
 
 def as_number(name: str, value: Any) -> float:

@@ -306,11 +306,13 @@ def resolve(
 
 
 def measured(
-    kind: str, problem: Runnable, run: dict[str, Any], chosen: Options, progress: Any, at: Any = None, force: Force | None = None
+    kind: str, problem: Runnable, given: dict[str, Any], progress: Any, at: Any = None, force: Force | None = None
 ) -> tuple[Measurement, Scene | None, System, int]:
-    """A measurement of a kind, done `at` a state of a system, with its scene, its system and the status. `run` are options of
-    its runs, which may be in several threads."""
-    scene, found, options = resolve(problem, force, run)
+    """A measurement of a kind, done `at` a state of a system, with its scene, its system and the status. The keywords
+    `given` are options of the kind, or of its runs, which may be in several threads."""
+    chosen = Options._of(kind)
+    chosen.set(**{name: given.pop(name) for name in list(given) if name in chosen})
+    scene, found, options = resolve(problem, force, given)
     system, threads = system_of(found, kind), options["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")

@@ -30,6 +30,10 @@ if TYPE_CHECKING:
 
 
 K = TypeVar("K")
+#: The numbers of an error in their order in a file.
+_ERROR = (
+    "estimate", "rms", "known_until", "energy_rise", "wanted", "met", "heat_excess", "last_piece", "last_from",
+)
 
 
 class Frame(NamedTuple):
@@ -120,11 +124,11 @@ class Trajectory(Closing):
     def error(self) -> RunError | None:
         """The error of the run, as estimated after it; None if it was not estimated."""
         by, reason = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_reason"))
-        if not (by or reason) or len(self._numbers("error")) != len(RunError._fields) - 2:
+        if not (by or reason) or len(self._numbers("error")) != len(_ERROR):
             return None  # not estimated, or by an earlier version, which knew parts alone
-        estimate, rms, known_until, rise, wanted, met, excess, piece, piece_from = self._numbers("error").tolist()
-        reached = None if math.isnan(met) else met == 1.0
-        return RunError(estimate, rms, known_until, by or None, wanted, reached, rise, excess, piece, piece_from, reason)
+        found = dict(zip(_ERROR, self._numbers("error").tolist()))
+        met = None if math.isnan(found["met"]) else found["met"] == 1.0
+        return RunError(**{**found, "met": met, "by": by, "reason": reason})
 
     @property
     def options(self) -> Options:

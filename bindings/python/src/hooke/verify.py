@@ -56,4 +56,4 @@ def verify(
     except BadValue:
         if measurement.text("verify", 0, "verdict") != "disagrees":
             raise
-    return Verification(measurement.record("verify") or {})
+    return Verification(measurement.record("verify"))
