@@ -100,7 +100,7 @@ def imports(module, known):
     return found, inside
 
 
-UP = {"_problem": {"results"}}  # the type of what a problem's run() returns, which is above all problems
+UP = {"problems": {"results"}}  # the type of what a problem's run() returns, which is above all problems
 
 
 def circle(modules):
@@ -123,7 +123,7 @@ def test_a_planted_circle_is_seen():
     late = "def f():\n    from .a import x\n"
     assert circle({"a": "from .b import f", "b": late, "c": "from .a import f"}) == {"a", "b", "c"}
     assert circle({"a": "from . import b", "b": "if TYPE_CHECKING:\n    from .a import x\n"}) == {"a", "b"}
-    assert circle({"results": "from . import _problem", "_problem": "from .results import Result"}) == set()
+    assert circle({"results": "from . import problems", "problems": "from .results import Result"}) == set()
     assert imports(late, {"a"}) == (set(), {"a"})
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
-from ._problem import Problem
 from ._types import FloatArray, IntArray
+from .problems import Problem
 
 _DOUBLE = np.dtype(np.float64)
 

@@ -11,16 +11,14 @@ from typing import Any, Callable, NamedTuple, Optional
 import numpy as np
 
 from . import _callback
-from ._closing import Closing
 from ._library import lib
-from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
+from ._memory import Closing, Handle, double_pointer, doubles, index_pointer, indices, text
 from ._progress import WorkProgress
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from ._types import FloatArray
-from .first_order import FirstOrder
 from .options import Options
-from .second_order import SecondOrder
+from .problems import FirstOrder, SecondOrder
 from .state import State
 from .system import System
 from .why import Why

@@ -12,8 +12,8 @@ from ._library import lib
 from ._measurement import Measurement, Paged, Record
 from ._notebook import draw, lined, named
 from ._progress import WorkProgress
-from ._record import opened
 from ._types import ComplexArray, FloatArray, Path
+from .files import opened
 from .results import Runnable, measured
 from .scene import Scene
 from .state import State

@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ._closing import Closing
 from ._library import lib
 from ._measurement import Measurement, Paged, Record
-from ._memory import Handle, double_pointer, rows
+from ._memory import Closing, Handle, double_pointer, rows
 from ._notebook import draw, lined, named
 from ._progress import WorkProgress
 from ._status import BadCall, plain

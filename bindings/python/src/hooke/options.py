@@ -11,9 +11,8 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, Owner, address_of, double_pointer, doubles, plain, text, view
-from ._place import placed
 from ._prototypes import OPTIONS
-from ._status import BadCall, BadValue
+from ._status import BadCall, BadValue, placed
 from ._types import Table
 
 Value = Union[None, bool, int, float, str, Table, list[Any]]

@@ -25,25 +25,22 @@ from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
-from . import _problem
 from ._callback import stop_value
 from ._library import lib
-from ._measurement import Measurement
+from ._measurement import Measurement, Record
 from ._notebook import embed
 from ._progress import WorkProgress, shown
 from ._prototypes import TRAJECTORY
-from ._record import numbers, opened, run_options
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
-from .estimate import Estimate, Length, RunError
-from .first_order import FirstOrder
+from .files import numbers, opened, run_options, view, write_companion
 from .integrator import Integrator, Observer
 from .options import Options
+from .problems import FirstOrder, SecondOrder
+from .problems import Problem as Base
 from .scene import Scene, scene_text
-from .second_order import SecondOrder
 from .state import State
 from .system import Force, System, system_of
-from .view import view, write_companion
 from .why import Why
 
 #: Problems that are no scene: a system, or a first- or second-order problem.
@@ -52,6 +49,9 @@ Problem = Union[System, FirstOrder, SecondOrder]
 Runnable = Union[Path, Scene, Problem]
 #: progress(fraction, state): called at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
+#: A length: a number [m], or text with a unit, such as "1mm".
+Length = Union[float, str]
+_CHOSEN = ("step", "rtol", "atol", "atol_velocity")
 _STOPPED = 1
 
 
@@ -62,6 +62,10 @@ class Frames(NamedTuple):
     t: FloatArray
     q: Table
     v: FloatArray | None
+
+
+class RunError(Record, table="estimate.estimate", without=("seconds", "memory_bytes", "reversal"), none=("by",)):
+    """The error of a run; a number that is not known is NaN. `met` is None if that is unknown or no error was wanted."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,52 @@ class Result:
     def _repr_html_(self) -> str | None:
         words = f"<p>{html.escape(self.diagnosis)}</p>" if self.diagnosis else ""
         return (words + (embed(lambda page: view(self, page), 720) if self.output is not None else "")) or None
+
+
+class Estimate:
+    """A measurement of kind "estimate": picks, observes and measures runs of one system."""
+
+    def __init__(self, system: System, want: Length | None, progress: Any = None):
+        wanted = want.strip() if isinstance(want, str) else want
+        options = Options._of("estimate").set(want=wanted, callbacks=True)
+        self._measurement = Measurement.create("estimate", system, None, options)
+        self._handle = self._measurement.handle
+        self._progress = progress
+
+    def pick(self, options: Options, given: dict[str, Any]) -> None:
+        """Sets a method and its step or tolerance for the wanted error; keeps the method if it is among those
+        `given`."""
+        chosen = [name for name in _CHOSEN if given.get(name) is not None]
+        if chosen:
+            raise BadValue(f"want picks the step or the tolerance; leave out {' and '.join(chosen)}, or want")
+        method = given.get("method")
+        with self._measurement.listening(self._progress):
+            lib.hooke_estimate_pick(self._handle, None if method is None else method.encode(), options._handle)
+
+    def begin(self, integrator: Integrator, state: State) -> None:
+        """Call before a run of `integrator` from `state`."""
+        lib.hooke_estimate_begin(self._handle, integrator._handle, state._handle)
+
+    def see(self, step: int, state: State) -> None:
+        """An observer of its frames."""
+        lib.hooke_estimate_see(step, state._handle, self._handle.pointer)
+
+    def measure(self, state: State) -> RunError:
+        """The result, after the run that ended with `state`."""
+        self._measurement.run(self._progress, state)
+        return self._measurement.each(RunError, "estimate")[0]
+
+    def write(self, path: Path) -> None:
+        """Adds it to the output file of the run."""
+        lib.hooke_estimate_write_h5(self._handle, os.fsencode(path))
+
+    def refine(self, options: Options) -> bool:
+        """Sets something finer, if that is known to help."""
+        try:
+            lib.hooke_estimate_refine(self._handle, options._handle)
+        except Unsuited:
+            return False
+        return True
 
 
 def run(
@@ -405,4 +455,4 @@ def _arrays(state: State) -> tuple[Table, Table | None]:
     return (state.x, None) if state._v is None else (state.q, state.v)
 
 
-_problem.Problem._run_by = run
+Base._run_by = run

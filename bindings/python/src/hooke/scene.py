@@ -11,13 +11,12 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, doubles, indices, rows, text
-from ._place import placed
-from ._problem import Problem
 from ._prototypes import SCENE
-from ._status import BadCall, BadValue
+from ._status import BadCall, BadValue, placed
 from ._types import IntArray, Numbers, Particle, Path
 from .options import Options, option_name
 from .parts import Parts
+from .problems import Problem
 from .system import System, read_mesh, write_scene
 
 

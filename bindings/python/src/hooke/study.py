@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._closing import Closing
 from ._library import lib
 from ._measurement import Measurement, Paged, Record
+from ._memory import Closing
 from ._notebook import draw, of_methods
 from ._progress import WorkProgress
 from ._types import FloatArray, Path

@@ -11,12 +11,12 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
-from ._problem import Problem
 from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
 from ._status import BadValue
 from ._types import FloatArray, IntArray
 from .options import Options
+from .problems import Problem
 from .state import State
 
 #: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.

@@ -10,20 +10,17 @@ from typing import TYPE_CHECKING, Any, Callable, NamedTuple, TypeVar, overload
 
 import numpy as np
 
-from ._closing import Closing
 from ._library import lib
-from ._memory import text
+from ._memory import Closing, text
 from ._notebook import draw, embed
-from ._record import numbers, opened, run_options
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
-from .estimate import RunError
+from .files import numbers, opened, run_options, view
 from .options import Options
-from .results import Frames
+from .results import Frames, RunError
 from .scene import Scene
 from .state import State
 from .system import System
-from .view import view
 
 if TYPE_CHECKING:
     from ._pictures import FuncAnimation

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 from ._library import lib
 from ._measurement import Measurement, Paged
 from ._memory import Handle, text
-from ._problem import Problem
 from ._progress import WorkProgress
 from ._status import Stopped, plain
 from .options import Options
+from .problems import Problem
 
 
 class Blame(NamedTuple):
