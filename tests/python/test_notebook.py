@@ -10,7 +10,8 @@ import pytest
 from conftest import SIX_PARTICLES
 
 import hooke
-from hooke._notebook import Tabled, table
+from hooke._measurement import Tabled
+from hooke.notebook import table
 
 STRANGE = "</script><b>\"'&amp;"
 ROPE = {"kind": "rope", "name": f"rope{STRANGE}", "from": [9, 0, 0], "to": [9.4, 0, 0], "segments": 4, "mass": 0.1,

@@ -21,8 +21,8 @@ from typing import Any, Callable
 import numpy as np
 
 from ._library import lib
+from ._look import Shown, shown
 from ._memory import Handle, text, view
-from ._progress import Shown, shown
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
 from ._status import pending
 from ._types import Table

@@ -8,16 +8,17 @@ import operator
 import os
 import pathlib
 import textwrap
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from ._callback import listening
 from ._library import lib
+from ._look import draw
 from ._memory import Handle, address_of, text, view
-from ._notebook import Tabled, embed
 from ._prototypes import MEASUREMENT
-from ._status import OUTCOMES, NotBuilt
+from ._status import OUTCOMES, NotBuilt, plain
 from ._types import FloatArray, Path, Table
 
 R = TypeVar("R", bound="Record")
@@ -188,6 +189,57 @@ class Measurement:
         lib.hooke_measurement_write(self.handle, os.fsencode(path))
 
 
+def named(rows: Table, column: str, name: str) -> np.void:
+    """The first row that has a name in a column."""
+    names = rows[column].tolist()
+    if name not in names:
+        raise KeyError(f"{name!r}; there are {', '.join(names)}")
+    row: np.void = rows[names.index(name)]
+    return row
+
+
+def lined(heads: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[str]:
+    """A table as lines of text; numbers that are not known are "-", and what is not limited is "none"."""
+
+    def cell(value: Any) -> str:
+        if isinstance(value, str):
+            return plain(value)
+        return "-" if np.isnan(value) else "none" if np.isinf(value) else f"{value:.6g}"
+
+    cells = [list(heads), *([cell(value) for value in row] for row in rows)]
+    first, *widths = (max(map(len, column)) for column in zip(*cells))
+    lines = (f"{name:{first}}" + "".join(f"{word:>{width + 2}}" for word, width in zip(words, widths)) for name, *words in cells)
+    return [line.rstrip() for line in lines]
+
+
+def of_methods(rows: Table, *columns: str) -> str:
+    """Rows of methods as text, with these columns."""
+    names = ["method", "status", *columns]
+    return "\n".join(lined(names, rows[names].tolist()))
+
+
+class Tabled:
+    """A result with rows, which a notebook shows as a table."""
+
+    rows: Table
+
+    def _repr_html_(self) -> str | None:
+        shown: str | None = draw("notebook.table", self.rows)
+        return shown
+
+    def report(self, path: Path) -> pathlib.Path:
+        """Writes a page to look at, offline, and returns its path."""
+        page = pathlib.Path(os.fspath(path))
+        draw("notebook.page", page, type(self).__name__, self.rows)
+        return page
+
+    def to_pandas(self) -> Any:
+        """The rows as a pandas data frame; pandas has to be installed."""
+        import pandas
+
+        return pandas.DataFrame.from_records(self.rows)
+
+
 class Found(Tabled):
     """A finished measurement with rows, of a scene if it was made of one. The columns of the record of its `kind` are its
     attributes."""
@@ -225,7 +277,8 @@ class Paged(Found):
 
     def _repr_html_(self) -> str | None:
         try:
-            return embed(self.write, 720)
+            shown: str = draw("notebook.embed", self.write)
+            return shown
         except NotBuilt:
             return None
 

@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ._measurement import Found, Measurement
-from ._notebook import lined, named
-from ._progress import WorkProgress
+from ._look import WorkProgress
+from ._measurement import Found, Measurement, lined, named
 from .results import Runnable, measured
 from .scene import Scene
 from .state import State

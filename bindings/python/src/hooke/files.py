@@ -13,9 +13,9 @@ from typing import Any, Protocol, Union
 import numpy as np
 
 from ._library import lib
+from ._look import WorkProgress
 from ._measurement import Measurement
 from ._memory import Handle, double_pointer
-from ._progress import WorkProgress
 from ._prototypes import RECORD
 from ._status import BadValue
 from ._types import FloatArray, Path

@@ -12,8 +12,8 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
+from ._look import WorkProgress
 from ._memory import Closing, Handle, double_pointer, doubles, index_pointer, indices, text
-from ._progress import WorkProgress
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from ._types import FloatArray

@@ -9,9 +9,8 @@ from typing import Any, Union
 import numpy as np
 
 from ._library import lib
-from ._measurement import Measurement, Paged, Record
-from ._notebook import draw, lined, named
-from ._progress import WorkProgress
+from ._look import WorkProgress, draw
+from ._measurement import Measurement, Paged, Record, lined, named
 from ._types import ComplexArray, FloatArray, Path
 from .files import opened
 from .results import Runnable, measured
@@ -88,6 +87,14 @@ class Limit(Paged, kind="limit"):
     def __getitem__(self, method: str) -> np.void:
         """The row of a method."""
         return named(self.rows, "method", method)
+
+    @staticmethod
+    def step_of_mode(method: str, frequency: Any, decay: Any) -> FloatArray:
+        """The largest step [s] at which a method is stable for x'' + 2 decay x' + frequency^2 x = 0, an array of the shape
+        of `frequency` [rad/s] and `decay` [1/s]: 0 if none is, infinite if nothing limits it, NaN if that is not known."""
+        number = np.vectorize(lambda *mode: lib.hooke_limit_of_mode(method.encode(), *mode), otypes=[float])
+        steps: FloatArray = number(frequency, decay)
+        return steps
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""

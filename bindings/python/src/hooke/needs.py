@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 
 from ._library import lib
-from ._measurement import Measurement, Paged, Record
+from ._look import WorkProgress, draw
+from ._measurement import Measurement, Paged, Record, lined, named
 from ._memory import Closing, Handle, double_pointer, rows
-from ._notebook import draw, lined, named
-from ._progress import WorkProgress
 from ._status import BadCall, plain
 from ._types import FloatArray, Path, Table
 from .options import Options

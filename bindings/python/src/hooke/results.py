@@ -27,9 +27,8 @@ import numpy as np
 
 from ._callback import stop_value
 from ._library import lib
+from ._look import WorkProgress, draw, shown
 from ._measurement import Measurement, Record
-from ._notebook import embed
-from ._progress import WorkProgress, shown
 from ._prototypes import TRAJECTORY
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
@@ -114,7 +113,7 @@ class Result:
 
     def _repr_html_(self) -> str | None:
         words = f"<p>{html.escape(self.diagnosis)}</p>" if self.diagnosis else ""
-        return (words + (embed(lambda page: view(self, page), 720) if self.output is not None else "")) or None
+        return (words + (draw("notebook.embed", lambda page: view(self, page)) if self.output is not None else "")) or None
 
 
 class Estimate:

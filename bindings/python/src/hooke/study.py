@@ -8,10 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._library import lib
-from ._measurement import Measurement, Paged, Record
+from ._look import WorkProgress, draw
+from ._measurement import Measurement, Paged, Record, of_methods
 from ._memory import Closing
-from ._notebook import draw, of_methods
-from ._progress import WorkProgress
 from ._types import FloatArray, Path
 from .results import Runnable, measured
 from .scene import Scene

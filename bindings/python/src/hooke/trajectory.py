@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, Callable, NamedTuple, TypeVar, overload
 import numpy as np
 
 from ._library import lib
+from ._look import draw
 from ._memory import Closing, text
-from ._notebook import draw, embed
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
 from .files import numbers, opened, run_options, view
@@ -23,7 +23,7 @@ from .state import State
 from .system import System
 
 if TYPE_CHECKING:
-    from ._pictures import FuncAnimation
+    from .plot._pictures import FuncAnimation
 
 
 K = TypeVar("K")
@@ -242,7 +242,8 @@ class Trajectory(Closing):
         return f"Trajectory({self.path!r}, {self._count} frames)"
 
     def _repr_html_(self) -> str:
-        return embed(lambda page: view(self.path, page), 720)
+        shown: str = draw("notebook.embed", lambda page: view(self.path, page))
+        return shown
 
     def close(self) -> None:
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""

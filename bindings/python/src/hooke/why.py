@@ -6,9 +6,9 @@ import math
 from typing import Any, NamedTuple
 
 from ._library import lib
+from ._look import WorkProgress
 from ._measurement import Measurement, Paged
 from ._memory import Handle, text
-from ._progress import WorkProgress
 from ._status import Stopped, plain
 from .options import Options
 from .problems import Problem
