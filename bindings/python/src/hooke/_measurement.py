@@ -218,34 +218,13 @@ def of_methods(rows: Table, *columns: str) -> str:
     return "\n".join(lined(names, rows[names].tolist()))
 
 
-class Tabled:
-    """A result with rows, which a notebook shows as a table."""
-
-    rows: Table
-
-    def _repr_html_(self) -> str | None:
-        shown: str | None = draw("notebook.table", self.rows)
-        return shown
-
-    def report(self, path: Path) -> pathlib.Path:
-        """Writes a page to look at, offline, and returns its path."""
-        page = pathlib.Path(os.fspath(path))
-        draw("notebook.page", page, type(self).__name__, self.rows)
-        return page
-
-    def to_pandas(self) -> Any:
-        """The rows as a pandas data frame; pandas has to be installed."""
-        import pandas
-
-        return pandas.DataFrame.from_records(self.rows)
-
-
-class Found(Tabled):
+class Found:
     """A finished measurement with rows, of a scene if it was made of one. The columns of the record of its `kind` are its
     attributes."""
 
     outcome: str
-    _rows: str  # the table that is its rows
+    rows: Table
+    _rows: str  # the table that they are
     _untitled = ""  # the heading of a page without a title
 
     if TYPE_CHECKING:
@@ -270,6 +249,22 @@ class Found(Tabled):
         title = title or (self._scene.title if self._scene else "") or self._untitled
         text = self._scene.text if self._scene else None
         self._handle.write(path, title=title or None, scene=text)
+
+    def _repr_html_(self) -> str | None:
+        shown: str | None = draw("notebook.table", self.rows)
+        return shown
+
+    def report(self, path: Path) -> pathlib.Path:
+        """Writes a page to look at, offline, and returns its path."""
+        page = pathlib.Path(os.fspath(path))
+        draw("notebook.page", page, type(self).__name__, self.rows)
+        return page
+
+    def to_pandas(self) -> Any:
+        """The rows as a pandas data frame; pandas has to be installed."""
+        import pandas
+
+        return pandas.DataFrame.from_records(self.rows)
 
 
 class Paged(Found):

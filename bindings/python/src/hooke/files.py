@@ -14,7 +14,7 @@ import numpy as np
 
 from ._library import lib
 from ._look import WorkProgress
-from ._measurement import Measurement
+from ._measurement import Measurement, Record
 from ._memory import Handle, double_pointer
 from ._prototypes import RECORD
 from ._status import BadValue
@@ -118,25 +118,25 @@ def _view(source: pathlib.Path, title: str | None, options: dict[str, Any]) -> M
     return made
 
 
-class Verification:
-    """The result of verifying a trajectory; true if it reproduces from its scene.
+class Verification(Record, table="verify.verify"):
+    """The result of verifying a trajectory; true if it reproduces from its scene. Machines and versions are those that
+    made the file, and those here."""
 
-    `verdict` is "agrees" (to the bit), "within-tolerance" (made by other versions or on another machine), "disagrees"
-    or "stopped"; `difference` describes the difference, "" if there is none. `texts` and `numbers` are the columns of
-    the table "verify", by name: ``found.numbers["error_estimate"]`` [m].
-    """
+    @property
+    def texts(self) -> dict[str, str]:
+        """The texts by name."""
+        return {name: value for name, value in self._asdict().items() if isinstance(value, str)}
 
-    def __init__(self, record: dict[str, Any]):
-        self.texts: dict[str, str] = {name: value for name, value in record.items() if isinstance(value, str)}
-        self.numbers: dict[str, float] = {name: value for name, value in record.items() if name not in self.texts}
-        self.verdict = self.texts["verdict"]
-        self.difference = self.texts["difference"]
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The numbers by name: ``found.numbers["error_estimate"]`` [m]."""
+        return {name: value for name, value in self._asdict().items() if not isinstance(value, str)}
 
     def __bool__(self) -> bool:
         return self.verdict in ("agrees", "within-tolerance")
 
     def __repr__(self) -> str:
-        return f"Verification({self.verdict}, balance {self.texts['balance']}, {self.difference or 'no difference'})"
+        return f"Verification({self.verdict}, balance {self.balance}, {self.difference or 'no difference'})"
 
 
 def verify(
@@ -161,4 +161,4 @@ def verify(
     except BadValue:
         if measurement.text("verify", 0, "verdict") != "disagrees":
             raise
-    return Verification(measurement.record("verify"))
+    return measurement.each(Verification, "verify")[0]

@@ -14,7 +14,7 @@ from ._prototypes import FORCE_PRODUCT, INTEGRATOR
 from ._status import BadValue
 from ._types import FloatArray, Table
 from .options import Options
-from .state import State
+from .state import State, restored
 
 if TYPE_CHECKING:
     from .results import Result
@@ -63,9 +63,7 @@ class FirstOrder(Problem):
 
     def state(self) -> State:
         """The initial state: t = 0, x = x0."""
-        state = State._of_size(self._size, self._x0.dtype)
-        state.x = self._x0
-        return state
+        return restored(0.0, self._x0, None)
 
     def _integrator(self, options: Options) -> Handle:
         given = self._size, self._rate, None, options._handle
@@ -115,9 +113,7 @@ class SecondOrder(Problem):
 
     def state(self) -> State:
         """The initial state: t = 0, q and v (size,) as given."""
-        state = State._of_coordinates(self._size)
-        state.q, state.v = self._q, self._v
-        return state
+        return restored(0.0, self._q, self._v)
 
     def _integrator(self, options: Options) -> Handle:
         masses = self._inverse_mass.size, double_pointer(self._inverse_mass)

@@ -42,20 +42,22 @@ class System(Queries):
         handle = Handle.made(SYSTEM, lib.hooke_system_destroy, None, lib.hooke_system_create)
         self._adopt(handle, lambda: lib.hooke_system_commit(handle))
 
+    def _adopt(self, handle: Handle, commit: Callable[[], Any], callbacks: Any = ()) -> System:
+        self._handle = handle
+        self._commit = commit
+        self._final = False  # whether it is known to be committed
+        self._callbacks: list[Any] = [*callbacks]  # the library calls them as long as the system is in use
+        return self
+
     @classmethod
     def _of_scene(cls, scene: Handle) -> System:
-        system = cls.__new__(cls)
         handle = Handle(lib.hooke_scene_system(scene), None, scene)
-        system._adopt(handle, lambda: lib.hooke_scene_commit(scene))
-        return system
+        return cls.__new__(cls)._adopt(handle, lambda: lib.hooke_scene_commit(scene))
 
     @classmethod
     def _committed_by(cls, handle: Handle, callbacks: list[Any]) -> System:
-        """A system that the library made and owns, with the callbacks of another."""
-        system = cls.__new__(cls)
-        system._adopt(handle, lambda: None)
-        system._callbacks = callbacks
-        return system
+        """A system that the library made, with the callbacks of another."""
+        return cls.__new__(cls)._adopt(handle, lambda: None, callbacks)
 
     def _with_force(self, force: Force) -> System:
         """The same system with this callback force, as long as the result is in use."""
@@ -63,12 +65,6 @@ class System(Queries):
         given = self._committed(), callback, FORCE_PRODUCT(), None
         handle = Handle.made(SYSTEM, lib.hooke_system_destroy, self._handle, create, *given)
         return System._committed_by(handle, [*self._callbacks, callback])
-
-    def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
-        self._handle = handle
-        self._commit = commit
-        self._final = False  # whether it is known to be committed
-        self._callbacks: list[Any] = []  # the library calls them as long as the system is in use
 
     # building
 
@@ -217,7 +213,7 @@ class System(Queries):
 
     def state(self) -> State:
         """The initial state: t = 0, positions and velocities as added."""
-        return State._of_system(self._committed())
+        return State._made(self._handle, lib.hooke_state_create, self._committed())
 
     def save(self, path: str | os.PathLike[str], title: str = "", **options: Any) -> None:
         """Writes the system as a scene file, with `options` of a run: parts and groups of springs by their options,
