@@ -189,15 +189,6 @@ class Measurement:
         lib.hooke_measurement_write(self.handle, os.fsencode(path))
 
 
-def named(rows: Table, column: str, name: str) -> np.void:
-    """The first row that has a name in a column."""
-    names = rows[column].tolist()
-    if name not in names:
-        raise KeyError(f"{name!r}; there are {', '.join(names)}")
-    row: np.void = rows[names.index(name)]
-    return row
-
-
 def lined(heads: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[str]:
     """A table as lines of text; numbers that are not known are "-", and what is not limited is "none"."""
 
@@ -242,6 +233,14 @@ class Found:
         self.outcome = OUTCOMES.get(status, "stopped")
         self.rows = found.rows(self._rows)
         vars(self).update(found.record(found.kind))
+
+    def __getitem__(self, name: str) -> np.void:
+        """The first row that has this name in the first column."""
+        names = self.rows[self.rows.dtype.names[0]].tolist() if self.rows.dtype.names else []
+        if name not in names:
+            raise KeyError(f"{name!r}; there are {', '.join(names)}")
+        row: np.void = self.rows[names.index(name)]
+        return row
 
     def write(self, path: Path, title: str | None = None) -> None:
         """Writes the results in the format given by the ending of `path`: .csv, the rows; .json or .h5, all tables; .html,

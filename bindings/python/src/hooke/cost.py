@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ._look import WorkProgress
-from ._measurement import Found, Measurement, lined, named
+from ._measurement import Found, Measurement, lined
 from .results import Runnable, measured
 from .scene import Scene
 from .state import State
@@ -24,10 +24,6 @@ class Cost(Found, kind="cost"):
     def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
         super().__init__(found, scene, system, status)
         self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
-
-    def __getitem__(self, name: str) -> np.void:
-        """The first row of that name."""
-        return named(self.rows, "name", name)
 
     def __str__(self) -> str:
         whole = ("nothing", self.nanoseconds, self.memory_bytes, self.step_limit)

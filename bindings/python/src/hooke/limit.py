@@ -10,7 +10,7 @@ import numpy as np
 
 from ._library import lib
 from ._look import WorkProgress, draw
-from ._measurement import Measurement, Paged, Record, lined, named
+from ._measurement import Measurement, Paged, Record, lined
 from ._types import ComplexArray, FloatArray, Path
 from .files import opened
 from .results import Runnable, measured
@@ -83,10 +83,6 @@ class Limit(Paged, kind="limit"):
     def methods(self) -> list[str]:
         """The methods in the order of the rows."""
         return [str(name) for name in self.rows["method"]]
-
-    def __getitem__(self, method: str) -> np.void:
-        """The row of a method."""
-        return named(self.rows, "method", method)
 
     @staticmethod
     def step_of_mode(method: str, frequency: Any, decay: Any) -> FloatArray:

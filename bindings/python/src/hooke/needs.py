@@ -8,7 +8,7 @@ import numpy as np
 
 from ._library import lib
 from ._look import WorkProgress, draw
-from ._measurement import Measurement, Paged, Record, lined, named
+from ._measurement import Measurement, Paged, Record, lined
 from ._memory import Closing, Handle, double_pointer, rows
 from ._status import BadCall, plain
 from ._types import FloatArray, Path, Table
@@ -56,10 +56,6 @@ class Needs(Paged, Closing, kind="needs"):
         self.other_method = found.text("lean", 0, "other_method") or None
         self.lean_error, self.cheapest_error = (found.number(table, 0, "error") for table in ("lean", "cheapest"))
         self.lean_note = found.text("lean", 0, "note")
-
-    def __getitem__(self, without: str) -> np.void:
-        """The row of the ingredient left out."""
-        return named(self.rows, "without", without)
 
     @property
     def left_out(self) -> list[str]:
