@@ -143,17 +143,22 @@ def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any
 
 
 @contextlib.contextmanager
+def attached(attach: Callable[..., Any], handle: Any, callback: Any, *how: Any) -> Iterator[None]:
+    """Has the library call back during its work; ``attach(handle, *how, callback, None)`` is the function that sets it."""
+    attach(handle, *how, callback, None)
+    try:
+        yield
+    finally:
+        attach(handle, *how, type(callback)(), None)
+
+
+@contextlib.contextmanager
 def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Iterator[None]:
-    """Reports progress of the object during the library's work, and handles Ctrl-C; ``attach(handle, watcher, None)``
-    is the library function that sets the callback."""
+    """Reports progress of the object during the library's work, and handles Ctrl-C."""
     with shown(progress) as told, interruptible():
         tell = told or (lambda done, what: None)
-        watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
-        attach(handle, watcher, None)
-        try:
+        with attached(attach, handle, PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))):
             yield
-        finally:
-            attach(handle, PROGRESS(), None)
 
 
 @contextlib.contextmanager
@@ -175,14 +180,12 @@ def interruptible(integrator: Any = None) -> Iterator[None]:
         except BaseException as exception:
             pending.exception = exception
 
+    hear = attached(lib.hooke_integrator_on_progress, integrator, _HEAR, _HEARING) if integrator else contextlib.nullcontext()
     signal.signal(signal.SIGINT, note)
     try:
-        if integrator is not None:
-            lib.hooke_integrator_on_progress(integrator, _HEARING, _HEAR, None)
-        yield
+        with hear:
+            yield
     finally:
-        if integrator is not None:
-            lib.hooke_integrator_on_progress(integrator, _HEARING, PROGRESS(), None)
         if signal.getsignal(signal.SIGINT) is note:
             signal.signal(signal.SIGINT, before)
         late, pending.exception = pending.exception, None
