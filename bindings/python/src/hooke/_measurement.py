@@ -83,6 +83,9 @@ class Record(tuple[Any, ...]):
     def _asdict(self) -> dict[str, Any]:
         return dict(zip(self._fields, self))
 
+    def _replace(self: R, **values: Any) -> R:
+        return type(self)(**{**self._asdict(), **values})
+
 
 class Measurement:
     """A measurement of the library, and its tables. `system` has to outlive it."""
@@ -233,6 +236,10 @@ class Found:
         self.outcome = OUTCOMES.get(status, "stopped")
         self.rows = found.rows(self._rows)
         vars(self).update(found.record(found.kind))
+        self._read(found)
+
+    def _read(self, found: Measurement) -> None:
+        """Reads what a kind has beside its rows and its record."""
 
     def __getitem__(self, name: str) -> np.void:
         """The first row that has this name in the first column."""
@@ -261,9 +268,7 @@ class Found:
 
     def to_pandas(self) -> Any:
         """The rows as a pandas data frame; pandas has to be installed."""
-        import pandas
-
-        return pandas.DataFrame.from_records(self.rows)
+        return draw("notebook.data_frame", self.rows)
 
 
 class Paged(Found):

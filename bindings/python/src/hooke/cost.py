@@ -9,9 +9,7 @@ import numpy as np
 from ._look import WorkProgress
 from ._measurement import Found, Measurement, lined
 from .results import Runnable, measured
-from .scene import Scene
 from .state import State
-from .system import System
 
 
 class Cost(Found, kind="cost"):
@@ -21,8 +19,7 @@ class Cost(Found, kind="cost"):
     "finished" or "stopped".
     """
 
-    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
-        super().__init__(found, scene, system, status)
+    def _read(self, found: Measurement) -> None:
         self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
 
     def __str__(self) -> str:

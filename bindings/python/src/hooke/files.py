@@ -68,10 +68,9 @@ def view(
     seen from the same angle. Keywords: the maximum number of `frames`, of those `beyond` divergence and of `springs`,
     and the maximum `size` of the page [MB]; the page states what is omitted.
     """
-    if isinstance(trajectory, Sequence) and not isinstance(trajectory, str):
-        sources = [_file_of(one) for one in trajectory]
-    else:
-        sources = [_file_of(trajectory)]
+    if isinstance(trajectory, str) or not isinstance(trajectory, Sequence):
+        trajectory = [trajectory]
+    sources = [_file_of(one) for one in trajectory]
     if output is None and len(sources) != 1:
         raise BadValue("output: is required for several trajectories")
     page = pathlib.Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")

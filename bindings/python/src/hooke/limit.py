@@ -14,7 +14,6 @@ from ._measurement import Measurement, Paged, Record, lined
 from ._types import ComplexArray, FloatArray, Path
 from .files import opened
 from .results import Runnable, measured
-from .scene import Scene
 from .state import State
 from .system import System
 from .why import Blame
@@ -68,8 +67,7 @@ class Limit(Paged, kind="limit"):
 
     _untitled = "limits of steps"
 
-    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
-        super().__init__(found, scene, system, status)
+    def _read(self, found: Measurement) -> None:
         modes = found.rows("modes")
         self.modes = modes["real"] + 1j * modes["imaginary"]
         self.frequency, self.decay = modes["frequency"], modes["decay"]

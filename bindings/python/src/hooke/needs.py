@@ -14,7 +14,6 @@ from ._status import BadCall, plain
 from ._types import FloatArray, Path, Table
 from .options import Options
 from .results import Runnable, measured
-from .scene import Scene
 from .system import System, write_scene
 
 
@@ -46,8 +45,7 @@ class Needs(Paged, Closing, kind="needs"):
     lean_cost: RunCost | None
     cheapest: RunCost | None
 
-    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
-        super().__init__(found, scene, system, status)
+    def _read(self, found: Measurement) -> None:
         self.rows, self.parts = _plain_needed(self.rows), found.rows("parts")
         self.full = found.each(RunCost, "full")[0]
         self.lean_cost, self.cheapest = (found.one(RunCost, table) for table in ("lean", "cheapest"))
@@ -144,6 +142,7 @@ def needs(
     (``progress=True`` shows a bar, with tqdm) and stops the work by returning a non-zero number, with the results so
     far. ``found.write("page.html")`` makes a page with diagrams.
     """
+    watch = watch if watch is None or isinstance(watch, str) else np.ravel(watch)
     return Needs(*measured("needs", problem, {**options, "want": want, "watch": watch}, progress))
 
 

@@ -37,7 +37,7 @@ from .integrator import Integrator, Observer
 from .options import Options
 from .problems import FirstOrder, SecondOrder
 from .problems import Problem as Base
-from .scene import Scene, scene_text
+from .scene import Scene
 from .state import State
 from .system import Force, System, system_of
 from .why import Why
@@ -237,8 +237,9 @@ class _Once:
     def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
         if self.output is None:
             return integrator.run(state, on_frame=_all(watchers), on_step=self.on_step)
-        path = os.fsencode(self.output)
-        file = _create_file(path, self.scene, integrator)
+        path, file, system = os.fsencode(self.output), TRAJECTORY(), system_of(self.problem, "output")
+        text = None if self.scene is None else self.scene.text.encode()
+        lib.hooke_trajectory_create(path, system._handle, integrator._handle, text, ctypes.byref(file))
         return _run_to_file(path, file, integrator.run, integrator, state, watchers, self.on_step)
 
 
@@ -378,12 +379,6 @@ def _all(watchers: list[Observer]) -> Observer:
         return None
 
     return watch
-
-
-def _create_file(path: bytes, scene: Scene | None, integrator: Integrator) -> Any:
-    system, pointer = system_of(integrator._problem, "output"), TRAJECTORY()
-    lib.hooke_trajectory_create(path, system._handle, integrator._handle, scene_text(scene), ctypes.byref(pointer))
-    return pointer
 
 
 def _run_to_file(

@@ -258,11 +258,6 @@ def limits_of(memory: float | None, outside: bool) -> Handle:
     return Options.for_scene("limits").set(memory=memory, outside=outside)._handle
 
 
-def scene_text(scene: Scene | None) -> bytes | None:
-    """The text stored in files of a run; None if there is no scene."""
-    return None if scene is None else scene.text.encode()
-
-
 def _require_rest(piece: dict[str, Any]) -> None:
     """Commit would refuse it, too, and the scene could not be used."""
     velocity = piece.get("velocity", np.zeros((0, 3)))

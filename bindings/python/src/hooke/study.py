@@ -13,8 +13,7 @@ from ._measurement import Measurement, Paged, Record, of_methods
 from ._memory import Closing
 from ._types import FloatArray, Path
 from .results import Runnable, measured
-from .scene import Scene
-from .system import Force, System
+from .system import Force
 
 
 class Reference(Record, table="study.reference"):
@@ -81,22 +80,21 @@ class Study(Paged, Closing, kind="study"):
     watched: dict[str, FloatArray]
     agreement: dict[str, float]
     statistics: dict[str, dict[str, Statistic]]
+    _progress: Any = None
 
-    def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int, progress: Any):
-        super().__init__(measurement, scene, system, status)
-        self._progress = progress
+    def _read(self, found: Measurement) -> None:
         vars(self).update((name, self.rows[name]) for name in self.rows.dtype.names or ())
-        self.reference = measurement.each(Reference, "reference")[0]
+        self.reference = found.each(Reference, "reference")[0]
         self.orders = {
             order.method: order
-            for order in measurement.each(Order, "orders")
+            for order in found.each(Order, "orders")
             if order.method in self.method and not lib.hooke_method_is_adaptive(order.method.encode())
         }
-        watched, errors = measurement.rows("watched"), measurement.rows("watched_errors")
+        watched, errors = found.rows("watched"), found.rows("watched_errors")
         self.watched = {str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]}
         self.agreement = dict(watched[["quantity", "agreement"]].tolist())
         self.statistics = {}
-        for statistic in measurement.each(Statistic, "statistics"):
+        for statistic in found.each(Statistic, "statistics"):
             self.statistics.setdefault(statistic.quantity, {})[statistic.method] = statistic
 
     @property
@@ -165,7 +163,8 @@ def study(
     returning a non-zero number. ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
     """
     options["methods"] = methods
-    made = Study(*measured("study", problem, options, progress, force=force), progress)
+    made = Study(*measured("study", problem, options, progress, force=force))
+    made._progress = progress
     if output is not None:
         made.write(output)
     return made

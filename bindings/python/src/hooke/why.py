@@ -68,6 +68,8 @@ class Why(Paged, kind="why", rows="advice"):
             raise Stopped(text(lib.hooke_last_error()))
         super().__init__(found, None, problem, 0)
         self._untitled = title or self._untitled
+
+    def _read(self, found: Measurement) -> None:
         particle = found.number("why", 0, "particle")
         self.particle = None if math.isnan(particle) else int(particle)
         self.blame = Blame.read(found)

@@ -51,6 +51,13 @@ def page(path: Path, title: str, rows: Table) -> None:
     path.write_text(_DOCUMENT.format(title=title, table=table(rows)), "utf-8")
 
 
+def data_frame(rows: Table) -> Any:
+    """A data frame of pandas."""
+    import pandas
+
+    return pandas.DataFrame.from_records(rows)
+
+
 @contextlib.contextmanager
 def bar() -> Iterator[Callable[[float, Any], None]]:
     """A bar of tqdm; gives the function that is told the fraction done and the name of the running task."""

@@ -8,13 +8,8 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from .._status import BadValue
+from .. import BadValue, Limit, Needs, Result, Study, Trajectory
 from .._types import FloatArray, Path, Table
-from ..limit import Limit
-from ..needs import Needs
-from ..results import Result
-from ..study import Study
-from ..trajectory import Trajectory
 from ._pictures import Line3DCollection
 
 if TYPE_CHECKING:
