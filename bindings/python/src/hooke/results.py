@@ -116,52 +116,6 @@ class Result:
         return (words + (draw("notebook.embed", lambda page: view(self, page)) if self.output is not None else "")) or None
 
 
-class Estimate:
-    """A measurement of kind "estimate": picks, observes and measures runs of one system."""
-
-    def __init__(self, system: System, want: Length | None, progress: Any = None):
-        wanted = want.strip() if isinstance(want, str) else want
-        options = Options._of("estimate").set(want=wanted, callbacks=True)
-        self._measurement = Measurement.create("estimate", system, None, options)
-        self._handle = self._measurement.handle
-        self._progress = progress
-
-    def pick(self, options: Options, given: dict[str, Any]) -> None:
-        """Sets a method and its step or tolerance for the wanted error; keeps the method if it is among those
-        `given`."""
-        chosen = [name for name in _CHOSEN if given.get(name) is not None]
-        if chosen:
-            raise BadValue(f"want picks the step or the tolerance; leave out {' and '.join(chosen)}, or want")
-        method = given.get("method")
-        with self._measurement.listening(self._progress):
-            lib.hooke_estimate_pick(self._handle, None if method is None else method.encode(), options._handle)
-
-    def begin(self, integrator: Integrator, state: State) -> None:
-        """Call before a run of `integrator` from `state`."""
-        lib.hooke_estimate_begin(self._handle, integrator._handle, state._handle)
-
-    def see(self, step: int, state: State) -> None:
-        """An observer of its frames."""
-        lib.hooke_estimate_see(step, state._handle, self._handle.pointer)
-
-    def measure(self, state: State) -> RunError:
-        """The result, after the run that ended with `state`."""
-        self._measurement.run(self._progress, state)
-        return self._measurement.each(RunError, "estimate")[0]
-
-    def write(self, path: Path) -> None:
-        """Adds it to the output file of the run."""
-        lib.hooke_estimate_write_h5(self._handle, os.fsencode(path))
-
-    def refine(self, options: Options) -> bool:
-        """Sets something finer, if that is known to help."""
-        try:
-            lib.hooke_estimate_refine(self._handle, options._handle)
-        except Unsuited:
-            return False
-        return True
-
-
 def run(
     problem: Runnable,
     *,
@@ -211,7 +165,7 @@ class _Once:
     on_frame: Observer | None
     on_step: tuple[int, Observer] | None
 
-    def run(self, options: Options, state: State, estimate: Estimate | None = None) -> Result:
+    def run(self, options: Options, state: State, estimate: Measurement | None = None) -> Result:
         integrator = Integrator(self.problem, options)
         integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
@@ -219,8 +173,8 @@ class _Once:
         if recorder is not None:
             watchers.append(recorder)
         if estimate is not None:
-            estimate.begin(integrator, state)
-            watchers.append(estimate.see)
+            lib.hooke_estimate_begin(estimate.handle, integrator._handle, state._handle)
+            watchers.append(_seen_by(estimate))
         with shown(self.progress, fills=False) as tell:  # a run may end early
             if tell is not None:
                 last, numbers = max(integrator.frame_count - 1, 1), itertools.count()
@@ -229,10 +183,10 @@ class _Once:
         result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None)
         if estimate is None:
             return result
-        error = estimate.measure(state)
+        estimate.run(None, state)
         if self.output is not None and status == "finished":
-            estimate.write(self.output)
-        return replace(result, error=error)
+            lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
+        return replace(result, error=estimate.one(RunError, "estimate"))
 
     def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
         if self.output is None:
@@ -246,15 +200,33 @@ class _Once:
 def _run_to_want(
     once: _Once, system: System, options: Options, given: dict[str, Any], want: Length | None
 ) -> Result:
-    """Runs; with a wanted error, repeats until it is met or nothing finer is known to help."""
-    estimate = Estimate(system, want)
+    """Runs; with a wanted error, picks a method and its step or tolerance, keeping a method that is among those `given`,
+    and repeats until the error is met or nothing finer is known to help."""
+    chosen = Options._of("estimate").set(want=want.strip() if isinstance(want, str) else want, callbacks=True)
+    estimate = Measurement.create("estimate", system, None, chosen)
     if want is not None:
-        estimate.pick(options, given)
+        named = [name for name in _CHOSEN if given.get(name) is not None]
+        if named:
+            raise BadValue(f"want picks the step or the tolerance; leave out {' and '.join(named)}, or want")
+        method = given.get("method")
+        with estimate.listening(None):
+            lib.hooke_estimate_pick(estimate.handle, None if method is None else method.encode(), options._handle)
     while True:
         result = once.run(options, system.state(), estimate)
         met = result.error is None or result.error.met
-        if want is None or result.status != "finished" or met or not estimate.refine(options):
+        if want is None or result.status != "finished" or met:
             return result
+        try:
+            lib.hooke_estimate_refine(estimate.handle, options._handle)
+        except Unsuited:
+            return result
+
+
+def _seen_by(estimate: Measurement) -> Observer:
+    def see(step: int, state: State) -> None:
+        lib.hooke_estimate_see(step, state._handle, estimate.handle.pointer)
+
+    return see
 
 
 def resume(
@@ -427,26 +399,21 @@ def _keep_place(keep: Callable[[int, State], None], state: State) -> None:
 class _Recorder:
     def __init__(self, frame_count: int, state: State):
         self._count = 0
-        self._t = np.empty(frame_count)
-        q, v = _arrays(state)
-        self._q = np.empty((frame_count, *q.shape), q.dtype)
-        self._v = None if v is None else np.empty((frame_count, *v.shape))
+        self._kept = [np.empty((frame_count, *array.shape), array.dtype) for array in _arrays(state)]
 
     def __call__(self, step: int, state: State) -> None:
-        q, v = _arrays(state)
-        self._t[self._count] = state.t
-        self._q[self._count] = q
-        if self._v is not None:
-            self._v[self._count] = v
+        for kept, array in zip(self._kept, _arrays(state)):
+            kept[self._count] = array
         self._count += 1
 
     def frames(self) -> Frames:
-        end = self._count
-        return Frames(self._t[:end], self._q[:end], None if self._v is None else self._v[:end])
+        t, q, *v = (kept[: self._count] for kept in self._kept)
+        return Frames(t, q, v[0] if v else None)
 
 
-def _arrays(state: State) -> tuple[Table, Table | None]:
-    return (state.x, None) if state._v is None else (state.q, state.v)
+def _arrays(state: State) -> list[Table]:
+    """Time, positions and velocities, or time and the unknowns of a first-order problem."""
+    return [np.asarray(state.t), *([state.x] if state._v is None else [state.q, state.v])]
 
 
 Base._run_by = run
