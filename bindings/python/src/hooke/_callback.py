@@ -23,7 +23,7 @@ import numpy as np
 from ._library import lib
 from ._look import Shown, shown
 from ._memory import Handle, text, view
-from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
+from ._prototypes import PROGRESS
 from ._status import pending
 from ._types import Table
 
@@ -80,9 +80,18 @@ def _answered(answer: Any) -> int:
     return 0 if answer is None and pending.exception is None else guarded(lambda: answer)
 
 
-def _callback(function: Callable[..., Any], inputs: int, shape: Callable[[int], Shape], dtype: Any = float) -> Any:
-    """The callback for ``function(t, *arrays)``, whose first `inputs` arrays are read-only. They have the `shape` for
-    the count that the library gives, and are the library's own."""
+def on_arrays(
+    kind: Any,
+    function: Callable[..., Any] | None,
+    inputs: int,
+    shape: Callable[[int], Shape] = lambda n: (n, 3),
+    dtype: Any = float,
+) -> Any:
+    """The callback of a kind for ``function(t, *arrays)``, whose first `inputs` arrays are read-only; none for None. They
+    have the `shape` for the count that the library gives, and are the library's own."""
+    if function is None:
+        return kind()
+    user = function
     known: dict[tuple[int, int], tuple[Table, list[Table]]] = {}
 
     def look(key: tuple[int, int], others: tuple[int, ...]) -> tuple[Table, list[Table]]:
@@ -111,7 +120,7 @@ def _callback(function: Callable[..., Any], inputs: int, shape: Callable[[int], 
             memory, rows = known.get(key) or look(key, others[:-1])
             users = getrefcount(memory)
             try:
-                return _answered(function(t, *map(_again, rows)))
+                return _answered(user(t, *map(_again, rows)))
             finally:
                 if getrefcount(memory) != users:
                     leave(key, memory)
@@ -119,27 +128,7 @@ def _callback(function: Callable[..., Any], inputs: int, shape: Callable[[int], 
             pending.exception = exception
             return _STOP
 
-    return called
-
-
-def force_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
-    """The callback that adds forces, for `function` of `System.set_force`; `row` () for one of coordinates."""
-    return FORCE(_callback(function, 2, lambda n: (n, *row)))
-
-
-def product_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
-    """The callback for the product with the derivative of a force."""
-    return FORCE_PRODUCT(_callback(function, 4, lambda n: (n, *row)))
-
-
-def drive_callback(function: Callable[..., Any]) -> Any:
-    """The callback that moves driven particles."""
-    return DRIVE(_callback(function, 0, lambda n: (n, 3)))
-
-
-def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any:
-    """The callback for the rate of a first-order problem."""
-    return RATE(_callback(function, 1, lambda _: shape, dtype))
+    return kind(called)
 
 
 @contextlib.contextmanager

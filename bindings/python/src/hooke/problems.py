@@ -10,7 +10,7 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, Owner, double_pointer, doubles, plain
-from ._prototypes import FORCE_PRODUCT, INTEGRATOR
+from ._prototypes import FORCE, FORCE_PRODUCT, INTEGRATOR, RATE
 from ._status import BadValue
 from ._types import FloatArray, Table
 from .options import Options
@@ -58,7 +58,8 @@ class FirstOrder(Problem):
             raise BadValue(f"x0: one row of at least one number is needed, this is {x0!r}")
         self._x0 = x0.astype(complex if x0.dtype.kind == "c" else float)
         self._size = self._x0.view(float).size
-        self._rate = _callback.rate_callback(phi, self._x0.shape, self._x0.dtype)
+        shape = self._x0.shape
+        self._rate = _callback.on_arrays(RATE, phi, 1, lambda _: shape, self._x0.dtype)
         self._callbacks = [self._rate]
 
     def state(self) -> State:
@@ -107,8 +108,8 @@ class SecondOrder(Problem):
         masses = np.atleast_1d(plain(inverse_mass, "inverse_mass"))
         self._inverse_mass = doubles(masses, "inverse_mass", (1,), shape)
         self._size = self._q.size
-        self._force = _callback.force_callback(f, ())
-        self._derivative = _callback.product_callback(derivative, ()) if derivative else FORCE_PRODUCT()
+        self._force = _callback.on_arrays(FORCE, f, 2, lambda n: (n,))
+        self._derivative = _callback.on_arrays(FORCE_PRODUCT, derivative, 4, lambda n: (n,))
         self._callbacks = [self._force, self._derivative]
 
     def state(self) -> State:

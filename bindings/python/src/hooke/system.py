@@ -11,7 +11,7 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
-from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
+from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
 from ._status import BadValue
 from ._types import FloatArray, IntArray
@@ -61,7 +61,7 @@ class System(Queries):
 
     def _with_force(self, force: Force) -> System:
         """The same system with this callback force, as long as the result is in use."""
-        callback, create = _callback.force_callback(force), lib.hooke_system_with_force
+        callback, create = _callback.on_arrays(FORCE, force, 2), lib.hooke_system_with_force
         given = self._committed(), callback, FORCE_PRODUCT(), None
         handle = Handle.made(SYSTEM, lib.hooke_system_destroy, self._handle, create, *given)
         return System._committed_by(handle, [*self._callbacks, callback])
@@ -177,8 +177,7 @@ class System(Queries):
         """Gives the system a force of your own in all its runs: ``force(t, q, v, force)`` adds newtons to its last
         argument, ``product(t, q, v, dq, dv, out)`` the product with its derivative to `out`; without it difference
         quotients replace it."""
-        derivative = _callback.product_callback(product) if product else FORCE_PRODUCT()
-        callbacks = _callback.force_callback(force), derivative
+        callbacks = _callback.on_arrays(FORCE, force, 2), _callback.on_arrays(FORCE_PRODUCT, product, 4)
         lib.hooke_system_set_force(self._handle, *callbacks, None)
         self._callbacks.extend(callbacks)
 
@@ -198,7 +197,7 @@ class System(Queries):
 
     def drive_callback(self, particles: Any, drive: Drive) -> None:
         """Moves particles as ``drive(t, q, v)`` writes, which must depend on t alone."""
-        callback = _callback.drive_callback(drive)
+        callback = _callback.on_arrays(DRIVE, drive, 0)
         lib.hooke_system_drive_callback(self._handle, *_numbered(particles), callback, None)
         self._callbacks.append(callback)
 
