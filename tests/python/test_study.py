@@ -64,7 +64,7 @@ def test_columns(study):
     done = study.status == "finished"
     assert done.sum() >= 18 and (study.wall_seconds[done] > 0).all()
     assert (study.wall_median >= study.wall_seconds)[done].all() and (study.repeats[done] >= 1).all()
-    assert all(name in str(study) for name in METHODS) and "rows" in repr(study) and "nan" not in str(study)
+    assert str(study).splitlines() == [claim.text for claim in study.claims] and "rows" in repr(study) and "nan" not in str(study)
 
 
 def test_errors_are_true(study):

@@ -192,24 +192,13 @@ class Measurement:
         lib.hooke_measurement_write(self.handle, os.fsencode(path))
 
 
-def lined(heads: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[str]:
-    """A table as lines of text; numbers that are not known are "-", and what is not limited is "none"."""
-
-    def cell(value: Any) -> str:
-        if isinstance(value, str):
-            return plain(value)
-        return "-" if np.isnan(value) else "none" if np.isinf(value) else f"{value:.6g}"
-
-    cells = [list(heads), *([cell(value) for value in row] for row in rows)]
-    first, *widths = (max(map(len, column)) for column in zip(*cells))
-    lines = (f"{name:{first}}" + "".join(f"{word:>{width + 2}}" for word, width in zip(words, widths)) for name, *words in cells)
-    return [line.rstrip() for line in lines]
+class Claim(Record, table="study.claims"):
+    """A sentence about results."""
 
 
-def of_methods(rows: Table, *columns: str) -> str:
-    """Rows of methods as text, with these columns."""
-    names = ["method", "status", *columns]
-    return "\n".join(lined(names, rows[names].tolist()))
+def said(claims: Sequence[Claim]) -> str:
+    """The texts of claims, a line each; foreign names in them are made plain."""
+    return "\n".join(plain(claim.text) for claim in claims)
 
 
 class Found:
@@ -238,6 +227,14 @@ class Found:
         vars(self).update(found.record(found.kind))
         self._read(found)
 
+    @property
+    def claims(self) -> list[Claim]:
+        """What the results say, the most important first; `str()` has their texts, a line each."""
+        return self._handle.each(Claim, "claims")
+
+    def __str__(self) -> str:
+        return said(self.claims)
+
     def _read(self, found: Measurement) -> None:
         """Reads what a kind has beside its rows and its record."""
 
@@ -257,13 +254,13 @@ class Found:
         self._handle.write(path, title=title or None, scene=text)
 
     def _repr_html_(self) -> str | None:
-        shown: str | None = draw("notebook.table", self.rows)
+        shown: str | None = draw("notebook.table", self.rows, str(self))
         return shown
 
     def report(self, path: Path) -> pathlib.Path:
         """Writes a page to look at, offline, and returns its path."""
         page = pathlib.Path(os.fspath(path))
-        draw("notebook.page", page, type(self).__name__, self.rows)
+        draw("notebook.page", page, type(self).__name__, self.rows, str(self))
         return page
 
     def to_pandas(self) -> Any:

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from ._look import WorkProgress
-from ._measurement import Found, Measurement, lined
+from ._measurement import Found, Measurement
 from .results import Runnable, measured
 from .state import State
 
@@ -22,15 +20,6 @@ class Cost(Found, kind="cost"):
     def _read(self, found: Measurement) -> None:
         self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
 
-    def __str__(self) -> str:
-        whole = ("nothing", self.nanoseconds, self.memory_bytes, self.step_limit)
-        fields = ["name", "nanoseconds", "memory_bytes", "step_limit_without"]
-        known = self.rows[~np.isnan(self.rows["memory_bytes"])]
-        heads = (f"{self.method}, without", "ns a step", "bytes", "stable to [s]")
-        lines = lined(heads, [whole, *known[fields].tolist()])
-        if len(known) < len(self.rows):
-            lines.append(f"and {len(self.rows) - len(known)} more, not looked at")
-        return "\n".join(lines)
 
     def __repr__(self) -> str:
         return f"Cost({self.outcome}, {self.method}, {len(self.rows)} ingredients)"

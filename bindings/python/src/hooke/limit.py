@@ -10,7 +10,7 @@ import numpy as np
 
 from ._library import lib
 from ._look import WorkProgress, draw
-from ._measurement import Measurement, Paged, Record, lined
+from ._measurement import Measurement, Paged, Record
 from ._types import ComplexArray, FloatArray, Path
 from .files import opened
 from .results import Runnable, measured
@@ -20,17 +20,6 @@ from .why import Blame
 
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file with its last frame or the given one.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
-
-_COLUMNS = {
-    "bound": "safe bound [s]",
-    "predicted": "predicted [s]",
-    "measured": "measured [s]",
-    "ratio": "ratio",
-    "steps_run": "steps run",
-    "smallest": "smallest met [s]",
-    "smallest_time": "at time [s]",
-}
-
 
 class Participation(Record, table="limit.participation"):
     """A particle of the limiting mode."""
@@ -94,15 +83,6 @@ class Limit(Paged, kind="limit"):
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
         return draw("plot.limit", self, axes, **options)
 
-    def __str__(self) -> str:
-        shown = {name: head for name, head in _COLUMNS.items() if not np.isnan(self.rows[name]).all()}
-        rows = [(str(row["method"]), *(_step(name, row[name]) for name in shown)) for row in self.rows]
-        lines = lined(["method", *shown.values()], rows)
-        if self.blame:
-            lines.append(f"the most to blame: {self.blame[0]}, {100 * self.blame[0].share:.1f} %")
-        if self.changes is not None:
-            lines.append(self.changes.sentence)
-        return "\n".join(lines)
 
     def __repr__(self) -> str:
         return f"Limit({self.outcome}, {len(self.rows)} methods, {len(self.modes)} modes)"
@@ -141,7 +121,3 @@ def _state_at(system: System, at: Place | None) -> State:
     elif at is not None:
         state.q = at
     return state
-
-
-def _step(name: str, value: float) -> str | float:
-    return "no step" if value == 0 and name not in ("steps_run", "smallest_time") else value

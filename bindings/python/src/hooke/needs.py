@@ -8,9 +8,9 @@ import numpy as np
 
 from ._library import lib
 from ._look import WorkProgress, draw
-from ._measurement import Measurement, Paged, Record, lined
+from ._measurement import Measurement, Paged, Record
 from ._memory import Closing, Handle, double_pointer, rows
-from ._status import BadCall, plain
+from ._status import BadCall
 from ._types import FloatArray, Path, Table
 from .options import Options
 from .results import Runnable, measured
@@ -100,22 +100,6 @@ class Needs(Paged, Closing, kind="needs"):
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
         return draw("plot.needs", self, ax, **options)
 
-    def __str__(self) -> str:
-        if self.parts.size:
-            return "\n".join(lined(_PARTS_HEAD, [_part(part) for part in self.parts]))
-        fields, whole = ["without", "error", "wall_seconds", "step_limit"], (self.full.wall_seconds, self.full.step_limit)
-        rows = [(*row, "needed" if needed else "-") for row, needed in zip(self.rows[fields].tolist(), self.rows["needed"])]
-        heads = ("without", "change [m]", "wall time [s]", "largest step [s]", "")
-        lines = lined(heads, [("nothing (the full scene)", "", *whole, ""), *rows])
-        if self.lean_cost is not None and self.cheapest is not None:
-            left_out = plain(", ".join(self.left_out)) or "nothing"
-            lines.append(
-                f"left out together: {left_out}; error at most {self.lean_error:.3g} m, wall time "
-                f"{self.lean_cost.wall_seconds:.3g} s where the full scene takes {self.cheapest.wall_seconds:.3g} s "
-                "within what is wanted"
-            )
-        lines += [words for words in (self.lean_note, self.note) if words]
-        return "\n".join(lines)
 
     def __repr__(self) -> str:
         if self.parts.size:
@@ -152,16 +136,3 @@ def _plain_needed(table: Table) -> Table:
     made = table.astype([(name, bool if name == "needed" else table.dtype[name]) for name in names])
     made.flags.writeable = False
     return made
-
-
-_PARTS_HEAD = ("part", "cells", "N to 2N [m]", "2N to 4N [m]", "order", "left [m]", "wanted", "")
-
-
-def _cells(part: np.void, what: str) -> str:
-    counts = [part[what + axis] for axis in ("", "_second", "_third")]
-    return " x ".join(f"{count:.0f}" for count in counts if not np.isnan(count)) or "-"
-
-
-def _part(part: np.void) -> tuple[Any, ...]:
-    numbers = (part[name] for name in ("change", "change_fine", "order", "error"))
-    return (str(part["part"]), _cells(part, "cells"), *numbers, _cells(part, "wanted"), str(part["note"]))

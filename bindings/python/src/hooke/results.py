@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import html
 import itertools
 import math
 import os
@@ -28,7 +27,7 @@ import numpy as np
 from ._callback import stop_value
 from ._library import lib
 from ._look import WorkProgress, draw, shown
-from ._measurement import Measurement, Record
+from ._measurement import Claim, Measurement, Record, said
 from ._prototypes import TRAJECTORY
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
@@ -74,7 +73,8 @@ class Result:
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
     the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
     returned by the callback that stopped the run, `output` the file that was written. `integrator` is kept if the run
-    blew up, for `hooke.why`. `error` is the error of the run, if that was requested.
+    blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and `claims` what is
+    said of it, which ``print(result)`` shows.
     """
 
     status: str
@@ -90,6 +90,7 @@ class Result:
     output: Path | None = None
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
     error: RunError | None = None
+    claims: tuple[Claim, ...] = ()
 
     @property
     def diagnosis(self) -> str:
@@ -105,6 +106,9 @@ class Result:
         except BadValue as missing:
             raise AttributeError(str(missing)) from None
 
+    def __str__(self) -> str:
+        return said(self.claims) or repr(self)
+
     def __repr__(self) -> str:
         return (
             f"Result({self.status}, {self.options['method']}, t={self.state.t!r}, "
@@ -112,7 +116,7 @@ class Result:
         )
 
     def _repr_html_(self) -> str | None:
-        words = f"<p>{html.escape(self.diagnosis)}</p>" if self.diagnosis else ""
+        words: str = draw("notebook.paragraphs", self.diagnosis or said(self.claims))
         return (words + (draw("notebook.embed", lambda page: view(self, page)) if self.output is not None else "")) or None
 
 
@@ -186,7 +190,7 @@ class _Once:
         estimate.run(None, state)
         if self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
-        return replace(result, error=estimate.one(RunError, "estimate"))
+        return replace(result, error=estimate.one(RunError, "estimate"), claims=tuple(estimate.each(Claim, "claims")))
 
     def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
         if self.output is None:

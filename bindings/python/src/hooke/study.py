@@ -9,7 +9,7 @@ import numpy as np
 
 from ._library import lib
 from ._look import WorkProgress, draw
-from ._measurement import Measurement, Paged, Record, of_methods
+from ._measurement import Measurement, Paged, Record
 from ._memory import Closing
 from ._types import FloatArray, Path
 from .results import Runnable, measured
@@ -135,8 +135,6 @@ class Study(Paged, Closing, kind="study"):
         """Draws error against cost and error against step; see `hooke.plot.study`."""
         return draw("plot.study", self, axes, **options)
 
-    def __str__(self) -> str:
-        return of_methods(self.rows, "step", "rtol", "error", "force_evaluations", "wall_seconds")
 
     def __repr__(self) -> str:
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"

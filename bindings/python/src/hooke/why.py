@@ -78,9 +78,6 @@ class Why(Paged, kind="why", rows="advice"):
     def __repr__(self) -> str:
         return f"Why({self.cause}, t={self.time!r}, {self.method})"
 
-    def __str__(self) -> str:
-        sentences = [self.sentence, *([self.left_out] if self.left_out else [])]
-        return "\n".join([*sentences, *(f"- {one.change} {one.options or ''}".rstrip() for one in self.advice)])
 
 
 def _whole(number: float) -> int:

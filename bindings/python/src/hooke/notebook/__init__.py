@@ -31,8 +31,13 @@ def embed(write: Callable[[Path], Any], height: int = 720) -> str:
     return f'<iframe srcdoc="{source}" style="{style}" sandbox="allow-scripts allow-downloads"></iframe>'
 
 
-def table(rows: Table) -> str:
-    """An HTML table of a structured array, numbers with six digits."""
+def paragraphs(lines: str) -> str:
+    """Lines of text as paragraphs of HTML."""
+    return "".join(f"<p>{html.escape(line)}</p>" for line in lines.splitlines())
+
+
+def table(rows: Table, words: str = "") -> str:
+    """An HTML table of a structured array, numbers with six digits, below lines of text."""
 
     def cell(value: Any) -> str:
         if isinstance(value, (float, np.floating)):
@@ -43,12 +48,12 @@ def table(rows: Table) -> str:
     lines = ["".join(f"<td>{cell(row[name])}</td>" for name in names) for row in rows]
     head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
     body = "".join(f"<tr>{line}</tr>" for line in lines)
-    return f'<div style="overflow-x:auto"><table><tr>{head}</tr>{body}</table></div>'
+    return paragraphs(words) + f'<div style="overflow-x:auto"><table><tr>{head}</tr>{body}</table></div>'
 
 
-def page(path: Path, title: str, rows: Table) -> None:
+def page(path: Path, title: str, rows: Table, lines: str) -> None:
     """Writes a page with a table."""
-    path.write_text(_DOCUMENT.format(title=title, table=table(rows)), "utf-8")
+    path.write_text(_DOCUMENT.format(title=title, table=table(rows, lines)), "utf-8")
 
 
 def data_frame(rows: Table) -> Any:
