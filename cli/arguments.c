@@ -68,7 +68,7 @@ static int64_t row_count(const hooke_options *table) {
 /* Requests the texts that allocate memory in advance, so that they exist whenever something is printed. */
 static int has_words(const hooke_options *table) {
   for (int64_t row = 0; row < row_count(table); row++)
-    if (!hooke_options_row(table, row, "allowed")) return 0;
+    if (!hooke_options_row(table, row, "allowed") || !hooke_options_row(table, row, "units")) return 0;
   return 1;
 }
 

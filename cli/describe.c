@@ -8,10 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct {
-  int32_t code;
-  const char *meaning;
-} exits[] = {
+const struct cli_exit_row cli_exits[] = {
     {HOOKE_EXIT_DONE, "done"},
     {HOOKE_EXIT_USAGE, "wrong usage"},
     {HOOKE_EXIT_BAD_INPUT, "bad input"},
@@ -21,14 +18,8 @@ static const struct {
     {HOOKE_EXIT_NOT_MET, "the wanted error was not reached, or nobody can know"},
     {HOOKE_EXIT_INTERNAL, "a defect of hooke"},
     {HOOKE_EXIT_INTERRUPTED, "interrupted"},
+    {0, NULL},
 };
-enum { EXIT_COUNT = sizeof exits / sizeof exits[0] };
-
-const char *cli_describe_exit(int32_t i, int32_t *code) {
-  if (i >= EXIT_COUNT) return NULL;
-  *code = exits[i].code;
-  return exits[i].meaning;
-}
 
 static int32_t takes_methods(const struct cli_argument *argument) {
   return strcmp(argument->name, "method") == 0 || strcmp(argument->name, "methods") == 0;

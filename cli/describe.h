@@ -32,7 +32,10 @@ const char *cli_describe_words(const struct cli_argument *argument, char words[H
 /* Ending of the files that an option takes, "" for any; NULL if it takes no file. */
 const char *cli_describe_file(const struct cli_argument *argument);
 
-/* Code and meaning of exit code `i`; NULL past the last. */
-const char *cli_describe_exit(int32_t i, int32_t *code);
+/* Exit codes; one without a meaning ends them. */
+extern const struct cli_exit_row {
+  int32_t code;
+  const char *meaning;
+} cli_exits[];
 
 #endif

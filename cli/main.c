@@ -1,7 +1,7 @@
 /* The command line of hooke: selects the verb, passes its options, and returns the exit code. */
 #include "arguments.h"
-#include "form.h"
 #include "os.h"
+#include "pages.h"
 #include "print.h"
 #include "report.h"
 #include "words.h"
@@ -24,7 +24,8 @@ static const struct cli_verb *const verbs[] = {&cli_verb_make,
 
 static int print_help(const struct cli_program *program, const char *value) {
   (void)value;
-  return cli_usage_print(stdout, program);
+  cli_usage_print(stdout, program);
+  return HOOKE_EXIT_DONE;
 }
 
 static int print_methods(const struct cli_program *program, const char *value) {
@@ -110,8 +111,10 @@ static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
     return HOOKE_EXIT_USAGE;
   }
   int answer = cli_arguments_parse(verbs, verb, argc, argv, &arguments);
-  if (answer == HOOKE_EXIT_DONE)
-    answer = arguments.help ? cli_usage_print_verb(stdout, &arguments) : verb->function(&arguments);
+  if (answer == HOOKE_EXIT_DONE && arguments.help)
+    cli_usage_print_verb(stdout, &arguments);
+  else if (answer == HOOKE_EXIT_DONE)
+    answer = verb->function(&arguments);
   cli_arguments_destroy(&arguments);
   return answer;
 }
@@ -148,6 +151,7 @@ static int do_words(int argc, char **argv) {
     return HOOKE_EXIT_USAGE;
   }
   if (strcmp(argv[1], "help") == 0) return do_help(argc - 2, argv + 2);
+  if (strcmp(argv[1], "--complete") == 0) return cli_complete(&program, argv + 2);
   const struct cli_program_row *row = find_row(argv[1]);
   if (!row) row = find_row(cli_words_meant(argv[1]));
   if (row) return do_row(row, argc > 2 ? argv[2] : NULL);
