@@ -33,9 +33,8 @@ static const char *property(const struct cli_argument *argument, const char *nam
 
 /* Says that an option is required, or gives its default. */
 static void add_default(char *doc, const struct cli_argument *argument) {
-  const char *fallback = property(argument, "default"), *family = property(argument, "family");
-  char example[HOOKE_EXAMPLE_SIZE];
-  cli_value_example(argument->table, argument->row, example);
+  const char *fallback = property(argument, "default"), *family = property(argument, "family"),
+             *example = property(argument, "example");
   if (hooke_options_row_number(argument->table, argument->row, "required") == 0.0 || fallback[0]) {
     cli_append(doc, HOOKE_DOC_SIZE, "; default: %s", fallback[0] ? fallback : "none");
     return;
@@ -116,10 +115,9 @@ const char *cli_describe_example(const struct cli_arguments *arguments, char com
   cli_append(command, HOOKE_DOC_SIZE, "hooke %s %s", arguments->verb->name, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
-    char example[HOOKE_EXAMPLE_SIZE];
     if (argument->table != arguments->of_kind) continue;
-    const char *family = property(argument, "family");
-    if (!cli_value_example(argument->table, argument->row, example)[0]) continue;
+    const char *family = property(argument, "family"), *example = property(argument, "example");
+    if (!example[0]) continue;
     if (!first[0]) first = family;
     if (family[0] == '\0' || strcmp(family, first) == 0)
       cli_append(command, HOOKE_DOC_SIZE, strchr(example, ';') ? " --%s '%s'" : " --%s %s", argument->flag,

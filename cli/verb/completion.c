@@ -24,7 +24,7 @@ static const char *const shells[][2] = {
      "      COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
      "      [[ $kind == list ]] && compopt -o nospace 2>/dev/null\n"
      "    fi\n"
-     "  } < <(\"${1/#~/$HOME}\" --complete \"${COMP_WORDS[@]:1:COMP_CWORD}\" 2>/dev/null)\n"
+     "  } < <(\"${1/#\\~/$HOME}\" --complete \"${COMP_WORDS[@]:1:COMP_CWORD}\" 2>/dev/null)\n"
      "}\n"
      "complete -F _hooke hooke\n"},
     {"zsh",
