@@ -61,32 +61,34 @@ static void add_table(struct cli_arguments *arguments, hooke_options *table, con
   }
 }
 
-static int64_t row_count(const hooke_options *table) {
-  return table ? hooke_options_row_count(table) : 0;
-}
-
 /* Requests the texts that allocate memory in advance, so that they exist whenever something is printed. */
-static int has_words(const hooke_options *table) {
-  for (int64_t row = 0; row < row_count(table); row++)
-    if (!hooke_options_row(table, row, "allowed") || !hooke_options_row(table, row, "units")) return 0;
-  return 1;
+static int32_t create_table(const char *name, hooke_options **table) {
+  int32_t status = hooke_options_create(name, table);
+  for (int64_t row = 0; status == HOOKE_OK && row < hooke_options_row_count(*table); row++)
+    if (!hooke_options_row(*table, row, "allowed") || !hooke_options_row(*table, row, "units"))
+      status = HOOKE_NO_MEMORY;
+  return status;
 }
 
 int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments) {
+  const struct {
+    const char *name;
+    hooke_options **table;
+  } tables[] = {{kind, &arguments->of_kind},
+                {verb->options, &arguments->more},
+                {"run", &arguments->run},
+                {verb->input || verb->takes_kind ? NULL : "limits", &arguments->limits}};
+  int64_t count = verb->row_count + SHARED_COUNT;
   arguments->verb = verb;
   arguments->scene = kind;
-  int32_t status = hooke_options_create("run", &arguments->run);
-  if (status == HOOKE_OK && verb->options) status = hooke_options_create(verb->options, &arguments->more);
-  if (status == HOOKE_OK && !verb->input && !verb->takes_kind)
-    status = hooke_options_create("limits", &arguments->limits);
-  if (status == HOOKE_OK && kind) status = hooke_options_create(kind, &arguments->of_kind);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  const int64_t tables = row_count(arguments->run) + row_count(arguments->more) +
-                         row_count(arguments->limits) + row_count(arguments->of_kind);
-  arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + tables), sizeof *arguments->all);
-  if (!arguments->all || !has_words(arguments->run) || !has_words(arguments->more) ||
-      !has_words(arguments->limits) || !has_words(arguments->of_kind))
-    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
+    if (!tables[k].name) continue;
+    const int32_t status = create_table(tables[k].name, tables[k].table);
+    if (status != HOOKE_OK) return cli_report_status(arguments, status);
+    count += hooke_options_row_count(*tables[k].table);
+  }
+  arguments->all = calloc((size_t)count, sizeof *arguments->all);
+  if (!arguments->all) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
   add_table(arguments, arguments->more, verb->hidden);
   for (int32_t i = 0; i < verb->row_count; i++)

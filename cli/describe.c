@@ -43,29 +43,21 @@ static void add_default(char *doc, const struct cli_argument *argument) {
   if (example[0]) cli_append(doc, HOOKE_DOC_SIZE, ", such as %s", example);
 }
 
-static void describe_row(const struct cli_argument *argument, struct cli_description *description) {
+const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
+                                        struct cli_description *description) {
+  if (argument->own) return argument->own;
   const char *type = property(argument, "type"), *unit = property(argument, "unit");
+  const int is_flag = strcmp(type, "flag") == 0;
   char methods[HOOKE_DOC_SIZE / 4];
-  if (strcmp(type, "flag") != 0) {
-    for (size_t i = 0; type[i] && type[i] != ' '; i++)
-      description->value[i] = (char)toupper((unsigned char)type[i]);
-  }
+  *description = (struct cli_description){
+      .is = {argument->flag, 0, is_flag ? NULL : description->value, description->doc}};
+  for (size_t i = 0; type[i] && type[i] != ' '; i++)
+    description->value[i] = (char)toupper((unsigned char)type[i]);
   if (takes_methods(argument)) cli_report_methods(methods, sizeof methods);
   cli_append(description->doc, HOOKE_DOC_SIZE, "%s%s%s%s; %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
              property(argument, "doc"), takes_methods(argument) ? methods : property(argument, "allowed"));
   add_default(description->doc, argument);
-}
-
-void cli_describe(const struct cli_argument *argument, struct cli_description *description) {
-  memset(description, 0, sizeof *description);
-  description->flag = argument->flag;
-  if (!argument->own) {
-    describe_row(argument, description);
-    return;
-  }
-  description->letter = argument->own->letter;
-  if (argument->own->value) snprintf(description->value, HOOKE_FLAG_SIZE, "%s", argument->own->value);
-  cli_append(description->doc, HOOKE_DOC_SIZE, "%s", argument->own->doc);
+  return &description->is;
 }
 
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc) {

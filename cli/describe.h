@@ -6,14 +6,13 @@
 
 enum { HOOKE_DOC_SIZE = 1024 };
 
+/* An option as a row: its flag, argument and text. */
 struct cli_description {
-  char letter; /* 0: none */
-  const char *flag;
-  char value[HOOKE_FLAG_SIZE]; /* argument of the flag, "" for none */
-  char doc[HOOKE_DOC_SIZE];
+  struct cli_verb_row is;
+  char value[HOOKE_FLAG_SIZE], doc[HOOKE_DOC_SIZE]; /* of a row of a table */
 };
-
-void cli_describe(const struct cli_argument *argument, struct cli_description *description);
+const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
+                                        struct cli_description *description);
 
 /* The family of an option, and its description; NULL: none. */
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc);

@@ -7,11 +7,8 @@
 struct cli_program;
 
 struct cli_program_row {
-  const char *name;
-  char letter;       /* 0: none */
-  const char *value; /* name of the word that has to follow; NULL: none */
-  const char *words; /* which it may be, separated by blanks */
-  const char *doc;
+  struct cli_verb_row is; /* its value is the word that has to follow */
+  const char *words;      /* which it may be, separated by blanks */
   /* returns an exit code, HOOKE_EXIT_USAGE for another word than these */
   int (*print)(const struct cli_program *program, const char *value);
 };

@@ -79,8 +79,8 @@ static void put_words(const char *words, const char *before, int length) {
 static void put_first(const struct cli_program *program) {
   for (const struct cli_verb *const *verb = program->verbs; *verb; verb++)
     printf("%s\t%s\n", (*verb)->name, (*verb)->summary);
-  for (const struct cli_program_row *row = program->rows; row->name; row++)
-    printf("--%s\t%s\n", row->name, row->doc);
+  for (const struct cli_program_row *row = program->rows; row->is.name; row++)
+    printf("--%s\t%s\n", row->is.name, row->is.doc);
 }
 
 /* Returns 1 if there is the kind `word`; lists all of them for NULL. */
@@ -95,11 +95,11 @@ static int look_at_kinds(const char *word) {
 }
 
 static void put_options(const struct cli_arguments *arguments) {
+  struct cli_description option;
   for (int32_t i = 0; i < arguments->count; i++) {
-    struct cli_description option;
-    cli_describe(&arguments->all[i], &option);
-    if (option.letter) printf("-%c\t%s\n", option.letter, option.doc);
-    printf("--%s\t%s\n", option.flag, option.doc);
+    const struct cli_verb_row *row = cli_describe(&arguments->all[i], &option);
+    if (row->letter) printf("-%c\t%s\n", row->letter, row->doc);
+    printf("--%s\t%s\n", row->name, row->doc);
   }
 }
 
@@ -149,32 +149,26 @@ static void put_of_verb(const struct cli_arguments *arguments, char **words, int
   }
 }
 
-int cli_complete(const struct cli_program *program, char **words) {
-  int32_t count = 0;
-  while (words[count])
-    count++;
+int cli_complete(const struct cli_program *program, const struct cli_verb *verb, int count, char **words) {
   if (count < 2) {
     printf("words\n");
     put_first(program);
     return HOOKE_EXIT_DONE;
   }
-  for (const struct cli_program_row *row = program->rows; row->name; row++)
-    if (row->words && count == 2 && strncmp(words[0], "--", 2) == 0 && strcmp(words[0] + 2, row->name) == 0) {
-      printf("words\n");
-      put_words(row->words, "", 0);
-    }
-  const struct cli_verb *const *verb = program->verbs;
-  while (*verb && strcmp((*verb)->name, words[0]) != 0)
-    verb++;
-  if (!*verb) return HOOKE_EXIT_DONE;
-  if ((*verb)->takes_kind && count == 2) {
+  for (const struct cli_program_row *row = program->rows; count == 2 && row->is.name; row++) {
+    if (!row->words || strncmp(words[0], "--", 2) != 0 || strcmp(words[0] + 2, row->is.name) != 0) continue;
+    printf("words\n");
+    put_words(row->words, "", 0);
+  }
+  if (!verb) return HOOKE_EXIT_DONE;
+  if (verb->takes_kind && count == 2) {
     printf("words\n--help\t\n");
     look_at_kinds(NULL);
   }
-  const char *kind = (*verb)->takes_kind ? words[1] : NULL;
+  const char *kind = verb->takes_kind ? words[1] : NULL;
   if (kind && (count == 2 || !look_at_kinds(kind))) return HOOKE_EXIT_DONE;
-  struct cli_arguments arguments = {.verb = *verb};
-  const int code = cli_arguments_collect(*verb, kind, &arguments);
+  struct cli_arguments arguments = {.verb = verb};
+  const int code = cli_arguments_collect(verb, kind, &arguments);
   if (code == HOOKE_EXIT_DONE) put_of_verb(&arguments, words, count);
   cli_arguments_destroy(&arguments);
   return code;

@@ -51,30 +51,27 @@ static void put_item(const char *name, const char *doc) {
   put_text(doc);
 }
 
-static void put_option(char letter, const char *name, const char *value, const char *doc) {
-  char roff[HOOKE_DOC_SIZE], begin[] = {'\\', '-', letter, ',', ' ', '\0'};
-  printf(".TP\n\\fB%s\\-\\-%s\\fR", letter ? begin : "", escape(name, strlen(name), roff));
-  if (value && value[0]) printf(" \\fI%s\\fR", escape(value, strlen(value), roff));
+static void put_option(const struct cli_verb_row *row) {
+  char roff[HOOKE_DOC_SIZE], begin[] = {'\\', '-', row->letter, ',', ' ', '\0'};
+  printf(".TP\n\\fB%s\\-\\-%s\\fR", row->letter ? begin : "", escape(row->name, strlen(row->name), roff));
+  if (row->value) printf(" \\fI%s\\fR", escape(row->value, strlen(row->value), roff));
   putchar('\n');
-  put_text(doc);
+  put_text(row->doc);
 }
 
 /* Of a table; NULL: those that have none. */
 static void put_options(const struct cli_arguments *arguments, const hooke_options *table) {
-  for (int32_t i = 0; i < arguments->count; i++) {
-    struct cli_description option;
-    if (arguments->all[i].table != table) continue;
-    cli_describe(&arguments->all[i], &option);
-    put_option(option.letter, option.flag, option.value, option.doc);
-  }
+  struct cli_description option;
+  for (int32_t i = 0; i < arguments->count; i++)
+    if (arguments->all[i].table == table) put_option(cli_describe(&arguments->all[i], &option));
 }
 
 static void put_synopsis(const struct cli_program *program) {
   for (const struct cli_verb *const *verb = program->verbs; *verb; verb++)
     printf("\\fBhooke %s\\fR \\fI%s\\fR\n[options]\n.br\n", (*verb)->name, cli_describe_operand(*verb));
-  for (const struct cli_program_row *row = program->rows; row->name; row++)
-    printf("%s\\fBhooke \\-\\-%s%s%s\\fR\n", row == program->rows ? "" : ".br\n", row->name,
-           row->value ? " " : "", row->value ? row->value : "");
+  for (const struct cli_program_row *row = program->rows; row->is.name; row++)
+    printf("%s\\fBhooke \\-\\-%s%s%s\\fR\n", row == program->rows ? "" : ".br\n", row->is.name,
+           row->is.value ? " " : "", row->is.value ? row->is.value : "");
 }
 
 static void put_description(const struct cli_program *program) {
@@ -88,37 +85,37 @@ static void put_description(const struct cli_program *program) {
 
 /* ---- options ---- */
 
-static int put_kind(const struct cli_verb *verb, const char *kind, const char *summary) {
+/* A verb, or one of its kinds. */
+static int put_verb(const struct cli_verb *verb, const char *kind, const char *text) {
   struct cli_arguments arguments = {.verb = verb};
-  char text[HOOKE_DOC_SIZE];
+  char words[HOOKE_DOC_SIZE];
   const int code = cli_arguments_collect(verb, kind, &arguments);
-  if (code == HOOKE_EXIT_DONE) {
-    printf(".SS hooke %s %s [options]\n", verb->name, kind);
-    snprintf(text, sizeof text, "Makes a %s: %s.", kind, summary);
-    put_text(text);
-    put_options(&arguments, arguments.of_kind);
+  const hooke_options *table = kind ? arguments.of_kind : arguments.more;
+  printf(".SS hooke %s %s [options]\n", verb->name, kind ? kind : cli_describe_operand(verb));
+  put_text(text);
+  for (int32_t i = 0; !kind && i < verb->row_count; i++)
+    put_option(&verb->rows[i]);
+  if (table) put_options(&arguments, table);
+  if (kind) {
     printf(".PP\nFor example:\n");
-    put_command(cli_describe_example(&arguments, text));
+    put_command(cli_describe_example(&arguments, words));
+  } else if (verb->without) {
+    printf(".PP\nOf the options of a run it does not take:\n");
+    snprintf(words, sizeof words, "%s.", verb->without);
+    put_text(words);
   }
   cli_arguments_destroy(&arguments);
   return code;
 }
 
-static int put_verb(const struct cli_verb *verb) {
-  struct cli_arguments arguments = {.verb = verb};
+static int put_kinds(const struct cli_verb *verb) {
   char text[HOOKE_DOC_SIZE];
-  int code = cli_arguments_collect(verb, NULL, &arguments);
-  printf(".SS hooke %s %s [options]\n", verb->name, cli_describe_operand(verb));
-  put_text(verb->text);
-  for (int32_t i = 0; i < verb->row_count; i++)
-    put_option(verb->rows[i].letter, verb->rows[i].name, verb->rows[i].value, verb->rows[i].doc);
-  if (arguments.more) put_options(&arguments, arguments.more);
-  snprintf(text, sizeof text, "Of the options of a run it does not take: %s.", verb->without);
-  if (verb->without) printf(".PP\n");
-  if (verb->without) put_text(text);
-  cli_arguments_destroy(&arguments);
-  for (int64_t i = 0; verb->takes_kind && hooke_part_kind(i, "name") && code == HOOKE_EXIT_DONE; i++)
-    code = put_kind(verb, hooke_part_kind(i, "name"), hooke_part_kind(i, "summary"));
+  int code = HOOKE_EXIT_DONE;
+  const char *kind;
+  for (int64_t i = 0; (kind = hooke_part_kind(i, "name")) != NULL && code == HOOKE_EXIT_DONE; i++) {
+    snprintf(text, sizeof text, "Makes a %s: %s.", kind, hooke_part_kind(i, "summary"));
+    code = put_verb(verb, kind, text);
+  }
   return code;
 }
 
@@ -127,8 +124,8 @@ static int put_common(const struct cli_program *program) {
   struct cli_arguments arguments = {.verb = &none};
   const int code = cli_arguments_collect(&none, NULL, &arguments);
   printf(".SH OPTIONS\nIn place of a verb:\n");
-  for (const struct cli_program_row *row = program->rows; row->name; row++)
-    put_option(row->letter, row->name, row->value, row->doc);
+  for (const struct cli_program_row *row = program->rows; row->is.name; row++)
+    put_option(&row->is);
   printf(".PP\nAll verbs take:\n");
   put_options(&arguments, NULL);
   printf(".SS Options of a run\n");
@@ -190,8 +187,10 @@ int cli_man_print(const struct cli_program *program, const char *value) {
   put_description(program);
   printf(".SH VERBS\n");
   int code = HOOKE_EXIT_DONE;
-  for (const struct cli_verb *const *verb = program->verbs; *verb && code == HOOKE_EXIT_DONE; verb++)
-    code = put_verb(*verb);
+  for (const struct cli_verb *const *verb = program->verbs; *verb && code == HOOKE_EXIT_DONE; verb++) {
+    code = put_verb(*verb, NULL, (*verb)->text);
+    if (code == HOOKE_EXIT_DONE && (*verb)->takes_kind) code = put_kinds(*verb);
+  }
   if (code == HOOKE_EXIT_DONE) code = put_common(program);
   if (code == HOOKE_EXIT_DONE) put_end(program);
   return code;

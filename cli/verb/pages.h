@@ -19,10 +19,10 @@ int cli_version_print(const struct cli_program *program, const char *value);
  * one. */
 int cli_completion_print(const struct cli_program *program, const char *shell);
 
-/* What may stand in place of the last of `words`, which come after "hooke" and end with NULL: a line "words",
- * "list" (a comma may follow) or "files ENDINGS" (none: any), then lines of a word, a tab and its
- * description. */
-int cli_complete(const struct cli_program *program, char **words);
+/* What may stand in place of the last of `count` words, which come after "hooke" and begin with the verb
+ * (NULL: with none): a line "words", "list" (a comma may follow) or "files ENDINGS" (none: any), then lines
+ * of a word, a tab and its description. */
+int cli_complete(const struct cli_program *program, const struct cli_verb *verb, int count, char **words);
 
 /* hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if set, else today. */
 int cli_man_print(const struct cli_program *program, const char *value);

@@ -18,11 +18,11 @@ static void print_item(FILE *file, int32_t indent, const char *head, const char 
   cli_print_wrapped(file, indent, indent, WIDTH, text);
 }
 
-static void print_option(FILE *file, char letter, const char *name, const char *value, const char *doc) {
-  char head[2 * HOOKE_FLAG_SIZE + 8], begin[] = {' ', ' ', '-', letter, ',', ' ', '\0'};
-  snprintf(head, sizeof head, "%s--%s%s%s", letter ? begin : "      ", name, value && value[0] ? " " : "",
-           value ? value : "");
-  print_item(file, OPTIONS, head, doc);
+static void print_option(FILE *file, const struct cli_verb_row *row) {
+  char head[2 * HOOKE_FLAG_SIZE + 8], begin[] = {' ', ' ', '-', row->letter, ',', ' ', '\0'};
+  snprintf(head, sizeof head, "%s--%s%s%s", row->letter ? begin : "      ", row->name, row->value ? " " : "",
+           row->value ? row->value : "");
+  print_item(file, OPTIONS, head, row->doc);
 }
 
 static void print_exits(FILE *file) {
@@ -46,8 +46,8 @@ void cli_usage_print(FILE *file, const struct cli_program *program) {
   }
   fputs("\nhooke VERB --help   the options of a verb, with units and defaults\n\nin place of a verb:\n",
         file);
-  for (const struct cli_program_row *row = program->rows; row->name; row++)
-    print_option(file, row->letter, row->name, row->value, row->doc);
+  for (const struct cli_program_row *row = program->rows; row->is.name; row++)
+    print_option(file, &row->is);
   print_exits(file);
 }
 
@@ -80,8 +80,7 @@ static void print_table(FILE *file, const struct cli_arguments *arguments, const
     if (count++ == 0) fprintf(file, "\n%s:\n", title);
     family = new_family(&arguments->all[i], &last, &doc);
     if (family) fprintf(file, "  %s: %s\n", family, doc);
-    cli_describe(&arguments->all[i], &option);
-    print_option(file, option.letter, option.flag, option.value, option.doc);
+    print_option(file, cli_describe(&arguments->all[i], &option));
   }
 }
 
@@ -115,52 +114,57 @@ static void print_units(FILE *file, const struct cli_arguments *arguments) {
   }
 }
 
-static void print_complete(FILE *file, const struct cli_arguments *arguments) {
-  const char *kind = arguments->of_kind ? arguments->scene : NULL;
-  char title[HOOKE_FLAG_SIZE], command[HOOKE_DOC_SIZE];
-  print_table(file, arguments, NULL, "options");
-  snprintf(title, sizeof title, "options of a %s", kind ? kind : "");
-  if (kind) print_table(file, arguments, arguments->of_kind, title);
-  snprintf(title, sizeof title, "options of the %s", kind ? "scene" : arguments->verb->name);
-  if (arguments->more) print_table(file, arguments, arguments->more, title);
-  print_table(file, arguments, arguments->run,
-              kind ? "options of the run, for the scene to hold (defaults: where it does not)"
-                   : "options of the run, instead of what the scene's \"run\" says (defaults: where neither "
-                     "says anything)");
-  if (arguments->limits) print_table(file, arguments, arguments->limits, "what a scene may do");
-  if (!arguments->verb->input) print_units(file, arguments);
-  if (kind) fprintf(file, "\nexample:\n  %s\n", cli_describe_example(arguments, command));
-}
-
-static void print_short(FILE *file, const struct cli_arguments *arguments) {
+/* All that there is to know, or names alone. */
+static void print_tables(FILE *file, const struct cli_arguments *arguments, const char *kind) {
   const struct cli_verb *verb = arguments->verb;
-  const char *kind = arguments->of_kind ? arguments->scene : NULL;
-  char command[HOOKE_DOC_SIZE];
-  fputc('\n', file);
-  print_names(file, arguments, NULL, "options");
-  if (kind) print_names(file, arguments, arguments->of_kind, kind);
-  if (arguments->more) print_names(file, arguments, arguments->more, verb->options);
-  print_names(file, arguments, arguments->run, "run");
-  if (arguments->limits) print_names(file, arguments, arguments->limits, "limits");
-  fprintf(file, "\nexample: %s\n", kind ? cli_describe_example(arguments, command) : verb->example);
-  fprintf(file, "hooke %s%s%s --help all   what they mean, with units and defaults\n", verb->name,
-          kind ? " " : "", kind ? kind : "");
+  char of_kind[HOOKE_FLAG_SIZE], of_more[HOOKE_FLAG_SIZE];
+  const struct {
+    const hooke_options *table; /* NULL, but for the first: there is none */
+    const char *title, *name;
+  } tables[] = {{NULL, "options", "options"},
+                {arguments->of_kind, of_kind, kind},
+                {arguments->more, of_more, verb->options},
+                {arguments->run,
+                 kind ? "options of the run, for the scene to hold (defaults: where it does not)"
+                      : "options of the run, instead of what the scene's \"run\" says (defaults: where "
+                        "neither says anything)",
+                 "run"},
+                {arguments->limits, "what a scene may do", "limits"}};
+  snprintf(of_kind, sizeof of_kind, "options of a %s", kind ? kind : "");
+  snprintf(of_more, sizeof of_more, "options of the %s", kind ? "scene" : verb->name);
+  for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
+    if (k > 0 && !tables[k].table) continue;
+    if (arguments->help > 1)
+      print_table(file, arguments, tables[k].table, tables[k].title);
+    else
+      print_names(file, arguments, tables[k].table, tables[k].name);
+  }
 }
 
 void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
   const struct cli_verb *verb = arguments->verb;
   const char *summary = verb->summary, *kind = arguments->of_kind ? arguments->scene : NULL;
-  const int all = arguments->help > 1;
+  const int all = arguments->help > 1, bare = verb->takes_kind && !kind;
+  char command[HOOKE_DOC_SIZE];
   fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_describe_operand(verb));
   if (all)
     cli_print_wrapped(file, 0, 0, WIDTH, verb->text);
   else
     fprintf(file, "%c%s.\n", toupper((unsigned char)summary[0]), summary + 1);
-  if (verb->takes_kind && !kind)
+  if (!all && !bare) fputc('\n', file);
+  if (bare)
     print_kinds(file, verb->name);
   else
-    (all ? print_complete : print_short)(file, arguments);
-  if (all) print_exits(file);
+    print_tables(file, arguments, kind);
+  if (all && !bare && !verb->input) print_units(file, arguments);
+  if (!bare && (kind || !all))
+    fprintf(file, all ? "\nexample:\n  %s\n" : "\nexample: %s\n",
+            kind ? cli_describe_example(arguments, command) : verb->example);
+  if (all)
+    print_exits(file);
+  else if (!bare)
+    fprintf(file, "hooke %s%s%s --help all   what they mean, with units and defaults\n", verb->name,
+            kind ? " " : "", kind ? kind : "");
 }
 
 /* ---- version ---- */
