@@ -62,8 +62,7 @@ const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
 
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc) {
   const char *family = argument->table ? property(argument, "family") : "";
-  if (!family[0]) return NULL;
-  for (int64_t row = 0; row < hooke_options_row_count(argument->table); row++) {
+  for (int64_t row = 0; family[0] && row < hooke_options_row_count(argument->table); row++) {
     if (strcmp(hooke_options_row(argument->table, row, "name"), family) == 0)
       *doc = hooke_options_row(argument->table, row, "doc");
   }
@@ -84,13 +83,9 @@ const char *cli_describe_words(const struct cli_argument *argument, char words[H
 
 /* A verb's own options show it by the name of their value: FILE, FILE.html. */
 const char *cli_describe_file(const struct cli_argument *argument) {
-  static const char *const endings[] = {"json", "html", "csv", "h5", "obj"};
-  const char *value = argument->own ? argument->own->value : NULL;
+  const char *value = argument->own ? argument->own->value : NULL, *dot = value ? strchr(value, '.') : NULL;
   if (argument->table) return strcmp(argument->name, "file") == 0 ? "" : NULL;
-  for (size_t k = 0; value && k < sizeof endings / sizeof endings[0]; k++) {
-    const char *dot = strchr(value, '.');
-    if (dot && strcmp(dot + 1, endings[k]) == 0) return endings[k];
-  }
+  if (dot) return dot + 1;
   return value && strncmp(value, "FILE", 4) == 0 ? "" : NULL;
 }
 

@@ -14,7 +14,7 @@ struct cli_description {
 const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
                                         struct cli_description *description);
 
-/* The family of an option, and its description; NULL: none. */
+/* The family of an option, and its description; "": none. */
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc);
 
 /* Argument of a verb: "SCENE", "KIND", "OUT.h5". */

@@ -38,7 +38,7 @@ int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli
                          const char *output) {
   const int32_t status = output ? hooke_scene_check_output(setup->scene, output) : HOOKE_OK;
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
-  if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
+  if (status != HOOKE_BAD_VALUE) return cli_report_status(arguments, status);
   return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", hooke_last_error());
 }
 
@@ -129,7 +129,7 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
 }
 
 /* Refuses an output that ends like another kind than its option writes, and says what writes that kind. */
-static int check_ending(const struct cli_arguments *arguments, const char *file) {
+static int check_ending(const struct cli_arguments *arguments, const char *flag, const char *file) {
   static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
                                           {".html", "'hooke view -o' writes a page"},
                                           {".h5", "'hooke run -o' writes a trajectory"},
@@ -144,22 +144,18 @@ static int check_ending(const struct cli_arguments *arguments, const char *file)
     for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
       const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
       if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
-      return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: its name has to end in .%s; %s",
-                        argument->flag, file, own, others[k][1]);
+      return cli_report(arguments, HOOKE_EXIT_USAGE, "%s %s: its name has to end in .%s; %s", flag, file, own,
+                        others[k][1]);
     }
   }
   return HOOKE_EXIT_DONE;
 }
 
-/* The library refuses a file that is being written, too, but only when it writes it. */
-int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output) {
+int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *flag, const char *output) {
   int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
   for (int32_t k = 0; k < arguments->more_count && code == HOOKE_EXIT_DONE; k++)
     code = cli_setup_check_apart(arguments, arguments->more_scenes[k], "one of the inputs", output);
-  if (code == HOOKE_EXIT_DONE && output) code = check_ending(arguments, output);
-  if (code != HOOKE_EXIT_DONE || !output || !cli_os_is_written(output)) return code;
-  return cli_report(arguments, HOOKE_EXIT_IO,
-                    "%s: another run is writing this file; wait for it to end, or name another file", output);
+  return code == HOOKE_EXIT_DONE && output ? check_ending(arguments, flag, output) : code;
 }
 
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output) {
@@ -170,7 +166,7 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
                       "trajectories; run without -o, or build hooke with HDF5",
                       output);
   }
-  return cli_setup_check_other_file(arguments, output);
+  return cli_setup_check_other_file(arguments, "-o", output);
 }
 
 int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value) {

@@ -63,40 +63,36 @@ static void print_kinds(FILE *file, const char *verb) {
   fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb);
 }
 
-/* The family of an option, if it is another than that of the one before; it moves `last` on. */
-static const char *new_family(const struct cli_argument *argument, const char **last, const char **doc) {
-  const char *family = cli_describe_family(argument, doc), *before = *last;
-  *last = family;
-  return family && before && strcmp(family, before) == 0 ? NULL : family;
-}
-
 /* The options of a table, NULL: of none; nothing if the verb takes none of them. */
 static void print_table(FILE *file, const struct cli_arguments *arguments, const hooke_options *table,
                         const char *title) {
-  const char *family, *last = NULL, *doc;
+  const char *last = "", *doc;
   for (int32_t i = 0, count = 0; i < arguments->count; i++) {
     struct cli_description option;
     if (arguments->all[i].table != table) continue;
     if (count++ == 0) fprintf(file, "\n%s:\n", title);
-    family = new_family(&arguments->all[i], &last, &doc);
-    if (family) fprintf(file, "  %s: %s\n", family, doc);
+    const char *family = cli_describe_family(&arguments->all[i], &doc);
+    if (family[0] && strcmp(family, last) != 0) fprintf(file, "  %s: %s\n", family, doc);
     print_option(file, cli_describe(&arguments->all[i], &option));
+    last = family;
   }
 }
 
-/* Their names alone; a family is named once. */
+/* Their names alone; those of a family have it only once before them. */
 static void print_names(FILE *file, const struct cli_arguments *arguments, const hooke_options *table,
                         const char *title) {
-  const char *last = NULL, *doc;
+  const char *last = "", *doc;
   char text[NAMES_SIZE] = "";
   for (int32_t i = 0; i < arguments->count; i++) {
-    const char *flag = arguments->all[i].flag, *before = last;
     if (arguments->all[i].table != table) continue;
-    if (!text[0]) cli_append(text, sizeof text, "%s:", title);
-    const int again = !new_family(&arguments->all[i], &last, &doc) && before && last;
-    cli_append(text, sizeof text, " %s%s", again ? "" : "--", again ? flag + strlen(last) : flag);
+    const char *flag = arguments->all[i].flag, *family = cli_describe_family(&arguments->all[i], &doc);
+    const int again = family[0] && strcmp(family, last) == 0;
+    cli_append(text, sizeof text, " %s%s", again ? "" : "--", again ? flag + strlen(family) : flag);
+    last = family;
   }
-  if (text[0]) cli_print_wrapped(file, 0, 2, WIDTH, text);
+  if (!text[0]) return;
+  const int32_t length = fprintf(file, "%s: ", title);
+  cli_print_wrapped(file, length, 2, WIDTH, text);
 }
 
 static const char *units_of(const struct cli_argument *argument) {
