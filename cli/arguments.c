@@ -180,19 +180,16 @@ static int name_method(const struct cli_arguments *arguments, struct cli_argumen
 static int take(struct cli_arguments *arguments, struct cli_argument *argument, const char *text) {
   argument->text = text ? text : cli_argument_is_flag(argument) ? "true" : "";
   if (argument->own) return HOOKE_EXIT_DONE;
-  int answer = strcmp(argument->name, "method") == 0 ? name_method(arguments, argument) : HOOKE_EXIT_DONE;
-  if (answer == HOOKE_EXIT_DONE) answer = cli_value_read(arguments, argument);
-  if (answer != HOOKE_EXIT_DONE || cli_value_adds_up(argument)) return answer;
-  return cli_value_set(arguments, argument);
+  const int answer =
+      strcmp(argument->name, "method") == 0 ? name_method(arguments, argument) : HOOKE_EXIT_DONE;
+  return answer == HOOKE_EXIT_DONE ? cli_value_read(arguments, argument) : answer;
 }
 
-/* Sets values that need the whole command line. */
-static int set_what_added_up(const struct cli_arguments *arguments) {
+/* Some values need the whole command line. */
+static int set_values(const struct cli_arguments *arguments) {
   int answer = HOOKE_EXIT_DONE;
-  for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++) {
-    const struct cli_argument *argument = &arguments->all[i];
-    if (argument->value && cli_value_adds_up(argument)) answer = cli_value_set(arguments, argument);
-  }
+  for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++)
+    if (arguments->all[i].value) answer = cli_value_set(arguments, &arguments->all[i]);
   return answer;
 }
 
@@ -256,7 +253,7 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
   for (int i = optind; arguments->help && i < argc; i++)
     arguments->help += strcmp(argv[i], "all") == 0;
   if (arguments->help) return HOOKE_EXIT_DONE;
-  int answer = set_what_added_up(arguments);
+  int answer = set_values(arguments);
   if (answer != HOOKE_EXIT_DONE) return answer;
   if (arguments->verb->takes_kind) {
     if (optind + 1 >= argc) return HOOKE_EXIT_DONE;

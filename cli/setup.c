@@ -128,36 +128,6 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
   return HOOKE_EXIT_DONE;
 }
 
-/* Refuses an output that ends like another kind than its option writes, and says what writes that kind. */
-static int check_ending(const struct cli_arguments *arguments, const char *flag, const char *file) {
-  static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
-                                          {".html", "'hooke view -o' writes a page"},
-                                          {".h5", "'hooke run -o' writes a trajectory"},
-                                          {".csv", "'hooke study -o' writes a table"},
-                                          {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
-                                          {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
-  const char *dot = strrchr(file, '.');
-  for (int32_t i = 0; dot && i < arguments->count; i++) {
-    const struct cli_argument *argument = &arguments->all[i];
-    const char *own =
-        argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
-    for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
-      const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
-      if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
-      return cli_report(arguments, HOOKE_EXIT_USAGE, "%s %s: its name has to end in .%s; %s", flag, file, own,
-                        others[k][1]);
-    }
-  }
-  return HOOKE_EXIT_DONE;
-}
-
-int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *flag, const char *output) {
-  int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
-  for (int32_t k = 0; k < arguments->more_count && code == HOOKE_EXIT_DONE; k++)
-    code = cli_setup_check_apart(arguments, arguments->more_scenes[k], "one of the inputs", output);
-  return code == HOOKE_EXIT_DONE && output ? check_ending(arguments, flag, output) : code;
-}
-
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output) {
   const char *hdf5 = hooke_build_fact("hdf5");
   if (output && (!hdf5 || !hdf5[0])) {
@@ -166,7 +136,7 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
                       "trajectories; run without -o, or build hooke with HDF5",
                       output);
   }
-  return cli_setup_check_other_file(arguments, "-o", output);
+  return HOOKE_EXIT_DONE;
 }
 
 int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value) {

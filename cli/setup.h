@@ -42,9 +42,7 @@ int cli_setup_require(const struct cli_arguments *arguments, const struct cli_se
 /* Checks that `output` (NULL: none) is another file than `input`, which is called `what` in the message. */
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
                           const char *output);
-/* Before any work: checks that the file given to `flag` (NULL: none) ends as it has to and is no input; the
- * second function, for -o, also checks that this build can write HDF5. */
-int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *flag, const char *output);
+/* Before any work: checks that this build can write `output` (NULL: none), a file of HDF5. */
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 
 /* Reads the number given as --`name`, whose unit and bounds are those of a study's option;

@@ -51,16 +51,12 @@ static int check_required(const struct make *make) {
 
 /* Row of `table` whose name the message begins with; -1: none. */
 static int64_t row_of_message(const hooke_options *table, const char *message) {
-  int64_t found = -1;
-  size_t longest = 0;
+  const size_t length = strcspn(message, ":[");
   for (int64_t row = 0; row < hooke_options_row_count(table); row++) {
     const char *name = hooke_options_row(table, row, "name");
-    const size_t length = strlen(name);
-    if (length <= longest || strncmp(message, name, length) != 0 || !strchr(":[.", message[length])) continue;
-    found = row;
-    longest = length;
+    if (strlen(name) == length && strncmp(message, name, length) == 0) return row;
   }
-  return found;
+  return -1;
 }
 
 /* Reports a failure of the library, whose place is an option; one without place may concern a missing option.
