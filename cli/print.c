@@ -10,7 +10,6 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { ROUNDED_DIGITS = 6, SAID_SIZE = 16384 };
 
@@ -110,18 +109,6 @@ void cli_say(const char *format, ...) {
 void cli_print_padded(FILE *file, int32_t width, const char *text) {
   for (int32_t count = cli_print_text(file, text); count < width; count++)
     fputc(' ', file);
-}
-
-static int has_colour(FILE *file) {
-  const char *refused = getenv("NO_COLOR"), *terminal = getenv("TERM");
-  return isatty(fileno(file)) && !(refused && refused[0]) && terminal && strcmp(terminal, "dumb") != 0;
-}
-
-void cli_print_styled(FILE *file, const char *style, const char *text) {
-  if (has_colour(file))
-    fprintf(file, "\033[%sm%s\033[0m", style, text);
-  else
-    fputs(text, file);
 }
 
 /* $'...', with bytes by number unless they are plain characters. */

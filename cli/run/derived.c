@@ -41,14 +41,12 @@ void cli_derived_json(struct cli_json *json, const hooke_system *system) {
 }
 
 static void print_derived(const hooke_system *system) {
-  char number[HOOKE_NUMBER_SIZE];
   if (hooke_system_count(system, "derived") == 0) return;
   printf("derived from the options of parts:\n");
   for (int64_t i = 0; i < hooke_system_count(system, "derived"); i++) {
     const char *family = text_of(system, i, "family"), *unit = text_of(system, i, "unit");
-    cli_say("  %s%s%s: %s %s%s%s\n", text_of(system, i, "part"), family ? "." : "", family ? family : "",
-            text_of(system, i, "name"), cli_format_rounded(hooke_system_derived_value(system, i), number),
-            unit[0] ? " " : "", unit);
+    cli_say("  %s%s%s: %s %.6g%s%s\n", text_of(system, i, "part"), family ? "." : "", family ? family : "",
+            text_of(system, i, "name"), hooke_system_derived_value(system, i), unit[0] ? " " : "", unit);
   }
 }
 

@@ -215,14 +215,13 @@ static int integrate(struct cli_run *run) {
 /* On standard error: that a run was interrupted, and what is kept. */
 static void tell_interrupted(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
-  char text[HOOKE_NUMBER_SIZE];
   char kept[sizeof run->message] = "";
   if (run->output) {
     snprintf(kept, sizeof kept, ", and %" PRId64 " frame%s in %s", run->frames, run->frames == 1 ? "" : "s",
              run->output);
   }
-  cli_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
-                   cli_format_rounded(hooke_state_time(run->setup.state), text), kept);
+  cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s",
+                   hooke_state_time(run->setup.state), kept);
   if (run->output) cli_resume_tell_how(arguments, run->output, run->kept_place);
 }
 
