@@ -107,39 +107,38 @@ static const struct cli_argument *find_option(const struct cli_arguments *argume
   const size_t length = strcspn(word, "=");
   for (int32_t i = 0; word[0] == '-' && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
-    const int by_letter = argument->own && argument->own->letter == word[1] && length == 2;
-    const int by_name = length > 2 && word[1] == '-' && strlen(argument->flag) == length - 2 &&
-                        strncmp(argument->flag, word + 2, length - 2) == 0;
-    if (by_letter || by_name) return argument;
+    char flag[HOOKE_FLAG_SIZE + 2];
+    snprintf(flag, sizeof flag, "--%s", argument->flag);
+    if (strlen(flag) == length && strncmp(flag, word, length) == 0) return argument;
+    if (length == 2 && argument->own && argument->own->letter == word[1]) return argument;
   }
   return NULL;
 }
 
 /* The last words are "--option value", "--option=value", or the same parted at the sign, which may be the
  * last; a flag has a value after the sign alone. Returns 0 if they are something else. */
-static int put_values(const struct cli_arguments *arguments, char **words, int32_t count) {
-  const char *last = words[count - 1], *before = words[count - 2], *value = last;
-  const char *sign = last[0] == '-' ? strchr(last, '=') : NULL;
-  if (strcmp(last, "=") == 0) sign = last = value = "";
-  if (strcmp(before, "=") == 0 && count > 2) sign = before = words[count - 3];
-  if (sign && last[0] == '-') before = last, value = sign + 1;
-  const struct cli_argument *argument = find_option(arguments, before);
-  if (!argument) return 0;
+static int put_values(const struct cli_arguments *arguments, char **words, int count) {
+  const char *last = words[count - 1], *option = words[count - 2], *value = last;
+  const char *sign = strncmp(last, "--", 2) == 0 ? strchr(last, '=') : NULL;
+  if (sign)
+    option = last, value = sign + 1;
+  else if (strcmp(last, "=") == 0)
+    sign = last = value = "";
+  else if (strcmp(option, "=") == 0 && count > 2)
+    sign = option = words[count - 3];
+  const struct cli_argument *argument = find_option(arguments, option);
+  const int is_switch = argument && (argument->own ? !argument->own->value : cli_argument_is_flag(argument));
+  if (!argument || (is_switch && !sign)) return 0;
   char text[HOOKE_DOC_SIZE];
   int32_t many;
-  const int takes = argument->own ? argument->own->value != NULL : !cli_argument_is_flag(argument);
   const char *ending = cli_describe_file(argument), *comma = strrchr(value, ',');
-  if (!takes && !sign) return 0;
   cli_describe_words(argument, text, &many);
-  if (ending)
-    printf("files %s\n", ending);
-  else
-    printf(many ? "list\n" : "words\n");
+  printf("%s%s\n", ending ? "files " : many ? "list" : "words", ending ? ending : "");
   put_words(text, last, (int)((many && comma ? comma + 1 : value) - last));
   return 1;
 }
 
-static void put_of_verb(const struct cli_arguments *arguments, char **words, int32_t count) {
+static void put_of_verb(const struct cli_arguments *arguments, char **words, int count) {
   if (put_values(arguments, words, count)) return;
   if (words[count - 1][0] != '-' && !arguments->of_kind) {
     printf("files %sh5\n", arguments->verb->input ? "" : "json ");

@@ -136,6 +136,7 @@ def test_lists_go_on_after_a_comma(complete):
     assert complete(["compare", "x.json", "--methods", "rk4,ver"]) == {"rk4,verlet"}
     assert complete(["make", "cloth", "--pinned", "top,cor"]) == {"top,corners"}
     assert complete(["run", "x.json", "--method", "rk4,ver"]) == set()
+    assert complete(["make", "cloth", "--gravity", "=", "-9"], ["make", "cloth", "--gravity", "-"]) == [set(), set()]
 
 
 def test_no_word_is_offered_that_the_program_refuses(hooke, complete):
