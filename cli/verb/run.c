@@ -35,12 +35,6 @@ static void keep_message(struct cli_run *run) {
   snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
 }
 
-static int32_t see_progress(double done, const char *method, void *ctx) {
-  struct cli_run *run = ctx;
-  (void)method;
-  return cli_watch_progress(done, NULL, &run->watch);
-}
-
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct cli_run *run = ctx;
   const int beyond = !isnan(hooke_integrator_number(run->integrator, "diverged_at"));
@@ -95,7 +89,8 @@ static int32_t prepare(struct cli_run *run) {
   run->duration = hooke_options_number(run->options, "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK)
-    status = hooke_integrator_on_progress(run->integrator, HOOKE_BETWEEN_LOOKS, see_progress, run);
+    status =
+        hooke_integrator_on_progress(run->integrator, HOOKE_BETWEEN_LOOKS, cli_watch_progress, &run->watch);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
   /* a pick has computed the limits already */
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
