@@ -2,7 +2,6 @@
 #include "describe.h"
 #include "print.h"
 #include "report.h"
-#include "value.h"
 #include "words.h"
 
 #include <getopt.h>
@@ -169,6 +168,43 @@ int32_t cli_argument_is_flag(const struct cli_argument *argument) {
          strcmp(hooke_options_row(argument->table, argument->row, "type"), "flag") == 0;
 }
 
+static int32_t has_rows(const struct cli_argument *argument) {
+  return hooke_options_row_number(argument->table, argument->row, "columns") > 1.0;
+}
+
+int32_t cli_argument_adds_up(const struct cli_argument *argument) {
+  return has_rows(argument) || hooke_options_row_number(argument->table, argument->row, "word_lists") == 1.0;
+}
+
+/* Takes the text as the value, or adds it there. */
+static int read_value(const struct cli_arguments *arguments, struct cli_argument *argument) {
+  const char *before = argument->value && cli_argument_adds_up(argument) ? argument->value : "";
+  const char *between = before[0] == '\0' ? "" : has_rows(argument) ? ";" : ",";
+  const size_t size = strlen(before) + strlen(argument->text) + 2;
+  char *value = malloc(size);
+  if (value) snprintf(value, size, "%s%s%s", before, between, argument->text);
+  free(argument->value);
+  argument->value = value;
+  return value ? HOOKE_EXIT_DONE : cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+}
+
+/* The message without the leading name of the option, which the report has already. */
+static const char *without_name(const char *message, const char *name) {
+  const size_t length = strlen(name);
+  return strncmp(message, name, length) == 0 && strncmp(message + length, ": ", 2) == 0 ? message + length + 2
+                                                                                        : message;
+}
+
+static int set_value(const struct cli_arguments *arguments, const struct cli_argument *argument) {
+  const int32_t status = hooke_options_set_text(argument->table, argument->name, argument->value);
+  if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
+  const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : cli_refusal(arguments);
+  const char *example = hooke_options_row(argument->table, argument->row, "example");
+  return cli_report(arguments, code, "--%s %s: %s%s%s", argument->flag, argument->text,
+                    without_name(hooke_last_error(), argument->name), example[0] ? ", such as " : "",
+                    example);
+}
+
 static int name_method(const struct cli_arguments *arguments, struct cli_argument *argument) {
   const char *name = hooke_method_meant(argument->text);
   if (hooke_method_is_adaptive(name) < 0)
@@ -182,14 +218,14 @@ static int take(struct cli_arguments *arguments, struct cli_argument *argument, 
   if (argument->own) return HOOKE_EXIT_DONE;
   const int answer =
       strcmp(argument->name, "method") == 0 ? name_method(arguments, argument) : HOOKE_EXIT_DONE;
-  return answer == HOOKE_EXIT_DONE ? cli_value_read(arguments, argument) : answer;
+  return answer == HOOKE_EXIT_DONE ? read_value(arguments, argument) : answer;
 }
 
 /* Some values need the whole command line. */
 static int set_values(const struct cli_arguments *arguments) {
   int answer = HOOKE_EXIT_DONE;
   for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++)
-    if (arguments->all[i].value) answer = cli_value_set(arguments, &arguments->all[i]);
+    if (arguments->all[i].value) answer = set_value(arguments, &arguments->all[i]);
   return answer;
 }
 
@@ -204,6 +240,10 @@ static struct cli_argument *argument_of(struct cli_arguments *arguments, int cod
   return NULL;
 }
 
+const char *cli_arguments_operand(const struct cli_verb *verb) {
+  return verb->takes_kind ? "KIND" : verb->input ? verb->input : "SCENE";
+}
+
 /* The word that is not an option, or several. */
 static int take_operand(struct cli_arguments *arguments, int argc, char **argv) {
   const char *input = arguments->verb->input;
@@ -216,7 +256,7 @@ static int take_operand(struct cli_arguments *arguments, int argc, char **argv) 
   }
   if (optind >= argc) {
     return cli_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]%s",
-                      input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb),
+                      input ? input : "scene", arguments->verb->name, cli_arguments_operand(arguments->verb),
                       input ? "" : "; - reads a scene from standard input");
   }
   arguments->more_scenes = argv + optind + 1;

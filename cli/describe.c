@@ -2,7 +2,6 @@
 #include "print.h"
 
 #include "report.h"
-#include "value.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -47,7 +46,7 @@ const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
                                         struct cli_description *description) {
   if (argument->own) return argument->own;
   const char *type = property(argument, "type"), *unit = property(argument, "unit");
-  const int is_flag = strcmp(type, "flag") == 0;
+  const int is_flag = cli_argument_is_flag(argument);
   char methods[HOOKE_DOC_SIZE / 4];
   *description = (struct cli_description){
       .is = {argument->flag, 0, is_flag ? NULL : description->value, description->doc}};
@@ -72,12 +71,12 @@ const char *cli_describe_family(const struct cli_argument *argument, const char 
 const char *cli_describe_words(const struct cli_argument *argument, char words[HOOKE_DOC_SIZE],
                                int32_t *many) {
   words[0] = '\0';
-  *many = strcmp(argument->name, "methods") == 0 || (argument->table && cli_value_adds_up(argument));
+  *many = strcmp(argument->name, "methods") == 0 || (argument->table && cli_argument_adds_up(argument));
   for (int64_t i = 0; takes_methods(argument) && i < hooke_method_count(); i++)
     cli_append(words, HOOKE_DOC_SIZE, "%s%s", i ? " " : "", hooke_method_name(i));
   if (words[0] || !argument->table) return words;
   cli_append(words, HOOKE_DOC_SIZE, "%s",
-             strcmp(property(argument, "type"), "flag") == 0 ? "true false" : property(argument, "words"));
+             cli_argument_is_flag(argument) ? "true false" : property(argument, "words"));
   return words;
 }
 
@@ -90,10 +89,6 @@ const char *cli_describe_file(const struct cli_argument *argument) {
 }
 
 /* ---- verbs ---- */
-
-const char *cli_describe_operand(const struct cli_verb *verb) {
-  return verb->takes_kind ? "KIND" : verb->input ? verb->input : "SCENE";
-}
 
 /* Required options, one of several with an example, and the first family. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]) {

@@ -17,9 +17,6 @@ const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
 /* The family of an option, and its description; "": none. */
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc);
 
-/* Argument of a verb: "SCENE", "KIND", "OUT.h5". */
-const char *cli_describe_operand(const struct cli_verb *verb);
-
 /* A complete command that makes a part of the current kind, from the examples of its table. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]);
 

@@ -68,7 +68,7 @@ static void put_options(const struct cli_arguments *arguments, const hooke_optio
 
 static void put_synopsis(const struct cli_program *program) {
   for (const struct cli_verb *const *verb = program->verbs; *verb; verb++)
-    printf("\\fBhooke %s\\fR \\fI%s\\fR\n[options]\n.br\n", (*verb)->name, cli_describe_operand(*verb));
+    printf("\\fBhooke %s\\fR \\fI%s\\fR\n[options]\n.br\n", (*verb)->name, cli_arguments_operand(*verb));
   for (const struct cli_program_row *row = program->rows; row->is.name; row++)
     printf("%s\\fBhooke \\-\\-%s%s%s\\fR\n", row == program->rows ? "" : ".br\n", row->is.name,
            row->is.value ? " " : "", row->is.value ? row->is.value : "");
@@ -91,7 +91,7 @@ static int put_verb(const struct cli_verb *verb, const char *kind, const char *t
   char words[HOOKE_DOC_SIZE];
   const int code = cli_arguments_collect(verb, kind, &arguments);
   const hooke_options *table = kind ? arguments.of_kind : arguments.more;
-  printf(".SS hooke %s %s [options]\n", verb->name, kind ? kind : cli_describe_operand(verb));
+  printf(".SS hooke %s %s [options]\n", verb->name, kind ? kind : cli_arguments_operand(verb));
   put_text(text);
   for (int32_t i = 0; !kind && i < verb->row_count; i++)
     put_option(&verb->rows[i]);

@@ -142,7 +142,7 @@ void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
   const char *summary = verb->summary, *kind = arguments->of_kind ? arguments->scene : NULL;
   const int all = arguments->help > 1, bare = verb->takes_kind && !kind;
   char command[HOOKE_DOC_SIZE];
-  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_describe_operand(verb));
+  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_arguments_operand(verb));
   if (all)
     cli_print_wrapped(file, 0, 0, WIDTH, verb->text);
   else
