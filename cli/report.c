@@ -50,12 +50,10 @@ static void print_styled(const char *style, const char *text) {
 /* The numbers after the path; 0 if they are not there. */
 static int find_place(const char *path, const char *message, long *line, long *column) {
   const size_t length = strlen(path);
-  if (strncmp(message, path, length) != 0 || message[length] != ':') return 0;
-  char *end;
-  *line = strtol(message + length + 1, &end, 10);
-  if (*end != ':') return 0;
-  *column = strtol(end + 1, &end, 10);
-  return *line > 0 && *column > 0 && *end == ':';
+  char end;
+  return strncmp(message, path, length) == 0 &&
+         sscanf(message + length, ":%ld:%ld%c", line, column, &end) == 3 && end == ':' && *line > 0 &&
+         *column > 0;
 }
 
 static int is_continuation(int byte) {

@@ -206,13 +206,6 @@ static int next_piece(const struct hk_option_row *row, const char **rest, const 
   return between ? *at : ' ';
 }
 
-static int ends_with_comma(const char *text) {
-  size_t length = strlen(text);
-  while (length > 0 && is_blank(text[length - 1]))
-    length--;
-  return length > 0 && text[length - 1] == ',';
-}
-
 /* Rows that a semicolon ends are told of by their numbers; `first` is that of the row, and moves on. */
 static int32_t end_row(const struct hk_option_row *row, const char *where, int64_t count, int64_t *first) {
   char may[HOOKE_OPTION_ALLOWED];
@@ -232,8 +225,9 @@ static int32_t split_list(const struct hk_option_row *row, const char *where, co
   const char *piece = NULL, *end = text + strlen(text);
   int64_t length = 0, first = 0;
   size_t used = 0;
-  int behind;
+  int behind, last = ' ';
   for (const char *rest = text; (behind = next_piece(row, &rest, end, &piece, &length)) != 0;) {
+    last = behind;
     if (hk_option_has_word(row->words, piece, length)) {
       if (used) words[used++] = ' ';
       memcpy(words + used, piece, (size_t)length);
@@ -251,7 +245,7 @@ static int32_t split_list(const struct hk_option_row *row, const char *where, co
   }
   words[used] = '\0';
   if (strchr(text, ';') && end_row(row, where, found->count, &first)) return HOOKE_BAD_VALUE;
-  if (ends_with_comma(text)) return refuse_text(row, where, text);
+  if (last != ' ') return refuse_text(row, where, text);
   if (*word_count && !row->word_lists && *word_count + found->count > 1) return refuse_text(row, where, text);
   return HOOKE_OK;
 }
