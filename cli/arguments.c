@@ -18,14 +18,10 @@ static const struct cli_verb_row shared_rows[] = {
 };
 enum { SHARED_COUNT = sizeof shared_rows / sizeof shared_rows[0] };
 
-/* 1 if `name` is among `words`, separated by blanks. */
-static int32_t is_among(const char *words, const char *name) {
-  size_t length = strlen(name);
-  for (const char *at = words; at && *at; at += strspn(at, " ")) {
-    size_t word = strcspn(at, " ");
-    if (word == length && strncmp(at, name, length) == 0) return 1;
-    at += word;
-  }
+int32_t cli_is_among(const char *words, const char *name) {
+  const size_t length = strlen(name);
+  for (const char *at = words; at && (at = strstr(at, name)) != NULL; at += length)
+    if ((at == words || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return 1;
   return 0;
 }
 
@@ -56,7 +52,7 @@ static void add_option(struct cli_arguments *arguments, hooke_options *table, in
 static void add_table(struct cli_arguments *arguments, hooke_options *table, const char *without) {
   for (int64_t row = 0; table && row < hooke_options_row_count(table); row++) {
     if (strcmp(hooke_options_row(table, row, "type"), "family") == 0) continue;
-    if (!is_among(without, hooke_options_row(table, row, "name"))) add_option(arguments, table, row);
+    if (!cli_is_among(without, hooke_options_row(table, row, "name"))) add_option(arguments, table, row);
   }
 }
 

@@ -43,6 +43,9 @@ int cli_arguments_parse(const struct cli_verb *const *verbs, const struct cli_ve
                         char **argv, struct cli_arguments *arguments);
 void cli_arguments_destroy(struct cli_arguments *arguments);
 
+/* 1 if `name` is among `words`, which blanks separate (NULL: none). */
+int32_t cli_is_among(const char *words, const char *name);
+
 /* An option's name on the command line, without the dashes: "atol-velocity". Returns `flag`. */
 const char *cli_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]);
 

@@ -93,30 +93,25 @@ int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, cha
   return duration || step;
 }
 
-static int require_times(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                         const char *method) {
+int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                      const char *method) {
   char text[HOOKE_DOC_SIZE];
+  if (method && hooke_method_is_adaptive(method) < 0) { /* a value given as an option was refused before */
+    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
+                      "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
+                      method);
+  }
+  if (method && !hooke_method_is_built(method)) {
+    return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                      "%s is not in this build of hooke; 'hooke --version' says what it was built with",
+                      method);
+  }
   if (!cli_setup_missing(setup, method, text)) return HOOKE_EXIT_DONE;
   return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", text);
 }
 
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {
-  return require_times(arguments, setup, NULL);
-}
-
-int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                      const char *method) {
-  if (hooke_method_is_adaptive(method) < 0) { /* a value given as an option was refused before */
-    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
-                      "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
-                      method);
-  }
-  if (!hooke_method_is_built(method)) {
-    return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
-                      "%s is not in this build of hooke; 'hooke --version' says what it was built with",
-                      method);
-  }
-  return require_times(arguments, setup, method);
+  return cli_setup_require(arguments, setup, NULL);
 }
 
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
