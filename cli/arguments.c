@@ -184,21 +184,18 @@ static int read_value(const struct cli_arguments *arguments, struct cli_argument
   return value ? HOOKE_EXIT_DONE : cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
 }
 
-/* The message without the leading name of the option, which the report has already. */
-static const char *without_name(const char *message, const char *name) {
-  const size_t length = strlen(name);
-  return strncmp(message, name, length) == 0 && strncmp(message + length, ": ", 2) == 0 ? message + length + 2
-                                                                                        : message;
-}
-
+/* The report has the name of the option already, with which a message of the library begins. */
 static int set_value(const struct cli_arguments *arguments, const struct cli_argument *argument) {
   const int32_t status = hooke_options_set_text(argument->table, argument->name, argument->value);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : cli_refusal(arguments);
   const char *example = hooke_options_row(argument->table, argument->row, "example");
-  return cli_report(arguments, code, "--%s %s: %s%s%s", argument->flag, argument->text,
-                    without_name(hooke_last_error(), argument->name), example[0] ? ", such as " : "",
-                    example);
+  const char *message = hooke_last_error();
+  const size_t length = strlen(argument->name);
+  if (strncmp(message, argument->name, length) == 0 && strncmp(message + length, ": ", 2) == 0)
+    message += length + 2;
+  return cli_report(arguments, code, "--%s %s: %s%s%s", argument->flag, argument->text, message,
+                    example[0] ? ", such as " : "", example);
 }
 
 static int name_method(const struct cli_arguments *arguments, struct cli_argument *argument) {
@@ -304,27 +301,23 @@ static const char *next_kind(int64_t i, const void *ctx) {
   return hooke_part_kind(i, "name");
 }
 
-static int32_t is_for_help(int argc, char **argv) {
-  return argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
-}
-
 /* The kind comes first, since it determines the other options; NULL if there is none. */
 static int find_kind(struct cli_arguments *arguments, int argc, char **argv, const char **kind) {
+  const char *word = argc < 2 ? "-" : argv[1];
   *kind = NULL;
-  if (!arguments->verb->takes_kind || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;
-  if (argc < 2 || argv[1][0] == '-') {
+  if (!arguments->verb->takes_kind || strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0)
+    return HOOKE_EXIT_DONE;
+  if (word[0] == '-') {
     return cli_report(
         arguments, HOOKE_EXIT_USAGE,
         "no kind given; it comes first: hooke %s KIND [options]; 'hooke %s --help' lists the kinds",
         arguments->verb->name, arguments->verb->name);
   }
-  for (int64_t i = 0; hooke_part_kind(i, "name"); i++) {
-    if (strcmp(hooke_part_kind(i, "name"), argv[1]) == 0) *kind = argv[1];
-  }
+  const char *near = cli_suggest(word, next_kind, NULL);
+  if (near && strcmp(near, word) == 0) *kind = word;
   if (*kind) return HOOKE_EXIT_DONE;
-  const char *near = cli_suggest(argv[1], next_kind, NULL);
   return cli_report(arguments, HOOKE_EXIT_USAGE, "there is no kind '%s'%s%s%s; 'hooke %s --help' lists them",
-                    argv[1], near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "",
+                    word, near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "",
                     arguments->verb->name);
 }
 

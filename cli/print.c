@@ -207,10 +207,8 @@ static void write_string(FILE *file, const char *text) {
 static void write_key(struct cli_json *json, const char *key) {
   if (json->is_filled) fputs(", ", json->file);
   json->is_filled = 1;
-  if (key) {
-    write_string(json->file, key);
-    fputs(": ", json->file);
-  }
+  if (key) write_string(json->file, key);
+  if (key) fputs(": ", json->file);
 }
 
 void cli_json_begin(struct cli_json *json, FILE *file) {
@@ -258,11 +256,10 @@ void cli_json_count(struct cli_json *json, const char *key, int64_t value) {
 
 void cli_json_text(struct cli_json *json, const char *key, const char *text) {
   write_key(json, key);
-  if (text) {
+  if (text)
     write_string(json->file, text);
-  } else {
+  else
     fputs("null", json->file);
-  }
 }
 
 void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,

@@ -53,7 +53,6 @@ int32_t cli_setup_is_scene(const char *path) {
 }
 
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
-  static const char *const outputs[] = {"output", "report"};
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
   if (ferror(stdin)) return cli_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
@@ -62,10 +61,10 @@ int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setu
   status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  for (int k = 0; k < 2; k++) {
-    const int code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, outputs[k]));
-    if (code != HOOKE_EXIT_DONE) return code;
-  }
+  int code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, "output"));
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, "report"));
+  if (code != HOOKE_EXIT_DONE) return code;
   cli_os_give_back_memory(); /* of loading, so that a run does not hold it besides its own */
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);

@@ -8,21 +8,14 @@
 
 enum { WIDTH = 100, OPTIONS = 28, KINDS = 13, EXITS = 12, NAMES_SIZE = 4 * HOOKE_DOC_SIZE };
 
-/* The text begins at column `indent`, below a head that reaches it. */
-static void print_item(FILE *file, int32_t indent, const char *head, const char *text) {
-  const int32_t length = (int32_t)strlen(head);
-  if (length + 2 > indent)
-    fprintf(file, "%s\n%*s", head, indent, "");
-  else
-    fprintf(file, "%-*s", indent, head);
-  cli_print_wrapped(file, indent, indent, WIDTH, text);
-}
-
+/* The text begins in a column of its own, below a head that reaches it. */
 static void print_option(FILE *file, const struct cli_verb_row *row) {
   char head[2 * HOOKE_FLAG_SIZE + 8], begin[] = {' ', ' ', '-', row->letter, ',', ' ', '\0'};
-  snprintf(head, sizeof head, "%s--%s%s%s", row->letter ? begin : "      ", row->name, row->value ? " " : "",
-           row->value ? row->value : "");
-  print_item(file, OPTIONS, head, row->doc);
+  const int length = snprintf(head, sizeof head, "%s--%s%s%s", row->letter ? begin : "      ", row->name,
+                              row->value ? " " : "", row->value ? row->value : "");
+  fprintf(file, length + 2 > OPTIONS ? "%s\n%*s" : "%s%*s", head,
+          length + 2 > OPTIONS ? OPTIONS : OPTIONS - length, "");
+  cli_print_wrapped(file, OPTIONS, OPTIONS, WIDTH, row->doc);
 }
 
 static void print_exits(FILE *file) {
@@ -54,11 +47,10 @@ void cli_usage_print(FILE *file, const struct cli_program *program) {
 /* ---- of a verb ---- */
 
 static void print_kinds(FILE *file, const char *verb) {
-  char head[HOOKE_FLAG_SIZE];
   fputs("\nkinds:\n", file);
   for (int64_t i = 0; hooke_part_kind(i, "name"); i++) {
-    snprintf(head, sizeof head, "  %s", hooke_part_kind(i, "name"));
-    print_item(file, KINDS, head, hooke_part_kind(i, "summary"));
+    fprintf(file, "  %-10s ", hooke_part_kind(i, "name"));
+    cli_print_wrapped(file, KINDS, KINDS, WIDTH, hooke_part_kind(i, "summary"));
   }
   fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb);
 }
