@@ -138,16 +138,6 @@ static int put_values(const struct cli_arguments *arguments, char **words, int c
   return 1;
 }
 
-static void put_of_verb(const struct cli_arguments *arguments, char **words, int count) {
-  if (put_values(arguments, words, count)) return;
-  if (words[count - 1][0] != '-' && !arguments->of_kind) {
-    printf("files %sh5\n", arguments->verb->input ? "" : "json ");
-  } else {
-    printf("words\n");
-    put_options(arguments);
-  }
-}
-
 int cli_complete(const struct cli_program *program, const struct cli_verb *verb, int count, char **words) {
   if (count < 2) {
     printf("words\n");
@@ -168,7 +158,11 @@ int cli_complete(const struct cli_program *program, const struct cli_verb *verb,
   if (kind && (count == 2 || !look_at_kinds(kind))) return HOOKE_EXIT_DONE;
   struct cli_arguments arguments = {.verb = verb};
   const int code = cli_arguments_collect(verb, kind, &arguments);
-  if (code == HOOKE_EXIT_DONE) put_of_verb(&arguments, words, count);
+  if (code == HOOKE_EXIT_DONE && !put_values(&arguments, words, count)) {
+    const int is_file = words[count - 1][0] != '-' && !kind;
+    printf(is_file ? "files %sh5\n" : "%swords\n", is_file && !verb->input ? "json " : "");
+    if (!is_file) put_options(&arguments);
+  }
   cli_arguments_destroy(&arguments);
   return code;
 }

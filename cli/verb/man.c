@@ -146,13 +146,6 @@ static int put_common(const struct cli_program *program) {
 /* ---- the end ---- */
 
 static void put_end(const struct cli_program *program) {
-  static const char *const files[][2] = {
-      {"*.json",
-       "Scenes: particles, springs, parts and the options of a run, in JSON. A scene - is standard input."},
-      {"*.h5", "Trajectories and comparisons, in HDF5 after the H5MD convention. A trajectory stands for its "
-               "scene, with the options of its run, wherever a scene is taken."},
-      {"*.html", "Reports, each one page to read offline."},
-      {"*.csv", "Rows of a study."}};
   char code[DATE_SIZE];
   printf(".SH EXIT STATUS\n");
   for (int k = 0; cli_exits[k].meaning; k++) {
@@ -160,8 +153,14 @@ static void put_end(const struct cli_program *program) {
     put_item(code, cli_exits[k].meaning);
   }
   printf(".SH FILES\n");
-  for (size_t k = 0; k < sizeof files / sizeof files[0]; k++)
-    put_item(files[k][0], files[k][1]);
+  put_item("*.json",
+           "Scenes: particles, springs, parts and the options of a run, in JSON. A scene - is standard "
+           "input.");
+  put_item("*.h5",
+           "Trajectories and comparisons, in HDF5 after the H5MD convention. A trajectory stands for its "
+           "scene, with the options of its run, wherever a scene is taken.");
+  put_item("*.html", "Reports, each one page to read offline.");
+  put_item("*.csv", "Rows of a study.");
   printf(".SH EXAMPLES\n");
   for (const struct cli_verb *const *verb = program->verbs; *verb; verb++) {
     if (verb != program->verbs) printf(".PP\n");
