@@ -33,6 +33,9 @@ struct hk_atomic_file {
  * run is writing the older file; HOOKE_NO_MEMORY. hk_atomic_file_release() has to follow in any case. */
 int32_t hk_atomic_file_make(const char *path, struct hk_atomic_file *file);
 
+/* Whether that would be refused now, without creating anything. */
+int32_t hk_atomic_file_check(const char *path);
+
 /* The same for the output of a run: locked against other runs until it is released or closed, or the process
  * ends. `again`: the caller already holds the lock of the file to be replaced. */
 int32_t hk_atomic_file_make_locked(const char *path, int32_t again, struct hk_atomic_file *file);

@@ -112,6 +112,18 @@ int32_t hk_atomic_file_make(const char *path, struct hk_atomic_file *file) {
   return status == HOOKE_OK ? create(path, file) : status;
 }
 
+int32_t hk_atomic_file_check(const char *path) {
+  HOOKE_KEEP_ERRNO;
+  struct hk_atomic_file file;
+  int32_t status = begin(path, &file);
+  if (status == HOOKE_OK) status = look_whether_free(path);
+  if (status == HOOKE_OK) file.path[hk_os_last_slash(file.path) - file.path + 1] = '\0'; /* its folder */
+  if (status == HOOKE_OK && !hk_os_may_write(file.path))
+    status = hk_file_fail(path, "create the file", errno);
+  hk_atomic_file_release(&file);
+  return status;
+}
+
 int32_t hk_atomic_file_make_locked(const char *path, int32_t again, struct hk_atomic_file *file) {
   HOOKE_KEEP_ERRNO;
   int32_t status = begin(path, file);
