@@ -100,36 +100,26 @@ static int32_t try_space(const char *path, int descriptor, double bytes) {
   return error ? hk_file_fail(path, what, error) : HOOKE_OK;
 }
 
-static int32_t create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file) {
-  const int32_t status = try_space(path, file->atomic.descriptor, bytes);
-  if (status != HOOKE_OK) return status;
-  file->list = hk_h5_access_list(file->atomic.descriptor, &file->error);
-  if (file->list >= 0) file->id = H5Fcreate(file->atomic.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
-  if (file->id >= 0) return HOOKE_OK;
-  return file->error && !was_without_memory(guard) ? hk_file_fail(path, "create the file", file->error)
-                                                   : hk_h5_fail(guard, path, "create the file");
-}
-
-int32_t hk_h5_file_create(struct hk_h5_guard *guard, const char *path, double bytes,
+int32_t hk_h5_file_create(struct hk_h5_guard *guard, double bytes, const struct hk_atomic_file *atomic,
                           struct hk_h5_file *file) {
   *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hk_atomic_file_make(path, &file->atomic);
-  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
-}
-
-int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
-                                 struct hk_h5_file *file) {
-  *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hk_atomic_file_make_locked(path, again, &file->atomic);
-  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
+  file->atomic = atomic;
+  const int32_t status = try_space(atomic->path, atomic->descriptor, bytes);
+  if (status != HOOKE_OK) return status;
+  file->list = hk_h5_access_list(atomic->descriptor, &file->error);
+  if (file->list >= 0) file->id = H5Fcreate(atomic->temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
+  if (file->id >= 0) return HOOKE_OK;
+  return file->error && !was_without_memory(guard)
+             ? hk_file_fail(atomic->path, "create the file", file->error)
+             : hk_h5_fail(guard, atomic->path, "create the file");
 }
 
 /* Allocates disk space for the whole file, not only its length. */
 static int32_t take_space(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
   hsize_t bytes = 0;
-  if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic.path, "write");
-  const int error = hk_os_reserve_disk(file->atomic.descriptor, (int64_t)bytes);
-  return error ? hk_file_fail(file->atomic.path, "make room for all frames", error) : HOOKE_OK;
+  if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic->path, "write");
+  const int error = hk_os_reserve_disk(file->atomic->descriptor, (int64_t)bytes);
+  return error ? hk_file_fail(file->atomic->path, "make room for all frames", error) : HOOKE_OK;
 }
 
 /* Whatever happens, HDF5 does not use the file afterwards. */
@@ -139,8 +129,8 @@ static int32_t let_go(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   const herr_t result = H5Fclose(id);
   hk_h5_drop(file->list);
   file->list = -1;
-  if (file->error) return hk_file_fail(file->atomic.path, "write", file->error);
-  return result < 0 ? hk_h5_fail(guard, file->atomic.path, "close the file") : HOOKE_OK;
+  if (file->error) return hk_file_fail(file->atomic->path, "write", file->error);
+  return result < 0 ? hk_h5_fail(guard, file->atomic->path, "close the file") : HOOKE_OK;
 }
 
 int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
@@ -148,43 +138,12 @@ int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   return status == HOOKE_OK ? let_go(guard, file) : status;
 }
 
-int32_t hk_h5_file_publish(struct hk_h5_file *file) {
-  return hk_atomic_file_commit(&file->atomic, NULL);
-}
-
-int32_t hk_h5_file_close(struct hk_h5_file *file) {
-  int32_t status = hk_file_is(file->atomic.path, file->atomic.descriptor);
-  if (status == HOOKE_OK && hk_os_sync(file->atomic.descriptor) != 0)
-    status = hk_file_fail(file->atomic.path, "bring the data to the disk", errno);
-  const int32_t closed = hk_atomic_file_close(&file->atomic);
-  return status == HOOKE_OK ? closed : status;
-}
-
-int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id) {
-  void *handle = NULL;
-  *id = H5Fopen(file->atomic.path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (*id < 0) return hk_h5_fail(guard, file->atomic.path, "open the file as HDF5");
-  int32_t status = H5Fget_vfd_handle(*id, H5P_DEFAULT, &handle) < 0
-                       ? hk_h5_fail(guard, file->atomic.path, "open the file as HDF5")
-                       : hk_file_same(file->atomic.path, *(const int *)handle, file->atomic.descriptor);
-  if (status == HOOKE_OK) return status;
-  H5Fclose(*id);
-  *id = -1;
-  return status;
-}
-
-double hk_h5_file_bytes(const struct hk_h5_file *file) {
-  struct hk_os_file now;
-  return hk_os_look_open(file->atomic.descriptor, &now) == 0 ? (double)now.bytes : 0.0;
-}
-
 void hk_h5_file_release(struct hk_h5_file *file) {
   if (file->id >= 0) {
-    file->error = ECANCELED; /* discard everything that HDF5 has not written yet */
+    file->error = ECANCELED; /* no further write */
     H5Fclose(file->id);
   }
   hk_h5_drop(file->list);
-  hk_atomic_file_release(&file->atomic);
   *file = HOOKE_NO_H5_FILE;
 }
 

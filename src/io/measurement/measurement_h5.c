@@ -31,12 +31,6 @@
 
 enum { LEAST_LENGTH = 32, NAME_SIZE = 64 };
 
-static hid_t open_group(hid_t where, const char *name) {
-  return H5Lexists(where, name, H5P_DEFAULT) > 0
-             ? H5Gopen2(where, name, H5P_DEFAULT)
-             : H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-}
-
 /* ---- one column ---- */
 
 /* Rows of a table in a column: every `stride`-th of the first `count` strides. */
@@ -167,7 +161,7 @@ static herr_t write_all_series(hid_t kind, const hooke_measurement *m, const str
   herr_t result = 0;
   for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
     if (table->columns[k].type != HOOKE_COLUMN_SERIES) continue;
-    hid_t group = open_group(kind, "series");
+    hid_t group = hk_h5_group(kind, "series");
     result = group < 0 ? -1 : write_series(group, m, table, &table->columns[k]);
     hk_h5_drop(group);
   }
@@ -178,7 +172,7 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
   const char *name = table->group ? table->group : table->name;
   const int is_own = strcmp(table->name, m->kind->name) == 0, is_rows = strcmp(table->name, "rows") == 0;
   if (hk_table_count(table, m->object) == 0 && !is_rows) return 0;
-  hid_t group = is_own || is_rows ? kind : open_group(kind, name);
+  hid_t group = is_own || is_rows ? kind : hk_h5_group(kind, name);
   herr_t result = group < 0 ? -1 : 0;
   if (result >= 0) result = table->record ? write_record(group, m, table) : write_columns(group, m, table);
   if (result >= 0 && (is_rows || table->record)) result = write_all_series(kind, m, table);
@@ -189,7 +183,7 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
 /* ---- the file ---- */
 
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
-  hid_t kind = open_group(file, m->kind->name);
+  hid_t kind = hk_h5_group(file, m->kind->name);
   herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
   for (const struct hk_table *table = m->kind->tables; result >= 0 && table->name; table++)
     result = write_table(kind, m, table);
@@ -214,34 +208,34 @@ static double bytes_of(const hooke_measurement *m) {
 }
 
 static int32_t write_results(const hooke_measurement *m, const char *path, const char *scene_text,
-                             struct hk_h5_file *file, struct hk_motions *motions) {
+                             const struct hk_atomic_file *atomic, struct hk_motions *motions) {
   struct hk_h5_guard guard;
+  struct hk_h5_file file;
   hk_h5_guard_begin(&guard);
-  int32_t status = hk_h5_file_create(&guard, path, bytes_of(m) + hk_motions_bytes(motions), file);
+  int32_t status = hk_h5_file_create(&guard, bytes_of(m) + hk_motions_bytes(motions), atomic, &file);
   if (status == HOOKE_OK) {
-    herr_t result = hk_h5md_describe(file->id, m->system, NULL, m->run, scene_text);
-    if (result >= 0) result = write_all(file->id, m);
-    if (result >= 0) result = hk_motions_make(motions, file->id);
-    if (result >= 0) result = hk_h5md_set_status(file->id, m->outcome);
-    status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_settle(&guard, file);
+    herr_t result = hk_h5md_describe(file.id, m->system, NULL, m->run, scene_text);
+    if (result >= 0) result = write_all(file.id, m);
+    if (result >= 0) result = hk_motions_make(motions, file.id);
+    if (result >= 0) result = hk_h5md_set_status(file.id, m->outcome);
+    status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_settle(&guard, &file);
   }
-  if (status != HOOKE_OK) hk_h5_file_release(file);
+  hk_h5_file_release(&file);
   hk_h5_guard_end(&guard);
   return status;
 }
 
 /* Motions need no HDF5, which waits for nobody while they are made. */
 static int32_t write_file(const hooke_measurement *m, const char *path, const char *scene_text) {
-  struct hk_h5_file file;
+  struct hk_atomic_file file = HOOKE_NO_ATOMIC_FILE;
   struct hk_motions motions;
   int32_t status = hk_motions_create(m, &motions);
   if (status != HOOKE_OK) return status;
-  status = write_results(m, path, scene_text, &file, &motions);
-  if (status == HOOKE_OK) {
-    status = hk_motions_write(&motions, &file.atomic);
-    if (status == HOOKE_OK) status = hk_h5_file_publish(&file);
-    hk_h5_file_release(&file);
-  }
+  status = hk_atomic_file_make(path, &file);
+  if (status == HOOKE_OK) status = write_results(m, path, scene_text, &file, &motions);
+  if (status == HOOKE_OK) status = hk_motions_write(&motions, &file);
+  if (status == HOOKE_OK) status = hk_atomic_file_commit(&file, NULL);
+  hk_atomic_file_release(&file);
   hk_free(motions.writer);
   return status;
 }

@@ -21,10 +21,8 @@ int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_in
                                     const hooke_state *state) {
   char *path = NULL;
   int32_t status = hooke_trajectory_sync(trajectory);
-  if (status == HOOKE_OK)
-    status = hk_file_beside(hk_trajectory_path(trajectory), HOOKE_CHECKPOINT_ENDING, &path);
-  if (status == HOOKE_OK)
-    status = hooke_checkpoint_write(path, integrator, state, hooke_trajectory_text(trajectory, "run"));
+  if (status == HOOKE_OK) status = hk_file_beside(trajectory->file.path, HOOKE_CHECKPOINT_ENDING, &path);
+  if (status == HOOKE_OK) status = hooke_checkpoint_write(path, integrator, state, trajectory->run);
   hk_free(path);
   return status;
 }
@@ -125,7 +123,7 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   const int32_t adaptive = going->integrator->method->adaptive;
   int32_t status = hk_trajectory_reopen(going->path, going->system, going->integrator, 0, &going->trajectory);
   if (status != HOOKE_OK) return status;
-  const int64_t there = going->first ? hk_trajectory_there(going->trajectory) : 0;
+  const int64_t there = going->first ? going->trajectory->there : 0;
   const int64_t frames = adaptive && there > 1 ? 1 : there;
   status = frames > 0 ? stand_at_frame(going, frames - 1) : stand_at_start(going);
   if (status != HOOKE_OK) return status;
@@ -206,7 +204,7 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   if (status == HOOKE_OK) status = resume(&going);
   if (status == HOOKE_OK) {
     hooke_state_copy(going.state, state);
-    hk_trajectory_set_origin(going.trajectory, going.origin);
+    snprintf(going.trajectory->origin, sizeof going.trajectory->origin, "%s", going.origin);
     *trajectory = going.trajectory;
   } else if (going.trajectory) {
     char message[512];
