@@ -91,60 +91,34 @@ int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char
 
 /* ---- a file ---- */
 
-/* Checks that `bytes` fit before anything is written. */
-static int32_t try_space(const char *path, int descriptor, double bytes) {
+static int32_t reserve(const struct hk_atomic_file *atomic, double bytes) {
   char what[64];
   hk_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
-  int error = bytes < 9e18 ? hk_os_reserve_disk(descriptor, (int64_t)bytes) : EFBIG;
-  if (hk_os_set_length(descriptor, 0) != 0 && error == 0) error = errno;
-  return error ? hk_file_fail(path, what, error) : HOOKE_OK;
+  const int error = bytes < 9e18 ? hk_os_reserve_disk(atomic->descriptor, (int64_t)bytes) : EFBIG;
+  return error ? hk_file_fail(atomic->path, what, error) : HOOKE_OK;
 }
 
 int32_t hk_h5_file_create(struct hk_h5_guard *guard, double bytes, const struct hk_atomic_file *atomic,
                           struct hk_h5_file *file) {
-  *file = HOOKE_NO_H5_FILE;
-  file->atomic = atomic;
-  const int32_t status = try_space(atomic->path, atomic->descriptor, bytes);
+  *file = (struct hk_h5_file){.id = -1, .list = -1, .atomic = atomic};
+  const int32_t status = reserve(atomic, bytes);
   if (status != HOOKE_OK) return status;
   file->list = hk_h5_access_list(atomic->descriptor, &file->error);
   if (file->list >= 0) file->id = H5Fcreate(atomic->temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
-  if (file->id >= 0) return HOOKE_OK;
-  return file->error && !was_without_memory(guard)
-             ? hk_file_fail(atomic->path, "create the file", file->error)
-             : hk_h5_fail(guard, atomic->path, "create the file");
+  return file->id >= 0 ? HOOKE_OK : hk_h5_fail(guard, atomic->path, "create the file");
 }
 
-/* Allocates disk space for the whole file, not only its length. */
-static int32_t take_space(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
+int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file, int32_t status) {
+  const struct hk_atomic_file *atomic = file->atomic;
   hsize_t bytes = 0;
-  if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic->path, "write");
-  const int error = hk_os_reserve_disk(file->atomic->descriptor, (int64_t)bytes);
-  return error ? hk_file_fail(file->atomic->path, "make room for all frames", error) : HOOKE_OK;
-}
-
-/* Whatever happens, HDF5 does not use the file afterwards. */
-static int32_t let_go(struct hk_h5_guard *guard, struct hk_h5_file *file) {
-  const hid_t id = file->id;
-  file->id = -1;
-  const herr_t result = H5Fclose(id);
+  if (file->id >= 0) H5Fget_filesize(file->id, &bytes);
+  if (status == HOOKE_OK && file->error == 0) status = reserve(atomic, (double)bytes);
+  if (status != HOOKE_OK && file->error == 0) file->error = ECANCELED;
+  const herr_t result = file->id >= 0 ? H5Fclose(file->id) : 0;
   hk_h5_drop(file->list);
-  file->list = -1;
-  if (file->error) return hk_file_fail(file->atomic->path, "write", file->error);
-  return result < 0 ? hk_h5_fail(guard, file->atomic->path, "close the file") : HOOKE_OK;
-}
-
-int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
-  const int32_t status = take_space(guard, file);
-  return status == HOOKE_OK ? let_go(guard, file) : status;
-}
-
-void hk_h5_file_release(struct hk_h5_file *file) {
-  if (file->id >= 0) {
-    file->error = ECANCELED; /* no further write */
-    H5Fclose(file->id);
-  }
-  hk_h5_drop(file->list);
-  *file = HOOKE_NO_H5_FILE;
+  if (file->error == ECANCELED || status == HOOKE_NO_MEMORY) return status;
+  if (file->error) return hk_file_fail(atomic->path, "write", file->error);
+  return result < 0 ? hk_h5_fail(guard, atomic->path, "close the file") : HOOKE_OK;
 }
 
 #endif

@@ -37,20 +37,16 @@ struct hk_h5_file {
   const struct hk_atomic_file *atomic;
 };
 
-/* Initial value, which may be released. */
-#define HOOKE_NO_H5_FILE ((struct hk_h5_file){.id = -1, .list = -1})
-
-/* Creates a file of up to `bytes` in one that was just made: default format, no raw data cached in memory,
- * everything aligned to 16 bytes so that no number crosses a page boundary. HOOKE_IO_FAILED, HOOKE_NO_MEMORY;
- * hk_h5_file_release() has to follow in any case. */
+/* Creates a file of at least `bytes`, for which there must be room before anything is written, in one that
+ * was just made: default format, no raw data cached in memory, everything aligned to 16 bytes so that no
+ * number crosses a page boundary. HOOKE_IO_FAILED, HOOKE_NO_MEMORY; hk_h5_file_settle() has to follow in any
+ * case. */
 int32_t hk_h5_file_create(struct hk_h5_guard *guard, double bytes, const struct hk_atomic_file *atomic,
                           struct hk_h5_file *file);
 
 /* Allocates its disk space and closes it for HDF5; from here on bytes in it may be written by the descriptor.
- * HOOKE_IO_FAILED. */
-int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file);
-
-/* Closes what is still open, and discards what HDF5 has not written yet. */
-void hk_h5_file_release(struct hk_h5_file *file);
+ * With a `status` that is a failure, nothing more is written, and it is returned, unless a failed write came
+ * first. HOOKE_IO_FAILED. */
+int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file, int32_t status);
 
 #endif

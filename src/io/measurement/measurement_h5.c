@@ -191,36 +191,20 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
   return result;
 }
 
-/* An approximate, generous size. */
-static double bytes_of(const hooke_measurement *m) {
-  double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
-  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
-    const double rows = (double)hk_table_count(table, m->object);
-    for (int32_t c = 0; rows > 0.0 && c < table->column_count; c++) {
-      const struct hk_column *column = &table->columns[c];
-      const int64_t length = column->type == HOOKE_COLUMN_TEXT     ? longest_text(m, table, column)
-                             : column->type == HOOKE_COLUMN_SERIES ? 8 * series_at(m, table, column, 0).count
-                                                                   : 8;
-      bytes += 512.0 + rows * (double)length;
-    }
-  }
-  return bytes;
-}
-
 static int32_t write_results(const hooke_measurement *m, const char *path, const char *scene_text,
                              const struct hk_atomic_file *atomic, struct hk_motions *motions) {
   struct hk_h5_guard guard;
   struct hk_h5_file file;
   hk_h5_guard_begin(&guard);
-  int32_t status = hk_h5_file_create(&guard, bytes_of(m) + hk_motions_bytes(motions), atomic, &file);
+  int32_t status = hk_h5_file_create(&guard, 0.0, atomic, &file);
   if (status == HOOKE_OK) {
     herr_t result = hk_h5md_describe(file.id, m->system, NULL, m->run, scene_text);
     if (result >= 0) result = write_all(file.id, m);
     if (result >= 0) result = hk_motions_make(motions, file.id);
     if (result >= 0) result = hk_h5md_set_status(file.id, m->outcome);
-    status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_settle(&guard, &file);
+    if (result < 0) status = hk_h5_fail(&guard, path, "write the results");
   }
-  hk_h5_file_release(&file);
+  status = hk_h5_file_settle(&guard, &file, status);
   hk_h5_guard_end(&guard);
   return status;
 }

@@ -18,20 +18,14 @@ static int64_t frames_of(const struct hk_study *study, int64_t k) {
   return k == 0 ? study->reference.frames.recorded : study->row[k - 1].trial.frames;
 }
 
-double hk_motions_bytes(const struct hk_motions *motions) {
-  double bytes = 0.0;
-  for (int64_t k = 0; k < motions->count; k++)
-    bytes += hk_frame_arrays_bytes(motions->m->system, frames_of(motions->m->object, k));
-  return bytes;
-}
-
 herr_t hk_motions_make(struct hk_motions *motions, hid_t file) {
   const hooke_system *system = motions->m->system;
   herr_t result = 0;
   for (int64_t k = 0; result >= 0 && k < motions->count; k++) {
     const struct hk_study *study = motions->m->object;
     const char *group = k == 0 ? "all" : study->method[study->row[k - 1].method];
-    result = hk_frame_arrays_create(file, system, group, frames_of(study, k), &motions->writer[k]);
+    hk_frame_arrays_plan(system, group, frames_of(study, k), &motions->writer[k]);
+    result = hk_frame_arrays_create(file, &motions->writer[k]);
   }
   return result >= 0 && motions->count > 0 ? hk_h5md_connect(file, system, "all") : result;
 }

@@ -16,9 +16,7 @@ struct hk_motions {
 
 /* Finds them; the caller frees `writer`. HOOKE_NO_MEMORY. */
 int32_t hk_motions_create(const hooke_measurement *m, struct hk_motions *motions);
-/* Their room in the file, at most. */
-double hk_motions_bytes(const struct hk_motions *motions);
-/* Makes this room. Negative on failure. */
+/* Makes room for them in the file. Negative on failure. */
 herr_t hk_motions_make(struct hk_motions *motions, hid_t file);
 /* Writes them by the descriptor, once HDF5 has closed the file. The progress of the measurement is called.
  * HOOKE_STOPPED; HOOKE_IO_FAILED, also if a run takes another course than before. */

@@ -28,10 +28,10 @@ int64_t hk_frame_bytes(int64_t particle_count, int array) {
   return size * hk_frame_numbers(particle_count, array);
 }
 
-double hk_frame_all_bytes(int64_t particle_count) {
+double hk_frame_all_bytes(const struct hk_frame_file *file) {
   double bytes = 0.0;
   for (int k = 0; k < HOOKE_FRAME_ARRAY_COUNT; k++)
-    bytes += (double)hk_frame_bytes(particle_count, k);
+    bytes += (double)file->frame_count * (double)hk_frame_bytes(file->particle_count, k);
   return bytes;
 }
 

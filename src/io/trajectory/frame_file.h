@@ -35,10 +35,12 @@ struct hk_observable {
 };
 extern const struct hk_observable hk_observables[HOOKE_OBSERVABLE_COUNT];
 
-/* Numbers in a row of an array, and its bytes; bytes of a row of all. */
+/* Numbers in a row of an array, and its bytes. */
 int64_t hk_frame_numbers(int64_t particle_count, int array);
 int64_t hk_frame_bytes(int64_t particle_count, int array);
-double hk_frame_all_bytes(int64_t particle_count);
+
+/* Bytes of all frames that are planned. */
+double hk_frame_all_bytes(const struct hk_frame_file *file);
 
 /* Path of an array of a group: "/particles/all/position/value". */
 enum { HOOKE_FRAME_PATH = 160 };

@@ -11,13 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-double hk_frame_arrays_bytes(const hooke_system *system, int64_t frame_count) {
-  const int64_t n = hooke_system_particle_count(system);
-  const double groups = 32768.0,
-               fixed = 12.0 * (double)n + 16.0 * (double)hooke_system_count(system, "springs");
-  return groups + fixed + hk_frame_all_bytes(n) * (double)frame_count;
-}
-
 hid_t hk_frame_arrays_type(int array) {
   return array == HOOKE_FRAME_STEP    ? H5T_NATIVE_INT64
          : array == HOOKE_FRAME_CHECK ? H5T_NATIVE_UINT32
@@ -97,19 +90,22 @@ static herr_t write_particles(hid_t particles, const hooke_system *system) {
                         hooke_system_mass(system));
 }
 
-herr_t hk_frame_arrays_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
-                              struct hk_frame_file *frames) {
-  char path[HOOKE_FRAME_PATH];
+void hk_frame_arrays_plan(const hooke_system *system, const char *group, int64_t frame_count,
+                          struct hk_frame_file *frames) {
   *frames = (struct hk_frame_file){.system = system,
                                    .descriptor = -1,
                                    .particle_count = hooke_system_particle_count(system),
                                    .frame_count = frame_count};
   snprintf(frames->group, sizeof frames->group, "%s", group);
+}
+
+herr_t hk_frame_arrays_create(hid_t file, struct hk_frame_file *frames) {
+  char path[HOOKE_FRAME_PATH];
   snprintf(path, sizeof path, "particles/%s", frames->group);
   herr_t result = hk_frame_arrays_make(file, frames);
   hid_t particles = result < 0 ? -1 : hk_h5_group(file, path);
   if (result >= 0) result = write_box(particles);
-  if (result >= 0) result = write_particles(particles, system);
+  if (result >= 0) result = write_particles(particles, frames->system);
   hk_h5_drop(particles);
   return result;
 }

@@ -18,12 +18,12 @@
 #include "io/hdf5/dataset_h5.h"
 #include "io/trajectory/frame_file.h"
 
-/* Space of frames in a file, with springs and all data of the particles: an upper bound in bytes. */
-double hk_frame_arrays_bytes(const hooke_system *system, int64_t frame_count);
+/* Plans so many frames of a system. */
+void hk_frame_arrays_plan(const hooke_system *system, const char *group, int64_t frame_count,
+                          struct hk_frame_file *frames);
 
-/* Creates the arrays of a group in a file, and describes its particles. Negative on failure. */
-herr_t hk_frame_arrays_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
-                              struct hk_frame_file *frames);
+/* Creates the arrays in a file, and describes the particles. Negative on failure. */
+herr_t hk_frame_arrays_create(hid_t file, struct hk_frame_file *frames);
 
 /* Creates the arrays alone, for the numbers of frames and particles in `frames`, and finds their offsets. */
 herr_t hk_frame_arrays_make(hid_t file, struct hk_frame_file *frames);
