@@ -87,11 +87,10 @@ int64_t hk_h5_place(hid_t dataset, hid_t type, int64_t bytes) {
   return fits ? (int64_t)at : -1;
 }
 
-/* Creates and writes an attribute; closes `type` and `space`. */
-static herr_t write_attribute(hid_t object, const char *name, hid_t type, hid_t memory, hid_t space,
-                              const void *data) {
+/* Creates and writes an attribute; closes `space`. */
+static herr_t write_attribute(hid_t object, const char *name, hid_t type, hid_t space, const void *data) {
   hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  herr_t result = attribute < 0 ? -1 : H5Awrite(attribute, memory, data);
+  herr_t result = attribute < 0 ? -1 : H5Awrite(attribute, type, data);
   hk_h5_drop(attribute);
   hk_h5_drop(space);
   return result;
@@ -107,7 +106,7 @@ static herr_t write_text_attribute(hid_t object, const char *name, int64_t count
   hid_t type = H5Tcopy(H5T_C_S1);
   herr_t result = type < 0 ? -1 : H5Tset_size(type, H5T_VARIABLE);
   if (result >= 0) result = H5Tset_cset(type, H5T_CSET_UTF8);
-  if (result >= 0) result = write_attribute(object, name, type, type, line_space(count, scalar), text);
+  if (result >= 0) result = write_attribute(object, name, type, line_space(count, scalar), text);
   hk_h5_drop(type);
   return result;
 }
@@ -120,14 +119,8 @@ herr_t hk_h5_text_attribute(hid_t object, const char *name, const char *text) {
   return write_text_attribute(object, name, 1, 1, &text);
 }
 
-herr_t hk_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number) {
-  return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, line_space(count, count == 1),
-                         number);
-}
-
-herr_t hk_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number) {
-  return write_attribute(object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, line_space(count, count == 1),
-                         number);
+herr_t hk_h5_attribute(hid_t object, const char *name, hid_t type, int64_t count, const void *value) {
+  return write_attribute(object, name, type, line_space(count, count == 1), value);
 }
 
 static hid_t new_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,

@@ -36,8 +36,8 @@ int64_t hk_h5_place(hid_t dataset, hid_t type, int64_t bytes);
 
 herr_t hk_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text);
 herr_t hk_h5_text_attribute(hid_t object, const char *name, const char *text);
-herr_t hk_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number);
-herr_t hk_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number);
+/* One number, or a line of them. */
+herr_t hk_h5_attribute(hid_t object, const char *name, hid_t type, int64_t count, const void *value);
 
 /* An array of `rank` dimensions and `type` on disk, with the groups on its path, allocated at once and filled
  * with `fill` (of the type `type`; NULL: zeros). Returns the dataset, or a negative number. */

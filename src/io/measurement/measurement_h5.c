@@ -139,7 +139,7 @@ static herr_t write_record(hid_t group, const hooke_measurement *m, const struct
     if (column->type == HOOKE_COLUMN_TEXT)
       result = hk_h5_text_attribute(group, column->name, text ? text : "");
     else if (column->type != HOOKE_COLUMN_SERIES)
-      result = hk_h5_number_attribute(group, column->name, 1, &number);
+      result = hk_h5_attribute(group, column->name, H5T_NATIVE_DOUBLE, 1, &number);
   }
   return result;
 }

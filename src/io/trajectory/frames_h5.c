@@ -67,7 +67,7 @@ static herr_t write_box(hid_t particles) {
   const char *const boundary[] = {"none", "none", "none"};
   const int32_t dimension = 3;
   hid_t box = hk_h5_group(particles, "box");
-  herr_t result = hk_h5_integer_attribute(box, "dimension", 1, &dimension);
+  herr_t result = hk_h5_attribute(box, "dimension", H5T_NATIVE_INT32, 1, &dimension);
   if (result >= 0) result = hk_h5_text_attributes(box, "boundary", 3, boundary);
   hk_h5_drop(box);
   return result;

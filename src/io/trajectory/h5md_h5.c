@@ -5,6 +5,7 @@
 
 #include "io/hdf5/object_h5.h"
 #include "io/trajectory/h5md_h5.h"
+#include "io/trajectory/record.h"
 #include "model/callbacks.h"
 
 #include <math.h>
@@ -19,7 +20,7 @@ static herr_t write_h5md(hid_t file) {
   const int32_t version[2] = {1, 1};
   hid_t h5md = hk_h5_group(file, "h5md"), author = hk_h5_group(h5md, "author"),
         creator = hk_h5_group(h5md, "creator");
-  herr_t result = hk_h5_integer_attribute(h5md, "version", 2, version);
+  herr_t result = hk_h5_attribute(h5md, "version", H5T_NATIVE_INT32, 2, version);
   if (result >= 0) result = hk_h5_text_attribute(author, "name", "unknown");
   if (result >= 0) result = hk_h5_text_attribute(creator, "name", "hooke");
   if (result >= 0) result = hk_h5_text_attribute(creator, "version", hooke_version());
@@ -37,7 +38,7 @@ herr_t hk_h5md_write_options(hid_t where, const hooke_options *options) {
     const char *text = hooke_options_text(options, name);
     const int64_t count = hooke_options_number_count(options, name);
     if (count > 0) {
-      result = hk_h5_number_attribute(group, name, count, hooke_options_numbers(options, name));
+      result = hk_h5_attribute(group, name, H5T_NATIVE_DOUBLE, count, hooke_options_numbers(options, name));
     } else if (text[0]) {
       result = hk_h5_text_attribute(group, name, text);
     }
@@ -54,15 +55,6 @@ static herr_t write_text(hid_t where, const char *name, int64_t length, const ch
   return result;
 }
 
-/* The libraries that affect the bits of error-controlled methods. */
-static herr_t write_facts(hid_t group) {
-  static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
-  herr_t result = 0;
-  for (int k = 0; k < 4 && result >= 0; k++)
-    result = hk_h5_text_attribute(group, facts[k], hooke_build_fact(facts[k]));
-  return result;
-}
-
 herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *method,
                         const hooke_options *options, const char *scene_text) {
   const int32_t abi = hooke_abi();
@@ -70,9 +62,11 @@ herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *meth
   hid_t group = result < 0 ? -1 : hk_h5_group(file, "hooke");
   if (group < 0) return -1;
   result = hk_h5_text_attribute(group, "version", hooke_version());
-  if (result >= 0) result = hk_h5_integer_attribute(group, "abi", 1, &abi);
+  if (result >= 0) result = hk_h5_attribute(group, "abi", H5T_NATIVE_INT32, 1, &abi);
   if (result >= 0) result = hk_h5_text_attribute(group, "units", units);
-  if (result >= 0) result = write_facts(group);
+  /* what affects the bits of error-controlled methods */
+  for (int k = HOOKE_RECORD_FACT; k < HOOKE_RECORD_CALLBACKS && result >= 0; k++)
+    result = hk_h5_text_attribute(group, hk_record_texts[k], hooke_build_fact(hk_record_texts[k]));
   if (result >= 0 && system)
     result = hk_h5_text_attribute(group, "callbacks", hk_callbacks_text(hk_system_calls_back(system)));
   if (result >= 0 && method) result = hk_h5_text_attribute(group, "method", method);

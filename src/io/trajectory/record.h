@@ -8,7 +8,12 @@
 
 /* Texts of the group /hooke: arrays, then attributes. */
 enum { HOOKE_RECORD_SCENE, HOOKE_RECORD_STATUS, HOOKE_RECORD_BY, HOOKE_RECORD_REASON, HOOKE_RECORD_ARRAYS };
-enum { HOOKE_RECORD_RUN = HOOKE_RECORD_ARRAYS, HOOKE_RECORD_TEXTS = 11 };
+enum {
+  HOOKE_RECORD_RUN = HOOKE_RECORD_ARRAYS,
+  HOOKE_RECORD_FACT = HOOKE_RECORD_RUN + 2, /* of the build, after its version */
+  HOOKE_RECORD_CALLBACKS = 10,
+  HOOKE_RECORD_TEXTS
+};
 extern const char *const hk_record_texts[HOOKE_RECORD_TEXTS];
 
 struct hooke_record {

@@ -9,6 +9,7 @@
 #include "io/checkpoint/checkpoint_form.h"
 #include "io/file/atomic_file.h"
 #include "io/file/bytes.h"
+#include "io/hdf5/array_h5.h"
 #include "io/trajectory/record.h"
 #include "io/trajectory/trajectory.h"
 #include "model/callbacks.h"
@@ -46,17 +47,16 @@ static int32_t refuse(const struct going *going, const char *what) {
 }
 
 /* Compares an array of the file with the system's own, number by number. */
-static int32_t check_array(const struct going *going, const char *what, int64_t count, const double *own) {
+static int32_t check_array(const struct going *going, const char *what, const char *dataset, int64_t count,
+                           const double *own) {
+  double *there = NULL;
   int64_t rows = 0, columns = 0;
-  const int32_t status = hooke_record_size(going->record, what, &rows, &columns);
-  if (status != HOOKE_OK) return status;
-  if (rows * columns != count) return refuse(going, what);
-  double *there = hk_new(count, sizeof(double));
-  if (there == NULL) return HOOKE_NO_MEMORY;
-  int32_t read = hooke_record_numbers(going->record, what, there);
-  if (read == HOOKE_OK && memcmp(there, own, (size_t)count * sizeof(double)) != 0) read = refuse(going, what);
+  int32_t status = hk_array_read(going->path, dataset, 0, 0, &there, &rows, &columns);
+  if (status == HOOKE_OK &&
+      (rows * columns != count || memcmp(there, own, (size_t)count * sizeof(double)) != 0))
+    status = refuse(going, what);
   hk_free(there);
-  return read;
+  return status;
 }
 
 static int32_t check_springs(const struct going *going) {
@@ -67,7 +67,8 @@ static int32_t check_springs(const struct going *going) {
                                    : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     numbers[k] = (double)ends[k];
-  if (status == HOOKE_OK && count > 0) status = check_array(going, "springs", count, numbers);
+  if (status == HOOKE_OK && count > 0)
+    status = check_array(going, "springs", "/connectivity/springs", count, numbers);
   hk_free(numbers);
   hk_free(ends);
   return status;
@@ -80,7 +81,8 @@ static int32_t check_fit(const struct going *going) {
   int32_t status = hk_callbacks_check(hk_callbacks_find(hooke_record_text(going->record, "callbacks")),
                                       hk_system_calls_back(going->system));
   if (status != HOOKE_OK) return hk_fail_before(status, "%s: ", going->path);
-  status = check_array(going, "mass", going->system->particle_count, hooke_system_mass(going->system));
+  status = check_array(going, "mass", "/particles/all/mass", going->system->particle_count,
+                       hooke_system_mass(going->system));
   return status == HOOKE_OK ? check_springs(going) : status;
 }
 
