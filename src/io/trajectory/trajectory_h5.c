@@ -2,13 +2,13 @@
 #include "core/status.h"
 #include "io/trajectory/trajectory.h"
 
+#include <string.h>
+
 #if HOOKE_HAVE_HDF5
 
 #include "io/hdf5/object_h5.h"
 #include "io/trajectory/file_check_h5.h"
 #include "io/trajectory/h5md_h5.h"
-
-#include <string.h>
 
 int32_t hooke_io_own_process(void) {
   if (H5dont_atexit() >= 0) return HOOKE_OK;

@@ -1,7 +1,6 @@
 /* Continues the run of a trajectory: finds the point, and opens the file for the missing frames. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
@@ -16,7 +15,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_integrator *integrator,
                                     const hooke_state *state) {
@@ -37,7 +35,6 @@ struct going {
   hooke_state *first; /* the first frame; NULL: the file has none */
   hooke_state *state; /* continues from here */
   hooke_trajectory *trajectory;
-  char origin[512];
 };
 
 /* ---- match of file and run ---- */
@@ -88,21 +85,18 @@ static int32_t check_fit(const struct going *going) {
 
 /* ---- from a frame ---- */
 
-/* Repeats the divergence checks of the run at its frames; its other numbers are those of the start. */
+/* Repeats the divergence checks of the run at its frames, which the file has at other places if it was made
+ * again; the other numbers of the run are those of the start. */
 static int32_t follow(const struct going *going, int64_t frames) {
-  hooke_integrator *it = going->integrator;
-  const int64_t place = hooke_record_place(going->record, "position"),
-                bytes = it->size * (int64_t)sizeof(double);
-  const int descriptor = place < 0 ? -1 : hk_os_open(going->path);
-  int32_t status = HOOKE_OK;
-  for (int64_t k = 1; k < frames && status == HOOKE_OK; k++) {
-    const int there =
-        descriptor >= 0 && hk_bytes_read(descriptor, place + k * bytes, bytes, going->state->q) == 0;
-    if (!there) status = hooke_record_read(going->record, k, going->state);
-    if (status == HOOKE_OK) hk_divergence_follow(it, going->state);
+  const struct hk_frame_file *file = &going->trajectory->frames;
+  const int64_t bytes = hk_frame_bytes(file->particle_count, HOOKE_FRAME_POSITION);
+  int error = 0;
+  for (int64_t k = 1; k < frames && error == 0; k++) {
+    error =
+        hk_bytes_read(file->descriptor, file->at[HOOKE_FRAME_POSITION] + k * bytes, bytes, going->state->q);
+    if (error == 0) hk_divergence_follow(going->integrator, going->state);
   }
-  if (descriptor >= 0) close(descriptor);
-  return status;
+  return error ? hk_file_fail(going->path, "read its frames", error) : HOOKE_OK;
 }
 
 static int32_t stand_at_start(struct going *going) {
@@ -130,7 +124,7 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   status = frames > 0 ? stand_at_frame(going, frames - 1) : stand_at_start(going);
   if (status != HOOKE_OK) return status;
   hk_trajectory_keep(going->trajectory, frames);
-  hk_print(going->origin, sizeof going->origin, "%s at t = %.6g s: %s",
+  hk_print(going->trajectory->origin, sizeof going->trajectory->origin, "%s at t = %.6g s: %s",
            frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
   return HOOKE_OK;
 }
@@ -148,7 +142,8 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
                                   &going->trajectory);
     if (status == HOOKE_OK) {
       hk_recent_set_first(&going->integrator->recent, going->first);
-      hk_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.6g s", *going->state->t);
+      hk_print(going->trajectory->origin, sizeof going->trajectory->origin, "the checkpoint, at t = %.6g s",
+               *going->state->t);
     }
     if (status != HOOKE_BAD_VALUE) return status;
     going->integrator->count = (struct hk_counts){0}; /* those of the checkpoint are of another point */
@@ -206,7 +201,6 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   if (status == HOOKE_OK) status = resume(&going);
   if (status == HOOKE_OK) {
     hooke_state_copy(going.state, state);
-    snprintf(going.trajectory->origin, sizeof going.trajectory->origin, "%s", going.origin);
     *trajectory = going.trajectory;
   } else if (going.trajectory) {
     char message[512];
