@@ -50,7 +50,7 @@ static herr_t close_file(H5FD_t *file) {
 static herr_t tell_features(const H5FD_t *file, unsigned long *flags) {
   (void)file;
   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
-           H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_POSIX_COMPAT_HANDLE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+           H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
 }
 
@@ -68,12 +68,6 @@ static herr_t take_until(H5FD_t *file, H5FD_mem_t type, haddr_t end) {
 static haddr_t end_of_file(const H5FD_t *file, H5FD_mem_t type) {
   (void)type;
   return ((const struct driven *)file)->size;
-}
-
-static herr_t give_handle(H5FD_t *file, hid_t list, void **handle) {
-  (void)list;
-  *handle = &((struct driven *)file)->descriptor;
-  return 0;
 }
 
 /* Missing data are read as zeros. */
@@ -122,7 +116,6 @@ static const H5FD_class_t driver = {
     .get_eoa = end_of_taken,
     .set_eoa = take_until,
     .get_eof = end_of_file,
-    .get_handle = give_handle,
     .read = read_file,
     .write = write_file,
     .truncate = cut_file,
