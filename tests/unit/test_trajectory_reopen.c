@@ -495,8 +495,9 @@ AROUND_EACH(set_up, tear_down)
 TEST(it_is_not_in_this_build) {
   owned_system *system = rope(N);
   owned_integrator *integrator = integrator_of(system, 0.1);
+  owned_state *state = start_state(system);
   hooke_trajectory *trajectory;
-  check_status(hk_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
+  check_status(hooke_trajectory_resume("out.h5", system, integrator, state, &trajectory), HOOKE_NOT_BUILT);
   assert_null(trajectory);
   check_status(hooke_trajectory_sync(NULL), HOOKE_BAD_CALL);
   check_status(hooke_record_check(NULL, 0), HOOKE_BAD_CALL);
