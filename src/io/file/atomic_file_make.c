@@ -219,6 +219,14 @@ int32_t hk_atomic_file_close(struct hk_atomic_file *file) {
   return close(descriptor) == 0 ? HOOKE_OK : hk_file_fail(file->path, "write", errno);
 }
 
+int32_t hk_atomic_file_finish(struct hk_atomic_file *file) {
+  int32_t status = hk_file_is(file->path, file->descriptor);
+  if (status == HOOKE_OK && hk_os_sync(file->descriptor) != 0)
+    status = hk_file_fail(file->path, "bring the data to the disk", errno);
+  const int32_t closed = hk_atomic_file_close(file);
+  return status == HOOKE_OK ? closed : status;
+}
+
 void hk_atomic_file_release(struct hk_atomic_file *file) {
   HOOKE_KEEP_ERRNO;
   const int32_t own = is_own(file);

@@ -223,7 +223,6 @@ static int32_t read_sizes(struct companion *c) {
 int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
   const char *there = hk_record_path(record);
   struct companion c = {.record = record};
-  if (there == NULL) return hk_fail(HOOKE_NOT_BUILT, NULL, "this build of the library is without HDF5");
   if (hooke_record_count(record, "frames") == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames yet", there);
   char *beside = NULL;
