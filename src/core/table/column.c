@@ -21,7 +21,9 @@ int64_t hk_table_count(const struct hk_table *table, const void *object) {
 static const void *place(const struct hk_table *table, const struct hk_column *column, const void *object,
                          int64_t row) {
   const char *holder = table->row ? table->row(object, row) : object;
-  return holder ? holder + column->offset : NULL;
+  if (table->row_size > 0) holder += table->rows;
+  if (table->by_pointer) holder = *(const char *const *)(const void *)holder;
+  return holder ? holder + (size_t)row * table->row_size + column->offset : NULL;
 }
 
 static double number_at(const struct hk_column *column, const void *at) {
