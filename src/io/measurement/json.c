@@ -173,23 +173,22 @@ void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, co
   add_row(text, m, hk_measurement_table(m->kind, table), row);
 }
 
-void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, const char *table) {
-  const struct hk_table *found = hk_measurement_table(m->kind, table);
-  add_table(text, m, key_of(found), found, 0);
-}
-
 /* ---- documents ---- */
 
-static void add_document(struct hk_text *text, const hooke_measurement *m) {
+void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m, const char *except) {
   const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
-  hk_text_open(text, NULL, '{');
   if (calls) hk_text_word(text, "callbacks", hk_callbacks_text(calls));
   for (const struct hk_table *table = m->kind->tables; table->name; table++) {
     if (is_named(table->name, m->kind->name))
       add_row(text, m, table, 0);
-    else if (!table->inside)
+    else if (!table->inside && !is_named(table->name, except))
       add_table(text, m, key_of(table), table, 0);
   }
+}
+
+static void add_document(struct hk_text *text, const hooke_measurement *m) {
+  hk_text_open(text, NULL, '{');
+  hk_measurement_add_tables(text, m, NULL);
   hk_text_close(text, '}');
 }
 

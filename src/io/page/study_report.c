@@ -1,7 +1,5 @@
 /* The page of a study: its contents as JSON. */
-#include "io/measurement/measurement_file.h"
-#include "io/page/measurement_pages.h"
-#include "measure/study/study.h"
+#include "io/page/report.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -56,14 +54,7 @@ static void add_rows(struct hk_text *text, const hooke_measurement *m) {
   hk_text_close(text, ']');
 }
 
-void hk_study_page_add(struct hk_text *data, const void *measurement) {
-  const hooke_measurement *m = measurement;
-  hk_measurement_add_row(data, m, "study", 0);
-  hk_measurement_add_table(data, m, "reference");
+void hk_study_page_add(struct hk_text *data, const hooke_measurement *m) {
   add_times(data, m);
   add_rows(data, m);
-  hk_measurement_add_table(data, m, "orders");
-  hk_measurement_add_table(data, m, "recommendation");
-  hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
-  hk_measurement_add_table(data, m, "ensemble");
 }
