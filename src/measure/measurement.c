@@ -9,7 +9,6 @@
 #include "model/state.h"
 #include "model/system.h"
 
-#include <math.h>
 #include <string.h>
 
 /* ---- creating ---- */
@@ -143,32 +142,25 @@ int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, co
   return -1;
 }
 
-/* The table and the column of that name; NULL unless both are there, with the row. */
-static const struct hk_column *find(const hooke_measurement *m, const char *name, int64_t row,
-                                    const char *column, const struct hk_table **table) {
-  *table = hk_measurement_table(m->kind, name);
-  return *table && row >= 0 && row < hk_table_count(*table, m->object) ? hk_table_find(*table, column) : NULL;
+static struct hk_value value_of(const hooke_measurement *m, const char *table, int64_t row,
+                                const char *column) {
+  const struct hk_table *t = hk_measurement_table(m->kind, table);
+  return hk_table_value(t, t ? hk_table_find(t, column) : NULL, m->object, row);
 }
 
 double hooke_measurement_number(const hooke_measurement *m, const char *table, int64_t row,
                                 const char *column) {
-  const struct hk_table *t;
-  const struct hk_column *c = find(m, table, row, column, &t);
-  return c ? hk_table_number(t, c, m->object, row) : NAN;
+  return value_of(m, table, row, column).number;
 }
 
 const char *hooke_measurement_text(const hooke_measurement *m, const char *table, int64_t row,
                                    const char *column) {
-  const struct hk_table *t;
-  const struct hk_column *c = find(m, table, row, column, &t);
-  return c ? hk_table_text(t, c, m->object, row) : NULL;
+  return value_of(m, table, row, column).text;
 }
 
 const double *hooke_measurement_series(const hooke_measurement *m, const char *table, int64_t row,
                                        const char *column, int64_t *count) {
-  const struct hk_table *t;
-  const struct hk_column *c = find(m, table, row, column, &t);
-  const struct hk_series series = c ? hk_table_series(t, c, m->object, row) : (struct hk_series){NULL, 0};
+  const struct hk_series series = value_of(m, table, row, column).series;
   if (count) *count = series.value ? series.count : 0;
   return series.value;
 }

@@ -36,6 +36,13 @@ struct hk_series {
   int64_t count;
 };
 
+/* A value by the type of its column; the others are NaN and NULL. */
+struct hk_value {
+  double number;
+  const char *text;
+  struct hk_series series;
+};
+
 struct hk_column {
   const char *name;
   enum hk_column_type type;
@@ -137,13 +144,9 @@ struct hk_table {
 const struct hk_column *hk_table_find(const struct hk_table *table, const char *name);
 int64_t hk_table_count(const struct hk_table *table, const void *object);
 
-/* Value of a column in a row: NaN or NULL for a column of another type. */
-double hk_table_number(const struct hk_table *table, const struct hk_column *column, const void *object,
-                       int64_t row);
-const char *hk_table_text(const struct hk_table *table, const struct hk_column *column, const void *object,
-                          int64_t row);
-struct hk_series hk_table_series(const struct hk_table *table, const struct hk_column *column,
-                                 const void *object, int64_t row);
+/* Value of a column in a row; none for a column that is NULL and for a row that is not there. */
+struct hk_value hk_table_value(const struct hk_table *table, const struct hk_column *column,
+                               const void *object, int64_t row);
 
 /* "number", "count", "flag", "text" or "series". */
 const char *hk_column_type_name(enum hk_column_type type);

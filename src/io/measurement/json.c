@@ -26,27 +26,26 @@ static const char *key_of(const struct hk_table *table) {
 /* ---- values ---- */
 
 /* A want that is met as far as errors are known is not known to be met to the end. */
-static double number_of(const hooke_measurement *m, const struct hk_table *table,
-                        const struct hk_column *column, int64_t row) {
-  const int is_met = m->kind == &hk_study_kind && is_named("met", column->name);
-  return is_met && !hk_study_knows_met(m->object) ? NAN : hk_table_number(table, column, m->object, row);
+static struct hk_value value_of(const hooke_measurement *m, const struct hk_table *table,
+                                const struct hk_column *column, int64_t row) {
+  struct hk_value value = hk_table_value(table, column, m->object, row);
+  if (m->kind == &hk_study_kind && is_named("met", column->name) && !hk_study_knows_met(m->object))
+    value.number = NAN;
+  return value;
 }
 
-static void add_value(struct hk_text *text, const hooke_measurement *m, const char *key,
-                      const struct hk_table *table, const struct hk_column *column, int64_t row) {
-  const double number = number_of(m, table, column, row);
-  if (column->type == HOOKE_COLUMN_TEXT)
-    hk_text_word(text, key, hk_table_text(table, column, m->object, row));
-  else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
-    hk_text_flag(text, key, number != 0.0);
+static void add_value(struct hk_text *text, const char *key, enum hk_column_type type,
+                      struct hk_value value) {
+  if (type == HOOKE_COLUMN_TEXT)
+    hk_text_word(text, key, value.text);
+  else if (type == HOOKE_COLUMN_FLAG && !isnan(value.number))
+    hk_text_flag(text, key, value.number != 0.0);
   else
-    hk_text_number(text, key, number);
+    hk_text_number(text, key, value.number);
 }
 
-static int is_known(const hooke_measurement *m, const struct hk_table *table, const struct hk_column *column,
-                    int64_t row) {
-  return hk_table_text(table, column, m->object, row) != NULL ||
-         !isnan(hk_table_number(table, column, m->object, row));
+static int is_known(struct hk_value value) {
+  return value.text || !isnan(value.number);
 }
 
 /* An array that is named like its first column stands in place of all of them. */
@@ -57,14 +56,15 @@ static int replaces(const char *const *list) {
 /* Of the known values; null where the first is not known, if the columns say so as well. */
 static void add_list(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
                      const char *const *list, int64_t row) {
-  if (!replaces(list) && !is_known(m, table, hk_table_find(table, list[1]), row)) {
+  if (!replaces(list) && !is_known(value_of(m, table, hk_table_find(table, list[1]), row))) {
     hk_text_word(text, list[0], NULL);
     return;
   }
   hk_text_open(text, list[0], '[');
   for (int k = 1; k < HOOKE_LIST_SIZE && list[k]; k++) {
     const struct hk_column *column = hk_table_find(table, list[k]);
-    if (is_known(m, table, column, row)) add_value(text, m, NULL, table, column, row);
+    const struct hk_value value = value_of(m, table, column, row);
+    if (is_known(value)) add_value(text, NULL, column->type, value);
   }
   hk_text_close(text, ']');
 }
@@ -97,7 +97,7 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
   for (int32_t k = 0; k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
     if (column->type == HOOKE_COLUMN_SERIES || is_said(table, column->name)) continue;
-    add_value(text, m, column->name, table, column, row);
+    add_value(text, column->name, column->type, value_of(m, table, column, row));
   }
   if (table == hk_measurement_table(&hk_needs_kind, "lean")) add_left_out(text, m);
   for (const struct hk_table *other = m->kind->tables; other->name; other++) {
@@ -120,7 +120,7 @@ static void add_object(struct hk_text *text, const hooke_measurement *m, const s
 
 static const char *text_of(const hooke_measurement *m, const struct hk_table *table, int64_t row,
                            const char *column) {
-  return hk_table_text(table, hk_table_find(table, column), m->object, row);
+  return hk_table_value(table, hk_table_find(table, column), m->object, row).text;
 }
 
 /* The statistics of each quantity: of the reference, and by method. */
@@ -145,7 +145,7 @@ static void add_quantities(struct hk_text *text, const hooke_measurement *m, con
 static int is_there(const hooke_measurement *m, const struct hk_table *table, int64_t row) {
   int there = table->by == NULL;
   for (int32_t k = 0; k < table->column_count; k++)
-    there |= !isnan(hk_table_number(table, &table->columns[k], m->object, row));
+    there |= !isnan(hk_table_value(table, &table->columns[k], m->object, row).number);
   return there;
 }
 

@@ -38,7 +38,7 @@ static double *spread(const struct hk_needs *needs, const struct hk_needs_path *
 static int32_t add_positions(struct hk_text *data, const struct hk_needs *needs, const struct hk_picture *p,
                              int64_t frame) {
   int64_t *list = hk_picture_list(p);
-  double *full = spread(needs, &needs->path, frame), *lean = spread(needs, &needs->lean_path, frame);
+  double *full = spread(needs, &needs->path, frame), *lean = spread(needs, &needs->lean.path, frame);
   const int32_t ready = list && full && lean;
   if (ready) {
     const double scale = hk_picture_scale(full, list, p->shown_count);
@@ -58,7 +58,7 @@ static int32_t add_positions(struct hk_text *data, const struct hk_needs *needs,
 static int64_t last_frame(const struct hk_needs *needs) {
   int64_t frames = needs->judged;
   if (needs->path.recorded < frames) frames = needs->path.recorded;
-  return (needs->lean_path.recorded < frames ? needs->lean_path.recorded : frames) - 1;
+  return (needs->lean.path.recorded < frames ? needs->lean.path.recorded : frames) - 1;
 }
 
 static int32_t add_drawn(struct hk_text *data, const struct hk_needs *needs, struct hk_picture *p,
@@ -79,7 +79,7 @@ static int32_t add_drawn(struct hk_text *data, const struct hk_needs *needs, str
 /* The watched particles in both systems, and the springs between them; nothing without a lean system. */
 static void add_picture(struct hk_text *data, const struct hk_needs *needs) {
   struct hk_picture p;
-  if (needs->lean_path.position == NULL) return;
+  if (needs->lean.path.position == NULL) return;
   int32_t status = hk_picture_create(needs->system, &p);
   char *watched = find_watched(needs);
   if (status == HOOKE_OK) status = watched ? add_drawn(data, needs, &p, watched) : HOOKE_NO_MEMORY;

@@ -67,22 +67,15 @@ static int32_t create(hooke_measurement *m) {
   needs->system = m->system;
   needs->run = m->run;
   needs->options = m->options;
-  needs->lean_error = needs->cheapest_error = needs->other_seconds = NAN;
+  hk_needs_forget(needs);
   return prepare(needs);
 }
 
 static void destroy(void *object) {
   struct hk_needs *needs = object;
   if (needs == NULL) return;
-  for (int64_t k = 0; k < needs->row_count; k++)
-    hk_variant_release(&needs->row[k].variant);
+  hk_needs_forget(needs);
   hk_needs_path_release(&needs->path);
-  hk_needs_path_release(&needs->displaced);
-  hk_needs_path_release(&needs->lean_path);
-  hk_variant_release(&needs->lean_variant);
-  hk_variant_map_release(&needs->lean_map);
-  hooke_system_destroy(needs->lean);
-  hooke_options_destroy(needs->lean_run);
   hk_free(needs->row);
   hk_free(needs->part);
   hk_free(needs->watch);

@@ -32,8 +32,8 @@ struct hk_needs_row {
   char note[HOOKE_NEEDS_NOTE];
   struct hk_variant variant;
   double error; /* [m] */
-  int32_t measured, needed, left_out;
-  int32_t untold; /* 1: nothing moves, so needs are unknown; also sets `needed` */
+  int32_t measured, left_out;
+  double needed; /* 1 or 0; NaN where nothing moves that could tell, which counts as needed */
   struct hk_needs_cost cost;
 };
 
@@ -42,6 +42,16 @@ struct hk_needs_part {
   int64_t cells[3]; /* -1: no such axis */
   double change, change_fine, order, error, factor;
   char note[HOOKE_NEEDS_NOTE];
+};
+
+/* A system with something left out, and its recommended run. */
+struct hk_needs_lean {
+  struct hk_variant variant;
+  hooke_system *system; /* NULL: there is none */
+  struct hk_variant_map map;
+  struct hk_needs_cost cost;
+  struct hk_needs_path path;
+  double error; /* [m] */
 };
 
 struct hk_needs {
@@ -64,13 +74,8 @@ struct hk_needs {
   int64_t row_count, row_capacity;
   struct hk_needs_row *row;
 
-  hooke_system *lean;
-  struct hk_variant lean_variant;
-  struct hk_variant_map lean_map;
+  struct hk_needs_lean lean;
   hooke_options *lean_run;
-  struct hk_needs_cost lean_cost;
-  struct hk_needs_path lean_path; /* of the recommended run */
-  double lean_error;
   char lean_note[HOOKE_NEEDS_NOTE];
   struct hk_needs_cost cheapest; /* of the full system within the wanted error, as of the lean one */
   double cheapest_error;
@@ -156,6 +161,7 @@ int64_t hk_needs_known_rows(const struct hk_needs *needs);
 /* Computes the table of ingredients, then the lean system; or the resolution of every part. A failure leaves
  * no results. */
 int32_t hk_needs_find(struct hk_needs *needs);
+void hk_needs_forget(struct hk_needs *needs); /* the table and the lean system */
 int32_t hk_needs_refine(struct hk_needs *needs);
 
 /* Reports the progress of one measurement; a non-zero result asks to stop. The second is that of a pick. */

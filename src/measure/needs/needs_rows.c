@@ -25,8 +25,7 @@ static void judge(const struct hk_needs *needs, const struct hk_needs_path *path
   const double beyond = fmax(0.0, row->cost.step_error - HOOKE_NEEDS_STEP_SHARE * needs->want);
   row->error = hk_needs_distance(needs, &needs->path, path);
   row->needed = !(row->error + beyond <= needs->want);
-  row->untold = !row->needed && hk_needs_rests(needs);
-  if (row->untold) row->needed = 1;
+  if (!row->needed && hk_needs_rests(needs)) row->needed = NAN;
   if (beyond > 0.0)
     hk_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
 }

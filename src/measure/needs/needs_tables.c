@@ -35,8 +35,8 @@ HOOKE_READER(const void *, find_full, struct hk_needs, it->path.position ? it : 
 
 /* ---- the lean system, and the full one at its cheapest ---- */
 
-HOOKE_READER(double, times_less, struct hk_needs, it->cheapest.wall_seconds / it->lean_cost.wall_seconds)
-HOOKE_COUNTER(count_lean, struct hk_needs, it->lean != NULL)
+HOOKE_READER(double, times_less, struct hk_needs, it->cheapest.wall_seconds / it->lean.cost.wall_seconds)
+HOOKE_COUNTER(count_lean, struct hk_needs, it->lean.system != NULL)
 
 /* ---- rows ---- */
 
@@ -48,7 +48,6 @@ int64_t hk_needs_known_rows(const struct hk_needs *needs) {
 }
 
 HOOKE_COUNTER(count_rows, struct hk_needs, hk_needs_known_rows(it))
-HOOKE_READER(double, needed, struct hk_needs, it->row[row].untold ? NAN : (double)it->row[row].needed)
 
 /* ---- resolution ---- */
 
@@ -98,10 +97,10 @@ const struct hk_table hk_needs_tables[] = {
      .record = 1,
      .count = count_lean,
      HOOKE_TABLE_COLUMNS(
-         HOOKE_COLUMN_AS(struct hk_needs, lean_error, error, NUMBER, "m",
+         HOOKE_COLUMN_AS(struct hk_needs, lean.error, error, NUMBER, "m",
                          "at most that far from the full system: the distance from its finer run and "
                          "\"own_error\" together"),
-         COST_COLUMNS(struct hk_needs, lean_cost),
+         COST_COLUMNS(struct hk_needs, lean.cost),
          HOOKE_COLUMN_BY(times_less, NUMBER, "",
                          "wall time of \"cheapest\" over that of the lean system, taken in turns"),
          HOOKE_COLUMN(
@@ -135,8 +134,8 @@ const struct hk_table hk_needs_tables[] = {
          HOOKE_COLUMN(
              struct hk_needs_row, error, NUMBER, "m",
              "largest change of position of a watched particle without it; NaN if the run did not end"),
-         HOOKE_COLUMN_BY(
-             needed, FLAG, "",
+         HOOKE_COLUMN(
+             struct hk_needs_row, needed, FLAG, "",
              "the change is more than the wanted error; NaN where nothing moves that it could change"),
          HOOKE_COLUMN(struct hk_needs_row, left_out, FLAG, "", "the lean system is without it, too"),
          COST_COLUMNS(struct hk_needs_row, cost),
@@ -173,12 +172,12 @@ const struct hk_table hk_needs_tables[] = {
 /* NULL for another kind, and while there is no lean system. */
 static const struct hk_needs *find_lean(const hooke_measurement *m, const char *function) {
   const struct hk_needs *needs = m->object;
-  return hk_measurement_require(m, &hk_needs_kind, function) == HOOKE_OK && needs->lean ? needs : NULL;
+  return hk_measurement_require(m, &hk_needs_kind, function) == HOOKE_OK && needs->lean.system ? needs : NULL;
 }
 
 const hooke_system *hooke_needs_lean(const hooke_measurement *m) {
   const struct hk_needs *needs = find_lean(m, "hooke_needs_lean");
-  return needs ? needs->lean : NULL;
+  return needs ? needs->lean.system : NULL;
 }
 
 const hooke_options *hooke_needs_lean_run(const hooke_measurement *m) {
@@ -189,18 +188,18 @@ const hooke_options *hooke_needs_lean_run(const hooke_measurement *m) {
 int64_t hooke_needs_lean_particle(const hooke_measurement *m, int64_t particle) {
   const struct hk_needs *needs = find_lean(m, "hooke_needs_lean_particle");
   if (needs == NULL || particle < 0 || particle >= needs->system->particle_count) return -1;
-  return hk_variant_is_same(&needs->lean_map, particle) ? needs->lean_map.to[particle] : -1;
+  return hk_variant_is_same(&needs->lean.map, particle) ? needs->lean.map.to[particle] : -1;
 }
 
 int32_t hooke_needs_lean_position(const hooke_measurement *m, const double *q, double *position) {
   const int32_t status = hk_measurement_require(m, &hk_needs_kind, "hooke_needs_lean_position");
   if (status != HOOKE_OK) return status;
   const struct hk_needs *needs = m->object;
-  if (needs->lean == NULL) {
+  if (needs->lean.system == NULL) {
     return hk_fail(HOOKE_BAD_CALL, NULL,
                    "there is no lean system yet; call hooke_measurement_run() first, without `refine`");
   }
   for (int64_t p = 0; p < needs->system->particle_count; p++)
-    hk_variant_place(&needs->lean_map, p, q, position + 3 * p);
+    hk_variant_place(&needs->lean.map, p, q, position + 3 * p);
   return HOOKE_OK;
 }
