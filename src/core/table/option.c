@@ -99,19 +99,6 @@ void hooke_options_destroy(hooke_options *options) {
   hk_handle_free(options);
 }
 
-int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
-  int32_t status = hk_options_create(options->table, copy);
-  for (int64_t k = 0; status == HOOKE_OK && k < options->slot_count; k++) {
-    (*copy)->slot[k].is_set = options->slot[k].is_set;
-    status = hk_option_value_copy(&options->slot[k].value, &(*copy)->slot[k].value);
-  }
-  if (status) {
-    hooke_options_destroy(*copy);
-    *copy = NULL;
-  }
-  return status;
-}
-
 const struct hk_option_table *hk_options_table(const hooke_options *options) {
   return options->table;
 }
@@ -181,6 +168,27 @@ static void put(hooke_options *options, struct slot *slot, const struct hk_optio
   slot->is_set = 1;
   for (int64_t family = slot->family; family >= 0; family = options->slot[family].family)
     options->slot[family].is_set = 1;
+}
+
+int32_t hk_options_set_from(hooke_options *options, const hooke_options *from) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < from->slot_count && status == HOOKE_OK; k++) {
+    struct hk_option_value value;
+    if (!from->slot[k].is_set) continue;
+    status = hk_option_value_copy(&from->slot[k].value, &value);
+    if (status == HOOKE_OK) put(options, &options->slot[k], &value);
+  }
+  return status;
+}
+
+int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
+  int32_t status = hk_options_create(options->table, copy);
+  if (status == HOOKE_OK) status = hk_options_set_from(*copy, options);
+  if (status) {
+    hooke_options_destroy(*copy);
+    *copy = NULL;
+  }
+  return status;
 }
 
 int32_t hk_options_set_in_unit(hooke_options *options, const char *name, int64_t count, const double *values,

@@ -270,7 +270,7 @@ static int32_t find_advice(const struct frames *f, const hooke_options *run, dou
     const struct hk_why_advice *advice = &f->why->advice[k];
     if (advice->run == NULL || strcmp(advice->option, "duration") == 0) continue;
     status = hooke_options_copy(run, advised);
-    if (status == HOOKE_OK) status = hk_why_apply(advice->run, *advised);
+    if (status == HOOKE_OK) status = hk_options_set_from(*advised, advice->run);
     *change = advice->change;
     if (status == HOOKE_OK && is_within_reach(f, *advised, until)) break;
     hooke_options_destroy(*advised);
