@@ -1,4 +1,4 @@
-/* Results of a study, printed in words and as JSON. */
+/* Results of a study, printed in words. */
 #ifndef HOOKE_CLI_STUDY_RESULTS_H
 #define HOOKE_CLI_STUDY_RESULTS_H
 
@@ -11,12 +11,9 @@ struct cli_study_results {
   int32_t once;       /* 1: each method runs once */
   int32_t outcome;    /* of measuring */
   int32_t trusts_all; /* 1: the reference, and with it every error, is trusted up to the end of the run */
-  int32_t recommends; /* 1: a run that meets the wanted error or, in a complete study, the closest to it */
   char *command;      /* the recommended run, or the closest one; NULL: none */
 };
 
 void cli_study_results_print(const struct cli_study_results *results);
-/* HOOKE_NO_MEMORY if something is left out. */
-int32_t cli_study_results_print_json(const struct cli_study_results *results);
 
 #endif

@@ -141,19 +141,8 @@ static void print_quantity(const hooke_measurement *study, int32_t method_width,
 
 static void print_ensemble(const struct cli_study_results *results, int32_t method_width) {
   const hooke_measurement *study = results->study;
-  printf("\n");
-  if (isnan(cli_number(study, "ensemble", "from"))) {
-    cli_print_fact(
-        LABEL, WIDTH, "statistics", "none came to its end, of %.0f runs of each method%s",
-        cli_number(study, "ensemble", "members"),
-        cli_number(study, "study", "budget_spent") == 1.0 ? "; a larger --budget leaves time for them" : "");
-    return;
-  }
-  cli_print_fact(LABEL, WIDTH, "statistics",
-                 "of means over %.6g s to %.6g s, where positions cannot be computed; of %.0f runs of each "
-                 "method, whose starts differ by noise of %.3g m",
-                 cli_number(study, "ensemble", "from"), cli_number(study, "ensemble", "until"),
-                 cli_number(study, "ensemble", "members"), cli_number(study, "ensemble", "noise"));
+  if (isnan(cli_number(study, "ensemble", "from"))) return;
+  printf("\nstatistics\n");
   printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
          CELL, "spread", "bias");
   const int64_t count = quantity_count(study);
@@ -170,9 +159,6 @@ void cli_study_statistics_print(const struct cli_study_results *results, int32_t
   const int32_t asked = cli_arguments_text(results->arguments, "ensemble") != NULL;
   if (hooke_measurement_row_count(study, "ensemble") > 0) {
     print_ensemble(results, method_width);
-  } else if (asked && results->trusts_all) {
-    printf("\n");
-    cli_print_fact(LABEL, WIDTH, "statistics", "none are needed: errors are known over the whole run");
   } else if (!results->trusts_all && !asked && hooke_measurement_row_count(study, "rows") > 0 &&
              !results->arguments->quiet) {
     printf("\n");

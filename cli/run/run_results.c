@@ -1,5 +1,6 @@
 #include "run_results.h"
 
+#include "claims.h"
 #include "report.h"
 #include "want.h"
 
@@ -107,6 +108,7 @@ static void print_json(const struct cli_run *run, int32_t with_final) {
   cli_json_text(&json, "output", run->output);
   cli_json_text(&json, "diagnosis", cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
   cli_want_print_json(run, &json);
+  cli_claims_add_json(&json, run->why ? run->why : run->estimate);
   if (with_final) {
     const int64_t particles = hooke_system_particle_count(system);
     cli_json_open(&json, "final", '{');

@@ -1,5 +1,6 @@
 #include "want.h"
 
+#include "claims.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
@@ -9,9 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Fractions of the energy of the scene, above which energy grows by itself, or more heat is dissipated than
- * there is. */
-static const double MOST_RISE = 0.01, MOST_EXCESS = 0.01;
+enum { INDENT = 22 };
 
 /* ---- picking ---- */
 
@@ -37,11 +36,6 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
                    want[strspn(want, "+-.0123456789eE")] ? "" : " m", method, adaptive ? "rtol" : "step",
                    cli_format_rounded(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
                    adaptive ? "" : " s");
-}
-
-static void tell_reversal(const struct cli_run *run) {
-  const char *reversal = hooke_measurement_text(run->estimate, "estimate", 0, "reversal");
-  if (!run->arguments->quiet && reversal[0]) cli_report_words(run->arguments, "picked %s", reversal);
 }
 
 /* `want` [m]; NaN: none. */
@@ -77,7 +71,6 @@ int cli_want_pick(struct cli_run *run) {
   if (status == HOOKE_UNSUITED) return cli_report(arguments, HOOKE_EXIT_NOT_MET, "%s", hooke_last_error());
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   tell_choice(run, "picked for an error of", text);
-  tell_reversal(run);
   return HOOKE_EXIT_DONE;
 }
 
@@ -109,79 +102,17 @@ int32_t cli_want_goes_on(struct cli_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return 0;
   if (cli_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
     return 0;
-  const char *reason = text_of(run, "reason");
-  const double error = number_of(run, "estimate"), wanted = number_of(run, "wanted");
-  if (!run->arguments->quiet && error > wanted)
-    cli_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted", error, wanted);
-  else if (!run->arguments->quiet)
-    cli_report_words(run->arguments, "that run does not do: %s", reason);
+  if (!run->arguments->quiet) cli_report_words(run->arguments, "%s", cli_claim(run->estimate, "want"));
   tell_choice(run, "once more for", cli_arguments_text(run->arguments, "want"));
   return 1;
 }
 
-static const char *source_of(const char *by) {
-  static const char *const sources[][2] = {
-      {"half-step", "from runs of the method at other steps"},
-      {"tolerance", "from runs of the method at other tolerances"},
-      {"other-method", "from a run by another method"},
-      {"reference", "against a reference that was checked by another"},
-  };
-  for (size_t k = 0; k < sizeof sources / sizeof sources[0]; k++)
-    if (strcmp(by, sources[k][0]) == 0) return sources[k][1];
-  return by;
-}
-
-static void warn(const struct cli_run *run) {
-  const double rise = number_of(run, "energy_rise"), excess = number_of(run, "heat_excess");
-  if (run->arguments->quiet) return;
-  if (rise > MOST_RISE)
-    cli_report_words(run->arguments,
-                     "warning: energy rose by itself, over the last half of the run by %.3g %% of what the "
-                     "scene has: this step is too large, or the method does not suit the scene",
-                     100.0 * rise);
-  if (excess > MOST_EXCESS)
-    cli_report_words(run->arguments,
-                     "warning: damping and drag took more energy than there was to take, by %.3g %% of what "
-                     "the scene has: velocities reverse at each step, which is too large for the damping",
-                     100.0 * excess);
-}
-
-static void print_verdict(const struct cli_run *run) {
-  const double met = number_of(run, "met");
-  const char *reason = text_of(run, "reason");
-  if (!is_wanted(run)) return;
-  printf(", %s", met == 1.0 ? "within the wanted " : met == 0.0 ? "above the wanted " : "wanted is ");
-  printf("%.6g m", number_of(run, "wanted"));
-  if (isnan(met)) printf(", and nobody knows for all of the run");
-  if (met != 1.0 && reason[0] && text_of(run, "by")) cli_say(" (%s)", reason);
-  printf("; picking and measuring took %.3g s", number_of(run, "seconds"));
-}
-
-static void print_last_piece(const struct cli_run *run) {
-  const double piece = number_of(run, "last_piece");
-  if (isnan(piece)) return;
-  printf(
-      "%-22s%.2g m more or less at the end, made from t = %.6g s on: a part of an error that is not known\n",
-      "last piece", piece, number_of(run, "last_from"));
-}
-
 void cli_want_print(const struct cli_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return;
-  const char *by = text_of(run, "by");
-  printf("%-22s", "error");
-  if (by) {
-    printf("%.3g m at most until t = %.6g s, of any particle (root mean square %.2g m), %s",
-           number_of(run, "estimate"), number_of(run, "known_until"), number_of(run, "rms"), source_of(by));
-  } else {
-    cli_say("not known: %s", text_of(run, "reason"));
-  }
-  print_verdict(run);
-  printf("\n");
-  print_last_piece(run);
-  if (!by && !run->arguments->quiet)
+  cli_claims_print(run->arguments, run->estimate, INDENT, NULL);
+  if (!text_of(run, "by") && !run->arguments->quiet)
     cli_report_words(run->arguments, "'hooke study' on the same may tell how wrong it is");
   cli_print_flush();
-  warn(run);
 }
 
 static void print_json_piece(const struct cli_run *run, struct cli_json *json) {

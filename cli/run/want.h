@@ -14,7 +14,7 @@ int32_t cli_want_measure(struct cli_run *run);
 /* 1 if the wanted error was not met and something finer is set in the options of the run. */
 int32_t cli_want_goes_on(struct cli_run *run);
 
-/* One line in words on the error of the run; and warnings about energy. */
+/* What the estimate says of the run. */
 void cli_want_print(const struct cli_run *run);
 /* The keys "error" and "want". */
 void cli_want_print_json(const struct cli_run *run, struct cli_json *json);

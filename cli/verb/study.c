@@ -1,9 +1,11 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
+#include "claims.h"
 #include "command.h"
 #include "methods.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
+#include "rows.h"
 #include "study_results.h"
 #include "watch.h"
 
@@ -49,7 +51,7 @@ static const char *setting(const struct cli_study_results *results, const char *
 static int32_t find_command(struct cli_study_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
   const char *method = hooke_measurement_text(results->study, "recommendation", 0, "method");
-  if (!method || !results->recommends) return HOOKE_OK;
+  if (!method) return HOOKE_OK;
   struct cli_setting settings[] = {{"method", method},
                                    {"step", setting(results, "step", step)},
                                    {"rtol", setting(results, "rtol", rtol)},
@@ -58,19 +60,11 @@ static int32_t find_command(struct cli_study_results *results) {
                                    {NULL, NULL}};
   /* the study sets it to the number of atol, for any scene */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
-  return cli_command_make(results->arguments, settings, &results->command);
+  const int32_t status = cli_command_make(results->arguments, settings, &results->command);
+  return status == HOOKE_OK ? hooke_measurement_label(results->study, "command", results->command) : status;
 }
 
 /* ---- results ---- */
-
-/* What is said depends on: whether errors are known to the end, and a run is recommended. */
-static void judge(struct cli_study_results *results) {
-  const hooke_measurement *study = results->study;
-  results->trusts_all = hooke_measurement_number(study, "reference", 0, "trusted_until") >=
-                        hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
-  results->recommends = hooke_measurement_text(study, "recommendation", 0, "note") != NULL &&
-                        (recommended(results, "met") == 1.0 || results->outcome != HOOKE_STOPPED);
-}
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
   struct cli_watch watch;
@@ -91,9 +85,11 @@ static int tell(struct cli_study_results *results, const char *output) {
   int32_t written = HOOKE_OK;
   /* a study that was stopped before its first row does not replace an older file */
   if (hooke_measurement_row_count(results->study, "rows") == 0) output = NULL;
-  judge(results);
+  results->trusts_all = cli_number(results->study, "reference", "trusted_until") >=
+                        cli_number(results->study, "study", "duration") * (1.0 - 1e-9);
   int32_t found = find_command(results);
-  if (arguments->json && cli_study_results_print_json(results) != HOOKE_OK) found = HOOKE_NO_MEMORY;
+  if (arguments->json && cli_claims_print_json(arguments, "scene", results->study) != HOOKE_OK)
+    found = HOOKE_NO_MEMORY;
   if (!arguments->json) cli_study_results_print(results);
   if (output) written = write_output(results, output);
   if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);

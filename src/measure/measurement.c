@@ -53,6 +53,7 @@ void hooke_measurement_destroy(hooke_measurement *m) {
   for (int k = 0; k < HOOKE_LABELS; k++)
     hk_free(m->label[k]);
   hk_free(m->json);
+  hk_claims_release(&m->claims);
   hooke_options_destroy(m->run);
   hooke_options_destroy(m->options);
   hk_handle_free(m);
@@ -77,7 +78,7 @@ const char *hooke_measurement_kind(const hooke_measurement *m) {
 }
 
 int32_t hooke_measurement_label(hooke_measurement *m, const char *what, const char *text) {
-  static const char *const names[HOOKE_LABELS] = {"title", "command", "scene"};
+  static const char *const names[HOOKE_LABELS] = {"title", "command", "scene", "output"};
   for (int k = 0; k < HOOKE_LABELS; k++) {
     if (strcmp(what, names[k]) != 0) continue;
     char *copy = text ? hk_copy_text(text) : NULL;
@@ -86,7 +87,8 @@ int32_t hooke_measurement_label(hooke_measurement *m, const char *what, const ch
     m->label[k] = copy;
     return HOOKE_OK;
   }
-  return hk_fail(HOOKE_BAD_VALUE, "what", "\"%s\" is not allowed; title, command and scene are", what);
+  return hk_fail(HOOKE_BAD_VALUE, "what", "\"%s\" is not allowed; title, command, scene and output are",
+                 what);
 }
 
 /* ---- running ---- */
@@ -110,26 +112,47 @@ static int32_t run_at(hooke_measurement *m, hooke_state *state) {
   return outcome;
 }
 
+int32_t hk_measurement_claim(hooke_measurement *m) {
+  hk_claims_release(&m->claims);
+  if (m->kind->claim) m->kind->claim(m, &m->claims);
+  return m->claims.status;
+}
+
 int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
   const int32_t outcome = m->kind->takes_state ? run_at(m, state) : m->kind->run(m, state);
+  if (outcome < 0) hk_claims_release(&m->claims);
   if (outcome < 0) return outcome;
   m->has_run = 1;
   m->outcome = outcome;
-  return outcome;
+  const int32_t status = hk_measurement_claim(m);
+  return status == HOOKE_OK ? outcome : status;
 }
 
 /* ---- tables ---- */
 
+const struct hk_table *hk_measurement_table_at(const struct hk_measurement_kind *kind, int64_t k) {
+  int64_t own = 0;
+  while (own < k && kind->tables[own].name)
+    own++;
+  if (k < 0 || own < k) return NULL;
+  if (kind->tables[own].name) return &kind->tables[own];
+  return kind->claim ? &hk_claims_table : NULL;
+}
+
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name) {
-  const struct hk_table *table = kind->tables;
-  while (table->name && strcmp(table->name, name) != 0)
-    table++;
-  return table->name ? table : NULL;
+  const struct hk_table *table;
+  for (int64_t k = 0; (table = hk_measurement_table_at(kind, k)) != NULL; k++)
+    if (strcmp(table->name, name) == 0) return table;
+  return NULL;
+}
+
+const void *hk_measured(const hooke_measurement *m, const struct hk_table *table) {
+  return table == &hk_claims_table ? (const void *)&m->claims : m->object;
 }
 
 int64_t hooke_measurement_row_count(const hooke_measurement *m, const char *table) {
   const struct hk_table *t = hk_measurement_table(m->kind, table);
-  return t ? hk_table_count(t, m->object) : -1;
+  return t ? hk_measured_rows(m, t) : -1;
 }
 
 int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, const char *column,
@@ -142,10 +165,19 @@ int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, co
   return -1;
 }
 
+int64_t hk_measured_rows(const hooke_measurement *m, const struct hk_table *table) {
+  return hk_table_count(table, hk_measured(m, table));
+}
+
+struct hk_value hk_measured_value(const hooke_measurement *m, const struct hk_table *table,
+                                  const struct hk_column *column, int64_t row) {
+  return hk_table_value(table, column, hk_measured(m, table), row);
+}
+
 static struct hk_value value_of(const hooke_measurement *m, const char *table, int64_t row,
                                 const char *column) {
   const struct hk_table *t = hk_measurement_table(m->kind, table);
-  return hk_table_value(t, t ? hk_table_find(t, column) : NULL, m->object, row);
+  return hk_measured_value(m, t, t ? hk_table_find(t, column) : NULL, row);
 }
 
 double hooke_measurement_number(const hooke_measurement *m, const char *table, int64_t row,

@@ -6,8 +6,9 @@
 #include "core/table/column.h"
 #include "core/table/option.h"
 #include "hooke/measurement.h"
+#include "measure/claims.h"
 
-enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABELS };
+enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABEL_OUTPUT, HOOKE_LABELS };
 
 struct hk_measurement_kind {
   const char *name;
@@ -15,7 +16,9 @@ struct hk_measurement_kind {
   const char *made_by; /* function that creates it, "hooke_why_create()"; NULL: hooke_measurement_create() */
   int32_t needs_run;   /* 1: options of a run are required */
   int32_t takes_state; /* 1: it is taken at a state, by default the initial one, and may be repeated */
-  const struct hk_table *tables; /* ends without a name */
+  const struct hk_table *tables; /* its own; end without a name */
+  /* Composes the claims of the results, after every run; NULL: it makes none, and has no such table. */
+  void (*claim)(const hooke_measurement *measurement, struct hk_claims *claims);
   /* Creates measurement->object; destroy() follows in any case. */
   int32_t (*create)(hooke_measurement *measurement);
   int32_t (*run)(hooke_measurement *measurement, hooke_state *state);
@@ -33,6 +36,7 @@ struct hooke_measurement {
   int32_t has_run, outcome;  /* last return value of hooke_measurement_run(), unless it failed */
   char *label[HOOKE_LABELS]; /* texts that files show; NULL: none */
   char *json;                /* last answer of hooke_measurement_json(); NULL: none */
+  struct hk_claims claims;
   void *object;
 };
 
@@ -54,7 +58,18 @@ int32_t hk_measurement_require_fresh(const hooke_measurement *measurement, const
 /* Calls the progress callback. HOOKE_STOPPED, with its message, if that asks to stop. */
 int32_t hk_measurement_tell(const hooke_measurement *measurement, double done, const char *what);
 
-/* Table of that name; NULL if the kind has none. */
+/* Composes the claims again. HOOKE_NO_MEMORY */
+int32_t hk_measurement_claim(hooke_measurement *measurement);
+
+/* Table `k`, the claims after those of the kind; NULL past the last. Table of that name; NULL if there is
+ * none. And the object whose table it is. */
+const struct hk_table *hk_measurement_table_at(const struct hk_measurement_kind *kind, int64_t k);
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name);
+const void *hk_measured(const hooke_measurement *measurement, const struct hk_table *table);
+
+/* The number of rows of a table, and a value of it as of hk_table_value(). */
+int64_t hk_measured_rows(const hooke_measurement *measurement, const struct hk_table *table);
+struct hk_value hk_measured_value(const hooke_measurement *measurement, const struct hk_table *table,
+                                  const struct hk_column *column, int64_t row);
 
 #endif

@@ -56,7 +56,8 @@ def contents(path):
 
 def results(out, **changed):
     value = {**json.loads(out), **changed}
-    value.pop("error", None)  # no error is estimated for a continued run
+    for name in ("error", "claims"):
+        value.pop(name, None)  # no error is estimated for a continued run
     del value["wall_seconds"]
     del value["zero_passages"]  # not known of a continued run
     return value

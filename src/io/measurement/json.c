@@ -28,7 +28,7 @@ static const char *key_of(const struct hk_table *table) {
 /* A want that is met as far as errors are known is not known to be met to the end. */
 static struct hk_value value_of(const hooke_measurement *m, const struct hk_table *table,
                                 const struct hk_column *column, int64_t row) {
-  struct hk_value value = hk_table_value(table, column, m->object, row);
+  struct hk_value value = hk_measured_value(m, table, column, row);
   if (m->kind == &hk_study_kind && is_named("met", column->name) && !hk_study_knows_met(m->object))
     value.number = NAN;
   return value;
@@ -100,11 +100,12 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
     add_value(text, column->name, column->type, value_of(m, table, column, row));
   }
   if (table == hk_measurement_table(&hk_needs_kind, "lean")) add_left_out(text, m);
-  for (const struct hk_table *other = m->kind->tables; other->name; other++) {
+  const struct hk_table *other;
+  for (int64_t k = 0; (other = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
     if (!is_named(other->inside, table->name)) continue;
     if (is_named(other->key, "quantities"))
       add_quantities(text, m, other);
-    else if (other->record || hk_table_count(other, m->object) > 0)
+    else if (other->record || hk_measured_rows(m, other) > 0)
       add_table(text, m, key_of(other), other, row);
   }
 }
@@ -120,12 +121,12 @@ static void add_object(struct hk_text *text, const hooke_measurement *m, const s
 
 static const char *text_of(const hooke_measurement *m, const struct hk_table *table, int64_t row,
                            const char *column) {
-  return hk_table_value(table, hk_table_find(table, column), m->object, row).text;
+  return hk_measured_value(m, table, hk_table_find(table, column), row).text;
 }
 
 /* The statistics of each quantity: of the reference, and by method. */
 static void add_quantities(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table) {
-  const int64_t count = hk_table_count(table, m->object), inner = table->inner(m->object);
+  const int64_t count = hk_measured_rows(m, table), inner = table->inner(m->object);
   hk_text_open(text, "quantities", '[');
   for (int64_t k = 0; k < inner; k++) {
     hk_text_open(text, NULL, '{');
@@ -145,7 +146,7 @@ static void add_quantities(struct hk_text *text, const hooke_measurement *m, con
 static int is_there(const hooke_measurement *m, const struct hk_table *table, int64_t row) {
   int there = table->by == NULL;
   for (int32_t k = 0; k < table->column_count; k++)
-    there |= !isnan(hk_table_value(table, &table->columns[k], m->object, row).number);
+    there |= !isnan(hk_measured_value(m, table, &table->columns[k], row).number);
   return there;
 }
 
@@ -153,7 +154,7 @@ static int is_there(const hooke_measurement *m, const struct hk_table *table, in
 static void add_table(struct hk_text *text, const hooke_measurement *m, const char *key,
                       const struct hk_table *table, int64_t of) {
   const char *by = table->by;
-  int64_t count = hk_table_count(table, m->object), first = 0;
+  int64_t count = hk_measured_rows(m, table), first = 0;
   if (table->inside && table->inner) {
     count = table->inner(m->object);
     first = of * count;
@@ -175,10 +176,11 @@ void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, co
 
 /* ---- documents ---- */
 
-void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m, const char *except) {
+void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *m, const char *except) {
   const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
   if (calls) hk_text_word(text, "callbacks", hk_callbacks_text(calls));
-  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
+  const struct hk_table *table;
+  for (int64_t k = 0; (table = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
     if (is_named(table->name, m->kind->name))
       add_row(text, m, table, 0);
     else if (!table->inside && !is_named(table->name, except))
@@ -188,7 +190,7 @@ void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m,
 
 static void add_document(struct hk_text *text, const hooke_measurement *m) {
   hk_text_open(text, NULL, '{');
-  hk_measurement_add_tables(text, m, NULL);
+  hk_measurement_add_all(text, m, NULL);
   hk_text_close(text, '}');
 }
 
@@ -206,7 +208,7 @@ int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) 
 const char *hooke_measurement_json(hooke_measurement *m, const char *table, int64_t row) {
   const struct hk_table *t = table ? hk_measurement_table(m->kind, table) : NULL;
   struct hk_text text = {.is_spaced = 1};
-  if (table && (!t || row < -1 || row >= hk_table_count(t, m->object))) return NULL;
+  if (table && (!t || row < -1 || row >= hk_measured_rows(m, t))) return NULL;
   if (t && row < 0) add_table(&text, m, NULL, t, 0);
   if (t && row >= 0) add_object(&text, m, t, row, NULL);
   if (!t) add_document(&text, m);

@@ -48,11 +48,8 @@ const char *hooke_measurement_table(const char *kind, int64_t table, const char 
   if (kind == NULL)
     return table >= 0 && table < KINDS && strcmp(what, "name") == 0 ? kinds[table]->name : NULL;
   const struct hk_measurement_kind *k = find(kind);
-  int64_t count = 0;
-  while (k && k->tables[count].name)
-    count++;
-  if (table < 0 || table >= count) return NULL;
-  const struct hk_table *t = &k->tables[table];
+  const struct hk_table *t = k ? hk_measurement_table_at(k, table) : NULL;
+  if (t == NULL) return NULL;
   if (strcmp(what, "name") == 0) return t->name;
   if (strcmp(what, "doc") == 0) return t->doc;
   return strcmp(what, "shape") == 0 ? (t->record ? "record" : "rows") : NULL;

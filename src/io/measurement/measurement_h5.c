@@ -61,7 +61,7 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
   double *value = hk_new(extent.count, sizeof *value);
   if (value == NULL) return -1;
   for (int64_t k = 0; k < extent.count; k++)
-    value[k] = hk_table_value(table, column, m->object, k * extent.stride).number;
+    value[k] = hk_measured_value(m, table, column, k * extent.stride).number;
   const herr_t result =
       hk_h5_array_of(group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, extent.rank, extent.size, value);
   hk_free(value);
@@ -71,8 +71,8 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
 static int64_t longest_text(const hooke_measurement *m, const struct hk_table *table,
                             const struct hk_column *column) {
   size_t length = LEAST_LENGTH;
-  for (int64_t row = 0; row < hk_table_count(table, m->object); row++) {
-    const char *text = hk_table_value(table, column, m->object, row).text;
+  for (int64_t row = 0; row < hk_measured_rows(m, table); row++) {
+    const char *text = hk_measured_value(m, table, column, row).text;
     const size_t own = text ? strlen(text) + 1 : 0;
     length = own > length ? own : length;
   }
@@ -84,7 +84,7 @@ static herr_t write_texts(hid_t group, const hooke_measurement *m, const struct 
   hid_t data = hk_h5_texts(group, column->name, extent.count, longest_text(m, table, column));
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t k = 0; result >= 0 && k < extent.count; k++) {
-    const char *text = hk_table_value(table, column, m->object, k * extent.stride).text;
+    const char *text = hk_measured_value(m, table, column, k * extent.stride).text;
     result = hk_h5_write_text(data, k, text ? text : "");
   }
   hk_h5_drop(data);
@@ -107,8 +107,8 @@ static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *
 
 static herr_t write_series(hid_t group, const hooke_measurement *m, const struct hk_table *table,
                            const struct hk_column *column) {
-  const int64_t rows = hk_table_count(table, m->object);
-  struct hk_series series = hk_table_value(table, column, m->object, 0).series;
+  const int64_t rows = hk_measured_rows(m, table);
+  struct hk_series series = hk_measured_value(m, table, column, 0).series;
   const hsize_t size[2] = {(hsize_t)rows, (hsize_t)series.count};
   const double none = NAN;
   char name[NAME_SIZE];
@@ -121,7 +121,7 @@ static herr_t write_series(hid_t group, const hooke_measurement *m, const struct
   hid_t data = hk_h5_array(group, name, H5T_IEEE_F64LE, 2, size, &none);
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t row = 0; result >= 0 && row < rows; row++) {
-    series = hk_table_value(table, column, m->object, row).series;
+    series = hk_measured_value(m, table, column, row).series;
     if (series.value && series.count > 0) result = write_series_row(data, row, &series);
   }
   hk_h5_drop(data);
@@ -132,7 +132,7 @@ static herr_t write_series(hid_t group, const hooke_measurement *m, const struct
 
 static herr_t write_attribute(hid_t group, const hooke_measurement *m, const struct hk_table *table,
                               const struct hk_column *column) {
-  const struct hk_value value = hk_table_value(table, column, m->object, 0);
+  const struct hk_value value = hk_measured_value(m, table, column, 0);
   return column->type == HOOKE_COLUMN_TEXT
              ? hk_h5_text_attribute(group, column->name, value.text ? value.text : "")
              : hk_h5_number_attribute(group, column->name, 1, &value.number);
@@ -141,7 +141,7 @@ static herr_t write_attribute(hid_t group, const hooke_measurement *m, const str
 /* Series go into a group of their own. */
 static herr_t write_column(hid_t kind, hid_t group, const hooke_measurement *m, const struct hk_table *table,
                            const struct hk_column *column) {
-  const struct extent extent = extent_of(table, column, m->object);
+  const struct extent extent = extent_of(table, column, hk_measured(m, table));
   if (column->type == HOOKE_COLUMN_SERIES) {
     if (!table->record && strcmp(table->name, "rows") != 0) return 0;
     hid_t series = open_group(kind, "series");
@@ -159,7 +159,7 @@ static herr_t write_column(hid_t kind, hid_t group, const hooke_measurement *m, 
 static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
   const char *name = table->group ? table->group : table->name;
   const int is_own = strcmp(table->name, m->kind->name) == 0, is_rows = strcmp(table->name, "rows") == 0;
-  if (hk_table_count(table, m->object) == 0 && !is_rows) return 0;
+  if (hk_measured_rows(m, table) == 0 && !is_rows) return 0;
   hid_t group = is_own || is_rows ? kind : open_group(kind, name);
   herr_t result = group < 0 ? -1 : 0;
   for (int32_t k = 0; result >= 0 && k < table->column_count; k++)
@@ -173,7 +173,8 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
   hid_t kind = open_group(file, m->kind->name);
   herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
-  for (const struct hk_table *table = m->kind->tables; result >= 0 && table->name; table++)
+  const struct hk_table *table;
+  for (int64_t k = 0; result >= 0 && (table = hk_measurement_table_at(m->kind, k)) != NULL; k++)
     result = write_table(kind, m, table);
   hk_h5_drop(kind);
   return result;
@@ -182,13 +183,14 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
 /* An approximate, generous size. */
 static double bytes_of(const hooke_measurement *m) {
   double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
-  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
-    const double rows = (double)hk_table_count(table, m->object);
+  const struct hk_table *table;
+  for (int64_t k = 0; (table = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
+    const double rows = (double)hk_measured_rows(m, table);
     for (int32_t c = 0; rows > 0.0 && c < table->column_count; c++) {
       const struct hk_column *column = &table->columns[c];
       const int64_t length = column->type == HOOKE_COLUMN_TEXT ? longest_text(m, table, column)
                              : column->type == HOOKE_COLUMN_SERIES
-                                 ? 8 * hk_table_value(table, column, m->object, 0).series.count
+                                 ? 8 * hk_measured_value(m, table, column, 0).series.count
                                  : 8;
       bytes += 512.0 + rows * (double)length;
     }

@@ -119,7 +119,7 @@ void hk_limit_page_add(struct hk_text *data, const hooke_measurement *m) {
     return;
   }
   hk_text_open(data, "rows", '[');
-  for (int64_t row = 0; row < hk_table_count(rows, m->object); row++)
+  for (int64_t row = 0; row < hk_measured_rows(m, rows); row++)
     add_row(data, m, rows, row);
   hk_text_close(data, ']');
   add_picture(data, m->object);

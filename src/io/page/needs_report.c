@@ -88,16 +88,7 @@ static void add_picture(struct hk_text *data, const struct hk_needs *needs) {
   hk_free(watched);
 }
 
-/* Ingredients that were not tested. */
-static void add_waiting(struct hk_text *data, const struct hk_needs *needs) {
-  hk_text_open(data, "waiting", '[');
-  for (int64_t row = hk_needs_known_rows(needs); row < needs->row_count; row++)
-    hk_text_word(data, NULL, needs->row[row].without);
-  hk_text_close(data, ']');
-}
-
 void hk_needs_page_add(struct hk_text *data, const hooke_measurement *m) {
   hk_text_number(data, "particles", (double)hooke_system_particle_count(m->system));
-  add_waiting(data, m->object);
   add_picture(data, m->object);
 }

@@ -16,7 +16,7 @@ static const struct page {
   const char *own;  /* the table that it adds by itself; NULL: none */
   void (*add)(struct hk_text *data, const hooke_measurement *measurement);
 } pages[] = {
-    {"study", NULL, "rows", hk_study_page_add},
+    {"study", NULL, NULL, hk_study_page_add},
     {"limit", "mode.js", "rows", hk_limit_page_add},
     {"needs", NULL, NULL, hk_needs_page_add},
     {"why", "mode.js", NULL, hk_why_page_add},
@@ -36,7 +36,7 @@ static int32_t add_data(struct hk_text *page, const struct report *report) {
   hk_text_word(&data, "scene", m->label[HOOKE_LABEL_TITLE]);
   if (m->label[HOOKE_LABEL_COMMAND]) hk_text_word(&data, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_report_add_facts(&data);
-  hk_measurement_add_tables(&data, m, report->page->own);
+  hk_measurement_add_all(&data, m, report->page->own);
   report->page->add(&data, m);
   hk_text_close(&data, '}');
   if (data.status == HOOKE_OK) hk_text_add(page, data.bytes, data.length);

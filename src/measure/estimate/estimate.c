@@ -349,6 +349,7 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
 const struct hk_measurement_kind hk_estimate_kind = {.name = "estimate",
                                                      .options = &options,
                                                      .tables = hk_estimate_tables,
+                                                     .claim = hk_estimate_claim,
                                                      .create = create,
                                                      .run = run,
                                                      .destroy = destroy};

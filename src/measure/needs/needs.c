@@ -98,6 +98,7 @@ const struct hk_measurement_kind hk_needs_kind = {.name = "needs",
                                                   .options = &needs_table,
                                                   .needs_run = 1,
                                                   .tables = hk_needs_tables,
+                                                  .claim = hk_needs_claim,
                                                   .create = create,
                                                   .run = run,
                                                   .destroy = destroy};

@@ -170,7 +170,15 @@ int32_t hk_needs_tell_pick(double done, const char *what, void *needs);
 
 /* ---- needs_tables.c ---- */
 
+/* Time up to which changes are judged [s]. */
+double hk_needs_judged_until(const struct hk_needs *needs);
+/* Cells of a part along an axis at a factor on them; NaN without the axis, or the factor. */
+double hk_needs_cells(const struct hk_needs_part *part, int32_t axis, double factor);
+
 extern const struct hk_table hk_needs_tables[];
+
+/* What they say of their results (needs_claims.c). */
+void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
 extern const struct hk_measurement_kind hk_needs_kind;
 

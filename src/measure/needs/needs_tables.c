@@ -27,7 +27,11 @@
 /* ---- the record ---- */
 
 HOOKE_READER(const char *, method, struct hk_needs, hooke_options_text(it->run, "method"))
-HOOKE_READER(double, judged_until, struct hk_needs, hk_needs_time(it, it->judged - 1))
+HOOKE_READER(double, judged_until, struct hk_needs, hk_needs_judged_until(it))
+
+double hk_needs_judged_until(const struct hk_needs *needs) {
+  return hk_needs_time(needs, needs->judged - 1);
+}
 
 /* ---- the full system ---- */
 
@@ -37,6 +41,8 @@ HOOKE_READER(const void *, find_full, struct hk_needs, it->path.position ? it : 
 
 HOOKE_READER(double, times_less, struct hk_needs, it->cheapest.wall_seconds / it->lean.cost.wall_seconds)
 HOOKE_COUNTER(count_lean, struct hk_needs, it->lean.system != NULL)
+HOOKE_READER(const char *, scene, struct hk_needs, it->measurement->label[HOOKE_LABEL_OUTPUT])
+HOOKE_READER(const char *, command, struct hk_needs, it->measurement->label[HOOKE_LABEL_COMMAND])
 
 /* ---- rows ---- */
 
@@ -51,14 +57,14 @@ HOOKE_COUNTER(count_rows, struct hk_needs, hk_needs_known_rows(it))
 
 /* ---- resolution ---- */
 
-static double wanted_cells(const struct hk_needs_part *part, int32_t axis) {
-  if (part->cells[axis] < 0 || !isfinite(part->factor)) return NAN;
-  return fmax(1.0, ceil((double)part->cells[axis] * part->factor * (1.0 - 1e-12)));
+double hk_needs_cells(const struct hk_needs_part *part, int32_t axis, double factor) {
+  if (part->cells[axis] < 0 || !isfinite(factor)) return NAN;
+  return fmax(1.0, ceil((double)part->cells[axis] * factor * (1.0 - 1e-12)));
 }
 
-HOOKE_READER(double, wanted, struct hk_needs, wanted_cells(&it->part[row], 0))
-HOOKE_READER(double, wanted_second, struct hk_needs, wanted_cells(&it->part[row], 1))
-HOOKE_READER(double, wanted_third, struct hk_needs, wanted_cells(&it->part[row], 2))
+HOOKE_READER(double, wanted, struct hk_needs, hk_needs_cells(&it->part[row], 0, it->part[row].factor))
+HOOKE_READER(double, wanted_second, struct hk_needs, hk_needs_cells(&it->part[row], 1, it->part[row].factor))
+HOOKE_READER(double, wanted_third, struct hk_needs, hk_needs_cells(&it->part[row], 2, it->part[row].factor))
 
 /* ---- the tables ---- */
 
@@ -112,7 +118,9 @@ const struct hk_table hk_needs_tables[] = {
          HOOKE_COLUMN_AS(
              struct hk_needs, lean_note, note, TEXT, "",
              "parts that are rigid bodies in the lean system, and groups of parts that it has spring by "
-             "spring, since it has some of their springs only"))},
+             "spring, since it has some of their springs only"),
+         HOOKE_COLUMN_BY(scene, TEXT, "", "file with it, where the caller wrote one and said so by a label"),
+         HOOKE_COLUMN_BY(command, TEXT, "", "command line that runs it, likewise"))},
     {.name = "cheapest",
      .inside = "lean",
      .key = "full",

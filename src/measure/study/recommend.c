@@ -196,5 +196,6 @@ int32_t hooke_study_recommend(hooke_measurement *m, double want) {
   study->begun = hk_clock_seconds();
   study->deadline = study->begun + study->budget;
   study->told = 0.0;
-  return hk_study_find_cheapest(study, want);
+  status = hk_study_find_cheapest(study, want);
+  return status == HOOKE_OK ? hk_measurement_claim(m) : status;
 }

@@ -176,6 +176,7 @@ const struct hk_measurement_kind hk_study_kind = {
     .options = &study_table,
     .needs_run = 1,
     .tables = hk_study_tables,
+    .claim = hk_study_claim,
     .create = create,
     .run = run,
     .destroy = destroy,

@@ -128,9 +128,14 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 /* Finds the margin of the recommendation, until the deadline. */
 int32_t hk_study_find_margin(struct hk_study *study);
 
-/* 1 if the error of a row is within ten times of what the reference is known to, or of its rounding. */
+/* Time up to which errors are known [s]; NaN without a reference. And 1 if that is the whole run. */
+double hk_study_trusted_until(const struct hk_study *study);
+int32_t hk_study_trusts_all(const struct hk_study *study);
+/* 1 if there is a recommendation: a run that meets the want or, in a complete study, the closest one. */
+int32_t hk_study_recommends(const struct hk_study *study);
 /* 1 unless the want is met as far as errors are known, and they are not known to the end. */
 int32_t hk_study_knows_met(const struct hk_study *study);
+/* 1 if the error of a row is within ten times of what the reference is known to, or of its rounding. */
 int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row);
 
 /* Least-squares fit of log error against log step for a method (order.c). */
@@ -143,6 +148,9 @@ void hk_study_fit_order(struct hk_study *study, int32_t method);
 double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive);
 
 extern const struct hk_table hk_study_tables[];
+
+/* What it says of its results (study_claims.c). */
+void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
 extern const struct hk_measurement_kind hk_study_kind;
 

@@ -24,8 +24,7 @@ static const char *how_it_ended(const struct hk_study *study) {
 
 HOOKE_READER(const void *, find_reference, struct hk_study, is_made(it) ? &it->reference : NULL)
 HOOKE_READER(const char *, ended, struct hk_study, how_it_ended(it))
-HOOKE_READER(double, trusted_until, struct hk_study,
-             hk_reference_time(&it->reference, it->reference.trusted, it->duration))
+HOOKE_READER(double, trusted_until, struct hk_study, hk_study_trusted_until(it))
 HOOKE_READER(double, checked_until, struct hk_study,
              hk_reference_time(&it->reference, it->reference.checked, it->duration))
 HOOKE_COUNTER(trusted, struct hk_study, it->reference.trusted)
@@ -59,11 +58,27 @@ HOOKE_READER(double, recommended_step, struct hk_study,
 HOOKE_READER(double, recommended_rtol, struct hk_study,
              hk_study_setting(it, it->recommendation.method, it->recommendation.value, 1))
 
-int32_t hk_study_knows_met(const struct hk_study *study) {
-  const double until = trusted_until(study, 0);
-  const int32_t held = study->recommendation.met || !(until > 0.0);
-  return !held || until >= study->duration * (1.0 - 1e-9);
+double hk_study_trusted_until(const struct hk_study *study) {
+  return hk_reference_time(&study->reference, study->reference.trusted, study->duration);
 }
+
+int32_t hk_study_trusts_all(const struct hk_study *study) {
+  return hk_study_trusted_until(study) >= study->duration * (1.0 - 1e-9);
+}
+
+int32_t hk_study_recommends(const struct hk_study *study) {
+  const struct hk_study_recommendation *r = &study->recommendation;
+  return r->made && (r->met || study->measurement->outcome != HOOKE_STOPPED);
+}
+
+int32_t hk_study_knows_met(const struct hk_study *study) {
+  const int32_t held = study->recommendation.met || !(hk_study_trusted_until(study) > 0.0);
+  return !held || hk_study_trusts_all(study);
+}
+
+HOOKE_COUNTER(count_recommendations, struct hk_study, hk_study_recommends(it))
+HOOKE_READER(const char *, command, struct hk_study,
+             it->recommendation.met ? it->measurement->label[HOOKE_LABEL_COMMAND] : NULL)
 
 /* ---- its margin ---- */
 
@@ -286,7 +301,7 @@ const struct hk_table hk_study_tables[] = {
     {.name = "recommendation",
      .doc = "which run to make for the wanted error",
      .record = 1,
-     HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
+     .count = count_recommendations,
      HOOKE_TABLE_IN(struct hk_study, recommendation),
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN(struct hk_study_recommendation, want, NUMBER, "m",
@@ -312,13 +327,14 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN(struct hk_study_recommendation, atol, NUMBER, "m",
                       "its absolute tolerance of positions"),
          HOOKE_COLUMN(struct hk_study_recommendation, force_evaluations, COUNT, "",
-                      "its evaluations of the forces"))},
+                      "its evaluations of the forces"),
+         HOOKE_COLUMN_BY(command, TEXT, "", "its command line, where the caller gave one as a label"))},
     {.name = "margin",
      .doc = "what the recommendation has to spare",
      .group = "recommendation",
      .inside = "recommendation",
      .record = 1,
-     HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
+     .count = count_recommendations,
      HOOKE_TABLE_IN(struct hk_study, recommendation.margin),
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_BY(error_low, NUMBER, "m", "error less the agreement of the reference"),

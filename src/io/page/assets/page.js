@@ -159,11 +159,19 @@ function fact(list, name, value) {
   document.getElementById(list).append(element("dt", name), element("dd", value));
 }
 
-/* The head of the page: its title and the line below it. */
+/* The head of the page: its title, the line below it, and what the results say. */
 function writeLead(kind, lead) {
   document.title = `hooke ${kind}: ${data.scene}`;
   document.getElementById("scene").textContent = data.scene;
   document.getElementById("lead").textContent = lead;
+  const box = document.getElementById("claims"), claims = data.claims || [];
+  box.hidden = claims.length === 0;
+  for (const claim of claims) {
+    const line = element("p", claim.text, { className: claim.of });
+    line.dataset.key = claim.key;
+    box.append(line);
+  }
+  if (data.command && claims.length > 0) box.append(element("pre", data.command));
 }
 
 /* A name beside its colour. */

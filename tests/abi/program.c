@@ -1,6 +1,6 @@
-/* A program as it was compiled against hooke 0.2, with its own idea of every type and number: two strands of
- * three particles by one call each of what the first version had, checked against what a mass on a spring has
- * to do. */
+/* A program with its own idea of every type and number, which later versions of the library have to run: two
+ * strands of three particles by one call each of what the first version had, checked against what a mass on a
+ * spring has to do. */
 #include "hooke.h"
 
 #include <math.h>

@@ -1,0 +1,37 @@
+#include "claims.h"
+
+enum { WIDTH = 110 };
+
+void cli_claims_print(const struct cli_arguments *arguments, const hooke_measurement *measurement,
+                      int32_t indent, const char *command) {
+  int64_t count = hooke_measurement_row_count(measurement, "claims");
+  if (arguments->quiet && count > 1) count = 1;
+  for (int64_t row = 0; row < count; row++) {
+    cli_print_fact(indent, WIDTH, hooke_measurement_text(measurement, "claims", row, "key"), "%s",
+                   hooke_measurement_text(measurement, "claims", row, "text"));
+    if (row == 0 && command) cli_say("%*s%s\n", indent, "", command);
+  }
+}
+
+const char *cli_claim(const hooke_measurement *measurement, const char *key) {
+  const int64_t row = hooke_measurement_find(measurement, "claims", "key", key);
+  return hooke_measurement_text(measurement, "claims", row, "text");
+}
+
+void cli_claims_add_json(struct cli_json *json, hooke_measurement *measurement) {
+  if (measurement && hooke_measurement_row_count(measurement, "claims") >= 0) {
+    cli_json_measured(json, "claims", measurement, "claims", -1);
+    return;
+  }
+  cli_json_open(json, "claims", '[');
+  cli_json_close(json);
+}
+
+int32_t cli_claims_print_json(const struct cli_arguments *arguments, const char *key,
+                              hooke_measurement *measurement) {
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  if (key) cli_json_text(&json, key, arguments->scene);
+  cli_json_measured(&json, NULL, measurement, NULL, 0);
+  return cli_json_end(&json);
+}

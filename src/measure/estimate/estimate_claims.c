@@ -1,0 +1,73 @@
+/* What an estimate says of the error of a run. */
+#include "measure/estimate/estimate.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Fractions of the energy of the scene, above which energy grows by itself, or more heat is dissipated than
+ * there is. */
+static const double MOST_RISE = 0.01, MOST_EXCESS = 0.01;
+
+static const char *source_of(const char *by) {
+  static const char *const sources[][2] = {
+      {"half-step", "from runs of the method at other steps"},
+      {"tolerance", "from runs of the method at other tolerances"},
+      {"other-method", "from a run by another method"},
+      {"reference", "against a reference that was checked by another"},
+  };
+  for (size_t k = 0; k < sizeof sources / sizeof sources[0]; k++)
+    if (strcmp(by, sources[k][0]) == 0) return sources[k][1];
+  return by;
+}
+
+static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
+  const int whole = e->known_until >= e->begin + e->duration * (1.0 - 1e-9);
+  if (e->by)
+    hk_claim(claims, "error", whole ? HOOKE_OF_WHOLE : HOOKE_OF_PART, e->by,
+             "the error is at most %.3g m until t = %.6g s, of any particle (root mean square %.2g m), %s",
+             e->error, e->known_until, e->rms, source_of(e->by));
+  else
+    hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "", "the error is not known: %s", e->reason);
+}
+
+static void tell_want(const struct hk_estimate *e, struct hk_claims *claims) {
+  const double met = hk_estimate_met(e);
+  const char *by = e->by ? e->by : "", *reason = e->by ? e->reason : "", *joint = reason[0] ? ": " : "";
+  if (isnan(e->want)) return;
+  if (met == 1.0)
+    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "that is within the wanted %.6g m", e->want);
+  else if (met == 0.0)
+    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "the wanted %.6g m are not met%s%s", e->want, joint, reason);
+  else
+    hk_claim(claims, "want", HOOKE_OF_UNKNOWN, by,
+             "nobody knows for all of the run whether the wanted %.6g m are met%s%s", e->want, joint, reason);
+}
+
+/* Energy that no part of the scene accounts for. */
+static void tell_energy(const struct hk_estimate *e, struct hk_claims *claims) {
+  if (e->rise > MOST_RISE)
+    hk_claim(
+        claims, "energy-rise", HOOKE_OF_PART, "energy",
+        "energy rose by itself, over the last half of the run by %.3g %% of what the scene has: this step is "
+        "too large, or the method does not suit the scene",
+        100.0 * e->rise);
+  if (e->heat_excess > MOST_EXCESS)
+    hk_claim(
+        claims, "heat-excess", HOOKE_OF_PART, "energy",
+        "damping and drag took more energy than there was to take, by %.3g %% of what the scene has: velocities "
+        "reverse at each step, which is too large for the damping",
+        100.0 * e->heat_excess);
+}
+
+void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
+  const struct hk_estimate *e = measurement->object;
+  tell_error(e, claims);
+  tell_want(e, claims);
+  if (!isnan(e->last_error))
+    hk_claim(
+        claims, "last-piece", HOOKE_OF_PART, "half-step",
+        "%.2g m more or less at the end was made from t = %.6g s on: a part of an error that is not known",
+        e->last_error, e->last_from);
+  tell_energy(e, claims);
+  if (e->reversal[0]) hk_claim(claims, "machine", HOOKE_OF_PART, "clock", "picked %s", e->reversal);
+}

@@ -1,0 +1,194 @@
+/* What a study says of its results. */
+#include "measure/study/study.h"
+
+#include "core/print.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SETTING_SIZE = 96 };
+
+/* Differences that grow more than this are called chaotic if the integrators part. */
+static const double CHAOTIC = 1e3;
+
+struct teller {
+  const struct hk_study *study;
+  struct hk_claims *claims;
+  double until; /* the time up to which errors are known [s] */
+  int32_t all;  /* 1: that is the whole run */
+};
+
+#define say(teller, key, of, by, ...) hk_claim((teller)->claims, key, of, by, __VA_ARGS__)
+
+/* ---- the recommendation ---- */
+
+/* "verlet in steps of 0.001 s", "cvode-bdf with rtol 1e-06" */
+static const char *name_run(const struct hk_study *study, char text[SETTING_SIZE]) {
+  const struct hk_study_recommendation *r = &study->recommendation;
+  const int adaptive = hk_study_is_adaptive(study, r->method);
+  hk_print(text, SETTING_SIZE, adaptive ? "%s with rtol %.6g" : "%s in steps of %.6g s",
+           study->method[r->method], r->value);
+  return text;
+}
+
+static void tell_closest(const struct teller *t) {
+  const struct hk_study_recommendation *r = &t->study->recommendation;
+  char run[SETTING_SIZE];
+  say(t, "recommendation",
+      isnan(r->error) ? HOOKE_OF_UNKNOWN
+      : t->all        ? HOOKE_OF_WHOLE
+                      : HOOKE_OF_PART,
+      "reference", "no run is recommended for an error of at most %.6g m: %s", r->want, r->note);
+  if (r->method < 0) return;
+  say(t, "closest", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
+      "the closest is %s: its error is %.3g m, and it took %.3g s and %.0f evaluations of the forces",
+      name_run(t->study, run), r->error, r->wall_seconds, r->force_evaluations);
+}
+
+static void tell_change(const struct teller *t, const char *key, const char *change,
+                        enum hk_study_change which) {
+  const struct hk_study_margin *margin = &t->study->recommendation.margin;
+  const double held = margin->holds[which], error = margin->error[which];
+  if (isnan(held))
+    say(t, key, HOOKE_OF_UNKNOWN, "reference", "%s: not known in this time", change);
+  else if (isnan(error))
+    say(t, key, HOOKE_OF_UNKNOWN, "reference",
+        "%s: no longer, a run did not come to its end or was not judged", change);
+  else
+    say(t, key, t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference", "%s: %s, its error is %.3g m then",
+        change, held == 1.0 ? "still at most that" : "no longer", error);
+}
+
+static void tell_margin(const struct teller *t) {
+  const struct hk_study_recommendation *r = &t->study->recommendation;
+  const double fraction = r->margin.limit_share, agreement = t->study->reference.agreement;
+  say(t, "margin", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
+      "that error lies between %.3g and %.3g m, by what the reference is known to",
+      fmax(0.0, r->error - agreement), r->error + agreement);
+  if (fraction > 0.0 && !isinf(fraction))
+    say(t, "stability", HOOKE_OF_PART, "limit", "its step is %.2g of the largest stable one at the start",
+        fraction);
+  tell_change(t, "stiffness", "with a stiffness 10 % more or less", HOOKE_STUDY_STIFFNESS);
+  tell_change(t, "start", "with all started faster or slower along (1, 1, 1) by 10 % of the largest speed",
+              HOOKE_STUDY_START);
+}
+
+static void tell_recommendation(const struct teller *t) {
+  const struct hk_study_recommendation *r = &t->study->recommendation;
+  char run[SETTING_SIZE], where[96] = "over the whole run";
+  if (!hk_study_recommends(t->study)) return;
+  if (!r->met) {
+    tell_closest(t);
+    return;
+  }
+  const int whole = t->all && r->until >= t->until * (1.0 - 1e-9);
+  if (!whole)
+    hk_print(where, sizeof where, "up to %.6g s, beyond which nobody knows it%s", r->until,
+             t->all ? " of the pick" : "");
+  say(t, "recommendation", whole ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
+      "the cheapest run found whose error is at most %.6g m %s is %s: its error is %.3g m, and it took %.3g s "
+      "(median %.3g s) and %.0f evaluations of the forces",
+      r->want, where, name_run(t->study, run), r->error, r->wall_seconds, r->wall_median,
+      r->force_evaluations);
+  if (r->note[0]) say(t, "machine", HOOKE_OF_WHOLE, "clock", "%s", r->note);
+  tell_margin(t);
+}
+
+/* ---- the reference ---- */
+
+/* Why errors are not judged over the whole run. */
+static const char *why_not_all(const struct hk_study *study) {
+  const struct hk_reference *r = &study->reference;
+  if (r->trusted >= r->checked) return "there was no time to check the reference beyond that";
+  if (r->hurried) return "at the tolerances that there was time for, its two integrators part after that";
+  if (study->once) return "its two integrators part after that, at the tolerances of a first look";
+  if (r->growth_seen > CHAOTIC)
+    return "this motion is chaotic: small differences grow so much that its two integrators part after that even "
+           "where rounding alone sets them apart, and where the particles are later cannot be computed to the "
+           "wanted digits";
+  return "its two integrators part after that, although differences do not grow much: rounding keeps them "
+         "from the wanted digits even at their tightest tolerances";
+}
+
+static void tell_growth(const struct teller *t) {
+  const struct hk_reference *r = &t->study->reference;
+  if (isnan(r->growth_seen)) return;
+  if (isnan(r->growth))
+    say(t, "growth", HOOKE_OF_UNKNOWN, "displaced runs",
+        "a displacement of the start grows %.3g times; others may grow more", r->growth_seen);
+  else if (r->growth_probability == 1.0)
+    say(t, "growth", HOOKE_OF_WHOLE, "displaced runs",
+        "a small displacement of the start grows at most %.3g times", r->growth);
+  else
+    say(t, "growth", HOOKE_OF_WHOLE, "displaced runs",
+        "a small displacement of the start grows at most %.3g times, with a probability of 1 - 1e-%.0f; random "
+        "ones grow %.3g times",
+        r->growth, (double)r->displacements, r->growth_seen);
+}
+
+static void tell_floor(const struct teller *t) {
+  const struct hk_reference *r = &t->study->reference;
+  say(t, "floor", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
+      "no error below %.3g m means anything, and no energy drift below %.3g J: to that the reference, by %s, "
+      "agrees with %s, which shares nothing with it but the forces",
+      r->agreement, r->energy_agreement, r->method, r->check);
+}
+
+static void tell_reference(const struct teller *t) {
+  const struct hk_study *study = t->study;
+  const struct hk_reference *r = &study->reference;
+  if (r->frames.count == 0) {
+    say(t, "reference", HOOKE_OF_UNKNOWN, "reference",
+        "the reference is not finished, so there is nothing to measure against");
+    return;
+  }
+  if (isnan(r->agreement))
+    say(t, "reference", HOOKE_OF_UNKNOWN, "reference",
+        "no error is known: the two integrators of the reference, %s and %s, part before the first frame after "
+        "the start",
+        r->method, r->check);
+  else if (t->all)
+    say(t, "reference", HOOKE_OF_WHOLE, "reference", "errors are known over the whole run, %.6g s",
+        study->duration);
+  else
+    say(t, "reference", HOOKE_OF_PART, "reference",
+        "errors and energy drift are known up to %.6g s of %.6g s: %s", t->until, study->duration,
+        why_not_all(study));
+  if (!isnan(r->agreement)) tell_floor(t);
+  tell_growth(t);
+  if (r->frames.zero_passages[0])
+    say(t, "passages", HOOKE_OF_WHOLE, "reference", "%s", r->frames.zero_passages);
+}
+
+/* ---- the rest ---- */
+
+static void tell_ensemble(const struct teller *t) {
+  const struct hk_ensemble *e = t->study->ensemble;
+  const int asked = hooke_options_number(t->study->options, "ensemble") > 0.0;
+  if (e && isnan(e->from))
+    say(t, "statistics", HOOKE_OF_UNKNOWN, "ensemble",
+        "there are no statistics: of %d runs of each method none "
+        "came to its end",
+        (int)e->members);
+  else if (e)
+    say(t, "statistics", HOOKE_OF_PART, "ensemble",
+        "statistics are of means over %.6g s to %.6g s, where positions cannot be computed, of %d runs of each "
+        "method, whose starts differ by noise of %.3g m",
+        e->from, e->until, (int)e->members, e->noise);
+  else if (asked && t->all)
+    say(t, "statistics", HOOKE_OF_WHOLE, "reference",
+        "no statistics are needed: errors are known over the whole run");
+}
+
+void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
+  const struct hk_study *study = measurement->object;
+  const struct teller t = {.study = study,
+                           .claims = claims,
+                           .until = hk_study_trusted_until(study),
+                           .all = hk_study_trusts_all(study)};
+  tell_recommendation(&t);
+  tell_reference(&t);
+  if (study->budget_spent)
+    say(&t, "budget", HOOKE_OF_PART, "clock", "the budget is spent: what it left no time for is missing");
+  tell_ensemble(&t);
+}
