@@ -49,8 +49,3 @@ struct hk_value hk_table_value(const struct hk_table *table, const struct hk_col
     value.number = column->number ? column->number(object, row) : number_at(column, at);
   return value;
 }
-
-const char *hk_column_type_name(enum hk_column_type type) {
-  static const char *const name[] = {"number", "count", "flag", "text", "series"};
-  return name[type];
-}

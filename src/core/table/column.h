@@ -148,7 +148,4 @@ int64_t hk_table_count(const struct hk_table *table, const void *object);
 struct hk_value hk_table_value(const struct hk_table *table, const struct hk_column *column,
                                const void *object, int64_t row);
 
-/* "number", "count", "flag", "text" or "series". */
-const char *hk_column_type_name(enum hk_column_type type);
-
 #endif

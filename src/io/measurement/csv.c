@@ -12,6 +12,7 @@ struct sheet {
   const hooke_measurement *m;
   const struct hk_table *rows;
   const struct hk_table *matrix;          /* NULL: none */
+  int64_t columns;                        /* of it */
   const struct hk_column *label, *number; /* of the matrix: column of the name, column of the value */
 };
 
@@ -40,10 +41,6 @@ static void add_value(struct hk_text *text, const struct hk_table *table, const 
   add_text(text, value.text);
 }
 
-static int64_t matrix_columns(const struct sheet *sheet) {
-  return sheet->matrix ? sheet->matrix->inner(sheet->m->object) : 0;
-}
-
 /* Line `row`; -1: the line of names. */
 static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t row) {
   const void *object = sheet->m->object;
@@ -58,13 +55,12 @@ static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t ro
     else
       add_value(text, sheet->rows, column, object, row);
   }
-  const int64_t columns = matrix_columns(sheet);
-  for (int64_t k = 0; k < columns; k++) {
+  for (int64_t k = 0; k < sheet->columns; k++) {
     hk_text_say(text, ",");
     if (row < 0)
       add_quoted(text, hk_table_value(sheet->matrix, sheet->label, object, k).text);
     else
-      add_value(text, sheet->matrix, sheet->number, object, row * columns + k);
+      add_value(text, sheet->matrix, sheet->number, object, row * sheet->columns + k);
   }
   hk_text_say(text, "\n");
 }
@@ -75,6 +71,7 @@ static void find_matrix(struct sheet *sheet) {
   for (const struct hk_table *table = kind->tables; table->name; table++) {
     if (table->inner == NULL || hk_table_find(table, "row") == NULL) continue;
     if (hk_table_count(table, sheet->m->object) > 0) sheet->matrix = table;
+    if (sheet->matrix) sheet->columns = table->inner(sheet->m->object);
     for (int32_t c = 0; c < table->column_count; c++) {
       const struct hk_column *column = &table->columns[c];
       if (column->axis == HOOKE_AXIS_INNER) sheet->label = column;

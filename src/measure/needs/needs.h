@@ -4,6 +4,7 @@
 #define HOOKE_MEASURE_NEEDS_NEEDS_H
 
 #include "measure/measurement.h"
+#include "measure/recommend/soundness.h"
 #include "model/variant/variant.h"
 
 enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
@@ -92,11 +93,6 @@ struct hk_needs {
   double told;
 };
 
-/* ---- needs_watch.c ---- */
-
-/* Fills `watch` from the option. HOOKE_BAD_VALUE. */
-int32_t hk_needs_read_watch(struct hk_needs *needs);
-
 /* ---- needs_ingredients.c ---- */
 
 /* Adds a row for every ingredient of the system. */
@@ -125,6 +121,23 @@ struct hk_needs_trial {
   const hooke_system *system;
   const struct hk_variant_map *map;
 };
+/* Of one run. */
+struct hk_needs_recorder {
+  struct hk_needs *needs;
+  const struct hk_needs_trial *trial;
+  struct hk_needs_path *path; /* NULL: only the time is needed */
+  double last_step;
+  double share_begun, fraction; /* of the measurement: before this run, and for it */
+  int32_t displaced;            /* 1: it starts from a displaced start */
+  int32_t judges, sound; /* 1: its step and its energy are judged; they are sound (recommend/soundness.h) */
+  struct hk_soundness soundness;
+};
+
+/* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. Returns HOOKE_STOPPED
+ * and other failures. */
+int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
+                          struct hk_needs_cost *cost);
+
 /* Finds the largest step, or tolerance, whose error is at most a tenth of `want`, and the cost of that run;
  * `fine` is the path of the run with half the step, which for the full system may have an error of
  * `own_error`. If differences grow so fast that no step is small enough, step_error is that of the best; the
