@@ -109,16 +109,17 @@ def of_type(name, modules):
 def of_fortran():
     import interfaces
 
-    files = [*(ROOT / "bindings/fortran").glob("*.f90"), *(BUILD / "fortran").glob("*.f90")]
+    files = [ROOT / "bindings/fortran/base.f90", ROOT / "bindings/fortran/handles.f90", *(BUILD / "fortran").glob("*.f90")]
     parts = [re.split(r"^end module.*$", file.read_text(encoding="utf-8"), flags=re.MULTILINE) for file in files]
     modules = [Module(interfaces.statements(text)) for texts in parts for text in texts]
-    for line in interfaces.statements((ROOT / "bindings/fortran/hooke.f90").read_text(encoding="utf-8")):
-        for name, known in re.findall(r"(\w+)(?: => (\w+))?", line.partition("only:")[2]):
-            known = known or name
-            home = [module for module in modules if known in module.arguments]
-            yield name + (f"({', '.join(home[0].taken(known, 0))})" if home else "")
-            if any(known in module.types for module in modules):
-                yield from (f"{name}%{member}{words}" for member, words in sorted(of_type(known, modules).items()))
+    lines = interfaces.statements((BUILD / "fortran/hooke.f90").read_text(encoding="utf-8"))
+    inside = dict(names for line in lines if line.startswith("use ") for names in re.findall(r"(\w+) => (\w+)", line))
+    for name in (name for line in lines if line.startswith("public ::") for name in re.findall(r"\w+", line)[1:]):
+        known = inside.get(name, name)
+        home = [module for module in modules if known in module.arguments]
+        yield name + (f"({', '.join(home[0].taken(known, 0))})" if home else "")
+        if any(known in module.types for module in modules):
+            yield from (f"{name}%{member}{words}" for member, words in sorted(of_type(known, modules).items()))
 
 
 # ---- what grows ----
