@@ -28,9 +28,6 @@ struct hk_cost {
   struct hk_cost_row *row;
 };
 
-/* Lists the ingredients, and selects those without group and as many groups as the options say.
- * HOOKE_NO_MEMORY. */
-int32_t hk_cost_list_rows(struct hk_cost *cost);
 /* Name of its group, otherwise its kind. */
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
 

@@ -57,4 +57,8 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
  * follows it. */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
 
+/* A displaced start: adds to every coordinate of a free particle a normal number times `length` [m]; a rigid
+ * body goes where the three particles go that say where it is. */
+void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random);
+
 #endif
