@@ -84,7 +84,7 @@ static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {
     const struct hk_needs_row *row = &needs->row[k];
-    if (tried[k] || !row->measured || row->needed || !may_save(needs, row)) continue;
+    if (tried[k] || !row->measured || row->needed != 0.0 || !may_save(needs, row)) continue;
     if (hk_variant_covers(needs->system, &needs->lean.variant, &row->variant)) continue;
     if (found < 0 || comes_before(needs, row, &needs->row[found])) found = k;
   }
@@ -144,7 +144,7 @@ static void tidy_up(struct hk_needs *needs) {
 
 /* Reason why a row that is not needed stays in the lean system, if it has no other note. */
 static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *row) {
-  if (row->needed || row->left_out || row->note[0]) return;
+  if (row->needed != 0.0 || row->left_out || row->note[0]) return;
   if (hk_variant_covers(needs->system, &needs->lean.variant, &row->variant)) return;
   snprintf(row->note, sizeof row->note, "%s",
            !may_save(needs, row)            ? "saves nothing, so it stays"
