@@ -55,7 +55,7 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
   double *value = hk_new(extent.count, sizeof *value);
   if (value == NULL) return -1;
   for (int64_t k = 0; k < extent.count; k++)
-    value[k] = hk_table_number(table, column, m->object, k * extent.stride);
+    value[k] = hk_measured_value(m, table, column, k * extent.stride).number;
   const herr_t result =
       hk_h5_array_of(group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, extent.rank, extent.size, value);
   hk_free(value);
@@ -65,8 +65,8 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
 static int64_t longest_text(const hooke_measurement *m, const struct hk_table *table,
                             const struct hk_column *column) {
   size_t length = LEAST_LENGTH;
-  for (int64_t row = 0; row < hk_table_count(table, m->object); row++) {
-    const char *text = hk_table_text(table, column, m->object, row);
+  for (int64_t row = 0; row < hk_measured_rows(m, table); row++) {
+    const char *text = hk_measured_value(m, table, column, row).text;
     const size_t own = text ? strlen(text) + 1 : 0;
     length = own > length ? own : length;
   }
@@ -78,7 +78,7 @@ static herr_t write_texts(hid_t group, const hooke_measurement *m, const struct 
   hid_t data = hk_h5_texts(group, column->name, extent.count, longest_text(m, table, column));
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t k = 0; result >= 0 && k < extent.count; k++) {
-    const char *text = hk_table_text(table, column, m->object, k * extent.stride);
+    const char *text = hk_measured_value(m, table, column, k * extent.stride).text;
     result = hk_h5_write_text(data, k, text ? text : "");
   }
   hk_h5_drop(data);
@@ -99,16 +99,10 @@ static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *
   return result;
 }
 
-static struct hk_series series_at(const hooke_measurement *m, const struct hk_table *table,
-                                  const struct hk_column *column, int64_t row) {
-  if (row >= hk_table_count(table, m->object)) return (struct hk_series){NULL, 0};
-  return hk_table_series(table, column, m->object, row);
-}
-
 static herr_t write_series(hid_t group, const hooke_measurement *m, const struct hk_table *table,
                            const struct hk_column *column) {
-  const int64_t rows = hk_table_count(table, m->object);
-  struct hk_series series = series_at(m, table, column, 0);
+  const int64_t rows = hk_measured_rows(m, table);
+  struct hk_series series = hk_measured_value(m, table, column, 0).series;
   const hsize_t size[2] = {(hsize_t)rows, (hsize_t)series.count};
   const double none = NAN;
   char name[NAME_SIZE];
@@ -121,7 +115,7 @@ static herr_t write_series(hid_t group, const hooke_measurement *m, const struct
   hid_t data = hk_h5_array(group, name, H5T_IEEE_F64LE, 2, size, &none);
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t row = 0; result >= 0 && row < rows; row++) {
-    series = series_at(m, table, column, row);
+    series = hk_measured_value(m, table, column, row).series;
     if (series.value && series.count > 0) result = write_series_row(data, row, &series);
   }
   hk_h5_drop(data);
@@ -130,52 +124,40 @@ static herr_t write_series(hid_t group, const hooke_measurement *m, const struct
 
 /* ---- tables ---- */
 
-static herr_t write_record(hid_t group, const hooke_measurement *m, const struct hk_table *table) {
-  herr_t result = 0;
-  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
-    const struct hk_column *column = &table->columns[k];
-    const double number = hk_table_number(table, column, m->object, 0);
-    const char *text = hk_table_text(table, column, m->object, 0);
-    if (column->type == HOOKE_COLUMN_TEXT)
-      result = hk_h5_text_attribute(group, column->name, text ? text : "");
-    else if (column->type != HOOKE_COLUMN_SERIES)
-      result = hk_h5_attribute(group, column->name, H5T_NATIVE_DOUBLE, 1, &number);
-  }
-  return result;
+static herr_t write_attribute(hid_t group, const hooke_measurement *m, const struct hk_table *table,
+                              const struct hk_column *column) {
+  const struct hk_value value = hk_measured_value(m, table, column, 0);
+  return column->type == HOOKE_COLUMN_TEXT
+             ? hk_h5_text_attribute(group, column->name, value.text ? value.text : "")
+             : hk_h5_attribute(group, column->name, H5T_NATIVE_DOUBLE, 1, &value.number);
 }
 
-static herr_t write_columns(hid_t group, const hooke_measurement *m, const struct hk_table *table) {
-  herr_t result = 0;
-  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
-    const struct hk_column *column = &table->columns[k];
-    const struct extent extent = extent_of(table, column, m->object);
-    /* tables that share a group share the names of their indices */
-    if (column->type == HOOKE_COLUMN_SERIES || H5Lexists(group, column->name, H5P_DEFAULT) > 0) continue;
-    result = column->type == HOOKE_COLUMN_TEXT ? write_texts(group, m, table, column, extent)
-                                               : write_numbers(group, m, table, column, extent);
+/* Series go into a group of their own. */
+static herr_t write_column(hid_t kind, hid_t group, const hooke_measurement *m, const struct hk_table *table,
+                           const struct hk_column *column) {
+  const struct extent extent = extent_of(table, column, hk_measured(m, table));
+  if (column->type == HOOKE_COLUMN_SERIES) {
+    if (!table->record && strcmp(table->name, "rows") != 0) return 0;
+    hid_t series = hk_h5_group(kind, "series");
+    const herr_t result = series < 0 ? -1 : write_series(series, m, table, column);
+    hk_h5_drop(series);
+    return result;
   }
-  return result;
-}
-
-static herr_t write_all_series(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
-  herr_t result = 0;
-  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
-    if (table->columns[k].type != HOOKE_COLUMN_SERIES) continue;
-    hid_t group = hk_h5_group(kind, "series");
-    result = group < 0 ? -1 : write_series(group, m, table, &table->columns[k]);
-    hk_h5_drop(group);
-  }
-  return result;
+  if (table->record) return write_attribute(group, m, table, column);
+  /* tables that share a group share the names of their indices */
+  if (H5Lexists(group, column->name, H5P_DEFAULT) > 0) return 0;
+  return column->type == HOOKE_COLUMN_TEXT ? write_texts(group, m, table, column, extent)
+                                           : write_numbers(group, m, table, column, extent);
 }
 
 static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
   const char *name = table->group ? table->group : table->name;
   const int is_own = strcmp(table->name, m->kind->name) == 0, is_rows = strcmp(table->name, "rows") == 0;
-  if (hk_table_count(table, m->object) == 0 && !is_rows) return 0;
+  if (hk_measured_rows(m, table) == 0 && !is_rows) return 0;
   hid_t group = is_own || is_rows ? kind : hk_h5_group(kind, name);
   herr_t result = group < 0 ? -1 : 0;
-  if (result >= 0) result = table->record ? write_record(group, m, table) : write_columns(group, m, table);
-  if (result >= 0 && (is_rows || table->record)) result = write_all_series(kind, m, table);
+  for (int32_t k = 0; result >= 0 && k < table->column_count; k++)
+    result = write_column(kind, group, m, table, &table->columns[k]);
   if (group != kind) hk_h5_drop(group);
   return result;
 }
@@ -185,7 +167,8 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
   hid_t kind = hk_h5_group(file, m->kind->name);
   herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
-  for (const struct hk_table *table = m->kind->tables; result >= 0 && table->name; table++)
+  const struct hk_table *table;
+  for (int64_t k = 0; result >= 0 && (table = hk_measurement_table_at(m->kind, k)) != NULL; k++)
     result = write_table(kind, m, table);
   hk_h5_drop(kind);
   return result;

@@ -46,7 +46,7 @@ static void add(struct hk_text *text, const char *format, ...) {
 static void add_array(struct companion *c, const char *type, int bytes, const char *size, const char *path) {
   add(&c->text, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%s\">", type, bytes,
       size);
-  hk_text_add(&c->text, c->file, (int64_t)strlen(c->file));
+  hk_text_say(&c->text, c->file);
   add(&c->text, ":%s</DataItem>", path);
 }
 
