@@ -188,7 +188,7 @@ def test_words_of_an_adaptive_method_count_the_solver(hooke, write):
         ({}, ["--every", "0.0333", "--strict"], 3, "multiple"),
         ({"method": "magic"}, [], 3, "magic"),
         ({"step": -1}, [], 3, "run.step"),
-        ({}, ["-o", "scene.json"], 2, "the scene itself"),
+        ({}, ["-o", "scene.json"], 2, "its name has to end in .h5; 'hooke make -o' writes a scene"),
         ({}, ["-o", "no/such/folder/out.h5"], 5, "no/such/folder/out.h5"),
         ({}, ["-o", "."], 5, "."),
     ],

@@ -111,7 +111,7 @@ def test_numbers_are_true(tmp_path, method):
     page, value = make(tmp_path, "--step", "2.5e-3", "--method", method)
     data = data_of(page)
     value["scene"] = data["scene"]  # a title there, the file here
-    assert check_same(data, value) == ABOUT - {"scene"} | {"rows", "energy", "stride", "last", "picture", "frames", "advised",
+    assert check_same(data, value) == ABOUT - {"scene"} | {"command", "rows", "energy", "stride", "last", "picture", "frames", "advised",
                                                            "limits", "mode"}
     for look in filter(lambda look: look["limit"], data["limits"]):
         mode = look["frequency"], look["decay"]

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import pickle
 import subprocess
 
 import h5py
@@ -63,7 +64,7 @@ def test_columns(study):
     done = study.status == "finished"
     assert done.sum() >= 18 and (study.wall_seconds[done] > 0).all()
     assert (study.wall_median >= study.wall_seconds)[done].all() and (study.repeats[done] >= 1).all()
-    assert all(name in str(study) for name in METHODS) and "rows" in repr(study) and "nan" not in str(study)
+    assert str(study).splitlines() == [claim.text for claim in study.claims] and "rows" in repr(study) and "nan" not in str(study)
 
 
 def test_errors_are_true(study):
@@ -358,3 +359,13 @@ def test_watched_quantities_and_statistics():
         assert np.isclose(found["rk4"].bias, difference / np.hypot(*errors), rtol=1e-12)
     with pytest.raises(hooke.BadValue, match="particles 0 to 2"):
         hooke.study(system, ["rk4"], watch="3.y", duration=1.0)
+
+
+def test_records_are_tuples_of_their_tables(study):
+    assert "- `agreement`: twice the largest distance" in type(study.reference).__doc__ and "[m]" in hooke.RunError.__doc__
+    assert "`error_max`: largest distance of any free particle" in " ".join(hooke.Study.__doc__.split())
+    order = study.orders["rk4"]
+    again = pickle.loads(pickle.dumps(order))
+    assert type(again) is type(order) and again == order != order._replace(low=0.0) and again.order == order[order._fields.index("order")]
+    assert repr(order).startswith("Order(method='rk4', order=") and order._asdict()["theory"] == 4
+    assert isinstance(study.reference.displacements, int) and study["rk4"]["method"] == "rk4"

@@ -1,10 +1,7 @@
 "use strict";
 /* The diagrams of a limit. */
 
-data.rows.forEach((row, k) => {
-  Object.assign(row, data.curves[k]);
-  for (const name of row.unlimited) row[name] = "none";
-});
+for (const row of data.rows) row.unlimited.forEach((name) => { row[name] = "none"; });
 const modes = Object.fromEntries(["real", "imaginary", "frequency", "decay"]
   .map((name) => [name, data.modes.map((mode) => mode[name])]));
 const modeCount = data.modes.length;

@@ -25,15 +25,13 @@ const STEPS = new Set(["bound", "predicted", "measured", "smallest"]);
 
 function stepCell(row, what) {
   const value = row[what], isStep = STEPS.has(what);
-  const text = value === "none" ? "none" : isStep && value === 0 ? "no step"
-    : what === "steps_run" ? whole(value) : words(value, 6);
-  return element("td", text, { title: typeof value === "number" ? String(value) : "" });
+  return exact(value, value === "none" ? "none" : isStep && value === 0 ? "no step"
+    : what === "steps_run" ? whole(value) : words(value, 6));
 }
 
 function writeRows() {
   const columns = COLUMNS.filter(([what]) => data.rows.some((row) => row[what] !== null));
-  writeTable("rows", [["", "method", "", "word"], ...columns], data.rows,
-    (row) => [methodCell(row.method), ...columns.map(([what]) => stepCell(row, what))]);
+  writeTable("rows", data.rows, [METHOD, ...columns.map(([what, name, unit]) => [name, unit, (row) => stepCell(row, what)])]);
 }
 
 function writeAbout() {

@@ -157,13 +157,14 @@ const describeBlame = (one) =>
   [`spring ${one.number}, between particles ${one.first} and ${one.second}`, `${groupOf(one)}, ${percent(one.share)}`];
 
 function writeBlame() {
-  const most = blames.slice(0, MOST_BLAMED);
-  if (most.length === 0) return;
-  writeTable("blame", [["", "to blame", "", "word"], ["", "between particles"], ["", "group", "", "word"],
-    ["", "share of the mode"]], blames.length > most.length ? [...most, null] : most, (one) => (one === null
-    ? [element("td", "and others with less", { className: "word note", colSpan: 4 })]
-    : [swatchCell(shareColour(one.share), `spring ${one.number}`), element("td", `${one.first} and ${one.second}`),
-      wordCell(one.group), element("td", percent(one.share), { title: String(one.share) })]));
+  writeTable("blame", blames.slice(0, MOST_BLAMED), [
+    ["to blame", "", (one) => swatched(`spring ${one.number}`, shareColour(one.share)), "word"],
+    ["between particles", "", (one) => `${one.first} and ${one.second}`], ["group", "", (one) => one.group, "word"],
+    ["share of the mode", "", (one) => exact(one.share, percent(one.share))]]);
+  if (blames.length <= MOST_BLAMED) return;
+  const line = element("tr");
+  line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
+  document.querySelector("#blame tbody").append(line);
 }
 
 /* What of the scene is drawn, as facts. */
