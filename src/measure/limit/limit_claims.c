@@ -1,6 +1,5 @@
 /* What a limit says of its results: of the state that it was taken at, and with "along" of a run's frames. */
 #include "core/print.h"
-#include "core/utf8.h"
 #include "measure/limit/limit.h"
 
 #include <math.h>
@@ -12,19 +11,9 @@ struct teller {
   const char *by;
 };
 
-static void say(const struct teller *t, const char *key, enum hk_claim_of of, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
 /* A claim about that state. */
-static void say(const struct teller *t, const char *key, enum hk_claim_of of, const char *format, ...) {
-  char text[1024];
-  va_list args;
-  va_start(args, format);
-  hk_print_list(text, sizeof text, format, args);
-  va_end(args);
-  hk_utf8_make_plain(text);
-  hk_claim(t->claims, key, of, t->by, "at t = %.6g s, %s", t->limit->time, text);
-}
+#define say(t, key, of, format, ...)                                                                         \
+  hk_claim((t)->claims, key, of, (t)->by, "at t = %.6g s, " format, (t)->limit->time, __VA_ARGS__)
 
 /* Of the method that the limiting springs are of. */
 static void tell_limit(const struct teller *t, const struct hk_limit_row *row) {
@@ -49,7 +38,7 @@ static void tell_none(const struct teller *t) {
   int32_t known = 1;
   for (int32_t k = 0; k < t->limit->row_count; k++)
     known &= !isnan(t->limit->row[k].predicted);
-  say(t, "limit", known ? HOOKE_OF_PART : HOOKE_OF_UNKNOWN,
+  say(t, "limit", known ? HOOKE_OF_PART : HOOKE_OF_UNKNOWN, "%s",
       known ? "nothing limits the step of any of these methods"
             : "no limit of the step of these methods is known");
 }

@@ -1,13 +1,6 @@
 "use strict";
 /* The words and tables of a limit, and the start of everything. */
 
-/* ---- the head ---- */
-
-function writeHead() {
-  writeLead("limit", "How large a step each method can take before it blows up, for the scene frozen as it is at one time. " +
-    `${data.date}.`);
-}
-
 /* ---- the words of the diagrams ---- */
 
 function writeUnbounded() {
@@ -49,7 +42,7 @@ function writeAbout() {
 
 /* ---- whole ---- */
 
-writeHead();
+writeLead("limit", `How large a step each method can take before it blows up, for the scene frozen at one time. ${data.date}.`);
 writeUnbounded();
 writeBlame();
 writeRows();
