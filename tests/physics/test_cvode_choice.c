@@ -166,3 +166,41 @@ TEST(test_soft) {
   needs_cvode();
   check_left_alone(20.0, 0.0, (struct ask){"cvode-bdf", 1e-5, 1e-8, 0.3, 0});
 }
+
+/* ---- callbacks ---- */
+
+/* Calls of the product, of which the one numbered `stop` stops. */
+struct stopper {
+  int64_t calls, stop;
+};
+
+static int32_t push_nothing(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
+  return 0;
+}
+
+static int32_t product_of_nothing(int64_t n, double t, const double *q, const double *v, const double *dq,
+                                  const double *dv, double *out, void *ctx) {
+  struct stopper *stopper = ctx;
+  (void)n, (void)t, (void)q, (void)v, (void)dq, (void)dv, (void)out;
+  return ++stopper->calls == stopper->stop ? 77 : 0;
+}
+
+/* The derivative is asked for by linear equations and by the choice of the order: each may be stopped. */
+TEST(test_each_product_may_stop) {
+  needs_cvode();
+  owned_system *system = rope(STIFF, WEAK), *with = NULL;
+  struct stopper stopper = {0, 0};
+  check_ok(hooke_system_with_force(system, push_nothing, product_of_nothing, &stopper, &with));
+  owned_integrator *integrator = start(with, LOOSE);
+  const struct outcome whole = run_on(integrator, with), plain = run_with(system, LOOSE, 0);
+  check_same(&whole, &plain);
+  const int64_t calls = stopper.calls, last = calls < 600 ? calls : 600;
+  for (stopper.stop = 1; stopper.stop <= last; stopper.stop++) {
+    owned_state *state = start_state(with);
+    stopper.calls = 0;
+    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
+    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 77);
+    assert_int_equal(stopper.calls, stopper.stop);
+  }
+}

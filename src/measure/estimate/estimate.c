@@ -195,23 +195,37 @@ static int is_out_of_reach(const struct hk_estimate *e) {
   return is_whole_reference(e) && !(e->pick.reference.agreement < e->want);
 }
 
-/* The picked run was compared with the reference at its frames; its end is measured on its own. */
-static void measure_by_reference(struct hk_estimate *e, const hooke_state *state) {
+/* The largest distance of the kept frames from the trusted frames of the reference, which has each of them.
+ */
+static double find_distance(const struct hk_estimate *e, double *most) {
   const struct hk_reference *r = &e->pick.reference;
-  const int to_end = r->trusted == r->frames.count;
-  double end = 0.0, end_rms = 0.0;
-  if (to_end)
-    end_rms = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), &end);
-  if ((e->picked && r->trusted > 1) || to_end) {
-    if (e->picked) end = fmax(end, e->pick.best.error), end_rms = fmax(end_rms, e->pick.best.rms);
-    e->error = end + r->agreement;
-    e->rms = fmin(e->error, end_rms + r->agreement);
+  const double *time = r->frames.time, *kept = e->kept.time, near = 1e-9 * e->duration;
+  double rms = *most = 0.0;
+  for (int64_t f = 0, k = 0; f < e->kept.recorded; f++) {
+    double far;
+    while (k < r->trusted && time[k] - time[0] < kept[f] - kept[0] - near)
+      k++;
+    if (k == r->trusted) break;
+    rms = fmax(rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
+    *most = fmax(*most, far);
+  }
+  return rms;
+}
+
+/* The picked run was compared with the reference at all of its frames, others are at those that were kept. */
+static void measure_by_reference(struct hk_estimate *e) {
+  const struct hk_reference *r = &e->pick.reference;
+  if (r->trusted > 1) {
+    double most, rms = find_distance(e, &most);
+    if (e->picked) most = fmax(most, e->pick.best.error), rms = fmax(rms, e->pick.best.rms);
+    e->error = most + r->agreement;
+    e->rms = fmin(e->error, rms + r->agreement);
     e->known_until = e->begin + hk_pick_trusted(&e->pick);
     e->by = "reference";
   }
   if (is_out_of_reach(e))
     hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
-  if (to_end) return;
+  if (r->trusted == r->frames.count) return;
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
@@ -228,9 +242,9 @@ static const char *find_obstacle(const struct hk_estimate *e, const hooke_state 
   return hk_system_calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;
 }
 
-static int32_t measure_again(struct hk_estimate *e, const hooke_state *state) {
+static int32_t measure_again(struct hk_estimate *e) {
   if (is_whole_reference(e)) {
-    measure_by_reference(e, state);
+    measure_by_reference(e);
     return HOOKE_OK;
   }
   int32_t status = hk_estimate_by_runs(e);
@@ -275,7 +289,7 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
     return HOOKE_OK;
   }
   const double begun = hk_clock_seconds();
-  status = measure_again(e, state);
+  status = measure_again(e);
   forget_overflow(e);
   if (status == HOOKE_OK)
     status = hk_estimate_heat(e);
