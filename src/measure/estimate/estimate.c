@@ -15,7 +15,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { KEPT = 100, MOST_KEPT = 1000, STEPS_APART = 4, MOST_SEEN = 128, MOST_REFINED = 4 };
+enum {
+  KEPT = 100,
+  MOST_KEPT = 1000,
+  STEPS_APART = 4,
+  MOST_SEEN = 128,
+  MOST_REFINED = 4,
+  LEAST_COMPARED = 25
+};
 static const double KEPT_BYTES = 1 << 26, FEW_BYTES = 1 << 22;
 static const double BUDGET = 2.0;                        /* counted work for limits [s] */
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
@@ -195,28 +202,34 @@ static int is_out_of_reach(const struct hk_estimate *e) {
   return is_whole_reference(e) && !(e->pick.reference.agreement < e->want);
 }
 
-/* The largest distance of the kept frames from the trusted frames of the reference, which has each of them.
- */
-static double find_distance(const struct hk_estimate *e, double *most) {
+/* Distances of the kept frames from trusted ones of the reference at the same times; returns how many there
+ * are. */
+static int64_t compare(const struct hk_estimate *e, double *most, double *rms) {
   const struct hk_reference *r = &e->pick.reference;
   const double *time = r->frames.time, *kept = e->kept.time, near = 1e-9 * e->duration;
-  double rms = *most = 0.0;
+  int64_t count = 0;
+  *most = *rms = 0.0;
   for (int64_t f = 0, k = 0; f < e->kept.recorded; f++) {
     double far;
     while (k < r->trusted && time[k] - time[0] < kept[f] - kept[0] - near)
       k++;
     if (k == r->trusted) break;
-    rms = fmax(rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
+    if (time[k] - time[0] > kept[f] - kept[0] + near) continue;
+    *rms = fmax(*rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
     *most = fmax(*most, far);
+    count++;
   }
-  return rms;
+  return count;
 }
 
-/* The picked run was compared with the reference at all of its frames, others are at those that were kept. */
-static void measure_by_reference(struct hk_estimate *e) {
+/* The picked run was compared with the reference at frames of the pick; 0 of another one that has few of
+ * them. */
+static int measure_by_reference(struct hk_estimate *e) {
   const struct hk_reference *r = &e->pick.reference;
+  double most, rms;
+  const int64_t count = compare(e, &most, &rms);
+  if (!e->picked && count < LEAST_COMPARED && count < e->kept.recorded) return 0;
   if (r->trusted > 1) {
-    double most, rms = find_distance(e, &most);
     if (e->picked) most = fmax(most, e->pick.best.error), rms = fmax(rms, e->pick.best.rms);
     e->error = most + r->agreement;
     e->rms = fmin(e->error, rms + r->agreement);
@@ -225,12 +238,13 @@ static void measure_by_reference(struct hk_estimate *e) {
   }
   if (is_out_of_reach(e))
     hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
-  if (r->trusted == r->frames.count) return;
+  if (r->trusted == r->frames.count) return 1;
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
            r->hurried ? ", for want of time"
                       : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
+  return 1;
 }
 
 /* Why nothing is run again; NULL: it is. */
@@ -243,10 +257,7 @@ static const char *find_obstacle(const struct hk_estimate *e, const hooke_state 
 }
 
 static int32_t measure_again(struct hk_estimate *e) {
-  if (is_whole_reference(e)) {
-    measure_by_reference(e);
-    return HOOKE_OK;
-  }
+  if (is_whole_reference(e) && measure_by_reference(e)) return HOOKE_OK;
   int32_t status = hk_estimate_by_runs(e);
   if (status == HOOKE_OK && !isnan(e->error)) status = hk_estimate_by_other_method(e);
   /* a pick from the beginning alone: its error is over more frames */
