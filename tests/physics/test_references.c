@@ -65,7 +65,7 @@ TEST(test_no_start_without_a_force) {
     owned_integrator *integrator = start_run(system, (struct run){.method = c->method, .duration = 1.0});
     owned_state *state = start_state(system);
     check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
-    check_message("at t = 0 s");
+    check_message(c == checkers ? "cannot start at t = 0 s: a force is not finite" : "gave up at t = 0 s");
     check_same_bits(3, hooke_state_position(state), q);
   }
 }
