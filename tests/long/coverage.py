@@ -23,9 +23,9 @@ FAILURE = re.compile(r"\bstatus\b|\bresult\b|\berror\b|\berrno\b|== NULL|!= NULL
 # docs/notes/reliability.md.
 CORE = ("src/kernel", "src/integrate", "src/measure/estimate")
 KINDS = {
+    "failures": FAILURE,
     "refusals by libraries": re.compile(r"ARK_|CV_|CVode|ARKode|ARKStep|stepper|created\b|where\(|x->factor\)"),
     "other builds and processors": re.compile(r"is_built|->steps\b|__get_cpuid|KEEPS_AVX"),
-    "failures": FAILURE,
     "parts of what failed": re.compile(r"\bfine\b|\bspare\b|no_space|no_memory|\bcontent\b|own->(y|linear|nonlinear)\b|renew\(|inverse_mass;"),
     "numbers that fail": re.compile(r"INFINITY|isfinite|isnan|isinf|NAN\b|broken|curvature|least \?|converged|residual|_FINE|NOT_FINITE"),
 }
@@ -94,15 +94,6 @@ def kind_of(line: str) -> str:
     return next((kind for kind, words in KINDS.items() if words.search(line)), "others")
 
 
-def left_after_failures(sources: dict[str, Source]) -> int:
-    """Missed branches on lines that check for a failure."""
-    count = 0
-    for path, source in sources.items():
-        text = (ROOT / path).read_text().splitlines()
-        count += sum(1 for (line, _), taken in source.branches.items() if not taken and FAILURE.search(text[line - 1]))
-    return count
-
-
 def table(sources: dict[str, Source]) -> str:
     rows = []
     for path, source in sources.items():
@@ -144,8 +135,8 @@ def main(build: str, *paths: str) -> None:
         _, _, taken, of_taken = totals(below(sources, room))
         kinds = sorted(left_by_kind(below(sources, room)).items(), key=lambda pair: -pair[1])
         print(f"branches of {room}: {taken} of {of_taken}; left: {', '.join(f'{count} {kind}' for kind, count in kinds) or 'none'}")
-    print(f"branches left where failures are looked for: {left_after_failures(sources)}; elsewhere: "
-          f"{of_branches - branches - left_after_failures(sources)}")
+    failures = left_by_kind(sources)["failures"]
+    print(f"branches left where failures are looked for: {failures}; elsewhere: {of_branches - branches - failures}")
     print(table(sources))
 
 

@@ -208,17 +208,3 @@ TEST(limits_and_stops) {
     assert_false(solution.converged);
   }
 }
-
-/* Squares that overflow end the smallest residual where it is. */
-TEST(squares_that_overflow) {
-  struct dense dense;
-  double b[SIZE], x[SIZE];
-  struct hk_solution solution;
-  memset(&dense, 0, sizeof dense);
-  for (int i = 0; i < SIZE; i++)
-    dense.a[i][i] = 1e200;
-  random_side(6, b);
-  check_ok(run_solver(hk_solve_minimal, &dense, b, 100, x, &solution));
-  assert_false(solution.converged);
-  check_close(largest(SIZE, x), 0.0, 0.0);
-}
