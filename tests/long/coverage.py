@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # Where the compiler sees no other path: unreachable while the program is correct.
 NEVER = re.compile(r"\bassert\(|__builtin_unreachable")
 # Checks for a failure of an earlier call: of memory, of a file, of a library.
-FAILURE = re.compile(r"\bstatus\b|\bresult\b|\berror\b|\berrno\b|== NULL|!= NULL|< 0\b|NO_MEMORY|_new\(|\? HOOKE_OK")
+FAILURE = re.compile(r"\bstatus\b|\bresult\b|(?<!->)\berror\b|\berrno\b|== NULL|!= NULL|< 0\b|NO_MEMORY|_new\(|\? HOOKE_OK")
 # What everything rests on: what is left there is of a kind, the first that fits its line, whose reason is in
 # docs/notes/reliability.md.
 CORE = ("src/kernel", "src/integrate", "src/measure/estimate")

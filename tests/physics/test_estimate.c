@@ -339,6 +339,31 @@ TEST(test_what_is_picked_keeps_to_the_wanted_error) {
   check_want(system, "cvode-adams", 1e-4);
 }
 
+/* However large the error that is wanted, a run that is not sound does not meet it; tolerances are sound. */
+TEST(test_runs_that_are_not_sound_meet_no_want) {
+  static const struct {
+    const char *method, *reason;
+    double step;
+  } cases[] = {{"forward-euler", "its step is above 0.9 of the stable one", 2.5e-3},
+               {"verlet", "its step is above 0.9 of the stable one", 0.96 * 2.0 / OMEGA},
+               {"cvode-adams", "", 0.0}};
+  owned_system *system = small_oscillator(OMEGA);
+  for (int k = 0; k < 3; k++) {
+    if (!hooke_method_is_built(cases[k].method)) continue;
+    owned_measurement *estimate;
+    owned_options *options = run_options((struct run){.method = cases[k].method,
+                                                      .step = cases[k].step,
+                                                      .rtol = 0.05,
+                                                      .duration = k < 2 ? 40 * cases[k].step : DURATION,
+                                                      .every = k < 2 ? cases[k].step : EVERY});
+    check_ok(estimate_of(system, 1e6, &estimate));
+    const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
+    assert_true(found >= truly);
+    check_close(number_of(estimate, "met"), k == 2, 0.0);
+    assert_string_equal(text_of(estimate, "reason"), cases[k].reason);
+  }
+}
+
 /* A run coarser than the picked one misses what is wanted, and finer ones come to it: each is as far off at
  * some frame as is said, but for what the reference is not known to. */
 static void check_refinement(const char *method, const char *number, double coarser, double want) {
