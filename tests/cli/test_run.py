@@ -443,7 +443,7 @@ def test_a_signal_that_was_ignored_stays_ignored(start, write):
     process = start("run", write(ENDLESS), preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    time.sleep(0.5)
+    time.sleep(0.2)
     assert process.poll() is None
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=60)

@@ -34,7 +34,7 @@ BLOW_UP = {
     "run": {"method": "symplectic-euler", "step": 0.1, "duration": 100, "every": 1},
 }
 CASES = {
-    "study-calm": (CALM, "study", {"methods": "verlet,rk4", "points": 3, "want": 1e-3}),
+    "study-calm": (CALM, "study", {"methods": "verlet,rk4", "want": 1e-3}),
     "compare-chaos": (CHAOS, "compare", {"methods": "rk4"}),
     "limit-calm": (CALM, "limit", {}),
     "needs-calm": (CALM, "needs", {"want": 1e-2}),

@@ -345,7 +345,7 @@ def test_watched_quantities_and_statistics():
     system.set_gravity([0, -9.81, 0])
     system.add_springs("rods", [[0, 1], [1, 2]], stiffness=200.0)
     made = hooke.study(
-        system, ["rk4"], steps=[2e-3], watch=["2.y", "rods:1.tension"], ensemble=3, seed=7, duration=40.0, every=0.1
+        system, ["rk4"], steps=[2e-3], watch=["2.y", "rods:1.tension"], ensemble=2, seed=7, duration=30.0, every=0.1
     )
     assert list(made.watched) == list(made.agreement) == ["2.y", "rods:1.tension"]
     assert made.watched["2.y"].shape == (1,) and made.watched["2.y"][0] > 0
@@ -353,7 +353,7 @@ def test_watched_quantities_and_statistics():
     assert list(made.statistics) == ["kinetic", "potential", "energy", "2.y", "rods:1.tension"]
     for found in made.statistics.values():
         assert list(found) == ["reference", "rk4"]
-        assert found["rk4"].members == 3 and found["rk4"].step == 2e-3 and np.isnan(found["reference"].bias)
+        assert found["rk4"].members == 2 and found["rk4"].step == 2e-3 and np.isnan(found["reference"].bias)
         errors = [one.spread / np.sqrt(one.members) for one in found.values()]
         difference = found["rk4"].mean - found["reference"].mean
         assert np.isclose(found["rk4"].bias, difference / np.hypot(*errors), rtol=1e-12)
