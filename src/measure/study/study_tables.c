@@ -25,7 +25,8 @@ static const struct hk_column study_columns[] = {
 static const char *how_it_ended(const struct hk_study *study) {
   const struct hk_reference *r = &study->reference;
   if (r->trusted == r->frames.count && !r->coarse) return "agreed";
-  return r->hurried ? "time" : study->once ? "parted" : "rounding";
+  if (r->hurried || study->once) return r->hurried ? "time" : "parted";
+  return hk_reference_is_halved(r) ? "finest" : "rounding";
 }
 
 HOOKE_READER(const void *, find_reference, struct hk_study, is_made(it) ? &it->reference : NULL)
@@ -55,10 +56,12 @@ static const struct hk_column reference_columns[] = {
     HOOKE_COLUMN_BY(
         ended, ended, TEXT, "",
         "why they were tightened no further: agreed, time (the budget was short), rounding (it keeps "
-        "them apart at the tightest tolerances), or parted (which ends a first look)"),
+        "them apart at the tightest tolerances), finest (of rk4, whose steps are halved no further), or parted "
+        "(which ends a first look)"),
     HOOKE_COLUMN(struct hk_reference, method, TEXT, "", "integrator that made the reference"),
     HOOKE_COLUMN(struct hk_reference, check, TEXT, "",
-                 "integrator that checked it; they share only the forces"),
+                 "integrator that checked it; they share only the forces, or both are rk4, in whole and half "
+                 "steps, where the build has no other"),
     HOOKE_COLUMN_BY(checked_until, checked_until, NUMBER, "s",
                     "time up to which the two were compared; before the end where the budget was spent"),
     HOOKE_COLUMN_AS(struct hk_reference, frames.zero_passages, zero_passages, TEXT, "",
@@ -131,7 +134,8 @@ static const struct hk_column order_columns[] = {
 /* ---- the recommendation ---- */
 
 double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive) {
-  return adaptive == (method < 0 || hk_study_is_adaptive(study, method)) ? value : NAN;
+  const char *name = method < 0 ? study->reference.method : study->method[method];
+  return adaptive == hooke_method_is_adaptive(name) ? value : NAN;
 }
 
 HOOKE_READER(const char *, recommended_method, struct hk_study,
@@ -231,7 +235,7 @@ static const struct hk_column watched_columns[] = {
     HOOKE_COLUMN_BY(watched_unit, unit, TEXT, "", "its unit"),
     HOOKE_COLUMN_BY(agreement, agreement, NUMBER, "of the quantity",
                     "twice the largest difference in it between the two "
-                    "integrators of the reference, the floor of its errors"),
+                    "runs of the reference, the floor of its errors"),
     HOOKE_COLUMN_BY(watched_value, value, SERIES, "of the quantity",
                     "the reference's values at every frame; of a period those of the quantity that it is of"),
 };
@@ -369,7 +373,7 @@ static const struct hk_column statistic_columns[] = {
 const struct hk_table hk_study_tables[] = {
     {.name = "study", .doc = "the study itself", .record = 1, HOOKE_TABLE_COLUMNS(study_columns)},
     {.name = "reference",
-     .doc = "the solution that errors are measured against, made by two integrators that check each other",
+     .doc = "the solution that errors are measured against, made by two runs that check each other",
      .record = 1,
      HOOKE_TABLE_COLUMNS(reference_columns),
      .lists = {{"methods", "method", "check"}},

@@ -20,12 +20,12 @@ from .system import Force, System
 
 
 class Reference(NamedTuple):
-    """The reference of the errors: the two integrators that made it, which share only the force; their largest
+    """The reference of the errors: the methods of its two runs, which share only the force, or both are rk4; their largest
     distance [m], the floor of all errors; the time until which they agree [s], up to which errors are judged; and a
     bound on the growth of a small displacement of the start, true with `growth_probability`, both NaN if unknown.
     `growth_seen` is the largest growth of `displacements` displacements. `energy_agreement` [J] is the floor of
-    energy drift. `ended` says why it was not refined further: "agreed", "time" (the budget), "rounding", or "parted"
-    (which ends a first look)."""
+    energy drift. `ended` says why it was not refined further: "agreed", "time" (the budget), "rounding", "finest"
+    (steps of rk4), or "parted" (which ends a first look)."""
 
     methods: tuple[str, str]
     agreement: float
@@ -279,6 +279,6 @@ def study(
 
 def compare(problem: Runnable, methods: str | Iterable[str] | None = None, **options: Any) -> Study:
     """A first look: a `study` with one row a method, run once with the step [s] or the tolerances of the run, against a
-    reference that ends where its two integrators part. The keywords are those of `study`; an HDF5 file as `output` has
+    reference that ends where its two runs part. The keywords are those of `study`; an HDF5 file as `output` has
     every motion, too, for which the runs are made again (`hooke.plot.cloth` and `hooke.plot.error` draw it)."""
     return study(problem, methods, once=True, **options)
