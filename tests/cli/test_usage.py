@@ -169,7 +169,8 @@ def test_what_is_not_in_a_minimal_build_is_6(hooke, write, tmp_path, words, want
 
 @pytest.mark.skipif(not MINIMAL, reason="this build has the libraries")
 def test_without_sundials_a_study_says_that_rk4_checks_itself(hooke, write):
-    study = hooke("study", write(SIX_PARTICLES), "--methods", "verlet", "--duration", 1, "--every", 0.1, "--want", 1e-3, "--json").json
+    words = ["--methods", "verlet", "--duration", 1, "--every", 0.1, "--want", 1e-3, "--json"]
+    study = hooke("study", write(SIX_PARTICLES), *words).json
     [floor] = [claim["text"] for claim in study["claims"] if claim["key"] == "floor"]
     assert "by rk4, agrees with itself in steps of" in floor and "an error that both make alike is not seen" in floor
     assert study["reference"]["methods"] == ["rk4", "rk4"] and study["recommendation"]["met"] is True
