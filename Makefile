@@ -17,6 +17,7 @@
 #   make wheel-windows  makes the wheel for Windows
 #   make wheel-test  installs that wheel into an empty environment and uses it
 #   make dist   makes the sources of a release, their checksums and a bill of materials, in build/dist
+#   make release  makes all files of a release of the commit, with wheels, Debian packages and recipes, in build/dist
 
 PACKAGES = build/packages$(if $(SMALL),.small)
 PYTHON ?= python3
@@ -134,7 +135,16 @@ wheel-windows: build/wheel/tools/done windows
 	ls -l build/wheel/*win_amd64.whl
 
 dist: all build/dist/tools/done
-	PYTHONPATH=build/release/python build/dist/tools/bin/python packaging/dist.py
+	PYTHONPATH=build/release/python build/dist/tools/bin/python packaging/dist.py $(WHOLE)
+
+# Of what is committed and of nothing else. WHEELS are those that are made here; the workflow `wheels` makes the others.
+WHEELS = $(WHEEL)
+release: export SOURCE_DATE_EPOCH = $(shell git log -1 --format=%ct)
+release: build/dist/packages
+	@test -z "$$(git status --porcelain)" || { echo "These files are not in the commit:"; git status --short; exit 1; }
+	rm -f build/wheel/libhooke-*
+	for wheel in $(WHEELS); do $(MAKE) wheel WHEEL=$$wheel || exit 1; done
+	$(MAKE) dist WHOLE=--whole
 
 build/dist/tools/done: | $(PACKAGES)
 	$(PYTHON) -m venv build/dist/tools
@@ -187,6 +197,7 @@ build/test/packages: cmake/packages.py cmake/packages.txt | $(PACKAGES)
 	@touch $@
 
 build/tidy/packages: private NAMES = clang-tidy-14
+build/dist/packages: private NAMES = debhelper dpkg-dev
 build/fuzz/packages: private NAMES = clang libclang-rt-dev
 build/playground/packages: private NAMES = emscripten f2c
 build/wheel/packages: private NAMES = f2c libjs-chart.js libjs-three
@@ -194,11 +205,11 @@ build/windows/packages: private NAMES = gcc-mingw-w64-x86-64-posix libz-mingw-w6
 build/long/%.packages: private NAMES = $(shell $(PYTHON) tests/long/run.py --packages $*)
 build/long/arm64.packages: private FOREIGN = --foreign arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
-OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy fuzz playground wheel windows) $(LONG_PARTS:%=build/long/%.packages)
+OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy dist fuzz playground wheel windows) $(LONG_PARTS:%=build/long/%.packages)
 $(OTHER_PACKAGES): Makefile | $(PACKAGES)
 	@mkdir -p $(@D)
 	@[ -z "$(NAMES)" ] || $(PYTHON) cmake/packages.py --names $(FOREIGN) $(NAMES)
 	@touch $@
 
-.PHONY: all venv demo playground windows test check test-long calibration mutants tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground windows test check test-long calibration mutants tidy wheel wheel-test wheel-windows dist release $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:

@@ -1,11 +1,16 @@
-"""`make dist`: what a release hands on, in build/dist: the sources of HEAD, made twice with equal bits; a bill of materials
-(CycloneDX) of the libraries that this build links; and the checksums of both."""
+"""`make dist`: the sources of HEAD, made twice with equal bits; a bill of materials (CycloneDX) of the libraries that this
+build links; and the digests of both, in build/dist. `make release`, with --whole: besides, the wheels of build/wheel, the
+Debian packages, built from those sources, and the recipes with the digest of the sources in them."""
 
 from __future__ import annotations
 
 import gzip
 import hashlib
+import os
+import re
+import shutil
 import subprocess
+import sys
 import uuid
 from datetime import datetime, timezone
 from pathlib import Path
@@ -18,6 +23,8 @@ from cyclonedx.output.json import JsonV1Dot5
 import hooke
 
 ROOT = Path(__file__).resolve().parent.parent
+DIST = ROOT / "build/dist"
+RECIPES = ("conda-forge/recipe.yaml", "homebrew/hooke.rb", "spack/package.py")
 LICENCES = {
     "sundials": "BSD-3-Clause",
     "cholmod": "LGPL-2.1-or-later AND GPL-2.0-or-later",
@@ -54,21 +61,55 @@ def bill(facts: dict[str, str]) -> bytes:
     return (JsonV1Dot5(bom).output_as_string(indent=2) + "\n").encode()
 
 
-def main() -> None:
+def twice(name: str) -> None:
+    """Writes a file that comes out with equal bits when it is made again."""
     facts = hooke.build_facts()
-    name = f"hooke-{facts['version']}"
-    files = {f"{name}.tar.gz": lambda: archive(name), f"{name}.cdx.json": lambda: bill(facts)}
-    folder = ROOT / "build/dist"
-    folder.mkdir(parents=True, exist_ok=True)
-    sums = ""
-    for file, make in files.items():
-        data = make()
-        if make() != data:
-            raise SystemExit(f"{file} has other bits when it is made again")
-        (folder / file).write_bytes(data)
-        sums += f"{hashlib.sha256(data).hexdigest()}  {file}\n"
-    (folder / "SHA256SUMS").write_text(sums)
+    data, again = (archive(f"hooke-{facts['version']}") if name.endswith(".tar.gz") else bill(facts) for _ in range(2))
+    if data != again:
+        raise SystemExit(f"{name} has other bits when it is made again")
+    (DIST / name).write_bytes(data)
+
+
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def debian(sources: Path) -> list[Path]:
+    """The packages, from the sources with the folder `debian` that they bring along."""
+    work = DIST / "debian"
+    shutil.rmtree(work, ignore_errors=True)
+    shutil.unpack_archive(sources, work)
+    tree = next(work.iterdir())
+    shutil.copytree(tree / "packaging/debian", tree / "debian")
+    options = {"DEB_BUILD_OPTIONS": f"noautodbgsym parallel={os.cpu_count()}"}
+    subprocess.run(["dpkg-buildpackage", "--build=binary", "--no-sign"], cwd=tree, env=os.environ | options, check=True)
+    return sorted(work.glob("*.deb"))
+
+
+def recipe(name: str, sources: Path) -> None:
+    text, places = re.subn(r"\b0{64}\b", digest(sources), (ROOT / "packaging" / name).read_text())
+    if places != 1:
+        raise SystemExit(f"packaging/{name} has {places} places for the digest of the sources")
+    (DIST / name).parent.mkdir(exist_ok=True)
+    (DIST / name).write_text(text)
+
+
+def main(whole: bool) -> None:
+    name = f"hooke-{hooke.build_facts()['version']}"
+    files = [f"{name}.tar.gz", f"{name}.cdx.json"]
+    DIST.mkdir(parents=True, exist_ok=True)
+    for file in files:
+        twice(file)
+    if whole:
+        sources = DIST / files[0]
+        for made in (*sorted((ROOT / "build/wheel").glob("libhooke-*")), *debian(sources)):
+            files.append(shutil.copy(made, DIST / made.name).name)
+        for file in RECIPES:
+            recipe(file, sources)
+        files += RECIPES
+    sums = "".join(f"{digest(DIST / file)}  {file}\n" for file in files)
+    (DIST / "SHA256SUMS").write_text(sums)
     print(sums, end="")
 
 
-main()
+main("--whole" in sys.argv)

@@ -2,34 +2,20 @@
 module hooke_base
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, &
     c_null_char, c_ptr, c_size_t
-  use hooke_c_base, only: c_last_error, c_status_name
+  use hooke_c_base, only: c_last_error, c_status_name, hooke_bad_value
   implicit none
   private
   public :: hooke_real, hooke_long
-  public :: message, status_name ! hooke_message() and so on for users
-  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_list, to_number, to_series
-  public :: zero_based, from_zero, is_3_by
+  public :: last_error, status_name ! hooke_message() and hooke_status_name() for users
+  public :: accept, refuse, stop_with, to_text, to_c, to_integer, to_list, to_number, to_series
+  public :: zero_based, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
 
-  integer, parameter, public :: hooke_ok = 0
-  integer, parameter, public :: hooke_stopped = 1        ! a callback or an observer asked to stop
-  integer, parameter, public :: hooke_diverged = 2       ! the run left every physical bound
-  integer, parameter, public :: hooke_step_limit = 3     ! an error-controlled method used up `max_steps`
-  integer, parameter, public :: hooke_no_memory = -1     ! an allocation failed
-  integer, parameter, public :: hooke_bad_value = -2     ! an argument, an option or a scene is not allowed
-  integer, parameter, public :: hooke_bad_call = -3      ! calls out of order
-  integer, parameter, public :: hooke_io_failed = -4     ! a file could not be read or written
-  integer, parameter, public :: hooke_not_built = -5     ! this build of the library lacks it
-  integer, parameter, public :: hooke_unsuited = -6      ! the method does not support this problem
-  integer, parameter, public :: hooke_solver_failed = -7 ! a solver gave up
-  integer, parameter, public :: hooke_internal = -8      ! hooke found a defect of its own
-
-  ! The last message of this module itself, in this thread; of length 0 if the library's is newer.
+  ! The last message of this module itself, in this thread; "" if the library's is newer.
   character(400), save :: refusal = ""
-  integer, save :: refusal_length = 0
-  !$omp threadprivate(refusal, refusal_length)
+  !$omp threadprivate(refusal)
 
   ! One number or several as a list for C, where particles and the like count from 0.
   interface to_list
@@ -46,22 +32,17 @@ module hooke_base
 contains
 
   ! The message of the last failure or outcome in this thread; "" if there was none.
-  function message() result(text)
+  function last_error() result(text)
     character(:), allocatable :: text
-    if (refusal_length > 0) then
-      text = refusal(:refusal_length)
-    else
-      text = to_text(c_last_error())
-    end if
+    text = trim(refusal)
+    if (text == "") text = to_text(c_last_error())
   end function
 
   ! Short name of a status, such as "bad value".
   function status_name(status) result(text)
     integer, intent(in) :: status
     character(:), allocatable :: text
-    type(c_ptr) :: name
-    name = c_status_name(int(status, c_int32_t))
-    text = to_text(name)
+    text = to_text(c_status_name(int(status, c_int32_t)))
   end function
 
   ! ---- for the other modules ----
@@ -70,11 +51,11 @@ contains
   subroutine accept(code, status)
     integer(c_int32_t), intent(in) :: code
     integer, intent(out), optional :: status
-    refusal_length = 0
+    refusal = ""
     if (present(status)) then
       status = int(code)
     else if (code /= 0) then
-      call stop_with(status_name(int(code)) // ": " // message())
+      call stop_with(status_name(int(code)) // ": " // last_error())
     end if
   end subroutine
 
@@ -85,7 +66,6 @@ contains
     integer, intent(out), optional :: status
     if (.not. present(status)) call stop_with(text)
     refusal = text
-    refusal_length = len_trim(refusal)
     status = code
   end subroutine
 
@@ -99,17 +79,11 @@ contains
     type(c_ptr), intent(in) :: address
     character(:), allocatable :: text
     character(kind=c_char), pointer :: letters(:)
-    integer :: k, length
-    if (.not. c_associated(address)) then
-      text = ""
-      return
-    end if
-    length = int(strlen(address))
-    call c_f_pointer(address, letters, [length])
-    allocate (character(length) :: text)
-    do k = 1, length
-      text(k:k) = letters(k)
-    end do
+    text = ""
+    if (.not. c_associated(address)) return
+    call c_f_pointer(address, letters, [strlen(address)])
+    text = repeat(" ", size(letters))
+    text = transfer(letters, text)
   end function
 
   pure function to_c(text) result(terminated)
@@ -117,13 +91,6 @@ contains
     character(len_trim(text) + 1, kind=c_char) :: terminated
     terminated = trim(text) // c_null_char
   end function
-
-  ! The same for optional text: unallocated text is passed as NULL.
-  subroutine to_c_if(text, terminated)
-    character(*), intent(in), optional :: text
-    character(:, kind=c_char), allocatable, intent(out) :: terminated
-    if (present(text)) terminated = to_c(text)
-  end subroutine
 
   integer function to_integer(count)
     integer(c_int64_t), intent(in) :: count
@@ -135,12 +102,6 @@ contains
   elemental integer(c_int64_t) function zero_based(number)
     integer, intent(in) :: number
     zero_based = int(number, c_int64_t) - 1
-  end function
-
-  ! A frame as C counts: 1 is the first, -1 the last.
-  pure integer(c_int64_t) function from_zero(frame)
-    integer, intent(in) :: frame
-    from_zero = merge(frame - 1, frame, frame > 0)
   end function
 
   subroutine to_list_of_reals(numbers, list)
@@ -189,14 +150,13 @@ contains
     if (c_associated(address)) call c_f_pointer(address, series, [count])
   end function
 
-  ! Whether an array, if there is one, has 3 numbers for each of `count` things; without an argument `status` it must.
+  ! Whether an array has 3 numbers for each of `count` things; without an argument `status` it must.
   logical function is_3_by(array, count, status)
-    real(c_double), intent(in), optional :: array(:, :)
+    real(c_double), intent(in) :: array(:, :)
     integer(c_int64_t), intent(in) :: count
     integer, intent(out), optional :: status
     character(20) :: n
-    is_3_by = .true.
-    if (present(array)) is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
+    is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
     if (is_3_by) return
     write (n, "(i0)") count
     call refuse(hooke_bad_value, "an array has not the shape (3, n), n = " // n, status)

@@ -3,7 +3,8 @@
 module hooke_handles
   use, intrinsic :: iso_c_binding, only: c_associated, c_funptr, c_int32_t, c_intptr_t, c_loc, c_null_funptr, &
     c_null_ptr, c_ptr
-  use hooke_base, only: accept, hooke_bad_call, refuse, stop_with
+  use hooke_base, only: accept, refuse, stop_with
+  use hooke_c_base, only: hooke_bad_call
   implicit none
   private
   public :: hooke_handle, hooke_callback, called_object, callback_to, address_or_null, missing
@@ -139,7 +140,7 @@ contains
     made%data = c_loc(made%called)
   end function
 
-  ! After C was given a callback: keeps its data, in the place of those kept before at the same `place` > 0, or
+  ! After C was given a callback, or none: keeps its data, in the place of those kept before at the same `place` > 0, or
   ! releases them where C refused it.
   subroutine keep(self, callback, place, code, status)
     class(hooke_handle), intent(inout) :: self
@@ -147,29 +148,29 @@ contains
     integer, intent(in) :: place
     integer(c_int32_t), intent(in) :: code
     integer, intent(out), optional :: status
-    type(called_object), pointer :: entry
-    if (associated(callback%called) .and. code == 0) then
+    if (associated(callback%called) .and. code /= 0) deallocate (callback%called)
+    if (code == 0 .and. place > 0) call drop(self%object%kept, place)
+    if (associated(callback%called)) then
       callback%called%place = place
       callback%called%next => self%object%kept
       self%object%kept => callback%called
-      entry => callback%called
-      do while (place > 0 .and. associated(entry%next))
-        if (entry%next%place == place) exit
-        entry => entry%next
-      end do
-      if (associated(entry%next) .and. place > 0) call drop(entry%next)
-    else if (associated(callback%called)) then
-      deallocate (callback%called)
     end if
     call accept(code, status)
   end subroutine
 
-  subroutine drop(entry)
+  ! Releases the first data that are kept at `place`.
+  recursive subroutine drop(entry, place)
     type(called_object), pointer, intent(inout) :: entry
+    integer, value :: place
     type(called_object), pointer :: next
+    if (.not. associated(entry)) return
     next => entry%next
-    deallocate (entry)
-    entry => next
+    if (entry%place /= place) then
+      call drop(entry%next, place)
+    else
+      deallocate (entry)
+      entry => next
+    end if
   end subroutine
 
   ! Makes `self` another reference to the object of `other`.
@@ -234,7 +235,7 @@ contains
     if (left > 0) return
     if (associated(object%destroy) .and. c_associated(object%address)) call object%destroy(object%address)
     do while (associated(object%kept))
-      call drop(object%kept)
+      call drop(object%kept, object%kept%place)
     end do
     if (associated(object%owner)) call release_object(object%owner)
     gone => object

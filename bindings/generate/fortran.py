@@ -1,60 +1,50 @@
 """Writes the generated part of the Fortran module: python bindings/generate/fortran.py FOLDER
 
-FOLDER/queries.f90 and queries_of_runs.f90 have the procedures that only convert arguments and results (queries.py),
-FOLDER/forces.f90 and observers.f90 the types of callbacks (callbacks.py). FOLDER/c.f90 has the interfaces of C: a module
-hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create(). Pointers to numbers and text are
-optional arguments: an absent one is passed as NULL."""
+FOLDER/c.f90 has the interfaces of C: a module hooke_c_<header> for each header, and in it hooke_state_create() as
+c_state_create(). Pointers to numbers and text are optional arguments: an absent one is passed as NULL. FOLDER/hooke.f90 is
+bindings/fortran/hooke.template.f90 with the procedures that only convert arguments and results (procedures.py), and the
+types of callbacks (callbacks.py)."""
 
 import re
 import sys
-import textwrap
 from pathlib import Path
 
 import callbacks
 import headers
-import queries
+import procedures
 
 HAND = Path(__file__).resolve().parents[1] / "fortran"
 
-NUMBERS = {"double": "real(c_double)", "int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)"}
-WIDTH = 120
+NUMBERS = {"double": "real(c_double)", "int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)",
+           "char": "character(kind=c_char)"}
 
 
-def argument(kind, callbacks):
-    """(declaration without the name, is an array) of a parameter of a type such as "const double *"."""
+def argument(kind, what, callbacks):
+    """The declaration of a parameter of a type such as "const double *"."""
     const, plain, stars = re.fullmatch(r"(const )?(\w+) ?(\**)", kind).groups()
-    intent = "intent(in)" if const else "intent(inout)"
     if plain in callbacks:
-        return "type(c_funptr), value", False
+        return f"type(c_funptr), value :: {what}"
     if plain == "void" or plain.startswith("hooke_"):
-        return "type(c_ptr), intent(out)" if stars == "**" else "type(c_ptr), value", False
-    if plain == "char":
-        return f"character(kind=c_char), {intent}, optional", True
-    return (f"{NUMBERS[plain]}, {intent}, optional", True) if stars else (f"{NUMBERS[plain]}, value", False)
-
-
-def result(words):
-    """Type of a result; None if there is none."""
-    if "*" in words:
-        return "type(c_ptr)"
-    return None if words == "void" else NUMBERS[words]
+        return f"type(c_ptr), {'intent(out)' if stars == '**' else 'value'} :: {what}"
+    intent = f"intent({'in' if const else 'inout'}), optional :: {what}(*)" if stars else f"value :: {what}"
+    return f"{NUMBERS[plain]}, {intent}"
 
 
 def interface(function, callbacks):
     """One function as lines of Fortran."""
-    kind, name, parameters = function
-    arguments = [(what, *argument(of, callbacks)) for of, what in parameters]
-    returned = result(kind)
-    what = f"{returned} function" if returned else "subroutine"
-    short = "c_" + name[len("hooke_"):]
-    lines = textwrap.wrap(f'{what} {short}({", ".join(a[0] for a in arguments)}) bind(c,name="{name}")', WIDTH - 4)
-    lines = [line.replace("bind(c,", "bind(c, ") for line in lines]
-    lines = [line + " &" for line in lines[:-1]] + lines[-1:]
-    lines = ["    " + ("  " if k else "") + line for k, line in enumerate(lines)] + ["      import"]
-    for declaration in dict.fromkeys(a[1] for a in arguments):
-        names = ", ".join(n + ("(*)" if array else "") for n, d, array in arguments if d == declaration)
-        lines.append(f"      {declaration} :: {names}")
-    return lines + [f"    end {'function' if returned else 'subroutine'}"]
+    result, name, parameters = function
+    returned = "type(c_ptr)" if "*" in result else NUMBERS.get(result)
+    kind = "function" if returned else "subroutine"
+    title = f"{kind} c_{headers.short(name)}({', '.join(what for _, what in parameters)}) bind(c, name=\"{name}\")"
+    return procedures.written(kind, f"{returned} {title}" if returned else title,
+                              ["import", *(argument(*parameter, callbacks) for parameter in parameters)])
+
+
+def statuses(text):
+    """{name: declaration} of the statuses that a header defines."""
+    found = re.findall(r"^#define (HOOKE_\w+) +\(?(-?\d+)\)?(?: +/\* (.*) \*/)?$", text, re.MULTILINE)
+    return {name.lower(): f"  integer, parameter :: {name.lower()} = {value}{f' ! {doc}' if doc else ''}"
+            for name, value, doc in found if name != "HOOKE_ABI"}
 
 
 def module(header, text, callbacks):
@@ -62,7 +52,7 @@ def module(header, text, callbacks):
     kinds = [k for k in ("c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_ptr")
              if any(re.search(rf"\b{k}\b", line) for line in body)]
     return "\n".join([f"module hooke_c_{header}", f"  use, intrinsic :: iso_c_binding, only: {', '.join(kinds)}",
-                      "  implicit none", "", "  interface", *body, "  end interface", "end module", ""])
+                      "  implicit none", "", *statuses(text).values(), "  interface", *body, "  end interface", "end module", ""])
 
 
 def interfaces(public):
@@ -72,11 +62,38 @@ def interfaces(public):
                       *(module(Path(header).stem, text, callbacks) for header, text in public.items())])
 
 
+def bindings(short, made, template, functions):
+    """The procedures of a type, made and by hand; those that C has not and a generic name has are private."""
+    own = [*made, *re.findall(rf"^  .*(?:subroutine|function) ({short}_\w+)\(self", template, re.MULTILINE)]
+    generic = re.findall(r"\w+", " ".join(re.findall(r"generic :: \w+ => (.*)", template)))
+    names = [name[len(short) + 1:] for name in own]
+    hidden = {name for name in names if name in generic and f"hooke_{short}_{name}" not in functions}
+    return ["  contains", *(f"    procedure{', private' * (name in hidden)} :: {name} => {short}_{name}" for name in names),
+            f"    procedure, private :: assign => assign_{short}", "    generic :: assignment(=) => assign", ""]
+
+
+def completed(template, public, base):
+    """The text of hooke.f90, from that of its template, {header: text}, and a module whose procedures are not made here."""
+    types = re.findall(r"^(  type, extends\(hooke_handle\) :: (\w+)\n)((?:    type.*\n|    real.*\n)*)", template, re.MULTILINE)
+    parts = {name: re.findall(r"type\(hooke_\w+\) :: (\w+)", inside) for _, name, inside in types}
+    by_hand = re.findall(r"^  .*?(?:subroutine|function) (?:hooke_)?(\w+)\(", template + base, re.MULTILINE)
+    made = procedures.all_of(public, parts, by_hand)
+    of_callbacks, interfaces, calls = callbacks.module(public)
+    shown = [*statuses(public["base.h"]), *parts, *callbacks.TYPES, *(f"hooke_{name}" for name in made[None])]
+    uses = "".join(f"  use hooke_c_{Path(header).stem}\n" for header in public)
+    text = template.replace("  implicit none\n", f"{uses}  implicit none\n", 1)
+    text = text.replace("  private\n", "".join(["  private\n", *(f"  public :: {name}\n" for name in shown)]), 1)
+    for head, type_, inside in types:
+        bound = bindings(headers.short(type_), made[type_], template, headers.functions("".join(public.values())))
+        text = text.replace(head + inside, head + inside + "\n".join(bound), 1)
+    text = text.replace("\ncontains\n", "\n".join(["", *of_callbacks, *interfaces, "", "contains", ""]), 1)
+    lines = [line for type_ in parts for line in procedures.assigning(type_)]
+    lines += [*(line for of_type in made.values() for one in of_type.values() for line in one), *calls]
+    return text.replace("\nend module\n", "\n".join(["", *lines, "end module", ""]))
+
+
 if __name__ == "__main__":
     public, folder = headers.public(), Path(sys.argv[1])
-    sources = [HAND / name for name in (HAND / "sources.txt").read_text(encoding="utf-8").split()]
-    by_hand = {path.name: path.read_text(encoding="utf-8") for path in sources if path.exists()}
-    made = {"c.f90": interfaces(public), **queries.modules(public, by_hand)}
-    made.update((f"{which}.f90", callbacks.module(which, public)) for which in callbacks.TYPES)
-    for name, text in made.items():
-        headers.write(folder / name, text)
+    template, base = ((HAND / name).read_text(encoding="utf-8") for name in ("hooke.template.f90", "base.f90"))
+    headers.write(folder / "c.f90", interfaces(public))
+    headers.write(folder / "hooke.f90", completed(template, public, base))

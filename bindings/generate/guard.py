@@ -3,7 +3,6 @@
 FOLDER/guard/calls.inc, the functions, their texts, arrays and handles, for src/guard/guard.c; FOLDER/guard/names.h,
 other names for the functions that they call, included by every file of the library."""
 
-import re
 import sys
 from pathlib import Path
 
@@ -13,8 +12,8 @@ import headers
 NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_row", "hooke_options_row_number"}
 # Texts, arrays, callbacks and places for results that may be NULL, by the names of their parameters; and those that need
 # the function's name as well.
-OPTIONAL = {"command", "folder", "run", "scene", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first",
-            "observer", "product", "progress", "rest_length", "stiffness", "velocity", "warning"}
+OPTIONAL = {"folder", "run", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first", "observer", "product",
+            "progress", "rest_length", "stiffness", "velocity", "warning"}
 OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"), ("hooke_measurement_label", "text"),
                ("hooke_measurement_json", "table"), ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"),
                ("hooke_system_members", "particles"), ("hooke_system_body_particles", "particles"),
@@ -31,8 +30,7 @@ def handle(kind, what, types):
     """Type of the handle that a parameter is; None for other parameters."""
     if kind == "void *" and what != "ctx":
         return BY_CONTEXT[what]
-    match = re.fullmatch(r"(?:const )?(hooke_\w+) \*", kind)
-    return match.group(1) if match and match.group(1) in types else None
+    return headers.object_of(kind) if headers.object_of(kind) in types else None
 
 
 def refused(result, name):
@@ -62,13 +60,10 @@ def check_of_text(result, name, what):
 def required(function, types):
     """(parameter, count) of arrays, callbacks and places that have to be there unless the count, a parameter or 1, is 0."""
     _, name, parameters = function
-    count = "1"
-    for kind, what in parameters:
-        if kind == "int64_t" and re.search(r"count$|^size$|^samples$", what):
-            count = what
-        elif kind.endswith("**") or not (kind[-1] != "*" or kind == "const char *" or handle(kind, what, types)
-                                         or is_optional(name, what)):
-            yield what, "1" if what in ("amplitude", "drive") else count  # which are no arrays of so many
+    counts = headers.counts(parameters)
+    free = {what for kind, what in parameters if kind == "const char *" or handle(kind, what, types) or is_optional(name, what)}
+    return [(what, counts.get(what, "1")) for kind, what in parameters
+            if kind.endswith("**") or (kind.endswith("*") and what not in free)]
 
 
 def call(function, types):
@@ -85,7 +80,7 @@ def call(function, types):
     checks += [f"GIVEN({what}, {count}, {no_array})" for what, count in required(function, types)]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
-    return f"{head}{name[len('hooke_'):]}, ({declared}), ({arguments}), {' '.join(checks)})"
+    return f"{head}{headers.short(name)}, ({declared}), ({arguments}), {' '.join(checks)})"
 
 
 def texts(public):
@@ -93,7 +88,7 @@ def texts(public):
     types = headers.opaque_types("".join(public.values()))
     every = [function for text in public.values() for function in headers.declared(text)]
     includes = "".join(f'#include "hooke/{header}"\n' for header in public)
-    names = "".join(f"#define {name} hooke_unchecked_{name[len('hooke_'):]}\n" for _, name, _ in every)
+    names = "".join(f"#define {name} hooke_unchecked_{headers.short(name)}\n" for _, name, _ in every)
     return {
         "guard/calls.inc": MADE_BY + includes + "\n".join(call(f, types) for f in every) + "\n",
         "guard/names.h": MADE_BY + "#ifndef HOOKE_GUARD_NAMES_H\n#define HOOKE_GUARD_NAMES_H\n\n"

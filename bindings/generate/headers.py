@@ -5,7 +5,8 @@ from pathlib import Path
 
 INCLUDE = Path(__file__).resolve().parents[2] / "include"
 
-NUMBERS = {"double", "int32_t", "int64_t"}
+NUMBERS = ("double", "int32_t", "int64_t")
+VECTORS = ("gravity", "amplitude", "momentum", "angular_momentum")  # arrays of three numbers
 NAME = r"hooke_[a-z0-9_]+"
 # Results of type int32_t that are neither a status nor a yes or no; the last one is the result of a callback.
 NUMBER_RESULTS = {"hooke_abi", "hooke_estimate_see"}
@@ -42,6 +43,11 @@ def declared(text, lead="HOOKE_API"):
             yield result.strip(), name, [(kind.strip(), what) for kind, what in parameters]
 
 
+def short(name):
+    """state_time of hooke_state_time."""
+    return name[len("hooke_"):]
+
+
 def functions(text):
     """Names of the functions declared with HOOKE_API."""
     return {name for _, name, _ in declared(text)}
@@ -53,6 +59,23 @@ def opaque_types(text):
 
 def callback_types(text):
     return {name for _, name, _ in declared(text, "typedef")}
+
+
+def counts(parameters):
+    """{array: how many numbers or rows it has} of the parameters of a function, where another one says so."""
+    found, count = {}, None
+    for kind, what in parameters:
+        if kind == "int64_t":
+            count = what if re.fullmatch(r"(\w+_)?count|samples", what) else None
+        elif count and (kind == "const int64_t *" or kind.endswith("double *")) and what not in VECTORS:
+            found[what] = count
+    return found
+
+
+def object_of(kind):
+    """The type of an object that is passed or returned, or of a callback; None for other types."""
+    match = re.fullmatch(rf"(?:const )?({NAME}) \*", kind)
+    return match.group(1) if match else None
 
 
 def is_status(result, name):
@@ -67,33 +90,11 @@ def write(path, text):
         path.write_text(text, encoding="utf-8")
 
 
-def value_complaint(words, opaque, callbacks, is_result=False):
-    """The fault of a parameter (or result) such as "const double *q"."""
-    match = re.fullmatch(r"((?:const )?\w+) ?((?:\*(?: ?const\b)? ?)*) ?(\w*)", words)
-    if not match:
-        return f"`{words}` is not a plain value or pointer"
-    kind, stars = match.group(1).split()[-1], match.group(2).count("*")
-    if kind in NUMBERS:
-        return None
-    if kind == "void" and (stars or is_result):
-        return None
-    if kind == "char" or kind in opaque or kind in callbacks:
-        return None if stars else f"`{words}`: {kind} by value"
-    return f"`{words}`: the type {kind} does not belong in the interface"
-
-
 def signature_complaints(text, opaque, callbacks):
-    """Statements of a header that are not part of the allowed language."""
-    found = []
-    for line, words in statements(text):
-        match = re.fullmatch(rf"(?:HOOKE_API|typedef) ([^(]*?)\b{NAME} ?\((.*)\)", words)
-        if re.fullmatch(rf"typedef struct ({NAME}) \1", words):
-            continue
-        if not match:
-            found.append(f"line {line}: `{words}` is not a function with HOOKE_API, a callback or an opaque struct")
-            continue
-        values = [] if match.group(2) == "void" else match.group(2).split(",")
-        complaints = [value_complaint(match.group(1).strip(), opaque, callbacks, is_result=True)]
-        complaints += [value_complaint(v.strip(), opaque, callbacks) for v in values]
-        found += [f"line {line}: {c}" for c in complaints if c]
-    return found
+    """Statements of a header that are not part of the allowed language: numbers by value, and pointers."""
+    pointed = "|".join(sorted({"void", "char", *NUMBERS, *opaque, *callbacks}))
+    value = rf"(?:{'|'.join(NUMBERS)}|(?:const )?(?:{pointed}) ?\*(?: ?\*)?)"
+    parameters = rf"void|{value} ?\w+(?:, {value} ?\w+)*"
+    allowed = rf"typedef struct ({NAME}) \1|(?:HOOKE_API|typedef) (?:void|{value}) ?{NAME} ?\((?:{parameters})\)"
+    return [f"line {line}: `{words}` is not an opaque struct, a callback or a function with HOOKE_API, or has other types"
+            for line, words in statements(text) if not re.fullmatch(allowed, words)]

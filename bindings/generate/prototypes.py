@@ -38,40 +38,34 @@ TYPES = {"int32_t": "INT32", "int64_t": "INT64", "double": "DOUBLE", "double *":
 
 def short(name):
     """STATE for hooke_state."""
-    return name[len("hooke_"):].upper()
+    return headers.short(name).upper()
 
 
-def argument(kind, callbacks):
+def argument(kind):
     """Name of a type such as "const double *" in Python."""
-    plain = kind[len("const "):] if kind.startswith("const ") else kind
-    if plain in TYPES:
-        return TYPES[plain]
-    name, stars = plain.split()
-    return short(name) if stars == "*" or name in callbacks else f"POINTER({short(name)})"
+    plain = kind.replace("const ", "")
+    return TYPES.get(plain) or (f"POINTER({short(plain[:-3])})" if plain.endswith("**") else short(plain[:-2]))
 
 
 def passed(kind):
     """The same in a callback: arrays and handles are addresses."""
-    return "ADDRESS" if kind.endswith("*") and "char" not in kind else argument(kind, ())
+    return "ADDRESS" if kind.endswith("*") and "char" not in kind else argument(kind)
 
 
-def row(function, callbacks):
-    result, name, parameters = function
-    first = "STATUS" if headers.is_status(result, name) else argument(result, callbacks)
-    return f'    "{name}": ({", ".join([first, *(argument(kind, callbacks) for kind, _ in parameters)])},),'
+def row(result, name, parameters):
+    first = "STATUS" if headers.is_status(result, name) else argument(result)
+    return f'    "{name}": ({", ".join([first, *(argument(kind) for kind, _ in parameters)])},),'
 
 
 def module(public):
     """The text of the module, from {header: text}."""
     text = "".join(public.values())
-    callbacks = list(headers.declared(text, "typedef"))
-    names = {name for _, name, _ in callbacks}
     return INTRO + "\n".join([
         *(f'{short(name)} = _handle("{name}")' for name in sorted(headers.opaque_types(text))), "",
         *(f"{short(name)} = CFUNCTYPE({', '.join(map(passed, [result, *(kind for kind, _ in parameters)]))})"
-          for result, name, parameters in callbacks), "",
+          for result, name, parameters in headers.declared(text, "typedef")), "",
         "# name: (result, argument, argument, ...)", "PROTOTYPES = {",
-        *(row(function, names) for function in headers.declared(text)), "}", ""])
+        *(row(*function) for function in headers.declared(text)), "}", ""])
 
 
 if __name__ == "__main__":

@@ -102,10 +102,6 @@ class Tables:
                 **{key: words for key, words in template.items() if key not in ("required", "properties")},
                 "properties": properties}
 
-    def part(self, kind, rows):
-        return self.table(rows, self.template.get(kind, {}), kind={"const": kind},
-                          name={"type": "string", "description": "of the part, and the first word of its groups"})
-
 
 def schema():
     import hooke
@@ -115,7 +111,8 @@ def schema():
     tables = Tables(template, [method.name for method in hooke.methods()])
     rows = {kind: hooke.Options.for_part(kind).rows for kind in kinds}
     tables.family = tables.table(members(rows["rope"], "stretch"), definitions["family"])
-    parts = {kind: tables.part(kind, rows[kind]) for kind in kinds}
+    name = {"type": "string", "description": "of the part, and the first word of its groups"}
+    parts = {kind: tables.table(rows[kind], definitions.get(kind, {}), kind={"const": kind}, name=name) for kind in kinds}
     objects = {name: tables.table(hooke.options_of(name).rows, definitions[name])
                for name in ("particles", "springs", "bending", "anchors", "bodies", "driven", "run")}
     keys, version = tables.table(hooke.options_of("scene").rows, {})["properties"], template["properties"].pop("hooke")

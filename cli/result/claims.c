@@ -31,7 +31,7 @@ int32_t cli_claims_print_json(const struct cli_arguments *arguments, const char 
                               hooke_measurement *measurement) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
-  cli_json_text(&json, key, arguments->scene);
+  if (key) cli_json_text(&json, key, arguments->scene);
   cli_json_measured(&json, NULL, measurement, NULL, 0);
   return cli_json_end(&json);
 }

@@ -2,20 +2,16 @@
 #ifndef HOOKE_CLI_NEEDS_RESULTS_H
 #define HOOKE_CLI_NEEDS_RESULTS_H
 
-#include "print.h"
 #include "setup.h"
 
 struct cli_needs_results {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
   hooke_measurement *needs;
-  int32_t refine;      /* 1: resolutions instead of ingredients */
-  const char *written; /* file of the lean scene, NULL: none */
-  char *command;       /* command that runs it; NULL: none */
+  int32_t refine; /* 1: resolutions instead of ingredients */
+  char *command;  /* command that runs it; NULL: none */
 };
 
 void cli_needs_results_print(const struct cli_needs_results *results);
-/* HOOKE_NO_MEMORY if something is left out. */
-int32_t cli_needs_results_print_json(const struct cli_needs_results *results);
 
 #endif

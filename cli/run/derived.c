@@ -40,18 +40,6 @@ void cli_derived_json(struct cli_json *json, const hooke_system *system) {
   cli_json_close(json);
 }
 
-static void print_derived(const hooke_system *system) {
-  char number[HOOKE_NUMBER_SIZE];
-  if (hooke_system_count(system, "derived") == 0) return;
-  printf("derived from the options of parts:\n");
-  for (int64_t i = 0; i < hooke_system_count(system, "derived"); i++) {
-    const char *family = text_of(system, i, "family"), *unit = text_of(system, i, "unit");
-    cli_say("  %s%s%s: %s %s%s%s\n", text_of(system, i, "part"), family ? "." : "", family ? family : "",
-            text_of(system, i, "name"), cli_format_rounded(hooke_system_derived_value(system, i), number),
-            unit[0] ? " " : "", unit);
-  }
-}
-
 void cli_derived_words(const hooke_system *system) {
   for (int k = 1; k < KIND_COUNT; k++) {
     const char *force = kinds[k].force;
@@ -63,5 +51,11 @@ void cli_derived_words(const hooke_system *system) {
               name[0] ? name : "(no name)");
     }
   }
-  print_derived(system);
+  if (hooke_system_count(system, "derived") == 0) return;
+  printf("derived from the options of parts:\n");
+  for (int64_t i = 0; i < hooke_system_count(system, "derived"); i++) {
+    const char *family = text_of(system, i, "family"), *unit = text_of(system, i, "unit");
+    cli_say("  %s%s%s: %s %.6g%s%s\n", text_of(system, i, "part"), family ? "." : "", family ? family : "",
+            text_of(system, i, "name"), hooke_system_derived_value(system, i), unit[0] ? " " : "", unit);
+  }
 }

@@ -1,5 +1,6 @@
 /* hooke needs: the ingredients that a scene needs for a wanted accuracy, and a lean scene without the rest.
  */
+#include "claims.h"
 #include "needs_results.h"
 #include "os.h"
 #include "output_file.h"
@@ -52,15 +53,16 @@ static int write_lean(struct cli_needs_results *results) {
     cli_report_words(results->arguments, "%s", hooke_last_error());
     return cli_exit_code(status);
   }
-  results->written = output;
-  if (make_command(output, &results->command) == HOOKE_OK) return HOOKE_EXIT_DONE;
-  return cli_report_missing_words(results->arguments);
+  int32_t made = make_command(output, &results->command);
+  if (made == HOOKE_OK) made = hooke_measurement_label(results->needs, "command", results->command);
+  if (made == HOOKE_OK) made = hooke_measurement_label(results->needs, "output", output);
+  return made == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(results->arguments);
 }
 
 /* Results are printed also when a file fails. */
 static int tell(struct cli_needs_results *results, int32_t outcome) {
   int code = write_lean(results);
-  if (results->arguments->json && cli_needs_results_print_json(results) != HOOKE_OK)
+  if (results->arguments->json && cli_claims_print_json(results->arguments, NULL, results->needs) != HOOKE_OK)
     code = cli_report_missing_words(results->arguments);
   if (!results->arguments->json) cli_needs_results_print(results);
   cli_print_flush();

@@ -21,12 +21,9 @@ def logical_lines(text: str) -> list[str]:
 
 def exported(lines: list[str]) -> dict[str, str]:
     """Names that `use hooke` brings: {name in its module: public name}."""
-    found = {}
-    for names in re.findall(r"^\s*use \w+, only:(.*)$", "\n".join(lines), re.MULTILINE):
-        for name in names.split(","):
-            outside, _, inside = (word.strip() for word in name.partition("=>"))
-            found[inside or outside] = outside
-    return found
+    renamed = re.findall(r"(hooke_\w+) => (\w+)", "\n".join(line for line in lines if line.startswith("  use ")))
+    public = re.findall(r"hooke_\w+", "\n".join(line for line in lines if line.startswith("  public ::")))
+    return {**{name: name for name in public}, **{inside: outside for outside, inside in renamed}}
 
 
 def bound_names(lines: list[str]) -> set[str]:
@@ -41,7 +38,7 @@ def bound_names(lines: list[str]) -> set[str]:
 
 def names_of(lines: list[str]) -> dict[str, str]:
     """Names by which users call procedures, where they differ."""
-    bound_to = re.findall(r"^\s*procedure :: (\w+) => (\w+)\s*(?:!.*)?$", "\n".join(lines), re.MULTILINE)
+    bound_to = re.findall(r"^\s*procedure(?:, private)? :: (\w+) => (\w+)\s*(?:!.*)?$", "\n".join(lines), re.MULTILINE)
     return {inside: outside for outside, inside in bound_to}
 
 
@@ -58,8 +55,8 @@ def dummies(lines: list[str], start: int) -> list[str]:
     return found
 
 
-def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, str]]:
-    """(name, comment, code) of every public type and procedure."""
+def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, str, str]]:
+    """(name in its module, name, comment, code) of every public type and procedure."""
     bound_to, comment, found = bound_names(lines), [], []
     outside = {**names_of(lines), **outside}
     for number, line in enumerate(lines):
@@ -75,7 +72,7 @@ def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, s
         known = known and not match["name"].startswith("assign")  # assignment needs no entry
         if match and known and "bind(c" not in words.lower():
             code = [words, *dummies(lines, number)] if "head" in match.groupdict() else bound(lines, number)
-            found.append((outside.get(match["name"], match["name"]), "\n".join(comment), "\n".join(code)))
+            found.append((match["name"], outside.get(match["name"], match["name"]), "\n".join(comment), "\n".join(code)))
         comment = []
     return found
 
@@ -98,39 +95,36 @@ def intro(lines: list[str]) -> str:
     return markdown("\n".join(re.sub(r"^![>!]? ?", "", line) for line in lines[:start] if line.startswith("!")))
 
 
-def module(lines: list[str], outside: dict[str, str]) -> str:
-    found = entries(lines, outside)
-    if not found:
-        return ""
-    pieces = [f"## {re.search(r'^module (.+)$', chr(10).join(lines), re.MULTILINE)[1]}", intro(lines)]
-    for name, comment, code in found:
-        pieces += [f"### {name}", markdown(comment), f"```text\n{code}\n```"]
-    return "\n\n".join(filter(None, pieces))
-
-
-def with_comments_of_headers(queries: str, root: Path) -> str:
-    """The generated modules, with the comments of the functions in C that they call."""
+def with_comments_of_headers(text: str, root: Path) -> str:
+    """The module, in which made procedures have the comments of the functions in C that they call."""
+    comments = {}
     for path in (root / "include/hooke").glob("*.h"):
         for comment, declarations in headers.entries(path.read_text("utf-8")):
-            for name in [name for one in declarations for name in headers.names_in(one)][:1]:
-                above = "".join(f"  ! {line}\n" for line in comment.splitlines())
-                head = rf"^(?=  (?:function|subroutine) {name.replace('hooke_', '', 1)}\()"
-                queries = re.sub(head, lambda _, above=above: above, queries, flags=re.MULTILINE)
-    return queries
+            for declaration in declarations[:1]:
+                comments[headers.names_in(declaration)[0]] = "".join(f"  ! {line}\n" for line in comment.splitlines())
+
+    def commented(match: re.Match[str]) -> str:
+        calls = [f"hooke_{name}" for name in re.findall(r"\bc_(\w+)\(", match[0]) if f"hooke_{name}" in comments]
+        return "\n" + (comments[calls[-1]] if calls else "") + match[0][1:]
+
+    return re.sub(r"^\n  (?:function|subroutine) .*?^  end", commented, text, flags=re.DOTALL | re.MULTILINE)
 
 
 def page(root: Path, made: Path) -> str:
     """`made` is the folder of the generated modules."""
-    folder = root / "bindings/fortran"
-    queries = "\n".join(path.read_text("utf-8") for path in sorted(made.glob("queries*.f90")))
-    queries = with_comments_of_headers(queries, root)
-    front = logical_lines((folder / "hooke.f90").read_text("utf-8"))
-    files = sorted([*set(folder.glob("*.f90")) - {folder / "hooke.f90"}, made / "forces.f90", made / "observers.f90"])
-    others = [logical_lines(path.read_text("utf-8")) for path in files]
-    others += map(logical_lines, re.findall(r"^! What [^\n]*\nmodule .*?^end module", queries, re.DOTALL | re.MULTILINE))
+    lines = logical_lines(with_comments_of_headers((made / "hooke.f90").read_text("utf-8"), root))
+    base = logical_lines((root / "bindings/fortran/base.f90").read_text("utf-8"))
+    found = entries(lines, exported(lines)) + [one for one in entries(base, exported(lines)) if one[0] != one[1]]
+    types = [name for name, _, _, code in found if code.startswith("type")]
+    rest = "Procedures of no type"
+    of_type: dict[str, list[str]] = {name: [] for name in [*types, rest]}
+    for inside, name, comment, code in found:
+        owner = max((t for t in types if f"hooke_{inside}".startswith(f"{t}_") or inside == t), key=len, default=rest)
+        pieces = [f"### {name}" * (name != owner), markdown(comment), f"```text\n{code}\n```"]
+        of_type[owner].append("\n\n".join(filter(None, pieces)))
     pieces = ["# Fortran reference", "The types and procedures that `use hooke` brings, with their comments. [The Fortran "
-              "interface](../fortran.md) is the way in.", EXAMPLE, intro(front)]
-    return "\n\n".join(filter(None, pieces + [module(lines, exported(front)) for lines in others])) + "\n"
+              "interface](../fortran.md) is the way in.", EXAMPLE, intro(lines)]
+    return "\n\n".join([*pieces, *("\n\n".join([f"## {title}", *words]) for title, words in of_type.items())]) + "\n"
 
 
 EXAMPLE = """Their library is the one that the program uses:

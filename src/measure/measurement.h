@@ -8,7 +8,7 @@
 #include "hooke/measurement.h"
 #include "measure/claims.h"
 
-enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABELS };
+enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABEL_OUTPUT, HOOKE_LABELS };
 
 struct hk_measurement_kind {
   const char *name;
@@ -66,5 +66,10 @@ int32_t hk_measurement_claim(hooke_measurement *measurement);
 const struct hk_table *hk_measurement_table_at(const struct hk_measurement_kind *kind, int64_t k);
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name);
 const void *hk_measured(const hooke_measurement *measurement, const struct hk_table *table);
+
+/* The number of rows of a table, and a value of it as of hk_table_value(). */
+int64_t hk_measured_rows(const hooke_measurement *measurement, const struct hk_table *table);
+struct hk_value hk_measured_value(const hooke_measurement *measurement, const struct hk_table *table,
+                                  const struct hk_column *column, int64_t row);
 
 #endif

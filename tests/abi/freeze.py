@@ -1,11 +1,14 @@
-"""Records the headers that callers of this version are compiled against: python tests/abi/freeze.py
+"""Closes a minor version: python tests/abi/freeze.py, after `make`
 
-Makes tests/abi/baseline/<major.minor>/hooke.h, all public headers as one, without comments. To be run after
-every change of a public header; once the minor version is released, the file stays as it is.
+Writes tests/abi/baseline/<major.minor>, what callers of this version rely on: all public headers as one, without comments
+(hooke.h), a program that is compiled against them (program.c), and the names of the Python package and of the Fortran
+module (names.py). The folder stays as it is from then on; what it holds may only grow.
 """
 
 import re
 from pathlib import Path
+
+import names
 
 HERE = Path(__file__).parent
 INCLUDE = HERE.parents[1] / "include"
@@ -27,8 +30,14 @@ def minor_version(header):
     return re.search(r'#define HOOKE_VERSION +"(\d+\.\d+)\.', header)[1]
 
 
-if __name__ == "__main__":
-    text = one_header()
-    folder = HERE / "baseline" / minor_version(text)
+def write(folder):
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "hooke.h").write_text("/* clang-format off */\n" + text)
+    (folder / "hooke.h").write_text("/* clang-format off */\n" + one_header())
+    (folder / "program.c").write_text((HERE / "program.c").read_text())
+    for language, listed in (("python", names.of_python), ("fortran", names.of_fortran)):
+        (folder / f"{language}.txt").write_text("".join(f"{line}\n" for line in sorted(listed())))
+    return folder
+
+
+if __name__ == "__main__":
+    print(write(HERE / "baseline" / minor_version(one_header())))

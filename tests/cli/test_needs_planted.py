@@ -118,10 +118,10 @@ def test_a_scene_in_which_nothing_moves_is_told_so(hooke, write, tmp_path):
     scene = write(SCENES["balanced-mass"])
     answer = hooke("needs", scene, "--want", "1cm", "-o", tmp_path / "lean.json", "--json")
     assert answer.code == 0, answer.err
-    (warning,) = answer.json["warnings"]
-    assert "nothing moves" in warning and answer.json["full"]["moved"] < 1e-12
+    claims = {claim["key"]: claim for claim in answer.json["claims"]}
+    assert "nothing moves" in claims["note"]["text"] and claims["lean"]["of"] == "unknown" and answer.json["full"]["moved"] < 1e-12
     needed = {row["without"]: row["needed"] for row in answer.json["rows"]}
     assert needed == {"spring": True, "gravity": True, "damping": None, "drag": None, "resistance to compression": None}
     assert answer.json["lean"]["without"] == [] and answer.json["lean"]["times_less"] == 1
     words = " ".join(hooke("needs", scene, "--want", "1cm").out.split())
-    assert "WARNING nothing moves" in words and "it cannot be told" in words and "left out together" not in words
+    assert "note nothing moves" in words and "it cannot be told" in words and "can be left out" not in words

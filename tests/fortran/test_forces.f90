@@ -185,7 +185,7 @@ contains
   subroutine blocks()
     type(hooke_system) :: system
     integer, allocatable :: row_start(:), column(:)
-    real(hooke_real), allocatable :: dfdq(:, :, :), dfdv(:, :, :)
+    real(hooke_real), allocatable :: dfdq(:, :, :), dfdv(:, :, :), alone(:, :, :)
     real(hooke_real), dimension(3, 4) :: q, v, dq, dv, wanted, found
     real(hooke_real) :: p(3), l(3), skew
     integer :: row, k
@@ -198,6 +198,8 @@ contains
     call system%derivative_product(0.0_hooke_real, q, v, dq, dv, wanted)
     call system%derivative_pattern(row_start, column)
     call system%derivative_blocks(q, v, dfdq, dfdv)
+    call system%derivative_blocks(q, v, dfdv=alone)
+    call expect(maxval(abs(alone - dfdv)) <= 0, "either of them alone")
     call expect(size(dfdq, 3) == system%count("blocks") .and. row_start(1) == 1, "blocks count from 1")
     call expect(row_start(5) == size(column) + 1 .and. all(column >= 1 .and. column <= 4), "in compressed rows")
     found = 0

@@ -19,6 +19,7 @@ VERSION = re.search(r'#define HOOKE_VERSION +"(.+)"', (ROOT / "include/hooke/bas
     ("vcpkg/vcpkg.json", r'^  "version": "([^"]+)"'),
     ("homebrew/hooke.rb", r"/v([^/]+)/hooke-\1\.tar\.gz"),
     ("debian/changelog", r"^hooke \(([^-]+)-[^)]*\)"),
+    ("../CITATION.cff", r"^version: (.+)"),
 ])
 def test_version(file, pattern):
     assert re.search(pattern, (ROOT / "packaging" / file).read_text(), re.MULTILINE).group(1) == VERSION
@@ -26,6 +27,13 @@ def test_version(file, pattern):
 
 def test_changelog():
     assert re.search(r"^## ([0-9.]+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE).group(1) == VERSION
+
+
+@pytest.mark.parametrize("file", ["conda-forge/recipe.yaml", "homebrew/hooke.rb", "spack/package.py"])
+def test_place_of_the_digest(file):
+    """Which `make release` fills."""
+    assert len(re.findall(r"\b0{64}\b", (ROOT / "packaging" / file).read_text())) == 1
+    assert f'"{file}"' in (ROOT / "packaging/dist.py").read_text()
 
 
 def test_form():

@@ -1,11 +1,13 @@
 /* Mechanisms of rigid bodies, pins and stiff springs: the nutating top, the flyball governor, a linkage of
  * two bars, and a frame that hangs in a cloth. */
 #include "check.h"
-#include "elliptic.h"
+#include "gsl_motion.h"
 #include "order.h"
 #include "run.h"
 #include "small.h"
 
+#include <gsl/gsl_sf_ellint.h>
+#include <gsl/gsl_sf_elljac.h>
 #include <math.h>
 #include <string.h>
 
@@ -46,10 +48,11 @@ static double nutation(double t, double *u) {
   const double root = sqrt(aa * aa - 4.0 * b * (aa * u0 - b));
   const double u1 = (aa - root) / (2.0 * b), u3 = (aa + root) / (2.0 * b);
   const double k = sqrt((u0 - u1) / (u3 - u1)), rate = 0.5 * sqrt(b * (u3 - u1));
+  const double quarter = gsl_sf_ellint_Kcomp(k, GSL_PREC_DOUBLE);
   double sn, cn, dn;
-  elliptic_jacobi(elliptic_k(k) + rate * t, k, &sn, &cn, &dn);
+  gsl_sf_elljac_e(quarter + rate * t, k * k, &sn, &cn, &dn);
   *u = u1 + (u0 - u1) * sn * sn;
-  return 2.0 * elliptic_k(k) / rate;
+  return 2.0 * quarter / rate;
 }
 
 static double error_of_height(const hooke_system *system, struct run run) {
@@ -86,39 +89,7 @@ TEST(top_nutates) {
                   0.0, 1e-10);
 }
 
-/* ---- motions in a few angles, for comparison ---- */
-
-enum { MOST_ANGLES = 2, SUBSTEPS = 50 };
-
-typedef void accelerate_angles(const double *angle, const double *rate, double *acceleration);
-
-/* By the method of Runge and Kutta, so finely that its error does not count. */
-static void advance_angles(int count, accelerate_angles *accelerate, double time, double *angle,
-                           double *rate) {
-  const double ahead[4] = {0.0, 0.5, 0.5, 1.0}, weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-  const double h = time / SUBSTEPS;
-  for (int k = 0; k < SUBSTEPS; k++) {
-    double speed[MOST_ANGLES] = {0.0}, change[MOST_ANGLES] = {0.0}, da[MOST_ANGLES] = {0.0},
-           dr[MOST_ANGLES] = {0.0};
-    for (int s = 0; s < 4; s++) {
-      double a[MOST_ANGLES] = {0.0}, r[MOST_ANGLES] = {0.0};
-      for (int i = 0; i < count; i++) {
-        a[i] = angle[i] + h * ahead[s] * speed[i];
-        r[i] = rate[i] + h * ahead[s] * change[i];
-      }
-      memcpy(speed, r, sizeof speed);
-      accelerate(a, r, change);
-      for (int i = 0; i < count; i++) {
-        da[i] += h * weight[s] * speed[i];
-        dr[i] += h * weight[s] * change[i];
-      }
-    }
-    for (int i = 0; i < count; i++) {
-      angle[i] += da[i];
-      rate[i] += dr[i];
-    }
-  }
-}
+/* ---- bars, and the motions of their angles, by GSL ---- */
 
 /* Three particles of Simpson's weights have the mass, centre and moments of a thin bar of 1 m. */
 enum { ROD = 3 };
@@ -175,21 +146,23 @@ static hooke_system *governor(double stiffness) {
  *     (2 J + 4 l^2 M sin^2 x) x'' + 4 l^2 M sin x cos x x'^2 = 2 p^2 cos x/(J sin^3 x) - 2 (S + l M) g sin x
  *
  * with the moment of inertia J and the static moment S of a rod with its ball. */
-static void accelerate_governor(const double *angle, const double *rate, double *acceleration) {
+static int32_t turn_governor(int64_t n, double t, const double *angle, const double *rate,
+                             double *acceleration, void *ctx) {
+  (void)n, (void)t, (void)ctx;
   const double j = ROD_MASS / 3.0 + BALL, moment = ROD_MASS / 2.0 + BALL, p = j * 0.75 * 2.0 * PI;
   const double s = sin(*angle), c = cos(*angle), slider = 4.0 * LINK * LINK * SLIDER;
   *acceleration = (2.0 * p * p * c / (j * s * s * s) - 2.0 * (moment + LINK * SLIDER) * G * s -
                    slider * s * c * *rate * *rate) /
                   (2.0 * j + slider * s * s);
+  return 0;
 }
 
 /* The angles of a motion that the frames of a run, FRAME apart, are compared with. */
 static const double FRAME = 0.02;
 struct followed {
-  int count;
-  accelerate_angles *accelerate;
+  struct gsl_motion motion;
   double (*distance)(const double *q, const double *angle);
-  double angle[MOST_ANGLES], rate[MOST_ANGLES];
+  double angle[4]; /* and their rates */
   int frames;
   double off; /* largest distance so far */
 };
@@ -197,7 +170,7 @@ struct followed {
 static int32_t follow_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct followed *f = ctx;
   (void)step;
-  if (f->frames++ > 0) advance_angles(f->count, f->accelerate, FRAME, f->angle, f->rate);
+  if (f->frames++ > 0) gsl_move(&f->motion, 0.0, FRAME, f->angle);
   f->off = fmax(f->off, f->distance(hooke_state_position(state), f->angle));
   return 0;
 }
@@ -225,7 +198,7 @@ static double slider_risen(const double *q, const double *angle) {
 /* The links give by force over stiffness. */
 TEST(governor_follows_its_angle) {
   const struct run rk4 = {.method = "rk4", .step = 1e-4, .duration = 2.0};
-  struct followed governed = {1, accelerate_governor, slider_off, {PI / 3}, {0.0}, 0, 0.0};
+  struct followed governed = {{1, turn_governor, 1.0, NULL}, slider_off, {PI / 3}, 0, 0.0};
   double off[3];
   for (int k = 0; k < 3; k++)
     off[k] = follow(governor(ldexp(8e5, k - 2)), rk4, governed);
@@ -264,7 +237,9 @@ static hooke_system *linkage(double stiffness) {
 }
 
 /* The double pendulum of two bars of 1 m, by Lagrange's equations in the angles from the vertical. */
-static void accelerate_linkage(const double *angle, const double *rate, double *acceleration) {
+static int32_t turn_linkage(int64_t n, double t, const double *angle, const double *rate,
+                            double *acceleration, void *ctx) {
+  (void)n, (void)t, (void)ctx;
   const double c = 0.5 * BAR[1] * cos(angle[0] - angle[1]), s = 0.5 * BAR[1] * sin(angle[0] - angle[1]);
   const double j[2] = {BAR[0] / 3.0 + BAR[1], BAR[1] / 3.0};
   const double f[2] = {-s * rate[1] * rate[1] - (0.5 * BAR[0] + BAR[1]) * G * sin(angle[0]),
@@ -272,6 +247,7 @@ static void accelerate_linkage(const double *angle, const double *rate, double *
   const double all = j[0] * j[1] - c * c;
   acceleration[0] = (j[1] * f[0] - c * f[1]) / all;
   acceleration[1] = (j[0] * f[1] - c * f[0]) / all;
+  return 0;
 }
 
 /* Of the free end. */
@@ -281,7 +257,7 @@ static double end_off(const double *q, const double *angle) {
 }
 
 TEST(linkage_follows_its_angles) {
-  const struct followed swinging = {2, accelerate_linkage, end_off, {START[0], START[1]}, {0.0, 0.0}, 0, 0.0};
+  const struct followed swinging = {{2, turn_linkage, 1.0, NULL}, end_off, {START[0], START[1]}, 0, 0.0};
   double off[4];
   for (int k = 0; k < 4; k++)
     off[k] = follow(linkage(ldexp(1e4, 2 * k)),

@@ -8,6 +8,7 @@
 #include "run.h"
 #include "small.h"
 
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +55,7 @@ static hooke_system *new_sheet(int along, int across) {
 
 /* ---- equilibrium: Newton on the library's own forces and blocks ---- */
 
-/* -df/dq of the particles from `held` on, as a lower band of `width` numbers a row, the diagonal last. */
+/* -df/dq of the particles from `held` on, as a lower band of `width` numbers a column, the diagonal first. */
 static void fill_band(const hooke_system *system, const double *q, const double *v, int64_t held,
                       int64_t width, double *band) {
   const int64_t n = hooke_system_particle_count(system), count = hooke_system_count(system, "blocks");
@@ -70,7 +71,7 @@ static void fill_band(const hooke_system *system, const double *q, const double 
         const int64_t i = 3 * (p - held) + k / 3, j = 3 * (column[b] - held) + k % 3;
         if (j > i) continue;
         assert_true(i - j < width);
-        band[i * width + width - 1 - (i - j)] = -blocks[9 * b + k];
+        band[j * width + i - j] = -blocks[9 * b + k];
       }
     }
   }
@@ -80,28 +81,10 @@ static void fill_band(const hooke_system *system, const double *q, const double 
 
 /* x = A^-1 x by Cholesky, in place of the band. */
 static void solve(int64_t size, int64_t width, double *band, double *x) {
-  for (int64_t i = 0; i < size; i++) {
-    double *row = band + i * width + width - 1 - i; /* row[j] is A(i, j) */
-    const int64_t first = i < width ? 0 : i - width + 1;
-    for (int64_t j = first; j <= i; j++) {
-      const double *other = band + j * width + width - 1 - j;
-      const int64_t begin = j < width ? 0 : j - width + 1;
-      double sum = row[j];
-      for (int64_t k = begin > first ? begin : first; k < j; k++)
-        sum -= row[k] * other[k];
-      if (j == i) assert_true(sum > 0.0);
-      row[j] = j == i ? sqrt(sum) : sum / other[j];
-    }
-    for (int64_t k = first; k < i; k++)
-      x[i] -= row[k] * x[k];
-    x[i] /= row[i];
-  }
-  for (int64_t i = size - 1; i >= 0; i--) {
-    const double *row = band + i * width + width - 1 - i;
-    x[i] /= row[i];
-    for (int64_t k = i < width ? 0 : i - width + 1; k < i; k++)
-      x[k] -= row[k] * x[i];
-  }
+  gsl_matrix_view matrix = gsl_matrix_view_array(band, (size_t)size, (size_t)width);
+  gsl_vector_view vector = gsl_vector_view_array(x, (size_t)size);
+  gsl_linalg_cholesky_band_decomp(&matrix.matrix); /* ends the program where there is none */
+  gsl_linalg_cholesky_band_svx(&matrix.matrix, &vector.vector);
 }
 
 /* Deflection of the last particle; the system is destroyed. `across` particles are in a row, two rows are

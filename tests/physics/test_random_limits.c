@@ -8,6 +8,8 @@
 #include "sanitized.h"
 #include "small.h"
 
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -228,26 +230,19 @@ static struct motion exponential(const struct scene *s, int degree, double h, co
   return sum;
 }
 
-/* v = (I + h/2 M^-1 C)^-1 v by elimination; the pivots of a positive matrix need no exchange. */
+/* v = (I + h/2 M^-1 C)^-1 v = (M + h/2 C)^-1 M v by Cholesky. */
 static void damp_implicitly(const struct scene *s, double h, double *v) {
   double a[DOF][DOF];
   for (int i = 0; i < DOF; i++) {
     for (int j = 0; j < DOF; j++)
-      a[i][j] = (i == j) + (s->held[i / 3] ? 0.0 : 0.5 * h * s->c[i][j] / s->mass[i / 3]);
+      a[i][j] =
+          (i == j ? s->mass[i / 3] : 0.0) + (s->held[i / 3] || s->held[j / 3] ? 0.0 : 0.5 * h * s->c[i][j]);
+    v[i] *= s->mass[i / 3];
   }
-  for (int k = 0; k < DOF; k++) {
-    for (int i = k + 1; i < DOF; i++) {
-      const double part = a[i][k] / a[k][k];
-      for (int j = k; j < DOF && part != 0.0; j++)
-        a[i][j] -= part * a[k][j];
-      v[i] -= part * v[k];
-    }
-  }
-  for (int k = DOF - 1; k >= 0; k--) {
-    for (int j = k + 1; j < DOF; j++)
-      v[k] -= a[k][j] * v[j];
-    v[k] /= a[k][k];
-  }
+  gsl_matrix_view matrix = gsl_matrix_view_array(*a, DOF, DOF);
+  gsl_vector_view vector = gsl_vector_view_array(v, DOF);
+  gsl_linalg_cholesky_decomp1(&matrix.matrix);
+  gsl_linalg_cholesky_svx(&matrix.matrix, &vector.vector);
 }
 
 /* Kick, drift, kick; damping is explicit in the first kick and implicit in the second, or left out. */
@@ -309,17 +304,10 @@ static int find_matrix(const struct scene *s, const char *method, double h, doub
 /* a = a a over its largest number; the logarithm of that. */
 static double square(int n, double *a) {
   static double out[MOST * MOST];
-  double most = 0.0;
-  memset(out, 0, sizeof out);
-  for (int i = 0; i < n; i++) {
-    for (int k = 0; k < n; k++) {
-      const double by = a[i * n + k];
-      for (int j = 0; j < n && by != 0.0; j++)
-        out[i * n + j] += by * a[k * n + j];
-    }
-  }
-  for (int k = 0; k < n * n; k++)
-    most = fmax(most, fabs(out[k]));
+  gsl_matrix_const_view from = gsl_matrix_const_view_array(a, (size_t)n, (size_t)n);
+  gsl_matrix_view to = gsl_matrix_view_array(out, (size_t)n, (size_t)n);
+  gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1.0, &from.matrix, &from.matrix, 0.0, &to.matrix);
+  const double most = largest(n * n, out);
   for (int k = 0; k < n * n; k++)
     a[k] = most > 0.0 ? out[k] / most : 0.0;
   return log(most);

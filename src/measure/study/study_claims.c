@@ -31,6 +31,12 @@ static const char *name_run(const struct hk_study *study, char text[SETTING_SIZE
   return text;
 }
 
+static void tell_time(const struct teller *t) {
+  const struct hk_study_recommendation *r = &t->study->recommendation;
+  say(t, "time", HOOKE_OF_WHOLE, "clock", "it took %.3g s on this machine, the median of its runs %.3g s",
+      r->wall_seconds, r->wall_median);
+}
+
 static void tell_closest(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
   char run[SETTING_SIZE];
@@ -41,8 +47,9 @@ static void tell_closest(const struct teller *t) {
       "reference", "no run is recommended for an error of at most %.6g m: %s", r->want, r->note);
   if (r->method < 0) return;
   say(t, "closest", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
-      "the closest is %s: its error is %.3g m, and it took %.3g s and %.0f evaluations of the forces",
-      name_run(t->study, run), r->error, r->wall_seconds, r->force_evaluations);
+      "the closest is %s: its error is %.3g m, with %.0f evaluations of the forces", name_run(t->study, run),
+      r->error, r->force_evaluations);
+  tell_time(t);
 }
 
 static void tell_change(const struct teller *t, const char *key, const char *change,
@@ -86,10 +93,10 @@ static void tell_recommendation(const struct teller *t) {
     hk_print(where, sizeof where, "up to %.6g s, beyond which nobody knows it%s", r->until,
              t->all ? " of the pick" : "");
   say(t, "recommendation", whole ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
-      "the cheapest run found whose error is at most %.6g m %s is %s: its error is %.3g m, and it took %.3g s "
-      "(median %.3g s) and %.0f evaluations of the forces",
-      r->want, where, name_run(t->study, run), r->error, r->wall_seconds, r->wall_median,
-      r->force_evaluations);
+      "the cheapest run found whose error is at most %.6g m %s is %s: its error is %.3g m, with %.0f evaluations of "
+      "the forces",
+      r->want, where, name_run(t->study, run), r->error, r->force_evaluations);
+  tell_time(t);
   if (r->note[0]) say(t, "machine", HOOKE_OF_WHOLE, "clock", "%s", r->note);
   tell_margin(t);
 }

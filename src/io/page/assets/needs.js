@@ -5,7 +5,7 @@ const { full, lean, want } = data;
 for (const cost of [full, ...data.rows, ...(lean ? [lean, lean.full] : [])])
   if (cost.unlimited) cost.step_limit = "none";
 const ran = full.wall_seconds !== null;
-const judgedAll = data.judged_until >= data.duration * (1 - 1e-9);
+
 const NEEDED = "#c2410c", LEFT_OUT = "#1b7f4d", KEPT = "#8fc9a8", FULL = "#5b6770", LEAN = "#0057b8";
 
 /* Kind of a row: needed, left out of the lean scene, neither, or unknown. */

@@ -1,0 +1,133 @@
+/* What needs say of their results. */
+#include "measure/needs/needs.h"
+
+#include "core/print.h"
+
+#include <math.h>
+
+enum { NAMES_SIZE = 1024, CELLS_SIZE = 64 };
+
+static int32_t judges_all(const struct hk_needs *needs) {
+  return hk_needs_judged_until(needs) >= needs->duration * (1.0 - 1e-9);
+}
+
+/* ---- the lean scene ---- */
+
+/* Names of the rows that are left out, or of those that were not looked at, with commas; returns their
+ * number. */
+static int64_t list_rows(const struct hk_needs *needs, int32_t left_out, char names[NAMES_SIZE]) {
+  const int64_t known = hk_needs_known_rows(needs);
+  int64_t count = 0;
+  names[0] = '\0';
+  for (int64_t row = left_out ? 0 : known; row < (left_out ? known : needs->row_count); row++) {
+    if (left_out && !needs->row[row].left_out) continue;
+    hk_append(names, NAMES_SIZE, "%s%s", count++ ? ", " : "", needs->row[row].without);
+  }
+  return count;
+}
+
+static int32_t has_unknown(const struct hk_needs *needs) {
+  for (int64_t row = 0; row < hk_needs_known_rows(needs); row++)
+    if (isnan(needs->row[row].needed)) return 1;
+  return 0;
+}
+
+/* Both within the wanted error, each at its cheapest. */
+static void tell_saving(const struct hk_needs *needs, struct hk_claims *claims) {
+  const double lean = needs->lean.cost.wall_seconds, full = needs->cheapest.wall_seconds;
+  const int less = lean <= full;
+  hk_claim(
+      claims, "saving", HOOKE_OF_WHOLE, "clock",
+      "within the wanted error it takes %.3g s of wall time by %s, where the full scene takes %.3g s (%.1f times "
+      "%s)",
+      lean, hooke_options_text(needs->run, "method"), full, less ? full / lean : lean / full,
+      less ? "less" : "more");
+  if (needs->other_method)
+    hk_claim(claims, "other-method", HOOKE_OF_WHOLE, "clock", "%s would bring the full scene there in %.3g s",
+             needs->other_method, needs->other_seconds);
+}
+
+static void tell_lean(const struct hk_needs *needs, struct hk_claims *claims) {
+  const enum hk_claim_of of = judges_all(needs) ? HOOKE_OF_WHOLE : HOOKE_OF_PART;
+  char names[NAMES_SIZE];
+  const int64_t count = list_rows(needs, 1, names);
+  if (count > 0) {
+    hk_claim(
+        claims, "lean", of, "runs",
+        "%s can be left out%s: %s; the scene is then at most %.3g m off, with %.0f springs instead of %.0f",
+        count == 1 ? "one ingredient" : "these ingredients", count == 1 ? "" : " together", names,
+        needs->lean.error, needs->lean.cost.springs, needs->full.springs);
+    tell_saving(needs, claims);
+  } else if (!needs->lean_note[0]) {
+    hk_claim(claims, "lean", has_unknown(needs) ? HOOKE_OF_UNKNOWN : of, "runs", "%s",
+             has_unknown(needs) ? "nothing is left out: it cannot be told what is not needed"
+                                : "all that would save something is needed: there is nothing to leave out");
+  }
+  if (needs->lean_note[0])
+    hk_claim(claims, count > 0 ? "changes" : "lean", of, "runs", "%s", needs->lean_note);
+}
+
+/* Of work that was stopped. */
+static void tell_unfinished(const struct hk_needs *needs, struct hk_claims *claims) {
+  char names[NAMES_SIZE];
+  const int64_t count = list_rows(needs, 0, names);
+  hk_claim(claims, "lean", HOOKE_OF_UNKNOWN, "runs",
+           "no lean scene was found before the work was stopped%s%s", count > 0 ? "; not looked at: " : "",
+           names);
+}
+
+/* ---- resolution ---- */
+
+static void print_cells(const struct hk_needs_part *part, double factor, char text[CELLS_SIZE]) {
+  text[0] = '\0';
+  for (int axis = 0; axis < 3; axis++)
+    if (part->cells[axis] >= 0)
+      hk_append(text, CELLS_SIZE, "%s%.0f", text[0] ? " x " : "", hk_needs_cells(part, axis, factor));
+}
+
+static void tell_part(const struct hk_needs *needs, const struct hk_needs_part *part,
+                      struct hk_claims *claims) {
+  const enum hk_claim_of of = judges_all(needs) ? HOOKE_OF_WHOLE : HOOKE_OF_PART;
+  char has[CELLS_SIZE], wanted[CELLS_SIZE];
+  print_cells(part, 1.0, has);
+  print_cells(part, part->factor, wanted);
+  if (isfinite(part->factor))
+    hk_claim(claims, "resolution", of, "Richardson",
+             "%s has %s cells, which leaves %.3g m; an error of at most %.6g m asks for %s", part->name, has,
+             part->error, needs->want, wanted);
+  else
+    hk_claim(claims, "resolution", HOOKE_OF_UNKNOWN, "Richardson",
+             "what resolution %s needs is not known%s%s", part->name, part->note[0] ? ": " : "", part->note);
+}
+
+/* ---- what it rests on ---- */
+
+static void tell_full(const struct hk_needs *needs, struct hk_claims *claims) {
+  const char *method = hooke_options_text(needs->run, "method"),
+             *how = needs->method_picked ? ", picked," : "";
+  if (isnan(needs->full.step_error))
+    hk_claim(claims, "full", HOOKE_OF_UNKNOWN, "runs", "by %s%s the full scene was not run to its end",
+             method, how);
+  else
+    hk_claim(claims, "full", judges_all(needs) ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "half-step",
+             "by %s%s the time step puts the full scene off by at most %.2g m", method, how,
+             needs->full.step_error);
+}
+
+void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
+  const struct hk_needs *needs = measurement->object;
+  const int ran = !isnan(needs->full.step_error),
+            refine = hooke_options_number(needs->options, "refine") != 0.0;
+  if (ran && needs->lean.system) tell_lean(needs, claims);
+  for (int64_t part = 0; part < needs->part_count; part++)
+    tell_part(needs, &needs->part[part], claims);
+  if (!needs->lean.system && !refine) tell_unfinished(needs, claims);
+  if (ran && needs->note[0]) hk_claim(claims, "note", HOOKE_OF_WHOLE, "runs", "%s", needs->note);
+  if (ran && !judges_all(needs))
+    hk_claim(
+        claims, "judged", HOOKE_OF_PART, "half-step",
+        "after %.6g s small differences grow so fast that no time step keeps its error below a tenth of what is "
+        "wanted: changes are those up to %.6g s of %.6g s",
+        hk_needs_judged_until(needs), hk_needs_judged_until(needs), needs->duration);
+  tell_full(needs, claims);
+}
