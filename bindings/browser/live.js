@@ -104,12 +104,13 @@ class Live {
       title: library.text(library.call("scene_text", this.scene, "title")) };
   }
 
-  /* Options of a run by this method with this step [s], which the caller destroys; without frames and an end. */
-  runOptions(method, step) {
+  /* Options of a run by this method with this step [s], which the caller destroys; without frames and an end unless given [s]. */
+  runOptions(method, step, duration, every) {
     const { library } = this, options = library.make("options_copy", library.call("scene_run_options", this.scene));
     for (const name of ["every", "duration", "checkpoint"]) library.check("options_unset", options, name);
     library.check("options_set_text", options, "method", method);
-    library.check("options_set_number", options, "step", step);
+    for (const [name, value] of Object.entries({ step, duration, every }))
+      if (value) library.check("options_set_number", options, name, value);
     return options;
   }
 

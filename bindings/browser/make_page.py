@@ -12,7 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 SCENES = HERE.parent.parent / "examples" / "scenes"
-WORKER = ["scene.js", "frames.js", "live.js", "advice.js", "study.js", "worker.js"]
+WORKER = ["scene.js", "frames.js", "live.js", "advice.js", "worker.js"]
 
 
 def read(path: Path) -> str:

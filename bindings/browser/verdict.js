@@ -79,14 +79,19 @@ const ADVICE = {
       ? "Predicted: nothing limits the step." : exact ? `Predicted limit: ${seconds(predicted)}` : `Predicted limit: ${seconds(predicted)} or less`;
     document.body.dataset.limit = predicted;
   },
-  why({ sentence, change, advised }) {
-    at("why-words").textContent = [sentence.replace(/^the run diverged: t/, "T"), change && `Advice: ${change}`].filter(Boolean).join("\n");
+  why({ claims, advised }) {
+    tellClaims("why-words", claims);
     if (advised) offer(advised.method, advised.step);
   },
   error({ message }) {
     at(ended ? "why-words" : "limit-words").textContent = `Not known: ${message}`;
   },
 };
+
+/* The sentences of a measurement, as the library composed them. */
+function tellClaims(id, claims) {
+  at(id).replaceChildren(...claims.map(({ text }) => Object.assign(document.createElement("p"), { textContent: text })));
+}
 
 /* Half a second after the last change, at the state that is then shown. */
 function predictSoon() {

@@ -164,7 +164,7 @@ const ANSWERS = {
     return { is: "why", ...whyOf(new Live(library, changedScene(text, changes)), asked) };
   },
   study({ text, changes }) {
-    return { is: "studied", ...studyOf(new Live(library, changedScene(text, changes)), library.methods(), postMessage) };
+    return { is: "studied", ...studyOf(new Live(library, changedScene(text, changes))) };
   },
   use({ method, step }) {
     live.use(method, step);

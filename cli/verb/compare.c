@@ -16,8 +16,8 @@ static const struct cli_verb_row own_rows[] = {
 const struct cli_verb cli_verb_compare = {
     .name = "compare",
     .summary = "the scene by each method against a reference that checks itself",
-    .text = "Runs the scene by each method and by two integrators at tight tolerances that check each other, "
-            "and prints how far each method is from that reference over time, as long as the two agree, how "
+    .text = "Runs the scene by each method, makes a reference by two tight runs that check each other, "
+            "and prints how far each method is from it over time, as long as the two agree, how "
             "far its energy drifts, and what it costs. A method that diverges stays as a row. "
             "Tables are rounded; --json and FILE have every digit.",
     .example = "hooke compare cloth.json --methods symplectic-euler,cvode-adams",

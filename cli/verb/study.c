@@ -154,7 +154,7 @@ static const struct cli_verb_row own_rows[] = {
 const struct cli_verb cli_verb_study = {
     .name = "study",
     .summary = "how accurate each method is for what it costs, and which one to take",
-    .text = "Makes a reference by two integrators that check each other, runs every method "
+    .text = "Makes a reference by two runs that check each other, runs every method "
             "over a ladder of steps or tolerances, and prints error and cost of each run, the "
             "order of each method, and with --want LENGTH the cheapest run that is accurate "
             "enough, as a command. Runs that diverge stay as rows. Ctrl-C ends a study and "

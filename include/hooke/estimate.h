@@ -37,8 +37,8 @@ extern "C" {
  * stable step: of the bound at any frame, or of the prediction at the start and where the bound is least. No
  * picked method gains energy by itself, and the pick has met the want from a displaced start, too. If nothing
  * is known to meet the wanted error, the closest choice is set; the column "met" says so. HOOKE_BAD_CALL
- * without a wanted error, HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without SUNDIALS, HOOKE_UNSUITED if no method has
- * a stable step, HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+ * without a wanted error, HOOKE_BAD_VALUE, HOOKE_UNSUITED if no method has a stable step, HOOKE_STOPPED,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_estimate_pick(hooke_measurement *estimate, const char *method, hooke_options *run);
 
 /* Call before a run of `integrator` from `state`. The integrator has to stay until the run is over. The

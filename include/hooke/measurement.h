@@ -97,11 +97,12 @@ HOOKE_API const char *hooke_measurement_json(hooke_measurement *measurement, con
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 
 /* ---- a study: accuracy and cost of each method, and a recommendation ----
- * It computes a reference by two integrators that check each other and share only the force, runs every
- * method over a ladder of steps or tolerances, measures error and cost of each run over the frames where the
- * reference is trusted, and fits orders. With the option `want` it recommends a run whose "error_max", the
- * largest distance of any free particle at any frame, is at most that; with `ensemble` it adds
- * statistics for motion that is not predictable to its end. Runs that diverge stay as rows. Needs SUNDIALS.
+ * It computes a reference by two integrators that check each other and share only the force, or without
+ * SUNDIALS by rk4 in steps and half steps, runs every method over a ladder of steps or tolerances, measures
+ * error and cost of each run over the frames where the reference is trusted, and fits orders. With the option
+ * `want` it recommends a run whose "error_max", the largest distance of any free particle at any frame, is at
+ * most that; with `ensemble` it adds statistics for motion that is not predictable to its end. Runs that
+ * diverge stay as rows.
  *
  * With the option `once` each method runs once, with the step or the tolerances of `run`: a first look. Its
  * HDF5 file then has the motions, too, unless it was stopped: the reference under /particles/all, each method

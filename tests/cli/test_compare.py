@@ -104,7 +104,7 @@ def test_an_overdamped_scene_is_compared_by_the_methods_that_suit_it(hooke, writ
 
 
 def test_a_motion_that_nobody_knows_to_the_end(hooke, write):
-    """Of a double pendulum: the first look ends where its integrators part, and says that it does not know why."""
+    """Of a double pendulum: the first look ends where its two runs part, and says that it does not know why."""
     scene = write(DOUBLE, duration=60, every=0.5, step=2e-3)
     value = hooke("compare", scene, "--methods", "rk4", "--json").json
     until = value["reference"]["trusted_until"]
@@ -112,7 +112,7 @@ def test_a_motion_that_nobody_knows_to_the_end(hooke, write):
     assert value["rows"][0]["status"] == "finished" and 0 < value["rows"][0]["error"] < 3
     words = hooke("compare", scene, "--methods", "rk4").out
     told = " ".join(words.split())
-    assert f"errors and energy drift are known up to {until:g} s of 60 s: its two integrators part after that" in told
+    assert f"errors and energy drift are known up to {until:g} s of 60 s: its two runs part after that" in told
     assert "chaotic" not in words
     assert "--ensemble" not in words and "--want 1mm" in words
     head = next(line for line in words.splitlines() if line.startswith("at t [s]"))

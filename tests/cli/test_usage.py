@@ -154,7 +154,6 @@ def test_output_that_cannot_be_written_is_5():
         (["run", "-o", "out.h5"], "HDF5"),
         (["compare", "-o", "out.h5"], "HDF5"),
         (["compare", "--methods", "cvode-bdf"], "cvode-bdf"),
-        (["study"], "study"),
     ],
 )
 def test_what_is_not_in_a_minimal_build_is_6(hooke, write, tmp_path, words, wanted):
@@ -165,3 +164,14 @@ def test_what_is_not_in_a_minimal_build_is_6(hooke, write, tmp_path, words, want
     assert answer.out == ""
     assert not (tmp_path / "out.h5").exists()
     assert hooke(words[0], scene, "--json", *words[1:]).json["error"]["exit"] == 6
+
+
+
+@pytest.mark.skipif(not MINIMAL, reason="this build has the libraries")
+def test_without_sundials_a_study_says_that_rk4_checks_itself(hooke, write):
+    words = ["--methods", "verlet", "--duration", 1, "--every", 0.1, "--want", 1e-3, "--json"]
+    study = hooke("study", write(SIX_PARTICLES), *words).json
+    [floor] = [claim["text"] for claim in study["claims"] if claim["key"] == "floor"]
+    assert "by rk4, agrees with itself in steps of" in floor and "an error that both make alike is not seen" in floor
+    assert study["reference"]["methods"] == ["rk4", "rk4"] and study["recommendation"]["met"] is True
+    assert study["recommendation"]["error"] <= 1e-3

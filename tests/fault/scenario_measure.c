@@ -157,7 +157,7 @@ const struct scenario measuring[] = {
     {"why", why, NULL, 20, "lapack", NULL},
     {"needs", needs, NULL, 300, NULL, NULL},
     {"study", study, NULL, 100, "sundials gsl", NULL},
-    {"pick", pick, NULL, 2000, "sundials gsl", NULL},
+    {"pick", pick, NULL, 2000, NULL, NULL},
     {"estimate", estimate, "verlet", 1, "lapack", NULL},
     {"estimate, judged at its beginning", estimate, "implicit-midpoint", 1, "lapack", NULL},
     {"compare", compare, NULL, 3, "sundials", NULL},

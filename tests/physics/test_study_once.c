@@ -67,20 +67,23 @@ TEST(errors_are_true_errors) {
   const struct run run = {.step = 1e-3, .duration = 1.0, .every = 0.1};
   hooke_measurement *study = compare(system, run, NULL);
   check_ok(hooke_measurement_run(study, NULL));
-  assert_int_equal(hooke_measurement_row_count(study, "rows"), hooke_method_count());
-  int64_t judged = 0;
+  int64_t judged = 0, built = 0;
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct run alone = run;
     alone.method = hooke_method_name(k);
+    if (!hooke_method_is_built(alone.method)) continue;
     const double expected = true_error(solution_at(reference, alone.duration), system, alone);
     const double found = figure(study, alone.method, "error_final");
-    assert_string_equal(hooke_measurement_text(study, "rows", k, "status"), "finished");
+    assert_string_equal(hooke_measurement_text(study, "rows", row_of(study, alone.method), "status"),
+                        "finished");
+    built++;
     /* the reference itself has an error of about its tolerance, 1e-10 */
     if (expected < 1e-8) continue;
     judged++;
     check_between(found, 0.95 * expected, 1.05 * expected);
   }
-  check_between((double)judged, 4.0, (double)hooke_method_count());
+  assert_int_equal(hooke_measurement_row_count(study, "rows"), built);
+  check_between((double)judged, 4.0, (double)built);
   /* every maximum bounds its values */
   const int64_t row = row_of(study, "forward-euler");
   const double *series = hooke_measurement_series(study, "rows", row, "error_at", NULL);
@@ -93,8 +96,9 @@ TEST(errors_are_true_errors) {
   assert_true(hooke_measurement_number(study, "rows", row, "error_max") >= most);
   check_close(series[0], 0.0, 0.0);
   check_close(hooke_measurement_series(study, "reference", 0, "time", NULL)[10], 1.0, 1e-15);
-  /* error control is closer than a first-order method at this step, and forward Euler adds energy */
-  assert_true(figure(study, "cvode-adams", "error") < 0.1 * figure(study, "symplectic-euler", "error"));
+  /* error control, or rk4, is closer than a first-order method at this step, and forward Euler adds energy */
+  const char *controlled = hooke_method_is_built("cvode-adams") ? "cvode-adams" : "rk4";
+  assert_true(figure(study, controlled, "error") < 0.1 * figure(study, "symplectic-euler", "error"));
   assert_true(hooke_measurement_series(study, "rows", row, "energy_drift_at", NULL)[10] > 0.0);
   assert_int_equal((int)figure(study, "symplectic-euler", "force_evaluations"), 1000);
   hooke_measurement_destroy(study);
@@ -155,7 +159,8 @@ TEST(bad_requests) {
   hooke_measurement_destroy(study);
   check_status(create(system, (struct run){.step = 1e-3}, NULL, &study), HOOKE_BAD_VALUE);
   check_message("duration");
-  check_status(create(system, (struct run){.duration = 1.0}, "cvode-adams,rk4", &study), HOOKE_BAD_VALUE);
+  const char *methods = hooke_method_is_built("cvode-adams") ? "cvode-adams,rk4" : "rk4";
+  check_status(create(system, (struct run){.duration = 1.0}, methods, &study), HOOKE_BAD_VALUE);
   check_message("step");
   check_status(create(system, (struct run){.step = 3e-3, .duration = 1.0}, NULL, &study), HOOKE_BAD_VALUE);
   check_message("whole multiple of step 0.003 s");

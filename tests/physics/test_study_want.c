@@ -233,8 +233,11 @@ TEST(margins_are_those_of_an_oscillator) {
     check_ok(hooke_study_recommend(study, wants[k]));
     const double found = recommended(study, "error");
     check_between(recommended(study, "step"), step, 2.0 * step);
-    check_between(recommended(study, "limit_share"), 0.99 * recommended(study, "step") / 2.0,
-                  1.01 * recommended(study, "step") / 2.0);
+    if (hooke_build_fact("lapack")[0])
+      check_between(recommended(study, "limit_share"), 0.99 * recommended(study, "step") / 2.0,
+                    1.01 * recommended(study, "step") / 2.0);
+    else
+      assert_true(isnan(recommended(study, "limit_share")));
     check_between(recommended(study, "error_stiffness") / found, 1.05, 1.25);
     check_between(recommended(study, "holds_stiffness"), 0.0, 1.0);
     assert_true((recommended(study, "holds_stiffness") == 1.0) ==
@@ -294,8 +297,7 @@ static double norm_of(int rows, const double *column[BASIS]) {
 TEST(growth_is_bounded) {
   enum { FRAMES = 21 };
   const double length = 1e-6;
-  const struct run run = {
-      .method = "cvode-adams", .duration = 4.0, .every = 0.2, .rtol = 1e-12, .atol = 1e-13};
+  const struct run run = {.method = "rk4", .duration = 4.0, .every = 0.2, .step = 2e-4};
   owned_system *system = pendulum_of_two();
   check_ok(hooke_system_commit(system));
   owned_measurement *study = made_study(system, "rk4", run.duration, run.every, 0.0);
@@ -331,7 +333,8 @@ TEST(the_reason_is_the_true_one) {
   check_between(hooke_measurement_number(study, "reference", 0, "agreement"), 1e-12, 1e-4);
   hooke_measurement_destroy(study);
   study = made_study(system, "rk4", 10.0, 0.1, 1e-8);
-  assert_string_equal(hooke_measurement_text(study, "reference", 0, "ended"), "rounding");
+  assert_string_equal(hooke_measurement_text(study, "reference", 0, "ended"),
+                      hooke_method_is_built("cvode-adams") ? "rounding" : "finest");
   check_between(hooke_measurement_number(study, "reference", 0, "trusted_until"), 1.0, 9.9);
   check_between(hooke_measurement_number(study, "reference", 0, "agreement"), 1e-14, 1e-9);
   assert_true(hooke_measurement_number(study, "study", 0, "budget_spent") == 0.0);

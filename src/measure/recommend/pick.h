@@ -45,8 +45,8 @@ struct hk_pick {
 };
 
 /* Picks among `count` methods, which have to outlive the pick (0: any that is built). `run` has the duration
- * and all other options of methods. Must be released in either case. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without
- * SUNDIALS, HOOKE_NO_MEMORY; HOOKE_STOPPED, with the best row so far. */
+ * and all other options of methods. Must be released in either case. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY;
+ * HOOKE_STOPPED, with the best row so far. */
 int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
                     int32_t count, const char *const *methods, hooke_progress *progress, void *ctx);
 void hk_pick_release(struct hk_pick *pick);

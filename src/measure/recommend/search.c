@@ -389,11 +389,15 @@ static int32_t confirm(struct search *s, int32_t *holds) {
   return HOOKE_OK;
 }
 
+static double reference_setting(const struct hk_pick *pick) {
+  return hk_reference_setting(&pick->reference, pick->reference.method, pick->reference.rtol);
+}
+
 /* The reference itself meets any want that it can judge. */
 static int32_t fall_back(struct hk_pick *pick, int32_t count, struct search *all) {
   for (int32_t k = 0; k < count; k++) {
     if (strcmp(all[k].method, pick->reference.method) != 0) continue;
-    const int32_t status = try_value(&all[k], pick->reference.rtol, 0.0);
+    const int32_t status = try_value(&all[k], reference_setting(pick), 0.0);
     keep_best(pick, count, all);
     return status;
   }
@@ -430,7 +434,7 @@ static int32_t search_methods(struct hk_pick *pick) {
   if (status != HOOKE_OK || pick->best.method || pick->method_count > 0) return status;
   /* nothing after the start can be judged */
   pick->best = (struct hk_pick_row){
-      pick->reference.method, pick->reference.rtol, NAN, NAN, pick->reference.run_work, NAN};
+      pick->reference.method, reference_setting(pick), NAN, NAN, pick->reference.run_work, NAN};
   return status;
 }
 

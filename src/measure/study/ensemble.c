@@ -71,13 +71,15 @@ static int32_t find_quantities(const struct hk_study *study, struct hk_watched_l
 
 static int32_t create(const struct hk_study *study, struct hk_ensemble *ensemble) {
   const double want = hooke_options_number(study->options, "want");
+  const struct hk_reference *r = &study->reference;
   ensemble->members = (int64_t)hooke_options_number(study->options, "ensemble");
-  ensemble->noise = isnan(want) ? SHARE * study->reference.extent : NOISE * want;
+  ensemble->noise = isnan(want) ? SHARE * r->extent : NOISE * want;
   ensemble->from = ensemble->until = NAN;
   ensemble->source = hk_new(study->method_count + 1, sizeof *ensemble->source);
   if (ensemble->source == NULL) return HOOKE_NO_MEMORY;
   int32_t status = find_quantities(study, &ensemble->quantities);
-  if (status == HOOKE_OK) status = add_source(study, ensemble, -1, TOLERANCE);
+  if (status == HOOKE_OK)
+    status = add_source(study, ensemble, -1, hk_reference_setting(r, r->method, TOLERANCE));
   for (int32_t m = 0; m < study->method_count && status == HOOKE_OK; m++) {
     const double value = choose_value(study, m);
     if (!isnan(value)) status = add_source(study, ensemble, m, value);
@@ -146,7 +148,7 @@ static int32_t source_options(const struct hk_study *study, const struct hk_ense
                               hooke_options **options) {
   const struct hk_reference *r = &study->reference;
   if (source->method >= 0) return hk_study_row_options(study, source->method, source->value, options);
-  return hk_reference_options(study->run, r->method, source->value, r, options);
+  return hk_reference_options(study->run, r->method, TOLERANCE, r, options);
 }
 
 /* A member that does not finish, and a source that has one, count as failed. */

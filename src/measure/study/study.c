@@ -48,7 +48,7 @@ static const struct hk_option_row study_rows[] = {
     HOOKE_OPTION(
         "once", .type = HOOKE_OPTION_FLAG, "false",
         "a first look: each method once, with the step and the tolerances of the run, in place of ladders; "
-        "the reference ends where its integrators part, and an HDF5 file has the motions, too"),
+        "the reference ends where its two runs part, and an HDF5 file has the motions, too"),
 };
 
 static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
@@ -78,8 +78,6 @@ static int32_t read_watch(struct hk_study *study) {
 }
 
 static int32_t create(hooke_measurement *m) {
-  if (!hooke_method_is_built("cvode-adams"))
-    return hk_fail(HOOKE_NOT_BUILT, NULL, "a study needs SUNDIALS, which this build is without");
   struct hk_study *study = m->object = hk_new(1, sizeof *study);
   if (study == NULL) return HOOKE_NO_MEMORY;
   study->measurement = m;

@@ -144,7 +144,7 @@ void hk_study_fit_order(struct hk_study *study, int32_t method);
 /* ---- tables ---- */
 
 /* The value of a row, if its method takes its steps from a tolerance (`adaptive` 1) or not (0); else NaN. The
- * method -1 does. */
+ * method -1 is that of the reference. */
 double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive);
 
 extern const struct hk_table hk_study_tables[];

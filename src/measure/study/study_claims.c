@@ -8,7 +8,7 @@
 
 enum { SETTING_SIZE = 96 };
 
-/* Differences that grow more than this are called chaotic if the integrators part. */
+/* Differences that grow more than this are called chaotic if the two runs part. */
 static const double CHAOTIC = 1e3;
 
 struct teller {
@@ -107,13 +107,15 @@ static void tell_recommendation(const struct teller *t) {
 static const char *why_not_all(const struct hk_study *study) {
   const struct hk_reference *r = &study->reference;
   if (r->trusted >= r->checked) return "there was no time to check the reference beyond that";
-  if (r->hurried) return "at the tolerances that there was time for, its two integrators part after that";
-  if (study->once) return "its two integrators part after that, at the tolerances of a first look";
+  if (r->hurried) return "at the tolerances or steps that there was time for, its two runs part after that";
+  if (study->once) return "its two runs part after that, at the tolerances or steps of a first look";
+  if (hk_reference_is_halved(r))
+    return "its two runs part after that, even in the shortest steps that it takes";
   if (r->growth_seen > CHAOTIC)
-    return "this motion is chaotic: small differences grow so much that its two integrators part after that even "
+    return "this motion is chaotic: small differences grow so much that its two runs part after that even "
            "where rounding alone sets them apart, and where the particles are later cannot be computed to the "
            "wanted digits";
-  return "its two integrators part after that, although differences do not grow much: rounding keeps them "
+  return "its two runs part after that, although differences do not grow much: rounding keeps them "
          "from the wanted digits even at their tightest tolerances";
 }
 
@@ -135,10 +137,17 @@ static void tell_growth(const struct teller *t) {
 
 static void tell_floor(const struct teller *t) {
   const struct hk_reference *r = &t->study->reference;
+  const double step = 2.0 * hk_reference_setting(r, r->method, r->rtol);
+  char check[160];
+  if (hk_reference_is_halved(r))
+    hk_print(check, sizeof check,
+             "itself in steps of %.6g s, twice as long: an error that both make alike is not seen", step);
+  else
+    hk_print(check, sizeof check, "%s, which shares nothing with it but the forces", r->check);
   say(t, "floor", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
       "no error below %.3g m means anything, and no energy drift below %.3g J: to that the reference, by %s, "
-      "agrees with %s, which shares nothing with it but the forces",
-      r->agreement, r->energy_agreement, r->method, r->check);
+      "agrees with %s",
+      r->agreement, r->energy_agreement, r->method, check);
 }
 
 static void tell_reference(const struct teller *t) {
@@ -151,7 +160,7 @@ static void tell_reference(const struct teller *t) {
   }
   if (isnan(r->agreement))
     say(t, "reference", HOOKE_OF_UNKNOWN, "reference",
-        "no error is known: the two integrators of the reference, %s and %s, part before the first frame after "
+        "no error is known: the two runs of the reference, by %s and %s, part before the first frame after "
         "the start",
         r->method, r->check);
   else if (t->all)

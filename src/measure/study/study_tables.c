@@ -19,7 +19,8 @@ HOOKE_READER(double, frames, struct hk_study, is_made(it) ? (double)it->referenc
 static const char *how_it_ended(const struct hk_study *study) {
   const struct hk_reference *r = &study->reference;
   if (r->trusted == r->frames.count && !r->coarse) return "agreed";
-  return r->hurried ? "time" : study->once ? "parted" : "rounding";
+  if (r->hurried || study->once) return r->hurried ? "time" : "parted";
+  return hk_reference_is_halved(r) ? "finest" : "rounding";
 }
 
 HOOKE_READER(const void *, find_reference, struct hk_study, is_made(it) ? &it->reference : NULL)
@@ -48,7 +49,8 @@ HOOKE_COUNTER(count_orders, struct hk_study, is_made(it) ? it->method_count : 0)
 /* ---- the recommendation ---- */
 
 double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive) {
-  return adaptive == (method < 0 || hk_study_is_adaptive(study, method)) ? value : NAN;
+  const char *name = method < 0 ? study->reference.method : study->method[method];
+  return adaptive == hooke_method_is_adaptive(name) ? value : NAN;
 }
 
 HOOKE_READER(const char *, recommended_method, struct hk_study,
@@ -200,7 +202,7 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN_BY(frames, COUNT, "", "frames over which errors are judged"),
          HOOKE_COLUMN(struct hk_study, budget_spent, FLAG, "", "rows are missing for lack of time"))},
     {.name = "reference",
-     .doc = "the solution that errors are measured against, made by two integrators that check each other",
+     .doc = "the solution that errors are measured against, made by two runs that check each other",
      .record = 1,
      .lists = {{"methods", "method", "check"}},
      .row = find_reference,
@@ -226,10 +228,13 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN_BY(
              ended, TEXT, "",
              "why they were tightened no further: agreed, time (the budget was short), rounding (it keeps "
-             "them apart at the tightest tolerances), or parted (which ends a first look)"),
+             "them apart at the tightest tolerances), finest (of rk4, whose steps are halved no further), or parted "
+             "(which ends a first look)"),
          HOOKE_COLUMN(struct hk_reference, method, TEXT, "", "integrator that made the reference"),
-         HOOKE_COLUMN(struct hk_reference, check, TEXT, "",
-                      "integrator that checked it; they share only the forces"),
+         HOOKE_COLUMN(
+             struct hk_reference, check, TEXT, "",
+             "integrator that checked it; they share only the forces, or both are rk4, in whole and half "
+             "steps, where the build has no other"),
          HOOKE_COLUMN_BY(checked_until, NUMBER, "s",
                          "time up to which the two were compared; before the end where the budget was spent"),
          HOOKE_COLUMN_AS(struct hk_reference, frames.zero_passages, zero_passages, TEXT, "",
@@ -360,7 +365,7 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
          HOOKE_COLUMN_BY_AS(watched_unit, unit, TEXT, "", "its unit"),
          HOOKE_COLUMN_BY(agreement, NUMBER, "of the quantity",
-                         "twice the largest difference in it between the two integrators of the "
+                         "twice the largest difference in it between the two runs of the "
                          "reference, the floor of its errors"),
          HOOKE_COLUMN_BY_AS(
              watched_value, value, SERIES, "of the quantity",

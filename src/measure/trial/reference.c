@@ -16,6 +16,8 @@ static const double FIRST_SHARE = 0.1; /* the first tolerance, in digits as a fr
 static const double LEAST_FACTOR = 1e-2, MOST_FACTOR = 0.1;   /* factor from one level to the next */
 static const double AIM = 0.3;                                /* of the wanted distance */
 static const double COST_POWER = 1.0 / 6.0, COST_SPARE = 1.1; /* of a level, in the factor */
+/* Of rk4: half the step is this factor of a tolerance, and costs twice as much. */
+static const double HALVED = 1.0 / 16.0, HALVED_COST_POWER = 1.0 / 4.0;
 enum { EXPECTED_LEVELS = 2 };
 
 static const double CLOSE = 1e-9;     /* agreement, as a fraction of the extent, at which tightening ends */
@@ -28,14 +30,18 @@ static const double FIRST_RUN_SHARE = 0.3, FIRST_OF_FEW = 0.45, LEVELS_SHARE = 0
 
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
   struct hk_node_blocks blocks;
-  *method = "cvode-adams";
-  if (system->mover_count > 0) return HOOKE_OK;
+  *method = hooke_method_is_built("cvode-adams") ? "cvode-adams" : hk_rk4.name;
+  if (system->mover_count > 0 || !hooke_method_is_adaptive(*method)) return HOOKE_OK;
   const int32_t status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
   if (system->overdamped || hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))
     *method = "cvode-bdf";
   hk_node_blocks_release(&blocks);
   return HOOKE_OK;
+}
+
+int32_t hk_reference_is_halved(const struct hk_reference *r) {
+  return !hooke_method_is_adaptive(r->method);
 }
 
 double hk_reference_time(const struct hk_reference *r, int64_t count, double duration) {
@@ -89,6 +95,12 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
 
 /* ---- levels ---- */
 
+/* The tolerance of a level: steps are halved, once or more often, from the loosest one on. */
+static double of_level(const struct hk_reference *r, double tolerance) {
+  const double halvings = ceil(log(tolerance / LOOSEST) / log(HALVED) - 1e-9);
+  return hk_reference_is_halved(r) ? LOOSEST * pow(HALVED, halvings) : tolerance;
+}
+
 static int measures_growth(const struct hk_reference_request *request) {
   return !request->enough && !request->brief;
 }
@@ -107,7 +119,7 @@ static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, d
   const double fraction = watch->request->enough ? FIRST_OF_FEW : FIRST_RUN_SHARE;
   const double deadline = watch->start + LEVELS_SHARE * budget;
   struct hk_run_cost cost;
-  r->rtol = fmax(TIGHTEST, 0.1 * tolerance);
+  r->rtol = hk_reference_is_halved(r) ? HALVED * tolerance : fmax(TIGHTEST, 0.1 * tolerance);
   watch->levels++;
   watch->ahead = ahead_of_level(watch) + CHECK_COST;
   int32_t status =
@@ -129,10 +141,12 @@ static void keep_further(struct hk_reference *r, struct hk_reference *next) {
   if (worse == r) *r = *next;
 }
 
-static double first_tolerance(const struct hk_reference_request *request, double extent) {
+static double first_tolerance(const struct hk_reference_request *request, const struct hk_reference *r) {
+  if (hk_reference_is_halved(r))
+    return LOOSEST; /* halving costs little more than beginning with short steps */
   if (!request->enough && isinf(request->budget)) return TIGHT;
   if (isnan(request->digits)) return request->enough ? FIRST_SHARE * DIGITS : QUICK;
-  return fmax(TIGHT, fmin(LOOSEST, FIRST_SHARE * request->digits / extent));
+  return fmax(TIGHT, fmin(LOOSEST, FIRST_SHARE * request->digits / r->extent));
 }
 
 static int is_all(const struct hk_reference *r) {
@@ -164,9 +178,9 @@ static int is_drowned(const struct hk_reference *r) {
   return SAFETY * r->frames.rounding[frame] > aim_of(r);
 }
 
-/* 1 if the two part for good, which tighter tolerances put off a little. */
-static int is_lost(const struct hk_reference_watch *watch, const struct hk_reference *r) {
-  return watch->request->brief && !is_all(r);
+/* 1 if the two part for good, which tighter tolerances put off a little; the first steps of rk4 are long. */
+static int is_lost(const struct hk_reference_watch *watch, const struct hk_reference *r, double tolerance) {
+  return watch->request->brief && !is_all(r) && (!hk_reference_is_halved(r) || tolerance <= TIGHT);
 }
 
 /* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
@@ -197,13 +211,14 @@ static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *
 static int has_time(const struct hk_reference_watch *watch, const struct hk_reference *r, double times,
                     double seconds) {
   const double fraction = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
-  const double expected = COST_SPARE * pow(times, COST_POWER) * seconds;
+  const double expected =
+      COST_SPARE * pow(times, hk_reference_is_halved(r) ? HALVED_COST_POWER : COST_POWER) * seconds;
   return hk_reference_now(watch) + expected <= watch->start + fraction * watch->request->budget;
 }
 
 /* Tightens until the two agree, or tolerances or time are exhausted. */
 static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r, struct hk_trial *check) {
-  double tolerance = first_tolerance(watch->request, r->extent);
+  double tolerance = first_tolerance(watch->request, r);
   int32_t status = hk_reference_choose_first(watch, r, 0.1 * tolerance);
   if (status != HOOKE_OK) return status;
   for (;;) {
@@ -212,11 +227,12 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
     const int failed = gave_up(status);
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    const int last = tolerance <= TIGHTEST || is_lost(watch, r) || is_drowned(r);
+    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(r);
     if (r->checked > 0 && (failed || last || is_enough(watch->request, r))) break;
     const double seconds = hk_reference_now(watch) - begun;
-    double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
-    if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
+    double finer = of_level(r, failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance));
+    if (!has_time(watch, r, tolerance / finer, seconds))
+      finer = fmax(finer, of_level(r, MOST_FACTOR * tolerance));
     r->hurried = watch->cut || !has_time(watch, r, tolerance / finer, seconds);
     if (r->hurried) break;
     tolerance = finer;
@@ -242,9 +258,6 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
                              .agreement = NAN,
                              .energy_agreement = NAN,
                              .coarse = 1};
-  if (!hooke_method_is_built("cvode-adams")) {
-    return hk_fail(HOOKE_NOT_BUILT, NULL, "a reference needs SUNDIALS, which this build is without");
-  }
   int32_t status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) status = hk_reference_method(system, hooke_state_position(state), &r->method);
   if (status == HOOKE_OK) find_extent(r, state);
@@ -253,6 +266,8 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
   if (status == HOOKE_OK)
     status = hk_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
   if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
+  if (status == HOOKE_OK && hk_reference_is_halved(r))
+    status = hk_reference_find_longest(&watch, r, r->method);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);
   if (status == HOOKE_OK && measures_growth(request)) status = hk_reference_measure_growth(&watch, r, &trial);
   hk_trial_release(&trial);

@@ -1,5 +1,6 @@
 /* A reference that checks itself: two integrators that share only the force, at tightening tolerances, until
- * they agree. If they part for good (chaos), only the time until which they agree can be judged. */
+ * they agree; without SUNDIALS, two runs by rk4, one in half the steps of the other. If they part for good
+ * (chaos), only the time until which they agree can be judged. */
 #ifndef HOOKE_MEASURE_TRIAL_REFERENCE_H
 #define HOOKE_MEASURE_TRIAL_REFERENCE_H
 
@@ -9,6 +10,7 @@ struct hk_reference {
   struct hk_frames frames; /* of `method` at `rtol` */
   const char *method, *check;
   double rtol, run_extent;      /* its tolerances are for this extent; */
+  double longest;               /* see hk_reference_setting() [s] */
   double evaluations, run_work; /* force evaluations and counted work of its run */
   double extent;                /* diagonal of the box that holds all frames [m] */
   double farthest;              /* largest coordinate at the start, at least the extent then [m] */
@@ -48,9 +50,9 @@ struct hk_reference_request {
 };
 
 /* Without a budget, or with a counted one, no choice depends on a clock. Works within the budget: a run that
- * the budget ends is compared as far as it got, and counts if that is further than before. HOOKE_NOT_BUILT
- * without SUNDIALS; HOOKE_BAD_VALUE if the budget ends before one frame after the start; HOOKE_STOPPED;
- * HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an integrator gave up. */
+ * the budget ends is compared as far as it got, and counts if that is further than before. HOOKE_BAD_VALUE if
+ * the budget ends before one frame after the start; HOOKE_STOPPED; HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an
+ * integrator gave up. */
 int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,
                             struct hk_reference *reference);
 void hk_reference_release(struct hk_reference *reference);
@@ -59,13 +61,21 @@ void hk_reference_release(struct hk_reference *reference);
  * NaN for none [s]. */
 double hk_reference_time(const struct hk_reference *reference, int64_t count, double duration);
 
+/* 1 if both runs are by rk4, in steps and in half of them: an error that both make alike is not seen. */
+int32_t hk_reference_is_halved(const struct hk_reference *reference);
+
+/* What a method takes for a tolerance: that or, of fixed steps, the whole part of `longest` whose error falls
+ * as the tolerance does [s]. */
+double hk_reference_setting(const struct hk_reference *reference, const char *method, double rtol);
+
 /* Options of a run by `method` at a tolerance, which counts in the size of the scene, wherever that lies: the
  * absolute one scales with it, and the relative one is smaller far from the origin. */
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *reference, hooke_options **out);
 
 /* The method that makes references cheapest on this system at positions q: Adams, or BDF if damping is faster
- * than the fastest oscillation, so that fast motion dies out and an implicit method can take long steps. */
+ * than the fastest oscillation, so that fast motion dies out and an implicit method can take long steps. rk4
+ * without SUNDIALS. */
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method);
 
 #endif

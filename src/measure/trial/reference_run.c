@@ -14,9 +14,30 @@ static const double LEAST_WORK = 1e-300;      /* [s]: none, where 0 is without l
 static const double MOST_COST = 5.0;          /* of the explicit check against the first method */
 static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd against the first method, in equal time */
 static const double MOST_ESDIRK = 20.0;       /* of arkode-esdirk against the first method */
-static const double COARSEST_CHECK = 1e-4;    /* tolerance at which tr-bdf2 takes one step a frame */
+static const double COARSEST = 1e-4;          /* tolerance that `longest` stands for */
 static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
+
+int32_t hk_reference_find_longest(const struct hk_reference_watch *watch, struct hk_reference *r,
+                                  const char *method) {
+  const hooke_options *run = watch->request->run;
+  hooke_state *state = NULL;
+  double bound = NAN, unit;
+  int32_t status =
+      hk_step_unit(hooke_options_number(run, "duration"), hooke_options_number(run, "every"), &unit);
+  if (status == HOOKE_OK) status = hooke_state_create(r->frames.system, &state);
+  if (status == HOOKE_OK)
+    status = hooke_step_bound(r->frames.system, method, hooke_state_position(state), &bound);
+  hooke_state_destroy(state);
+  r->longest = unit / fmax(1.0, bound > 0.0 ? ceil(unit / bound * (1.0 - 1e-9)) : 1.0);
+  return status;
+}
+
+double hk_reference_setting(const struct hk_reference *r, const char *method, double rtol) {
+  if (hooke_method_is_adaptive(method)) return rtol;
+  const double parts = pow(COARSEST / rtol, 1.0 / hk_method_find(method)->order);
+  return r->longest / fmax(1.0, ceil(parts * (1.0 - 1e-9)));
+}
 
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *r, hooke_options **out) {
@@ -24,7 +45,9 @@ int32_t hk_reference_options(const hooke_options *run, const char *method, doubl
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", fmin(rtol, relative));
+  if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
+    status = hooke_options_set_number(options, "step", hk_reference_setting(r, method, rtol));
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", relative);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", ABSOLUTE * rtol * r->extent);
   if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
@@ -105,21 +128,11 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
   return HOOKE_OK;
 }
 
-/* Of a method of order 2, whose error goes with the square of the step, as a tolerance has it. */
-static int32_t set_step(hooke_options *run, double rtol) {
-  double duration, every, unit;
-  int32_t status = hk_step_times(run, &duration, &every);
-  if (status == HOOKE_OK) status = hk_step_unit(duration, every, &unit);
-  const double parts = ceil(sqrt(COARSEST_CHECK / rtol) * (1.0 - 1e-9));
-  return status == HOOKE_OK ? hooke_options_set_number(run, "step", unit / fmax(1.0, parts)) : status;
-}
-
 int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_reference *r, const char *method,
                            double rtol, const struct hk_listener *listener, struct hk_trial *trial) {
   const struct hk_frames *frames = &r->frames;
   hooke_options *options = NULL;
   int32_t status = hk_reference_options(watch->request->run, method, rtol, r, &options);
-  if (status == HOOKE_OK && !hooke_method_is_adaptive(method)) status = set_step(options, rtol);
   if (status == HOOKE_OK && frames->recorded < frames->count) {
     const double reached = frames->time[frames->recorded - 1] - frames->time[0];
     status = hooke_options_set_number(options, "duration", reached);
@@ -208,11 +221,16 @@ static int32_t implicit_cost(struct hk_reference_watch *watch, const struct hk_r
 int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_reference *r, double rtol,
                                   struct hk_run_cost first) {
   double by_explicit, by_implicit = MOST_COST;
+  if (hk_reference_is_halved(r)) {
+    r->check = r->method;
+    return HOOKE_OK;
+  }
   int32_t status = explicit_cost(watch, r, rtol, first, &by_explicit);
   if (status == HOOKE_OK && by_explicit >= MOST_COST)
     status = implicit_cost(watch, r, rtol, first, &by_implicit);
   r->check = by_explicit <= by_implicit ? "rk8pd" : "arkode-esdirk";
   /* of order 2 alone, but it comes to an end */
-  if (isinf(by_explicit) && isinf(by_implicit)) r->check = "tr-bdf2";
-  return status;
+  if (status != HOOKE_OK || !isinf(by_explicit) || !isinf(by_implicit)) return status;
+  r->check = "tr-bdf2";
+  return hk_reference_find_longest(watch, r, r->check);
 }

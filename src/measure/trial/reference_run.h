@@ -43,6 +43,11 @@ int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_ref
 int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_reference *reference,
                                   double rtol);
 
+/* Finds `longest` for a method of fixed steps: a stable one at the start that fits the frames.
+ * HOOKE_BAD_VALUE if duration and every have no step in common. */
+int32_t hk_reference_find_longest(const struct hk_reference_watch *watch, struct hk_reference *reference,
+                                  const char *method);
+
 /* Chooses the second integrator, after the first has run at about `rtol` at this cost. */
 int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_reference *reference,
                                   double rtol, struct hk_run_cost first);

@@ -17,11 +17,11 @@ from .system import Force
 
 
 class Reference(Record, table="study.reference"):
-    """The reference of the errors, made by two integrators."""
+    """The reference of the errors, made by two runs."""
 
     @property
     def methods(self) -> tuple[str, str]:
-        """The two integrators, which share only the force."""
+        """The methods of the two, which share only the force, or are both rk4."""
         return self.method, self.check
 
 
@@ -170,6 +170,6 @@ def study(
 
 def compare(problem: Runnable, methods: str | Iterable[str] | None = None, **options: Any) -> Study:
     """A first look: a `study` with one row a method, run once with the step [s] or the tolerances of the run, against a
-    reference that ends where its two integrators part. The keywords are those of `study`; an HDF5 file as `output` has
+    reference that ends where its two runs part. The keywords are those of `study`; an HDF5 file as `output` has
     every motion, too, for which the runs are made again (`hooke.plot.cloth` and `hooke.plot.error` draw it)."""
     return study(problem, methods, once=True, **options)
