@@ -226,6 +226,7 @@ DAMPED["particles"]["velocity"] = [[0, 0, 0], [0.5, 0, 0], [0, 0, 0]]
 RUN = ("run", "--want", "1mm", "--final")
 STUDY = ("study", "--want", "1mm", "--methods", "verlet,rk4,cvode-adams", "--tolerances", "1e-3", "--steps", "2e-3,1e-3")
 NEEDS = ("needs", "--want", "1cm")
+MARGIN = ("stability", "stiffness", "start")
 
 
 @pytest.mark.skipif(not JUMPING, reason="nothing can be loaded before this program")
@@ -243,6 +244,8 @@ def test_no_answer_depends_on_a_clock(hooke, write, scene, words):
         value = answer.json
         if verb == "study":
             value["recommendation"].update(margin=None, note=None)
+            value["claims"] = [claim for claim in value["claims"] if claim["key"] not in MARGIN]
+        value["claims"] = [claim for claim in value["claims"] if claim["by"] != "clock"]
         found.append((value, answer))
     assert without_times(found[0][0]) == without_times(found[1][0])
     assert found[0][1].out != found[1][1].out, "the clock is not used at all"
