@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Generic, TypeVar
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ._status import BadCall, BadValue
 from ._types import FloatArray, IntArray, Table
 
 C = TypeVar("C", bound="Closing")
+V = TypeVar("V")
 
 
 class Owner:
@@ -94,6 +95,21 @@ class Closing(Owner):
         if name == "_handle":
             raise BadCall(f"this {type(self).__name__} is closed")
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+
+class Asked(property, Generic[V]):
+    """A property as a row of a table: the method that answers, what it says, and what the method is asked for."""
+
+    def __init__(self, answer: Callable[..., V], doc: str, *what: Any):
+        def read(thing: Any) -> V:
+            return answer(thing, *what)
+
+        read.__annotations__, read.__doc__ = answer.__annotations__, doc
+        super().__init__(read)
+
+    if TYPE_CHECKING:
+
+        def __get__(self, thing: Any, kind: type | None = None) -> V: ...  # type: ignore[override]
 
 
 def view(

@@ -12,7 +12,7 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._look import WorkProgress
-from ._memory import Closing, Handle, double_pointer, doubles, index_pointer, indices, text
+from ._memory import Asked, Closing, Handle, double_pointer, doubles, index_pointer, indices, text
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from ._types import FloatArray
@@ -261,32 +261,23 @@ class Integrator(Closing):
         self.message = text(lib.hooke_last_error()) if code else ""
         return OUTCOMES.get(code, f"outcome {code}")
 
-    @property
-    def frame_count(self) -> int:
-        """Number of frames of a whole run, including the initial one."""
-        return int(lib.hooke_integrator_count(self._handle, b"frames"))
+    def _count(self, what: str) -> int:
+        return int(lib.hooke_integrator_count(self._handle, what.encode()))
+
+    def _number(self, what: bytes) -> float:
+        return float(lib.hooke_integrator_number(self._handle, what))
+
+    frame_count = Asked(_count, "Number of frames of a whole run, including the initial one.", "frames")
+    stop_value = Asked(_count, "Value that the callback which stopped the run returned; 0 if none did.", "stop_value")
+    wall_seconds = Asked(_number, "Time spent stepping [s], without observers and output.", b"wall_seconds")
+    diverged_at = Asked(_number, "Time at which divergence was noticed [s]; NaN if it was not.", b"diverged_at")
 
     @property
     def counts(self) -> dict[str, int]:
         """Counts since the integrator was made: steps, force evaluations, solver iterations, ...; without those that
         are not known, as "zero_passages" of a run that went on from a file."""
-        counts = {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
+        counts = {what: self._count(what) for what in COUNTS}
         return {what: count for what, count in counts.items() if count >= 0}
-
-    @property
-    def wall_seconds(self) -> float:
-        """Time spent stepping [s], without observers and output."""
-        return float(lib.hooke_integrator_number(self._handle, b"wall_seconds"))
-
-    @property
-    def stop_value(self) -> int:
-        """Value that the callback which stopped the run returned; 0 if none did."""
-        return int(lib.hooke_integrator_count(self._handle, b"stop_value"))
-
-    @property
-    def diverged_at(self) -> float:
-        """Time at which divergence was noticed [s]; NaN if it was not."""
-        return float(lib.hooke_integrator_number(self._handle, b"diverged_at"))
 
     def __repr__(self) -> str:
         return f"Integrator({self._problem!r}, {self.options!r})"
