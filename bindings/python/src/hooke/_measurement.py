@@ -17,7 +17,6 @@ from ._callback import listening
 from ._library import lib
 from ._look import draw
 from ._memory import Handle, address_of, text, view
-from ._prototypes import MEASUREMENT
 from ._status import OUTCOMES, NotBuilt, plain
 from ._types import FloatArray, Path, Table
 
@@ -102,7 +101,7 @@ class Measurement:
     @classmethod
     def made(cls, parent: Handle | None, create: Any, *arguments: Any) -> Measurement:
         """What a function of the library makes."""
-        return cls(Handle.made(MEASUREMENT, lib.hooke_measurement_destroy, parent, create, *arguments))
+        return cls(Handle.made(parent, create, *arguments))
 
     def run(self, progress: Any, state: Any = None) -> int:
         """Runs it and returns the status."""

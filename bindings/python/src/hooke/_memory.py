@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Callable, Generic, TypeVar
 
 import numpy as np
 
-from ._prototypes import DOUBLES, INTEGERS
+from ._library import lib
+from ._prototypes import DOUBLES, INTEGERS, PROTOTYPES
 from ._status import BadCall, BadValue
 from ._types import FloatArray, IntArray, Table
 
@@ -48,11 +49,12 @@ class Handle(Owner):
             parent._users += 1
 
     @classmethod
-    def made(cls, kind: Any, destroy: Any, parent: Handle | None, create: Any, *arguments: Any) -> Handle:
+    def made(cls, parent: Handle | None, create: Any, *arguments: Any) -> Handle:
         """Owns what a function of the library makes, whose last argument is the place for it."""
-        pointer = kind()
+        kind = PROTOTYPES[create.__name__][-1]._type_
+        name, pointer = kind._type_.__name__, kind()
         create(*arguments, ctypes.byref(pointer))
-        return cls(pointer, destroy, parent)
+        return cls(pointer, getattr(lib, f"{name}_destroy", None) or getattr(lib, f"{name}_close"), parent)
 
     @property
     def pointer(self) -> Any:

@@ -15,7 +15,7 @@ from ._look import WorkProgress
 from ._memory import Asked, Closing, Handle, double_pointer, doubles, index_pointer, indices, text
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
-from ._types import FloatArray
+from ._types import FloatArray, Path
 from .options import Options
 from .problems import FirstOrder, SecondOrder
 from .state import State
@@ -61,17 +61,13 @@ class Method(NamedTuple):
 
 def methods() -> list[Method]:
     """All methods, in the library's order."""
-    names = [lib.hooke_method_name(number) for number in range(lib.hooke_method_count())]
-    return [
-        Method(
-            text(name),
-            text(lib.hooke_method_summary(name)),
-            lib.hooke_method_is_adaptive(name) == 1,
-            lib.hooke_method_is_built(name) == 1,
-            *(lib.hooke_method_is_suited(name, problem) == 1 for problem in (b"bodies", b"overdamped", b"first-order")),
-        )
-        for name in names
-    ]
+
+    def method(name: bytes) -> Method:
+        suited = [lib.hooke_method_is_suited(name, problem) for problem in (b"bodies", b"overdamped", b"first-order")]
+        answers = lib.hooke_method_is_adaptive(name), lib.hooke_method_is_built(name), *suited
+        return Method(text(name), text(lib.hooke_method_summary(name)), *(answer == 1 for answer in answers))
+
+    return [method(lib.hooke_method_name(number)) for number in range(lib.hooke_method_count())]
 
 
 class StepWarning(RuntimeWarning):
@@ -138,13 +134,13 @@ class Integrator(Closing):
         reported are not reported again. The rest is as in `run`."""
         return self._whole(lib.hooke_integrator_resume, state, on_frame, on_step, on_checkpoint)
 
-    def write_checkpoint(self, path: str | os.PathLike[str], state: State, run: str = "") -> None:
+    def write_checkpoint(self, path: Path, state: State, run: str = "") -> None:
         """Writes a checkpoint of the run, with `state` as observers receive it, or as a stopped `run` left it. An
         error-controlled method writes the last of its checkpoints. The previous file stays as ``<path>.previous``;
         `run` (63 bytes at most) identifies the run."""
         lib.hooke_checkpoint_write(os.fsencode(path), self._handle, state._handle, run.encode())
 
-    def read_checkpoint(self, path: str | os.PathLike[str], state: State, run: str | None = None) -> None:
+    def read_checkpoint(self, path: Path, state: State, run: str | None = None) -> None:
         """Sets the integrator and `state` to the point that the file holds, or, if it is damaged or missing, the
         previous one, for `resume` or `step`. BadValue for files of another problem, other options (but for threads),
         or another `run`."""
@@ -186,10 +182,7 @@ class Integrator(Closing):
         if self._running:
             raise BadCall(_RUNNING)
         shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
-        given = [
-            None if values is None else doubles(values, name, shape)
-            for values, name in ((q, "q"), (v, "v"))
-        ]
+        given = ((None if values is None else doubles(values, name, shape)) for values, name in ((q, "q"), (v, "v")))
         pointers = [None if values is None else double_pointer(values) for values in given]
         lib.hooke_integrator_put(self._handle, particles.size, index_pointer(particles), *pointers)
 
@@ -209,7 +202,8 @@ class Integrator(Closing):
         try:
             code: int = function(self._handle, *arguments)
         except SolverFailed as failure:
-            self._failed(failure)
+            self.outcome, self.message = _SOLVER_FAILED, str(failure)
+            failure.integrator = self
             raise
         finally:
             self._running = False
@@ -231,21 +225,17 @@ class Integrator(Closing):
         except (NotBuilt, Unsuited):
             return self.message
 
-    def _failed(self, failure: SolverFailed) -> None:
-        self.outcome, self.message = _SOLVER_FAILED, str(failure)
-        failure.integrator = self
-
     def _whole(self, function: Any, state: State, on_frame: Any, on_step: Any, on_checkpoint: Any) -> str:
         if self._running:
             raise BadCall(_RUNNING)
         stride, step_observer = on_step or (1, None)
-        watched: list[tuple[Any, Observer | None, list[int]]] = [
-            (lib.hooke_integrator_on_frame, on_frame, []),
-            (lib.hooke_integrator_on_step, step_observer, [stride]),
-            (lib.hooke_integrator_on_checkpoint, on_checkpoint, []),
-        ]
+        watched = (
+            (lib.hooke_integrator_on_frame, on_frame),
+            (lib.hooke_integrator_on_step, step_observer, stride),
+            (lib.hooke_integrator_on_checkpoint, on_checkpoint),
+        )
         with contextlib.ExitStack() as during:
-            for attach, observer, how in watched:
+            for attach, observer, *how in watched:
                 during.enter_context(_callback.attached(attach, self._handle, _observer(observer, state), *how))
             with contextlib.suppress(NotBuilt, Unsuited):
                 during.enter_context(_callback.attached(lib.hooke_integrator_on_warning, self._handle, WARNING(_warn)))

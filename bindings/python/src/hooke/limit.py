@@ -83,7 +83,6 @@ class Limit(Paged, kind="limit"):
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
         return draw("plot.limit", self, axes, **options)
 
-
     def __repr__(self) -> str:
         return f"Limit({self.outcome}, {len(self.rows)} methods, {len(self.modes)} modes)"
 

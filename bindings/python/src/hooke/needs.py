@@ -100,7 +100,6 @@ class Needs(Paged, Closing, kind="needs"):
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
         return draw("plot.needs", self, ax, **options)
 
-
     def __repr__(self) -> str:
         if self.parts.size:
             return f"Needs({self.outcome}, want={self.want!r}, {len(self.parts)} parts)"

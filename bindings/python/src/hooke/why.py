@@ -79,7 +79,6 @@ class Why(Paged, kind="why", rows="advice"):
         return f"Why({self.cause}, t={self.time!r}, {self.method})"
 
 
-
 def _whole(number: float) -> int:
     return -1 if math.isnan(number) else int(number)
 
