@@ -40,8 +40,7 @@ COUNTS = (
 )
 
 
-_SOLVER_FAILED = -7
-_BLOWN_UP = (2, 3, _SOLVER_FAILED)
+_BLOWN_UP = (2, 3, SolverFailed.status)
 _LONG = 50_000  # numbers times steps that may take long enough for Ctrl-C to matter
 _RUNNING = "this integrator is running; a callback or another thread needs one of its own"
 
@@ -202,7 +201,7 @@ class Integrator(Closing):
         try:
             code: int = function(self._handle, *arguments)
         except SolverFailed as failure:
-            self.outcome, self.message = _SOLVER_FAILED, str(failure)
+            self.outcome, self.message = failure.status or 0, str(failure)
             failure.integrator = self
             raise
         finally:
