@@ -106,7 +106,7 @@ class Asked(property, Generic[V]):
         def read(thing: Any) -> V:
             return answer(thing, *what)
 
-        read.__annotations__, read.__doc__ = answer.__annotations__, doc
+        read.__annotations__, read.__doc__ = getattr(answer, "__annotations__", {}), doc
         super().__init__(read)
 
     if TYPE_CHECKING:

@@ -97,16 +97,12 @@ class Queries(Problem):
     def _names(self, function: Any, what: str) -> list[str]:
         return [text(function(self._handle, k)) for k in range(self._count(what))]
 
-    @property
-    def is_committed(self) -> bool:
-        """Whether the system is committed, and so constant."""
-        return bool(lib.hooke_system_is_committed(self._handle))
-
-    @property
-    def particle_count(self) -> int:
-        """Number of particles, including those of parts."""
-        return int(lib.hooke_system_particle_count(self._handle))
-
+    is_committed = Asked(
+        lambda system: bool(lib.hooke_system_is_committed(system._handle)), "Whether the system is committed, and so constant."
+    )
+    particle_count = Asked(
+        lambda system: int(lib.hooke_system_particle_count(system._handle)), "Number of particles, including those of parts."
+    )
     free_count = Asked(_count, "Number of particles that are neither pinned nor driven; commits.", "free")
     spring_count = Asked(
         _count, "Number of springs: all that were added; once committed, those with stiffness or damping.", "springs"

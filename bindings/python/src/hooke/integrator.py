@@ -165,25 +165,20 @@ class Integrator(Closing):
     def get(self, particles: Any) -> tuple[FloatArray, FloatArray]:
         """Positions [m] and velocities [m/s] of particles of the motion (a number or several): two arrays of the shape of
         `particles`, each with x y z in a last dimension."""
-        if self._running:
-            raise BadCall(_RUNNING)
         shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
         q, v = np.empty(shape), np.empty(shape)
-        lib.hooke_integrator_get(
-            self._handle, particles.size, index_pointer(particles), double_pointer(q), double_pointer(v)
-        )
+        given = particles.size, index_pointer(particles), double_pointer(q), double_pointer(v)
+        self._call(lib.hooke_integrator_get, given)
         return q, v
 
     def put(self, particles: Any, q: Any = None, v: Any = None) -> None:
         """Sets particles of the motion to positions `q` [m] and velocities `v` [m/s], shaped as in `get`; None leaves
         them. A pinned particle is held at the position set, a driven one keeps its prescribed motion, and only
         non-finite numbers count as divergence from then on. An error-controlled method restarts."""
-        if self._running:
-            raise BadCall(_RUNNING)
         shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
         given = ((None if values is None else doubles(values, name, shape)) for values, name in ((q, "q"), (v, "v")))
         pointers = [None if values is None else double_pointer(values) for values in given]
-        lib.hooke_integrator_put(self._handle, particles.size, index_pointer(particles), *pointers)
+        self._call(lib.hooke_integrator_put, (particles.size, index_pointer(particles), *pointers))
 
     def _take(self, steps: int, function: Any, *arguments: Any) -> str:
         if self._problem._callbacks or (steps > 1 and steps * self._numbers > _LONG):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Mapping
 from typing import Any, Callable
@@ -10,7 +11,7 @@ from typing import Any, Callable
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, doubles, indices, rows, text
+from ._memory import Asked, Handle, doubles, indices, rows, text
 from ._status import BadCall, BadValue, placed
 from ._types import IntArray, Numbers, Path
 from .options import Options, option_name
@@ -167,20 +168,9 @@ class Scene(Parts, Problem):
 
     # using
 
-    @property
-    def system(self) -> System:
-        """Its system."""
-        return self._system
-
-    @property
-    def run_options(self) -> Options:
-        """The run options of the scene, which may be changed."""
-        return self._run
-
-    @property
-    def title(self) -> str:
-        """Its title; "" if it has none."""
-        return self._title
+    system = Asked[System](operator.attrgetter("_system"), "Its system.")
+    run_options = Asked[Options](operator.attrgetter("_run"), "The run options of the scene, which may be changed.")
+    title = Asked[str](operator.attrgetter("_title"), 'Its title; "" if it has none.')
 
     @property
     def text(self) -> str:

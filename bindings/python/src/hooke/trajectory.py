@@ -16,7 +16,6 @@ from ._memory import Asked, Closing, text
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
 from .files import numbers, opened, run_options, view
-from .options import Options
 from .results import Frames, RunError
 from .scene import Scene
 from .state import State
@@ -122,6 +121,7 @@ class Trajectory(Closing):
     mass = Asked(_numbers, "Mass of every particle (n,) [kg].", "mass")
     pinned = Asked(_of_species, "Numbers of the pinned particles (k,).", 1)
     driven = Asked(_of_species, "Numbers of the driven particles (k,).", 2)
+    options = Asked(lambda file: run_options(file._handle), "The options of the run, with defaults filled in.")
     status = Asked(
         _text,
         'How the run ended: "finished", "stopped", "diverged", "step-limit", "solver-failed" or "failed"; "running" while '
@@ -170,11 +170,6 @@ class Trajectory(Closing):
         found = dict(zip(_ERROR, self._numbers("error").tolist()))
         met = None if math.isnan(found["met"]) else found["met"] == 1.0
         return RunError(**{**found, "met": met, "by": by, "reason": reason})
-
-    @property
-    def options(self) -> Options:
-        """The options of the run, with defaults filled in."""
-        return run_options(self._handle)
 
     @property
     def scene(self) -> Scene | None:
