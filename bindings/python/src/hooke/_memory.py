@@ -56,14 +56,6 @@ class Handle(Owner):
         create(*arguments, ctypes.byref(pointer))
         return cls(pointer, getattr(lib, f"{name}_destroy", None) or getattr(lib, f"{name}_close"), parent)
 
-    @property
-    def pointer(self) -> Any:
-        return self._as_parameter_
-
-    @property
-    def parent(self) -> Any:
-        return self._parent
-
     def _release(self) -> None:
         self._users -= 1
         if self._users == 0:

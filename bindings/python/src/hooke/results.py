@@ -178,7 +178,7 @@ class _Once:
             watchers.append(recorder)
         if estimate is not None:
             lib.hooke_estimate_begin(estimate.handle, integrator._handle, state._handle)
-            seen = estimate.handle.pointer
+            seen = estimate.handle
             watchers.append(lambda step, state: lib.hooke_estimate_see(step, state._handle, seen))
         with shown(self.progress, fills=False) as tell:  # a run may end early
             if tell is not None:

@@ -87,7 +87,7 @@ class State:
 
     def copy(self) -> State:
         """A copy with the same values."""
-        other = _alike(self._x, self._v, self._handle.parent)
+        other = _alike(self._x, self._v, self._handle._parent)
         other.assign(self)
         return other
 
