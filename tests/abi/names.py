@@ -31,9 +31,10 @@ def of_class(cls):
     """Its members and those of its bases that are of the package, each as the class has it."""
     own = [base for base in cls.__mro__ if base.__module__.split(".")[0] == "hooke"]
     members = {name for base in own for name in (*vars(base), *vars(base).get("__annotations__", ()))}
-    for base in own:  # what objects have from their beginning
-        if inspect.isfunction(begin := vars(base).get("__init__")) and begin.__code__.co_filename.endswith(".py"):
-            members.update(re.findall(r"self\.(\w+)(?:: [^=]+)? = ", inspect.getsource(begin)))
+    begins = [vars(base).get(name) for base in own for name in ("__init__", "_read")]
+    for begin in begins:  # what objects have from their beginning
+        if inspect.isfunction(begin) and begin.__code__.co_filename.endswith(".py"):
+            members.update(re.findall(r"self\.(\w+)(?=(?:, self\.\w+)*(?:: [^=]+)? = )", inspect.getsource(begin)))
     for member in sorted(members):
         if not member.startswith("_"):
             value = inspect.getattr_static(cls, member, None)

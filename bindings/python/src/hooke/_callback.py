@@ -76,10 +76,6 @@ _again = np.ndarray.view
 _MOST = 64  # blocks that are known; an integrator has few
 
 
-def _answered(answer: Any) -> int:
-    return 0 if answer is None and pending.exception is None else guarded(lambda: answer)
-
-
 def on_arrays(
     kind: Any,
     function: Callable[..., Any] | None,
@@ -120,7 +116,8 @@ def on_arrays(
             memory, rows = known.get(key) or look(key, others[:-1])
             users = getrefcount(memory)
             try:
-                return _answered(user(t, *map(_again, rows)))
+                answer = user(t, *map(_again, rows))
+                return 0 if answer is None and pending.exception is None else guarded(lambda: answer)
             finally:
                 if getrefcount(memory) != users:
                     leave(key, memory)

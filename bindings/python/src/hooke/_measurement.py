@@ -17,7 +17,6 @@ from ._callback import listening
 from ._library import lib
 from ._look import draw
 from ._memory import Handle, address_of, text, view
-from ._prototypes import MEASUREMENT
 from ._status import OUTCOMES, NotBuilt, plain
 from ._types import FloatArray, Path, Table
 
@@ -102,7 +101,7 @@ class Measurement:
     @classmethod
     def made(cls, parent: Handle | None, create: Any, *arguments: Any) -> Measurement:
         """What a function of the library makes."""
-        return cls(Handle.made(MEASUREMENT, lib.hooke_measurement_destroy, parent, create, *arguments))
+        return cls(Handle.made(parent, create, *arguments))
 
     def run(self, progress: Any, state: Any = None) -> int:
         """Runs it and returns the status."""
@@ -178,18 +177,10 @@ class Measurement:
         made.flags.writeable = False
         return made
 
-    # ---- files ----
-
-    def label(self, **labels: str | bytes | None) -> None:
+    def label(self, **labels: str | None) -> None:
         """Sets labels, such as the title of a page."""
         for what, label in labels.items():
-            encoded = label.encode() if isinstance(label, str) else label
-            lib.hooke_measurement_label(self.handle, what.encode(), encoded)
-
-    def write(self, path: Path, **labels: str | bytes | None) -> None:
-        """Writes the results in the format given by the ending of `path`: .csv, .json, .h5 or .html."""
-        self.label(**labels)
-        lib.hooke_measurement_write(self.handle, os.fsencode(path))
+            lib.hooke_measurement_label(self.handle, what.encode(), label and label.encode())
 
 
 class Claim(Record, table="study.claims"):
@@ -205,8 +196,6 @@ class Found:
     """A finished measurement with rows, of a scene if it was made of one. The columns of the record of its `kind` are its
     attributes."""
 
-    outcome: str
-    rows: Table
     _rows: str  # the table that they are
     _untitled = ""  # the heading of a page without a title
 
@@ -222,8 +211,8 @@ class Found:
     def __init__(self, found: Measurement, scene: Any, system: Any, status: int):
         self._handle, self._scene = found, scene
         self._system = system  # its callbacks have to live as long as the measurement
-        self.outcome = OUTCOMES.get(status, "stopped")
-        self.rows = found.rows(self._rows)
+        self.outcome: str = OUTCOMES.get(status, "stopped")
+        self.rows: Table = found.rows(self._rows)
         vars(self).update(found.record(found.kind))
         self._read(found)
 
@@ -251,7 +240,8 @@ class Found:
         the page to read with the heading `title` (that of the scene, if None)."""
         title = title or (self._scene.title if self._scene else "") or self._untitled
         text = self._scene.text if self._scene else None
-        self._handle.write(path, title=title or None, scene=text)
+        self._handle.label(title=title or None, scene=text)
+        lib.hooke_measurement_write(self._handle.handle, os.fsencode(path))
 
     def _repr_html_(self) -> str | None:
         shown: str | None = draw("notebook.table", self.rows, str(self))

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Generic, TypeVar
 
 import numpy as np
 
-from ._prototypes import DOUBLES, INTEGERS
+from ._library import lib
+from ._prototypes import DOUBLES, INTEGERS, PROTOTYPES
 from ._status import BadCall, BadValue
 from ._types import FloatArray, IntArray, Table
 
 C = TypeVar("C", bound="Closing")
+V = TypeVar("V")
 
 
 class Owner:
@@ -47,19 +49,12 @@ class Handle(Owner):
             parent._users += 1
 
     @classmethod
-    def made(cls, kind: Any, destroy: Any, parent: Handle | None, create: Any, *arguments: Any) -> Handle:
+    def made(cls, parent: Handle | None, create: Any, *arguments: Any) -> Handle:
         """Owns what a function of the library makes, whose last argument is the place for it."""
-        pointer = kind()
+        kind = PROTOTYPES[create.__name__][-1]._type_
+        name, pointer = kind._type_.__name__, kind()
         create(*arguments, ctypes.byref(pointer))
-        return cls(pointer, destroy, parent)
-
-    @property
-    def pointer(self) -> Any:
-        return self._as_parameter_
-
-    @property
-    def parent(self) -> Any:
-        return self._parent
+        return cls(pointer, getattr(lib, f"{name}_destroy", None) or getattr(lib, f"{name}_close"), parent)
 
     def _release(self) -> None:
         self._users -= 1
@@ -94,6 +89,21 @@ class Closing(Owner):
         if name == "_handle":
             raise BadCall(f"this {type(self).__name__} is closed")
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+
+class Asked(property, Generic[V]):
+    """A property as a row of a table: the method that answers, what it says, and what the method is asked for."""
+
+    def __init__(self, answer: Callable[..., V], doc: str, *what: Any):
+        def read(thing: Any) -> V:
+            return answer(thing, *what)
+
+        read.__annotations__, read.__doc__ = getattr(answer, "__annotations__", {}), doc
+        super().__init__(read)
+
+    if TYPE_CHECKING:
+
+        def __get__(self, thing: Any, kind: type | None = None) -> V: ...  # type: ignore[override]
 
 
 def view(

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
+from ._memory import Asked, Handle, address_of, double_pointer, index_pointer, rows, text, view
 from ._types import FloatArray, IntArray
 from .problems import Problem
 
@@ -54,21 +54,8 @@ class Blocks(NamedTuple):
     dfdv: FloatArray
 
 
-class Count(property):
-    """A property that is a count of the library; one that is known only of a committed system commits it."""
-
-    def __init__(self, what: str, doc: str):
-        late = what in ("free", "dropped_springs", "idle", "inside_bodies", "memory", "spring_memory")
-
-        def count(system: Queries) -> int:
-            return int(lib.hooke_system_count(system._committed() if late else system._handle, what.encode()))
-
-        count.__doc__ = doc
-        super().__init__(count)
-
-    if TYPE_CHECKING:
-
-        def __get__(self, system: Any, kind: type | None = None) -> int: ...  # type: ignore[override]
+#: Counts that are known only of a committed system.
+_LATE = ("free", "dropped_springs", "idle", "inside_bodies", "memory", "spring_memory", "forces")
 
 
 class Queries(Problem):
@@ -80,35 +67,8 @@ class Queries(Problem):
     def _committed(self) -> Handle:
         raise NotImplementedError
 
-    @property
-    def is_committed(self) -> bool:
-        """Whether the system is committed, and so constant."""
-        return bool(lib.hooke_system_is_committed(self._handle))
-
-    @property
-    def particle_count(self) -> int:
-        """Number of particles, including those of parts."""
-        return int(lib.hooke_system_particle_count(self._handle))
-
-    free_count = Count("free", "Number of particles that are neither pinned nor driven; commits.")
-
-    spring_count = Count(
-        "springs", "Number of springs: all that were added; once committed, those with stiffness or damping."
-    )
-
-    dropped_spring_count = Count(
-        "dropped_springs", "Number of springs dropped because they have neither stiffness nor damping; commits."
-    )
-
-    idle_count = Count(
-        "idle",
-        "Number of pinned particles that no spring, no bending, no altitude spring and no force callback acts on; commits.",
-    )
-
-    @property
-    def groups(self) -> list[tuple[str, int]]:
-        """Name ("" if it has none) and number of springs of every group."""
-        return self._groups(b"springs")
+    def _count(self, what: str) -> int:
+        return int(lib.hooke_system_count(self._committed() if what in _LATE else self._handle, what.encode()))
 
     def _groups(self, force: bytes) -> list[tuple[str, int]]:
         handle = self._handle
@@ -116,59 +76,6 @@ class Queries(Problem):
             (text(lib.hooke_system_group_name(handle, force, k)), lib.hooke_system_group_size(handle, force, k))
             for k in range(lib.hooke_system_group_count(handle, force))
         ]
-
-    bending_count = Count("bending", "Number of triples of bending; commit drops those of coefficient 0.")
-
-    @property
-    def bending_groups(self) -> list[tuple[str, int]]:
-        """Name ("" if it has none) and number of triples of every group."""
-        return self._groups(b"bending")
-
-    altitude_count = Count(
-        "altitude", "Number of tetrahedra with altitude springs; commit drops those without stiffness and damping."
-    )
-
-    @property
-    def altitude_groups(self) -> list[tuple[str, int]]:
-        """Name ("" if it has none) and number of tetrahedra of every group."""
-        return self._groups(b"altitude")
-
-    anchor_count = Count("anchors", "Number of anchors; commit drops those without stiffness and damping.")
-
-    @property
-    def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Particle (m,), point (m, 3) [m], stiffness [N/m], damping [N s/m] and rest length [m] (m,) of every anchor."""
-        particles = self._ends(b"anchors")[:, 0]
-        points = np.empty((len(particles), 3))
-        lib.hooke_system_anchor_points(self._handle, double_pointer(points))
-        return (particles, points, *self._material(b"anchors"))
-
-    @property
-    def derived(self) -> list[Derived]:
-        """Numbers that parts derived from their density, damping ratios and bending stiffness."""
-
-        def value(number: int, what: str) -> Any:
-            if what == "value":
-                return lib.hooke_system_derived_value(self._handle, number)
-            word = lib.hooke_system_derived_text(self._handle, number, what.encode())
-            return None if word is None else text(word)
-
-        count = lib.hooke_system_count(self._handle, b"derived")
-        return [Derived(*(value(number, what) for what in Derived._fields)) for number in range(count)]
-
-    @property
-    def masses(self) -> FloatArray:
-        """Mass of every particle (n,) [kg], a read-only view."""
-        return self._particle_numbers(lib.hooke_system_mass)
-
-    @property
-    def inverse_masses(self) -> FloatArray:
-        """Inverse mass of every particle (n,) [1/kg], 0 where pinned or driven, a read-only view."""
-        return self._particle_numbers(lib.hooke_system_inverse_mass)
-
-    def _particle_numbers(self, function: Any) -> FloatArray:
-        handle = self._committed()
-        return view(address_of(function(handle)), (self.particle_count,), handle, writeable=False)
 
     def _ends(self, force: bytes) -> IntArray:
         handle = self._committed()
@@ -183,20 +90,71 @@ class Queries(Problem):
         lib.hooke_system_members(handle, force, None, *(double_pointer(column) for column in material))
         return material
 
-    @property
-    def spring_ends(self) -> IntArray:
-        """The particles at both ends of every spring (m, 2), in spring order."""
-        return self._ends(b"springs")
+    def _particle_numbers(self, function: Any) -> FloatArray:
+        handle = self._committed()
+        return view(address_of(function(handle)), (self.particle_count,), handle, writeable=False)
 
-    @property
-    def spring_material(self) -> Material:
-        """Stiffness, damping and rest length of every spring."""
-        return self._material(b"springs")
+    def _names(self, function: Any, what: str) -> list[str]:
+        return [text(function(self._handle, k)) for k in range(self._count(what))]
 
-    @property
-    def bending_ends(self) -> IntArray:
-        """The particles of every triple (m, 3), in their order."""
-        return self._ends(b"bending")
+    is_committed = Asked(
+        lambda system: bool(lib.hooke_system_is_committed(system._handle)), "Whether the system is committed, and so constant."
+    )
+    particle_count = Asked(
+        lambda system: int(lib.hooke_system_particle_count(system._handle)), "Number of particles, including those of parts."
+    )
+    free_count = Asked(_count, "Number of particles that are neither pinned nor driven; commits.", "free")
+    spring_count = Asked(
+        _count, "Number of springs: all that were added; once committed, those with stiffness or damping.", "springs"
+    )
+    dropped_spring_count = Asked(
+        _count, "Number of springs dropped because they have neither stiffness nor damping; commits.", "dropped_springs"
+    )
+    idle_count = Asked(
+        _count,
+        "Number of pinned particles that no spring, no bending, no altitude spring and no force callback acts on; commits.",
+        "idle",
+    )
+    bending_count = Asked(_count, "Number of triples of bending; commit drops those of coefficient 0.", "bending")
+    altitude_count = Asked(
+        _count, "Number of tetrahedra with altitude springs; commit drops those without stiffness and damping.", "altitude"
+    )
+    anchor_count = Asked(_count, "Number of anchors; commit drops those without stiffness and damping.", "anchors")
+    body_count = Asked(_count, "Number of rigid bodies.", "bodies")
+    inside_body_count = Asked(
+        _count,
+        "Number of springs and other members of forces dropped because they are inside a rigid body; commits.",
+        "inside_bodies",
+    )
+    memory = Asked(_count, "Memory that the system holds [bytes].", "memory")
+    spring_memory = Asked(_count, "The part of it that grows with the number of springs [bytes].", "spring_memory")
+    groups = Asked(_groups, 'Name ("" if it has none) and number of springs of every group.', b"springs")
+    bending_groups = Asked(_groups, 'Name ("" if it has none) and number of triples of every group.', b"bending")
+    altitude_groups = Asked(_groups, 'Name ("" if it has none) and number of tetrahedra of every group.', b"altitude")
+    masses = Asked(_particle_numbers, "Mass of every particle (n,) [kg], a read-only view.", lib.hooke_system_mass)
+    inverse_masses = Asked(
+        _particle_numbers,
+        "Inverse mass of every particle (n,) [1/kg], 0 where pinned or driven, a read-only view.",
+        lib.hooke_system_inverse_mass,
+    )
+    spring_ends = Asked(_ends, "The particles at both ends of every spring (m, 2), in spring order.", b"springs")
+    spring_material = Asked(_material, "Stiffness, damping and rest length of every spring.", b"springs")
+    bending_ends = Asked(_ends, "The particles of every triple (m, 3), in their order.", b"bending")
+    altitude_ends = Asked(_ends, "The particles of every tetrahedron (m, 4), in their order.", b"altitude")
+    altitude_material = Asked(
+        _material,
+        "Stiffness (m,) [N], damping (m,) [N s] and the seven rest lengths (m, 7) [m] of every tetrahedron, negative "
+        "where its volume is.",
+        b"altitude",
+        7,
+    )
+    body_names = Asked(_names, 'The names of the rigid bodies, "" for one without.', lib.hooke_system_body_name, "bodies")
+    forces = Asked(
+        _names,
+        'The forces that the system computes ("springs", "bending", "altitude", "drag", "callback", "gravity").',
+        lib.hooke_system_force_name,
+        "forces",
+    )
 
     @property
     def bending_coefficient(self) -> FloatArray:
@@ -204,34 +162,31 @@ class Queries(Problem):
         return self._material(b"bending").kappa
 
     @property
-    def altitude_ends(self) -> np.ndarray:
-        """The particles of every tetrahedron (m, 4), in their order."""
-        return self._ends(b"altitude")
+    def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Particle (m,), point (m, 3) [m], stiffness [N/m], damping [N s/m] and rest length [m] (m,) of every anchor."""
+        particles = self._ends(b"anchors")[:, 0]
+        points = np.empty((len(particles), 3))
+        lib.hooke_system_anchor_points(self._handle, double_pointer(points))
+        return (particles, points, *self._material(b"anchors"))
 
     @property
-    def altitude_material(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Stiffness (m,) [N], damping (m,) [N s] and the seven rest lengths (m, 7) [m] of every tetrahedron,
-        negative where its volume is."""
-        stiffness, damping, rest_length = self._material(b"altitude", 7)
-        return stiffness, damping, rest_length
+    def derived(self) -> list[Derived]:
+        """Numbers that parts derived from their density, damping ratios and bending stiffness."""
+
+        def words(number: int, what: bytes) -> str:
+            return text(lib.hooke_system_derived_text(self._handle, number, what))
+
+        return [
+            Derived(words(k, b"part"), words(k, b"family") or None, words(k, b"name"), value, words(k, b"unit"))
+            for k in range(self._count("derived"))
+            for value in [lib.hooke_system_derived_value(self._handle, k)]
+        ]
 
     def altitude_lengths(self, q: Any) -> np.ndarray:
         """The altitude of every tetrahedron that acts at q (m,) [m]: negative where it is inverted, 0 where none
         acts."""
         count = lib.hooke_system_count(self._committed(), b"altitude")
         return self._filled(lib.hooke_system_altitude_lengths, count, q=q)
-
-    body_count = Count("bodies", "Number of rigid bodies.")
-
-    inside_body_count = Count(
-        "inside_bodies",
-        "Number of springs and other members of forces dropped because they are inside a rigid body; commits.",
-    )
-
-    @property
-    def body_names(self) -> list[str]:
-        """The names of the rigid bodies, "" for one without."""
-        return [text(lib.hooke_system_body_name(self._handle, k)) for k in range(self.body_count)]
 
     def body_particles(self, body: int) -> IntArray:
         """The particles of a rigid body (m,), ascending once committed."""
@@ -249,19 +204,6 @@ class Queries(Problem):
         """The motion of a rigid body at q and v."""
         motion = self._filled(lib.hooke_system_body_motion, 13, body, q=q, v=v)
         return BodyMotion(motion[:3], motion[3:7], motion[7:10], motion[10:])
-
-    @property
-    def forces(self) -> list[str]:
-        """The forces that the system computes ("springs", "bending", "altitude", "drag",
-        "callback", "gravity")."""
-        handle = self._committed()
-        return [
-            text(lib.hooke_system_force_name(handle, k)) for k in range(lib.hooke_system_count(handle, b"forces"))
-        ]
-
-    memory = Count("memory", "Memory that the system holds [bytes].")
-
-    spring_memory = Count("spring_memory", "The part of it that grows with the number of springs [bytes].")
 
     # forces
 

@@ -31,25 +31,17 @@ class Error(Exception):
 class NoMemory(Error, MemoryError):
     """An allocation failed."""
 
-    status = -1
-
 
 class BadValue(Error, ValueError):
     """An argument, an option or a scene has a value that is not allowed."""
-
-    status = -2
 
 
 class BadCall(Error, RuntimeError):
     """Calls out of order, such as adding to a committed system."""
 
-    status = -3
-
 
 class IOFailed(Error, OSError):
     """A file could not be read or written."""
-
-    status = -4
 
 
 class MissingInput(BadValue, FileNotFoundError):
@@ -63,20 +55,15 @@ class MissingFile(IOFailed, FileNotFoundError):
 class NotBuilt(Error, NotImplementedError):
     """This build of the library lacks the requested part."""
 
-    status = -5
-
 
 class Unsuited(Error, ValueError):
     """The method does not support this kind of problem."""
-
-    status = -6
 
 
 class SolverFailed(Error, ArithmeticError):
     """A nonlinear or error-controlled solver gave up; ``hooke.why(failure)`` explains it, and `diagnosis` is its
     sentence."""
 
-    status = -7
     integrator: Any = None  # the one that failed, if there is one
 
     @property
@@ -88,17 +75,15 @@ class SolverFailed(Error, ArithmeticError):
 class Internal(Error, RuntimeError):
     """The library found a defect of its own; nothing was measured."""
 
-    status = -8
-
 
 class Stopped(Error):
     """A callback asked to stop outside of a run, so that there is no result to return."""
 
-    status = 1
 
-
-_KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Internal, Stopped)
-FAILURES = {kind.status: kind for kind in _KINDS}
+_KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Internal)
+FAILURES: dict[int, type[Error]] = {1: Stopped, **{-number: kind for number, kind in enumerate(_KINDS, 1)}}
+for _number, _kind in FAILURES.items():
+    _kind.status = _number
 _MISSING: dict[int, type[Error]] = {-2: MissingInput, -4: MissingFile}  # where the message of the library says so
 
 

@@ -20,7 +20,6 @@ class Cost(Found, kind="cost"):
     def _read(self, found: Measurement) -> None:
         self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
 
-
     def __repr__(self) -> str:
         return f"Cost({self.outcome}, {self.method}, {len(self.rows)} ingredients)"
 

@@ -16,7 +16,6 @@ from ._library import lib
 from ._look import WorkProgress
 from ._measurement import Measurement, Record
 from ._memory import Handle, double_pointer
-from ._prototypes import RECORD
 from ._status import BadValue
 from ._types import FloatArray, Path
 from .options import Options
@@ -25,7 +24,7 @@ from .scene import limits_of
 
 def opened(path: Path) -> Handle:
     """A file, which closes with its last user."""
-    return Handle.made(RECORD, lib.hooke_record_close, None, lib.hooke_record_open, os.fsencode(path))
+    return Handle.made(None, lib.hooke_record_open, os.fsencode(path))
 
 
 def run_options(record: Handle) -> Options:

@@ -12,10 +12,10 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._look import WorkProgress
-from ._memory import Closing, Handle, double_pointer, doubles, index_pointer, indices, text
+from ._memory import Asked, Closing, Handle, double_pointer, doubles, index_pointer, indices, text
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
-from ._types import FloatArray
+from ._types import FloatArray, Path
 from .options import Options
 from .problems import FirstOrder, SecondOrder
 from .state import State
@@ -40,8 +40,7 @@ COUNTS = (
 )
 
 
-_SOLVER_FAILED = -7
-_BLOWN_UP = (2, 3, _SOLVER_FAILED)
+_BLOWN_UP = (2, 3, SolverFailed.status)
 _LONG = 50_000  # numbers times steps that may take long enough for Ctrl-C to matter
 _RUNNING = "this integrator is running; a callback or another thread needs one of its own"
 
@@ -61,17 +60,13 @@ class Method(NamedTuple):
 
 def methods() -> list[Method]:
     """All methods, in the library's order."""
-    names = [lib.hooke_method_name(number) for number in range(lib.hooke_method_count())]
-    return [
-        Method(
-            text(name),
-            text(lib.hooke_method_summary(name)),
-            lib.hooke_method_is_adaptive(name) == 1,
-            lib.hooke_method_is_built(name) == 1,
-            *(lib.hooke_method_is_suited(name, problem) == 1 for problem in (b"bodies", b"overdamped", b"first-order")),
-        )
-        for name in names
-    ]
+
+    def method(name: bytes) -> Method:
+        suited = [lib.hooke_method_is_suited(name, problem) for problem in (b"bodies", b"overdamped", b"first-order")]
+        answers = lib.hooke_method_is_adaptive(name), lib.hooke_method_is_built(name), *suited
+        return Method(text(name), text(lib.hooke_method_summary(name)), *(answer == 1 for answer in answers))
+
+    return [method(lib.hooke_method_name(number)) for number in range(lib.hooke_method_count())]
 
 
 class StepWarning(RuntimeWarning):
@@ -138,13 +133,13 @@ class Integrator(Closing):
         reported are not reported again. The rest is as in `run`."""
         return self._whole(lib.hooke_integrator_resume, state, on_frame, on_step, on_checkpoint)
 
-    def write_checkpoint(self, path: str | os.PathLike[str], state: State, run: str = "") -> None:
+    def write_checkpoint(self, path: Path, state: State, run: str = "") -> None:
         """Writes a checkpoint of the run, with `state` as observers receive it, or as a stopped `run` left it. An
         error-controlled method writes the last of its checkpoints. The previous file stays as ``<path>.previous``;
         `run` (63 bytes at most) identifies the run."""
         lib.hooke_checkpoint_write(os.fsencode(path), self._handle, state._handle, run.encode())
 
-    def read_checkpoint(self, path: str | os.PathLike[str], state: State, run: str | None = None) -> None:
+    def read_checkpoint(self, path: Path, state: State, run: str | None = None) -> None:
         """Sets the integrator and `state` to the point that the file holds, or, if it is damaged or missing, the
         previous one, for `resume` or `step`. BadValue for files of another problem, other options (but for threads),
         or another `run`."""
@@ -170,28 +165,20 @@ class Integrator(Closing):
     def get(self, particles: Any) -> tuple[FloatArray, FloatArray]:
         """Positions [m] and velocities [m/s] of particles of the motion (a number or several): two arrays of the shape of
         `particles`, each with x y z in a last dimension."""
-        if self._running:
-            raise BadCall(_RUNNING)
         shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
         q, v = np.empty(shape), np.empty(shape)
-        lib.hooke_integrator_get(
-            self._handle, particles.size, index_pointer(particles), double_pointer(q), double_pointer(v)
-        )
+        given = particles.size, index_pointer(particles), double_pointer(q), double_pointer(v)
+        self._call(lib.hooke_integrator_get, given)
         return q, v
 
     def put(self, particles: Any, q: Any = None, v: Any = None) -> None:
         """Sets particles of the motion to positions `q` [m] and velocities `v` [m/s], shaped as in `get`; None leaves
         them. A pinned particle is held at the position set, a driven one keeps its prescribed motion, and only
         non-finite numbers count as divergence from then on. An error-controlled method restarts."""
-        if self._running:
-            raise BadCall(_RUNNING)
         shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
-        given = [
-            None if values is None else doubles(values, name, shape)
-            for values, name in ((q, "q"), (v, "v"))
-        ]
+        given = ((None if values is None else doubles(values, name, shape)) for values, name in ((q, "q"), (v, "v")))
         pointers = [None if values is None else double_pointer(values) for values in given]
-        lib.hooke_integrator_put(self._handle, particles.size, index_pointer(particles), *pointers)
+        self._call(lib.hooke_integrator_put, (particles.size, index_pointer(particles), *pointers))
 
     def _take(self, steps: int, function: Any, *arguments: Any) -> str:
         if self._problem._callbacks or (steps > 1 and steps * self._numbers > _LONG):
@@ -209,7 +196,8 @@ class Integrator(Closing):
         try:
             code: int = function(self._handle, *arguments)
         except SolverFailed as failure:
-            self._failed(failure)
+            self.outcome, self.message = failure.status or 0, str(failure)
+            failure.integrator = self
             raise
         finally:
             self._running = False
@@ -231,21 +219,17 @@ class Integrator(Closing):
         except (NotBuilt, Unsuited):
             return self.message
 
-    def _failed(self, failure: SolverFailed) -> None:
-        self.outcome, self.message = _SOLVER_FAILED, str(failure)
-        failure.integrator = self
-
     def _whole(self, function: Any, state: State, on_frame: Any, on_step: Any, on_checkpoint: Any) -> str:
         if self._running:
             raise BadCall(_RUNNING)
         stride, step_observer = on_step or (1, None)
-        watched: list[tuple[Any, Observer | None, list[int]]] = [
-            (lib.hooke_integrator_on_frame, on_frame, []),
-            (lib.hooke_integrator_on_step, step_observer, [stride]),
-            (lib.hooke_integrator_on_checkpoint, on_checkpoint, []),
-        ]
+        watched = (
+            (lib.hooke_integrator_on_frame, on_frame),
+            (lib.hooke_integrator_on_step, step_observer, stride),
+            (lib.hooke_integrator_on_checkpoint, on_checkpoint),
+        )
         with contextlib.ExitStack() as during:
-            for attach, observer, how in watched:
+            for attach, observer, *how in watched:
                 during.enter_context(_callback.attached(attach, self._handle, _observer(observer, state), *how))
             with contextlib.suppress(NotBuilt, Unsuited):
                 during.enter_context(_callback.attached(lib.hooke_integrator_on_warning, self._handle, WARNING(_warn)))
@@ -261,32 +245,23 @@ class Integrator(Closing):
         self.message = text(lib.hooke_last_error()) if code else ""
         return OUTCOMES.get(code, f"outcome {code}")
 
-    @property
-    def frame_count(self) -> int:
-        """Number of frames of a whole run, including the initial one."""
-        return int(lib.hooke_integrator_count(self._handle, b"frames"))
+    def _count(self, what: str) -> int:
+        return int(lib.hooke_integrator_count(self._handle, what.encode()))
+
+    def _number(self, what: bytes) -> float:
+        return float(lib.hooke_integrator_number(self._handle, what))
+
+    frame_count = Asked(_count, "Number of frames of a whole run, including the initial one.", "frames")
+    stop_value = Asked(_count, "Value that the callback which stopped the run returned; 0 if none did.", "stop_value")
+    wall_seconds = Asked(_number, "Time spent stepping [s], without observers and output.", b"wall_seconds")
+    diverged_at = Asked(_number, "Time at which divergence was noticed [s]; NaN if it was not.", b"diverged_at")
 
     @property
     def counts(self) -> dict[str, int]:
         """Counts since the integrator was made: steps, force evaluations, solver iterations, ...; without those that
         are not known, as "zero_passages" of a run that went on from a file."""
-        counts = {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
+        counts = {what: self._count(what) for what in COUNTS}
         return {what: count for what, count in counts.items() if count >= 0}
-
-    @property
-    def wall_seconds(self) -> float:
-        """Time spent stepping [s], without observers and output."""
-        return float(lib.hooke_integrator_number(self._handle, b"wall_seconds"))
-
-    @property
-    def stop_value(self) -> int:
-        """Value that the callback which stopped the run returned; 0 if none did."""
-        return int(lib.hooke_integrator_count(self._handle, b"stop_value"))
-
-    @property
-    def diverged_at(self) -> float:
-        """Time at which divergence was noticed [s]; NaN if it was not."""
-        return float(lib.hooke_integrator_number(self._handle, b"diverged_at"))
 
     def __repr__(self) -> str:
         return f"Integrator({self._problem!r}, {self.options!r})"

@@ -46,20 +46,13 @@ class Limit(Paged, kind="limit"):
     `outcome` is "finished", or the outcome of the run along which limits were found.
     """
 
-    modes: ComplexArray
-    frequency: FloatArray
-    decay: FloatArray
-    shape: FloatArray | None
-    blame: list[Blame]
-    participation: list[Participation]
-    changes: Changes | None
-
     _untitled = "limits of steps"
 
     def _read(self, found: Measurement) -> None:
         modes = found.rows("modes")
-        self.modes = modes["real"] + 1j * modes["imaginary"]
-        self.frequency, self.decay = modes["frequency"], modes["decay"]
+        self.modes: ComplexArray = modes["real"] + 1j * modes["imaginary"]
+        self.frequency: FloatArray = modes["frequency"]
+        self.decay: FloatArray = modes["decay"]
         shape = found.series("limit", 0, "shape")
         self.shape = None if shape is None else shape.reshape(-1, 3)
         self.blame = Blame.read(found)
@@ -82,7 +75,6 @@ class Limit(Paged, kind="limit"):
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
         return draw("plot.limit", self, axes, **options)
-
 
     def __repr__(self) -> str:
         return f"Limit({self.outcome}, {len(self.rows)} methods, {len(self.modes)} modes)"

@@ -11,7 +11,7 @@ from ._look import WorkProgress, draw
 from ._measurement import Measurement, Paged, Record
 from ._memory import Closing, Handle, double_pointer, rows
 from ._status import BadCall
-from ._types import FloatArray, Path, Table
+from ._types import FloatArray, Path
 from .options import Options
 from .results import Runnable, measured
 from .system import System, write_scene
@@ -40,13 +40,12 @@ class Needs(Paged, Closing, kind="needs"):
     `outcome` is "finished", or "stopped" if the progress function asked for it.
     """
 
-    parts: Table
-    full: RunCost
-    lean_cost: RunCost | None
-    cheapest: RunCost | None
-
     def _read(self, found: Measurement) -> None:
-        self.rows, self.parts = _plain_needed(self.rows), found.rows("parts")
+        kinds = self.rows.dtype
+        kinds = np.dtype([(name, bool if name == "needed" else kinds[name]) for name in kinds.names or ()])
+        self.rows = self.rows.astype(kinds)  # needed, if that is unknown
+        self.rows.flags.writeable = False
+        self.parts = found.rows("parts")
         self.full = found.each(RunCost, "full")[0]
         self.lean_cost, self.cheapest = (found.one(RunCost, table) for table in ("lean", "cheapest"))
         self.own_error, self.moved = (found.number("full", 0, name) for name in ("own_error", "moved"))
@@ -100,7 +99,6 @@ class Needs(Paged, Closing, kind="needs"):
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
         return draw("plot.needs", self, ax, **options)
 
-
     def __repr__(self) -> str:
         if self.parts.size:
             return f"Needs({self.outcome}, want={self.want!r}, {len(self.parts)} parts)"
@@ -128,11 +126,3 @@ def needs(
     """
     watch = watch if watch is None or isinstance(watch, str) else np.ravel(watch)
     return Needs(*measured("needs", problem, {**options, "want": want, "watch": watch}, progress))
-
-
-def _plain_needed(table: Table) -> Table:
-    """With `needed` True if unknown."""
-    names = table.dtype.names or ()
-    made = table.astype([(name, bool if name == "needed" else table.dtype[name]) for name in names])
-    made.flags.writeable = False
-    return made

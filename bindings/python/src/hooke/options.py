@@ -11,7 +11,6 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, Owner, address_of, double_pointer, doubles, plain, text, view
-from ._prototypes import OPTIONS
 from ._status import BadCall, BadValue, placed
 from ._types import Table
 
@@ -83,7 +82,7 @@ class Options(Owner, MutableMapping[str, Any]):
 
     @classmethod
     def _of(cls, table: str) -> Options:
-        return cls(Handle.made(OPTIONS, lib.hooke_options_destroy, None, lib.hooke_options_create, table.encode()))
+        return cls(Handle.made(None, lib.hooke_options_create, table.encode()))
 
     for_run = _of_table("run")
     for_study = _of_table("study")
@@ -108,7 +107,7 @@ class Options(Owner, MutableMapping[str, Any]):
 
     def copy(self) -> Options:
         """A copy with the same values."""
-        return Options(Handle.made(OPTIONS, lib.hooke_options_destroy, None, lib.hooke_options_copy, self._handle))
+        return Options(Handle.made(None, lib.hooke_options_copy, self._handle))
 
     @property
     def rows(self) -> list[Row]:

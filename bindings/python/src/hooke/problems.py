@@ -10,7 +10,7 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, Owner, double_pointer, doubles, plain
-from ._prototypes import FORCE, FORCE_PRODUCT, INTEGRATOR, RATE
+from ._prototypes import FORCE, FORCE_PRODUCT, RATE
 from ._status import BadValue
 from ._types import FloatArray, Table
 from .options import Options
@@ -68,8 +68,7 @@ class FirstOrder(Problem):
 
     def _integrator(self, options: Options) -> Handle:
         given = self._size, self._rate, None, options._handle
-        create = lib.hooke_integrator_create_first_order
-        return Handle.made(INTEGRATOR, lib.hooke_integrator_destroy, None, create, *given)
+        return Handle.made(None, lib.hooke_integrator_create_first_order, *given)
 
     def __repr__(self) -> str:
         return f"FirstOrder({self._x0.size} unknowns)"
@@ -119,8 +118,7 @@ class SecondOrder(Problem):
     def _integrator(self, options: Options) -> Handle:
         masses = self._inverse_mass.size, double_pointer(self._inverse_mass)
         given = self._size, self._force, self._derivative, None, *masses, options._handle
-        create = lib.hooke_integrator_create_second_order
-        return Handle.made(INTEGRATOR, lib.hooke_integrator_destroy, None, create, *given)
+        return Handle.made(None, lib.hooke_integrator_create_second_order, *given)
 
     def __repr__(self) -> str:
         return f"SecondOrder({self._size} coordinates)"

@@ -178,7 +178,8 @@ class _Once:
             watchers.append(recorder)
         if estimate is not None:
             lib.hooke_estimate_begin(estimate.handle, integrator._handle, state._handle)
-            watchers.append(_seen_by(estimate))
+            seen = estimate.handle
+            watchers.append(lambda step, state: lib.hooke_estimate_see(step, state._handle, seen))
         with shown(self.progress, fills=False) as tell:  # a run may end early
             if tell is not None:
                 last, numbers = max(integrator.frame_count - 1, 1), itertools.count()
@@ -224,13 +225,6 @@ def _run_to_want(
             lib.hooke_estimate_refine(estimate.handle, options._handle)
         except Unsuited:
             return result
-
-
-def _seen_by(estimate: Measurement) -> Observer:
-    def see(step: int, state: State) -> None:
-        lib.hooke_estimate_see(step, state._handle, estimate.handle.pointer)
-
-    return see
 
 
 def resume(
@@ -347,14 +341,8 @@ def measured(
 
 
 def _all(watchers: list[Observer]) -> Observer:
-    def watch(step: int, state: State) -> int | None:
-        for watcher in watchers:
-            value = stop_value(watcher(step, state))
-            if value:
-                return value
-        return None
-
-    return watch
+    """All of them, up to one that stops the run."""
+    return lambda step, state: next(filter(None, (stop_value(watcher(step, state)) for watcher in watchers)), None)
 
 
 def _run_to_file(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Mapping
 from typing import Any, Callable
@@ -10,14 +11,13 @@ from typing import Any, Callable
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, doubles, indices, rows, text
-from ._prototypes import SCENE
+from ._memory import Asked, Handle, doubles, indices, rows, text
 from ._status import BadCall, BadValue, placed
 from ._types import IntArray, Numbers, Path
 from .options import Options, option_name
 from .parts import Parts
 from .problems import Problem
-from .system import System, read_mesh, write_scene
+from .system import System, part_options, write_scene
 
 
 class Scene(Parts, Problem):
@@ -65,7 +65,7 @@ class Scene(Parts, Problem):
     @classmethod
     def _made(cls, function: Callable[..., Any], *arguments: Any) -> Scene:
         """The scene that a function of the library makes."""
-        handle = Handle.made(SCENE, lib.hooke_scene_destroy, None, function, *arguments)
+        handle = Handle.made(None, function, *arguments)
         scene = cls.__new__(cls)
         scene._system = System._of_scene(handle)
         scene._run = Options(Handle(lib.hooke_scene_run_options(handle), None, handle))
@@ -113,7 +113,10 @@ class Scene(Parts, Problem):
         A scene has one such block, given before its parts, since it is numbered first. Returns the scene.
         """
         with placed("particles"):
-            self._require_no_particles()
+            if "particles" in self._opened():
+                raise BadCall("the scene has its particles already; give them all in one call")
+            if self._system.particle_count:
+                raise BadCall("they are numbered before those of parts, so give them before the first part")
             q = np.atleast_2d(doubles(position, "position"))
             piece: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
             if velocity is not None:
@@ -140,7 +143,7 @@ class Scene(Parts, Problem):
     def _group(self, kind: str, what: str, given: dict[str, Any]) -> Scene:
         """Adds a group to the system, and to the document as it was given; its particles are its key `what`."""
         keys, name, part = _keys(given, "name", "part", what), given.get("name"), given.get("part")
-        with placed(f"{kind}[{self._count(kind)}]"):
+        with placed(f"{kind}[{len(self._opened().get(kind, ()))}]"):
             if "part" in given:
                 if (given[what] is None) == (part is None):
                     raise BadValue(f"{what}: allowed: {what}, or the name of a part")
@@ -157,30 +160,17 @@ class Scene(Parts, Problem):
             called = name or f"{kind}{len(names)}"
             if called in names:
                 raise BadValue(f'name: "{called}" is the name of another part; allowed: a name of its own')
-            options = Options.for_part(kind).set(**keys)
+            options: Any = part_options(kind, file, keys)
             if file is not None:
-                read_mesh(file, options)
-                read: dict[str, Any] = {key: options[key] for key in ("vertices", "triangles")}
-                keys.update((key, numbers.reshape(-1, 3)) for key, numbers in read.items())
+                keys.update((key, options[key].reshape(-1, 3)) for key in ("vertices", "triangles"))
             self._system._add_part(kind, called, options)
         return self._note("parts", {"kind": kind, **({"name": name} if name else {}), **keys})
 
     # using
 
-    @property
-    def system(self) -> System:
-        """Its system."""
-        return self._system
-
-    @property
-    def run_options(self) -> Options:
-        """The run options of the scene, which may be changed."""
-        return self._run
-
-    @property
-    def title(self) -> str:
-        """Its title; "" if it has none."""
-        return self._title
+    system = Asked[System](operator.attrgetter("_system"), "Its system.")
+    run_options = Asked[Options](operator.attrgetter("_run"), "The run options of the scene, which may be changed.")
+    title = Asked[str](operator.attrgetter("_title"), 'Its title; "" if it has none.')
 
     @property
     def text(self) -> str:
@@ -213,17 +203,8 @@ class Scene(Parts, Problem):
         self._changed().setdefault(key, []).append(piece)
         return self
 
-    def _count(self, key: str) -> int:
-        return len(self._opened().get(key, ()))
-
     def _part_names(self) -> list[str]:
         return [part.get("name") or f"{part['kind']}{k}" for k, part in enumerate(self._opened().get("parts", ()))]
-
-    def _require_no_particles(self) -> None:
-        if "particles" in self._opened():
-            raise BadCall("the scene has its particles already; give them all in one call")
-        if self._system.particle_count:
-            raise BadCall("they are numbered before those of parts, so give them before the first part")
 
     def _numbers(self, particles: Any, name: str) -> IntArray:
         """Particles as numbers, with particles of named parts resolved."""

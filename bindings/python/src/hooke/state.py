@@ -8,7 +8,6 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, address_of, double_pointer, plain, view
-from ._prototypes import STATE, SYSTEM
 from ._types import FloatArray, Table
 
 
@@ -39,12 +38,12 @@ class State:
     @classmethod
     def _made(cls, system: Handle | None, create: Any, given: Any, **kind: Any) -> State:
         """What a function of the library makes of a system or a size."""
-        return cls(Handle.made(STATE, lib.hooke_state_destroy, system, create, given), **kind)
+        return cls(Handle.made(system, create, given), **kind)
 
     @classmethod
     def _of_particles(cls, count: int) -> State:
         """A state of a system with that many particles and nothing else."""
-        system = Handle.made(SYSTEM, lib.hooke_system_destroy, None, lib.hooke_system_create)
+        system = Handle.made(None, lib.hooke_system_create)
         place, mass = double_pointer(np.zeros((count, 3))), double_pointer(np.ones(1))
         lib.hooke_system_add_particles(system, count, place, None, 1, mass, None)
         lib.hooke_system_commit(system)
@@ -88,7 +87,7 @@ class State:
 
     def copy(self) -> State:
         """A copy with the same values."""
-        other = _alike(self._x, self._v, self._handle.parent)
+        other = _alike(self._x, self._v, self._handle._parent)
         other.assign(self)
         return other
 

@@ -75,11 +75,6 @@ class Study(Paged, Closing, kind="study"):
     for "reference" and for each method.
     """
 
-    reference: Reference
-    orders: dict[str, Order]
-    watched: dict[str, FloatArray]
-    agreement: dict[str, float]
-    statistics: dict[str, dict[str, Statistic]]
     _progress: Any = None
 
     def _read(self, found: Measurement) -> None:
@@ -91,9 +86,11 @@ class Study(Paged, Closing, kind="study"):
             if order.method in self.method and not lib.hooke_method_is_adaptive(order.method.encode())
         }
         watched, errors = found.rows("watched"), found.rows("watched_errors")
-        self.watched = {str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]}
-        self.agreement = dict(watched[["quantity", "agreement"]].tolist())
-        self.statistics = {}
+        self.watched: dict[str, FloatArray] = {
+            str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]
+        }
+        self.agreement: dict[str, float] = dict(watched[["quantity", "agreement"]].tolist())
+        self.statistics: dict[str, dict[str, Statistic]] = {}
         for statistic in found.each(Statistic, "statistics"):
             self.statistics.setdefault(statistic.quantity, {})[statistic.method] = statistic
 
@@ -134,7 +131,6 @@ class Study(Paged, Closing, kind="study"):
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws error against cost and error against step; see `hooke.plot.study`."""
         return draw("plot.study", self, axes, **options)
-
 
     def __repr__(self) -> str:
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"

@@ -11,10 +11,10 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
-from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, INTEGRATOR, SYSTEM
+from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT
 from ._queries import Queries
 from ._status import BadValue
-from ._types import FloatArray, IntArray
+from ._types import FloatArray, IntArray, Path
 from .options import Options
 from .problems import Problem
 from .state import State
@@ -39,7 +39,7 @@ class System(Queries):
     """
 
     def __init__(self) -> None:
-        handle = Handle.made(SYSTEM, lib.hooke_system_destroy, None, lib.hooke_system_create)
+        handle = Handle.made(None, lib.hooke_system_create)
         self._adopt(handle, lambda: lib.hooke_system_commit(handle))
 
     def _adopt(self, handle: Handle, commit: Callable[[], Any], callbacks: Any = ()) -> System:
@@ -61,9 +61,9 @@ class System(Queries):
 
     def _with_force(self, force: Force) -> System:
         """The same system with this callback force, as long as the result is in use."""
-        callback, create = _callback.on_arrays(FORCE, force, 2), lib.hooke_system_with_force
+        callback = _callback.on_arrays(FORCE, force, 2)
         given = self._committed(), callback, FORCE_PRODUCT(), None
-        handle = Handle.made(SYSTEM, lib.hooke_system_destroy, self._handle, create, *given)
+        handle = Handle.made(self._handle, lib.hooke_system_with_force, *given)
         return System._committed_by(handle, [*self._callbacks, callback])
 
     # building
@@ -137,11 +137,7 @@ class System(Queries):
         ``hooke.describe(kind)`` lists (``from_`` stands for ``from``); a family of springs is a dict:
         ``structural={"stiffness": 50}``. A mesh takes ``vertices`` (n, 3) [m] and ``triangles`` (m, 3), or an OBJ
         ``file``. Returns the numbers of its particles."""
-        file = options.pop("file", None)
-        part = Options.for_part(kind).set(**options)
-        if file is not None:
-            read_mesh(file, part)
-        return self._add_part(kind, name, part)
+        return self._add_part(kind, name, part_options(kind, options.pop("file", None), options))
 
     def _add_part(self, kind: str, name: str | None, options: Options) -> range:
         first, count = ctypes.c_int64(), ctypes.c_int64()
@@ -214,15 +210,14 @@ class System(Queries):
         """The initial state: t = 0, positions and velocities as added."""
         return State._made(self._handle, lib.hooke_state_create, self._committed())
 
-    def save(self, path: str | os.PathLike[str], title: str = "", **options: Any) -> None:
+    def save(self, path: Path, title: str = "", **options: Any) -> None:
         """Writes the system as a scene file, with `options` of a run: parts and groups of springs by their options,
         the rest number by number. `Scene.load` then gives the same system to the bit, with the particles of parts
         after the others. Unsuited if it has callbacks."""
         write_scene(path, self, title, Options.for_run().set(**options))
 
     def _integrator(self, options: Options) -> Handle:
-        given = self._committed(), options._handle
-        return Handle.made(INTEGRATOR, lib.hooke_integrator_destroy, self._handle, lib.hooke_integrator_create, *given)
+        return Handle.made(self._handle, lib.hooke_integrator_create, self._committed(), options._handle)
 
     def _committed(self) -> Handle:
         if not self._final:
@@ -236,12 +231,15 @@ class System(Queries):
         return f"System({self.particle_count} particles, {self.spring_count} springs)"
 
 
-def read_mesh(file: str | os.PathLike[str], options: Options) -> None:
-    """Reads an OBJ file into the options of a mesh, whose `transform` and `weld` are set."""
-    lib.hooke_mesh_read(os.fsencode(file), options._handle)
+def part_options(kind: str, file: Path | None, values: dict[str, Any]) -> Options:
+    """The options of a part, those of a mesh with what an OBJ file has."""
+    part = Options.for_part(kind).set(**values)
+    if file is not None:
+        lib.hooke_mesh_read(os.fsencode(file), part._handle)
+    return part
 
 
-def write_scene(path: str | os.PathLike[str], system: System, title: str, run: Options) -> None:
+def write_scene(path: Path, system: System, title: str, run: Options) -> None:
     """Writes a system as a scene file, with the options of a run."""
     lib.hooke_scene_write(os.fsencode(path), system._committed(), title.encode(), run._handle)
 

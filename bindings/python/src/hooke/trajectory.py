@@ -12,11 +12,10 @@ import numpy as np
 
 from ._library import lib
 from ._look import draw
-from ._memory import Closing, text
+from ._memory import Asked, Closing, text
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
 from .files import numbers, opened, run_options, view
-from .options import Options
 from .results import Frames, RunError
 from .scene import Scene
 from .state import State
@@ -65,12 +64,78 @@ class Trajectory(Closing):
         self._kept: dict[Any, Any] = {}
         self._count: int = lib.hooke_record_count(self._handle, b"frames")
 
-    # frames
+    def _keep(self, what: Any, read: Callable[[], K]) -> K:
+        """What was read before, or is now."""
+        if what not in self._kept:
+            self._kept[what] = read()
+            if isinstance(self._kept[what], np.ndarray):
+                self._kept[what].flags.writeable = False
+        kept: K = self._kept[what]
+        return kept
 
-    @property
-    def t(self) -> FloatArray:
-        """Times of the frames (frames,) [s]."""
-        return self._numbers("time")[: self._count]
+    def _numbers(self, what: str) -> FloatArray:
+        return self._keep(what, lambda: numbers(self._handle, what))
+
+    def _integers(self, what: str) -> IntArray:
+        return self._keep((what, int), lambda: self._numbers(what).astype(np.int64))
+
+    def _rows(self, what: str) -> FloatArray:
+        return self._keep(what, lambda: self._mapped(what))
+
+    def _mapped(self, what: str) -> FloatArray:
+        shape = (self._count, len(self.mass), 3)
+        place = lib.hooke_record_place(self._handle, what.encode())
+        if 0 in shape:
+            return np.empty(shape)
+        if place >= 0:
+            mapped = np.memmap(self.path, np.float64, "r", offset=place, shape=shape)
+            return mapped.view(np.ndarray)
+        return self._copied(what, shape)
+
+    def _copied(self, what: str, shape: tuple[int, int, int]) -> FloatArray:
+        """Frames that another program has stored in another layout, such as compressed."""
+        state, frames = State._of_particles(shape[1]), np.empty(shape)
+        for frame in range(self._count):
+            lib.hooke_record_read(self._handle, frame, state._handle)
+            frames[frame] = state.q if what == "position" else state.v
+        return frames
+
+    def _text(self, what: bytes) -> str:
+        return text(lib.hooke_record_text(self._handle, what))
+
+    def _of_frames(self, what: str) -> FloatArray:
+        return self._numbers(what)[: self._count]
+
+    def _of_species(self, number: int) -> IntArray:
+        return np.flatnonzero(self._numbers("species") == number)
+
+    t = Asked(_of_frames, "Times of the frames (frames,) [s].", "time")
+    q = Asked(_rows, "Positions (frames, n, 3) [m], read-only, mapped from the file.", "position")
+    v = Asked(_rows, "Velocities (frames, n, 3) [m/s], read-only, mapped from the file.", "velocity")
+    momentum = Asked(_of_frames, "Momentum of the free particles (frames, 3) [kg m/s].", "momentum")
+    angular_momentum = Asked(
+        _of_frames,
+        "Angular momentum of the free particles about the origin (frames, 3) [kg m^2/s].",
+        "angular_momentum",
+    )
+    mass = Asked(_numbers, "Mass of every particle (n,) [kg].", "mass")
+    pinned = Asked(_of_species, "Numbers of the pinned particles (k,).", 1)
+    driven = Asked(_of_species, "Numbers of the driven particles (k,).", 2)
+    options = Asked(lambda file: run_options(file._handle), "The options of the run, with defaults filled in.")
+    status = Asked(
+        _text,
+        'How the run ended: "finished", "stopped", "diverged", "step-limit", "solver-failed" or "failed"; "running" while '
+        "it lasts, or if it was killed.",
+        b"status",
+    )
+    run = Asked(_text, "Identifier of the run: 32 hexadecimal digits, unique to the run.", b"run")
+    callbacks = Asked(
+        _text,
+        'The callbacks of the run: "none", "force", "force with derivative", "drive", "force and drive", "force with '
+        'derivative and drive"; "" in files of earlier versions. The file cannot hold them: who gives them again can '
+        "`resume`.",
+        b"callbacks",
+    )
 
     @property
     def steps(self) -> IntArray:
@@ -78,30 +143,15 @@ class Trajectory(Closing):
         return self._integers("step")[: self._count]
 
     @property
-    def q(self) -> FloatArray:
-        """Positions (frames, n, 3) [m], read-only, mapped from the file."""
-        return self._rows("position")
-
-    @property
-    def v(self) -> FloatArray:
-        """Velocities (frames, n, 3) [m/s], read-only, mapped from the file."""
-        return self._rows("velocity")
+    def springs(self) -> IntArray:
+        """The particles at both ends of every spring (m, 2), in spring order."""
+        return self._integers("springs").reshape(-1, 2)
 
     @property
     def energy(self) -> Energy:
         """Energies at every frame: `kinetic`, `potential`, `total` [J], `dissipated_power` [W], each (frames,)."""
         names = ("kinetic_energy", "potential_energy", "total_energy", "dissipated_power")
-        return Energy(*(self._numbers(name)[: self._count] for name in names))
-
-    @property
-    def momentum(self) -> FloatArray:
-        """Momentum of the free particles (frames, 3) [kg m/s]."""
-        return self._numbers("momentum")[: self._count]
-
-    @property
-    def angular_momentum(self) -> FloatArray:
-        """Angular momentum of the free particles about the origin (frames, 3) [kg m^2/s]."""
-        return self._numbers("angular_momentum")[: self._count]
+        return Energy(*map(self._of_frames, names))
 
     @property
     def beyond(self) -> slice:
@@ -112,15 +162,9 @@ class Trajectory(Closing):
     # what was run
 
     @property
-    def status(self) -> str:
-        """How the run ended: "finished", "stopped", "diverged", "step-limit", "solver-failed" or "failed"; "running"
-        while it lasts, or if it was killed."""
-        return text(lib.hooke_record_text(self._handle, b"status"))
-
-    @property
     def error(self) -> RunError | None:
         """The error of the run, as estimated after it; None if it was not estimated."""
-        by, reason = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_reason"))
+        by, reason = self._text(b"error_by"), self._text(b"error_reason")
         if not (by or reason) or len(self._numbers("error")) != len(_ERROR):
             return None  # not estimated, or by an earlier version, which knew parts alone
         found = dict(zip(_ERROR, self._numbers("error").tolist()))
@@ -128,14 +172,9 @@ class Trajectory(Closing):
         return RunError(**{**found, "met": met, "by": by, "reason": reason})
 
     @property
-    def options(self) -> Options:
-        """The options of the run, with defaults filled in."""
-        return run_options(self._handle)
-
-    @property
     def scene(self) -> Scene | None:
         """The scene of the run, with its options; None if the run was not made from one."""
-        if not text(lib.hooke_record_text(self._handle, b"scene")):
+        if not self._text(b"scene"):
             return None
         return self._keep("scene", lambda: Scene.load(self.path))
 
@@ -145,38 +184,6 @@ class Trajectory(Closing):
         if self.scene is None:
             raise BadValue(f"{self.path}: holds no scene: the run was not made from one")
         return self.scene.system
-
-    @property
-    def mass(self) -> FloatArray:
-        """Mass of every particle (n,) [kg]."""
-        return self._numbers("mass")
-
-    @property
-    def springs(self) -> IntArray:
-        """The particles at both ends of every spring (m, 2), in spring order."""
-        return self._integers("springs").reshape(-1, 2)
-
-    @property
-    def pinned(self) -> IntArray:
-        """Numbers of the pinned particles (k,)."""
-        return np.flatnonzero(self._numbers("species") == 1)
-
-    @property
-    def driven(self) -> IntArray:
-        """Numbers of the driven particles (k,)."""
-        return np.flatnonzero(self._numbers("species") == 2)
-
-    @property
-    def run(self) -> str:
-        """Identifier of the run: 32 hexadecimal digits, unique to the run."""
-        return text(lib.hooke_record_text(self._handle, b"run"))
-
-    @property
-    def callbacks(self) -> str:
-        """The callbacks of the run: "none", "force", "force with derivative", "drive", "force and drive", "force with
-        derivative and drive"; "" in files of earlier versions. The file cannot hold them: who gives them again can
-        `resume`."""
-        return text(lib.hooke_record_text(self._handle, b"callbacks"))
 
     def check(self, frame: int | None = None) -> None:
         """Compares the numbers of a frame, or of all frames, with their check values. BadValue names a damaged frame.
@@ -249,44 +256,6 @@ class Trajectory(Closing):
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""
         self._kept.clear()
         super().close()
-
-    # reading
-
-    def _keep(self, what: Any, read: Callable[[], K]) -> K:
-        """What was read before, or is now."""
-        if what not in self._kept:
-            self._kept[what] = read()
-            if isinstance(self._kept[what], np.ndarray):
-                self._kept[what].flags.writeable = False
-        kept: K = self._kept[what]
-        return kept
-
-    def _numbers(self, what: str) -> FloatArray:
-        return self._keep(what, lambda: numbers(self._handle, what))
-
-    def _integers(self, what: str) -> IntArray:
-        return self._keep((what, int), lambda: self._numbers(what).astype(np.int64))
-
-    def _rows(self, what: str) -> FloatArray:
-        return self._keep(what, lambda: self._mapped(what))
-
-    def _mapped(self, what: str) -> FloatArray:
-        shape = (self._count, len(self.mass), 3)
-        place = lib.hooke_record_place(self._handle, what.encode())
-        if 0 in shape:
-            return np.empty(shape)
-        if place >= 0:
-            mapped = np.memmap(self.path, np.float64, "r", offset=place, shape=shape)
-            return mapped.view(np.ndarray)
-        return self._copied(what, shape)
-
-    def _copied(self, what: str, shape: tuple[int, int, int]) -> FloatArray:
-        """Frames that another program has stored in another layout, such as compressed."""
-        state, frames = State._of_particles(shape[1]), np.empty(shape)
-        for frame in range(self._count):
-            lib.hooke_record_read(self._handle, frame, state._handle)
-            frames[frame] = state.q if what == "position" else state.v
-        return frames
 
 
 def open(path: Path) -> Trajectory:

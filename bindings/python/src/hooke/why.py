@@ -55,7 +55,6 @@ class Why(Paged, kind="why", rows="advice"):
     """
 
     sentence: str
-    particle: int | None
 
     _untitled = "a run that blew up"
 
@@ -71,13 +70,12 @@ class Why(Paged, kind="why", rows="advice"):
 
     def _read(self, found: Measurement) -> None:
         particle = found.number("why", 0, "particle")
-        self.particle = None if math.isnan(particle) else int(particle)
+        self.particle: int | None = None if math.isnan(particle) else int(particle)
         self.blame = Blame.read(found)
         self.advice = [_advice(found, row) for row in range(found.count("advice"))]
 
     def __repr__(self) -> str:
         return f"Why({self.cause}, t={self.time!r}, {self.method})"
-
 
 
 def _whole(number: float) -> int:

@@ -133,11 +133,13 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
         if row["by_eigenvalue"]:
             edge = found.step_of_mode(row["method"], 1.0, np.sin(angle))
             z = edge * (-np.sin(angle) + 1j * np.cos(angle))
-            plane.plot(*_parts(np.concatenate([z, z[::-1].conj()])), **style)
+            z = np.concatenate([z, z[::-1].conj()])
+            plane.plot(z.real, z.imag, **style)
         edge = np.minimum(found.step_of_mode(row["method"], np.cos(angle), np.sin(angle)), 100)
         reach.plot(edge * np.cos(angle), edge * np.sin(angle), **style)
     dots = {"linestyle": "", "marker": "o", "markersize": 4, "color": "0.1", "label": "modes"}
-    plane.plot(*_parts(step * np.concatenate([found.modes, found.modes.conj()])), **dots)
+    modes = step * np.concatenate([found.modes, found.modes.conj()])
+    plane.plot(modes.real, modes.imag, **dots)
     reach.plot(step * found.frequency, step * found.decay, **dots)
     reach.axline((0, 0), slope=1, color="0.6", linestyle="--", linewidth=1, label="critical damping")
     for ax, left, bottom, names in (
@@ -172,10 +174,6 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     ax.set_yticks(place, list(rows["without"]))
     ax.legend(fontsize="small")
     return ax
-
-
-def _parts(z: FloatArray) -> tuple[FloatArray, FloatArray]:
-    return z.real, z.imag
 
 
 _MARKERS = "osD^v<>PX*"
