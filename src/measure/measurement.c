@@ -120,9 +120,9 @@ int32_t hk_measurement_claim(hooke_measurement *m) {
 }
 
 int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
+  hk_claims_release(&m->claims);
   const int32_t outcome = m->kind->takes_state ? run_at(m, state) : m->kind->run(m, state);
-  if (outcome < 0) hk_claims_release(&m->claims);
-  if (outcome < 0) return outcome;
+  if (outcome < 0) return outcome; /* a kind that has results all the same has composed what they say */
   m->has_run = 1;
   m->outcome = outcome;
   const int32_t status = hk_measurement_claim(m);
