@@ -82,22 +82,18 @@ const char *cli_setup_title(const struct cli_arguments *arguments, const struct 
   return title && title[0] ? title : arguments->scene;
 }
 
-int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]) {
+/* Reports a duration or a step that a run by `method` (NULL: by one of variable step) lacks. */
+static int require_times(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                         const char *method) {
   const int duration = hooke_options_number_count(setup->options, "duration") == 0;
   const int step = method && hooke_method_is_adaptive(method) == 0 &&
                    hooke_options_number_count(setup->options, "step") == 0;
-  snprintf(text, HOOKE_DOC_SIZE, "%s%s%s%s%s: the scene's run names none; give %s in seconds, such as%s%s",
-           duration ? "no duration" : "", duration && step ? " and " : "", step ? "no step, which " : "",
-           step ? method : "", step ? " takes" : "", duration && step ? "them" : "one",
-           duration ? " --duration 1" : "", step ? " --step 1e-3" : "");
-  return duration || step;
-}
-
-static int require_times(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                         const char *method) {
-  char text[HOOKE_DOC_SIZE];
-  if (!cli_setup_missing(setup, method, text)) return HOOKE_EXIT_DONE;
-  return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", text);
+  if (!duration && !step) return HOOKE_EXIT_DONE;
+  return cli_report(
+      arguments, HOOKE_EXIT_USAGE, "%s%s%s%s%s: the scene's run names none; give %s in seconds, such as%s%s",
+      duration ? "no duration" : "", duration && step ? " and " : "", step ? "no step, which " : "",
+      step ? method : "", step ? " takes" : "", duration && step ? "them" : "one",
+      duration ? " --duration 1" : "", step ? " --step 1e-3" : "");
 }
 
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {

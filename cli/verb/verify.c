@@ -2,6 +2,7 @@
 #include "claims.h"
 #include "print.h"
 #include "report.h"
+#include "rows.h"
 #include "setup.h"
 #include "watch.h"
 
@@ -10,10 +11,6 @@
 #include <string.h>
 
 enum { INDENT = 14 };
-
-static double number(const hooke_measurement *verify, const char *what) {
-  return hooke_measurement_number(verify, "verify", 0, what);
-}
 
 static const char *text(const hooke_measurement *verify, const char *what) {
   const char *found = hooke_measurement_text(verify, "verify", 0, what);
@@ -42,16 +39,17 @@ static void print_makers(const hooke_measurement *verify, const char *head, cons
 
 static void print_step(const hooke_measurement *verify) {
   cli_say("%-13s %s", "method", text(verify, "method"));
-  if (isnan(number(verify, "step"))) {
-    printf(", rtol %g, atol %g m\n", number(verify, "rtol"), number(verify, "atol"));
+  if (isnan(cli_number(verify, "verify", "step"))) {
+    printf(", rtol %g, atol %g m\n", cli_number(verify, "verify", "rtol"),
+           cli_number(verify, "verify", "atol"));
     return;
   }
-  printf(", step %g s", number(verify, "step"));
-  if (isinf(number(verify, "step_limit")))
+  printf(", step %g s", cli_number(verify, "verify", "step"));
+  if (isinf(cli_number(verify, "verify", "step_limit")))
     printf(", which nothing limits");
-  else if (!isnan(number(verify, "step_share")))
-    printf(", %.3g %% of the longest stable one, %.4g s", 100.0 * number(verify, "step_share"),
-           number(verify, "step_limit"));
+  else if (!isnan(cli_number(verify, "verify", "step_share")))
+    printf(", %.3g %% of the longest stable one, %.4g s", 100.0 * cli_number(verify, "verify", "step_share"),
+           cli_number(verify, "verify", "step_limit"));
   printf("\n");
 }
 
@@ -62,8 +60,8 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
   print_makers(verify, "verified by", "_here");
   print_step(verify);
   printf("%-13s %.0f of %.0f by their check values; %08lx is that of the scene\n", "frames",
-         number(verify, "frames_checked"), number(verify, "frames"),
-         (unsigned long)number(verify, "check_scene"));
+         cli_number(verify, "verify", "frames_checked"), cli_number(verify, "verify", "frames"),
+         (unsigned long)cli_number(verify, "verify", "check_scene"));
   if (strcmp(text(verify, "parts"), "checked") == 0)
     printf("%-13s scene, options, masses, springs, outcome and error by their check values\n", "the rest");
   cli_claims_print(arguments, verify, INDENT, NULL);

@@ -119,10 +119,15 @@ int32_t hk_measurement_claim(hooke_measurement *m) {
   return m->claims.status;
 }
 
+/* A kind that runs once is not run again where the claims alone had failed; one that has results though it
+ * failed has composed them itself. */
 int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
+  const int32_t untold = m->has_run && !m->kind->takes_state && m->claims.status != HOOKE_OK;
   hk_claims_release(&m->claims);
-  const int32_t outcome = m->kind->takes_state ? run_at(m, state) : m->kind->run(m, state);
-  if (outcome < 0) return outcome; /* a kind that has results all the same has composed what they say */
+  const int32_t outcome = untold                 ? m->outcome
+                          : m->kind->takes_state ? run_at(m, state)
+                                                 : m->kind->run(m, state);
+  if (outcome < 0 && !untold) return outcome;
   m->has_run = 1;
   m->outcome = outcome;
   const int32_t status = hk_measurement_claim(m);

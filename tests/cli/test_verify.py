@@ -1,7 +1,6 @@
 """hooke verify: the output of every method reproduces from its scene, and a changed file is detected."""
 
 import json
-import re
 import shutil
 import zlib
 
@@ -158,9 +157,7 @@ def test_one_changed_bit_is_found(hooke, made, name, index, words, sealed):
     answer = hooke("verify", "out.h5", "--json")
     assert answer.code == 3 and answer.json["verdict"] == "disagrees" and answer.json["difference"]
     (verdict,) = (claim for claim in answer.json["claims"] if claim["key"] == "verdict")
-    assert verdict["text"].startswith("disagrees: ") and verdict["of"] == "whole" and "out.h5" not in verdict["text"]
-    assert verdict["text"][11:].replace("the file", "out.h5", 1 - sealed) in answer.json["difference"]
-    assert f"frame {index[0]}" in verdict["text"] and not re.search(r"\d{7}", verdict["text"])
+    assert (verdict["text"], verdict["of"]) == ("disagrees with its scene", "whole")
 
 
 def test_a_false_mass_is_found(hooke, made):

@@ -35,6 +35,9 @@ int32_t hk_cost_list_rows(struct hk_cost *cost);
 /* Name of its group, otherwise its kind. */
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
 
+/* Says what a step takes, and what limits it. */
+void hk_cost_claim(const hooke_measurement *measurement, struct hk_claims *claims);
+
 extern const struct hk_table hk_cost_tables[];
 extern const struct hk_measurement_kind hk_cost_kind;
 
