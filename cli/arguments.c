@@ -2,7 +2,6 @@
 #include "describe.h"
 #include "print.h"
 #include "report.h"
-#include "value.h"
 #include "words.h"
 
 #include <getopt.h>
@@ -19,14 +18,10 @@ static const struct cli_verb_row shared_rows[] = {
 };
 enum { SHARED_COUNT = sizeof shared_rows / sizeof shared_rows[0] };
 
-/* 1 if `name` is among `words`, separated by blanks. */
-static int32_t is_among(const char *words, const char *name) {
-  size_t length = strlen(name);
-  for (const char *at = words; at && *at; at += strspn(at, " ")) {
-    size_t word = strcspn(at, " ");
-    if (word == length && strncmp(at, name, length) == 0) return 1;
-    at += word;
-  }
+int32_t cli_is_among(const char *words, const char *name) {
+  const size_t length = strlen(name);
+  for (const char *at = words; at && (at = strstr(at, name)) != NULL; at += length)
+    if ((at == words || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return 1;
   return 0;
 }
 
@@ -57,36 +52,38 @@ static void add_option(struct cli_arguments *arguments, hooke_options *table, in
 static void add_table(struct cli_arguments *arguments, hooke_options *table, const char *without) {
   for (int64_t row = 0; table && row < hooke_options_row_count(table); row++) {
     if (strcmp(hooke_options_row(table, row, "type"), "family") == 0) continue;
-    if (!is_among(without, hooke_options_row(table, row, "name"))) add_option(arguments, table, row);
+    if (!cli_is_among(without, hooke_options_row(table, row, "name"))) add_option(arguments, table, row);
   }
 }
 
-static int64_t row_count(const hooke_options *table) {
-  return table ? hooke_options_row_count(table) : 0;
-}
-
 /* Requests the texts that allocate memory in advance, so that they exist whenever something is printed. */
-static int has_words(const hooke_options *table) {
-  for (int64_t row = 0; row < row_count(table); row++)
-    if (!hooke_options_row(table, row, "allowed")) return 0;
-  return 1;
+static int32_t create_table(const char *name, hooke_options **table) {
+  int32_t status = hooke_options_create(name, table);
+  for (int64_t row = 0; status == HOOKE_OK && row < hooke_options_row_count(*table); row++)
+    if (!hooke_options_row(*table, row, "allowed") || !hooke_options_row(*table, row, "units"))
+      status = HOOKE_NO_MEMORY;
+  return status;
 }
 
 int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments) {
+  const struct {
+    const char *name;
+    hooke_options **table;
+  } tables[] = {{kind, &arguments->of_kind},
+                {verb->options, &arguments->more},
+                {"run", &arguments->run},
+                {verb->input || verb->takes_kind ? NULL : "limits", &arguments->limits}};
+  int64_t count = verb->row_count + SHARED_COUNT;
   arguments->verb = verb;
   arguments->scene = kind;
-  int32_t status = hooke_options_create("run", &arguments->run);
-  if (status == HOOKE_OK && verb->options) status = hooke_options_create(verb->options, &arguments->more);
-  if (status == HOOKE_OK && !verb->input && !verb->takes_kind)
-    status = hooke_options_create("limits", &arguments->limits);
-  if (status == HOOKE_OK && kind) status = hooke_options_create(kind, &arguments->of_kind);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  const int64_t tables = row_count(arguments->run) + row_count(arguments->more) +
-                         row_count(arguments->limits) + row_count(arguments->of_kind);
-  arguments->all = calloc((size_t)(verb->row_count + SHARED_COUNT + tables), sizeof *arguments->all);
-  if (!arguments->all || !has_words(arguments->run) || !has_words(arguments->more) ||
-      !has_words(arguments->limits) || !has_words(arguments->of_kind))
-    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
+    if (!tables[k].name) continue;
+    const int32_t status = create_table(tables[k].name, tables[k].table);
+    if (status != HOOKE_OK) return cli_report_status(arguments, status);
+    count += hooke_options_row_count(*tables[k].table);
+  }
+  arguments->all = calloc((size_t)count, sizeof *arguments->all);
+  if (!arguments->all) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
   add_table(arguments, arguments->more, verb->hidden);
   for (int32_t i = 0; i < verb->row_count; i++)
@@ -167,6 +164,40 @@ int32_t cli_argument_is_flag(const struct cli_argument *argument) {
          strcmp(hooke_options_row(argument->table, argument->row, "type"), "flag") == 0;
 }
 
+static int32_t has_rows(const struct cli_argument *argument) {
+  return hooke_options_row_number(argument->table, argument->row, "columns") > 1.0;
+}
+
+int32_t cli_argument_adds_up(const struct cli_argument *argument) {
+  return has_rows(argument) || hooke_options_row_number(argument->table, argument->row, "word_lists") == 1.0;
+}
+
+/* Takes the text as the value, or adds it there. */
+static int read_value(const struct cli_arguments *arguments, struct cli_argument *argument) {
+  const char *before = argument->value && cli_argument_adds_up(argument) ? argument->value : "";
+  const char *between = before[0] == '\0' ? "" : has_rows(argument) ? ";" : ",";
+  const size_t size = strlen(before) + strlen(argument->text) + 2;
+  char *value = malloc(size);
+  if (value) snprintf(value, size, "%s%s%s", before, between, argument->text);
+  free(argument->value);
+  argument->value = value;
+  return value ? HOOKE_EXIT_DONE : cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+}
+
+/* The report has the name of the option already, with which a message of the library begins. */
+static int set_value(const struct cli_arguments *arguments, const struct cli_argument *argument) {
+  const int32_t status = hooke_options_set_text(argument->table, argument->name, argument->value);
+  if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
+  const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : cli_refusal(arguments);
+  const char *example = hooke_options_row(argument->table, argument->row, "example");
+  const char *message = hooke_last_error();
+  const size_t length = strlen(argument->name);
+  if (strncmp(message, argument->name, length) == 0 && strncmp(message + length, ": ", 2) == 0)
+    message += length + 2;
+  return cli_report(arguments, code, "--%s %s: %s%s%s", argument->flag, argument->text, message,
+                    example[0] ? ", such as " : "", example);
+}
+
 static int name_method(const struct cli_arguments *arguments, struct cli_argument *argument) {
   const char *name = hooke_method_meant(argument->text);
   if (hooke_method_is_adaptive(name) < 0)
@@ -178,19 +209,16 @@ static int name_method(const struct cli_arguments *arguments, struct cli_argumen
 static int take(struct cli_arguments *arguments, struct cli_argument *argument, const char *text) {
   argument->text = text ? text : cli_argument_is_flag(argument) ? "true" : "";
   if (argument->own) return HOOKE_EXIT_DONE;
-  int answer = strcmp(argument->name, "method") == 0 ? name_method(arguments, argument) : HOOKE_EXIT_DONE;
-  if (answer == HOOKE_EXIT_DONE) answer = cli_value_read(arguments, argument);
-  if (answer != HOOKE_EXIT_DONE || cli_value_adds_up(argument)) return answer;
-  return cli_value_set(arguments, argument);
+  const int answer =
+      strcmp(argument->name, "method") == 0 ? name_method(arguments, argument) : HOOKE_EXIT_DONE;
+  return answer == HOOKE_EXIT_DONE ? read_value(arguments, argument) : answer;
 }
 
-/* Sets values that need the whole command line. */
-static int set_what_added_up(const struct cli_arguments *arguments) {
+/* Some values need the whole command line. */
+static int set_values(const struct cli_arguments *arguments) {
   int answer = HOOKE_EXIT_DONE;
-  for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++) {
-    const struct cli_argument *argument = &arguments->all[i];
-    if (argument->value && cli_value_adds_up(argument)) answer = cli_value_set(arguments, argument);
-  }
+  for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++)
+    if (arguments->all[i].value) answer = set_value(arguments, &arguments->all[i]);
   return answer;
 }
 
@@ -205,6 +233,10 @@ static struct cli_argument *argument_of(struct cli_arguments *arguments, int cod
   return NULL;
 }
 
+const char *cli_arguments_operand(const struct cli_verb *verb) {
+  return verb->takes_kind ? "KIND" : verb->input ? verb->input : "SCENE";
+}
+
 /* The word that is not an option, or several. */
 static int take_operand(struct cli_arguments *arguments, int argc, char **argv) {
   const char *input = arguments->verb->input;
@@ -217,7 +249,7 @@ static int take_operand(struct cli_arguments *arguments, int argc, char **argv) 
   }
   if (optind >= argc) {
     return cli_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]%s",
-                      input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb),
+                      input ? input : "scene", arguments->verb->name, cli_arguments_operand(arguments->verb),
                       input ? "" : "; - reads a scene from standard input");
   }
   arguments->more_scenes = argv + optind + 1;
@@ -254,7 +286,7 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
   for (int i = optind; arguments->help && i < argc; i++)
     arguments->help += strcmp(argv[i], "all") == 0;
   if (arguments->help) return HOOKE_EXIT_DONE;
-  int answer = set_what_added_up(arguments);
+  int answer = set_values(arguments);
   if (answer != HOOKE_EXIT_DONE) return answer;
   if (arguments->verb->takes_kind) {
     if (optind + 1 >= argc) return HOOKE_EXIT_DONE;
@@ -269,27 +301,23 @@ static const char *next_kind(int64_t i, const void *ctx) {
   return hooke_part_kind(i, "name");
 }
 
-static int32_t is_for_help(int argc, char **argv) {
-  return argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
-}
-
 /* The kind comes first, since it determines the other options; NULL if there is none. */
 static int find_kind(struct cli_arguments *arguments, int argc, char **argv, const char **kind) {
+  const char *word = argc < 2 ? "-" : argv[1];
   *kind = NULL;
-  if (!arguments->verb->takes_kind || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;
-  if (argc < 2 || argv[1][0] == '-') {
+  if (!arguments->verb->takes_kind || strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0)
+    return HOOKE_EXIT_DONE;
+  if (word[0] == '-') {
     return cli_report(
         arguments, HOOKE_EXIT_USAGE,
         "no kind given; it comes first: hooke %s KIND [options]; 'hooke %s --help' lists the kinds",
         arguments->verb->name, arguments->verb->name);
   }
-  for (int64_t i = 0; hooke_part_kind(i, "name"); i++) {
-    if (strcmp(hooke_part_kind(i, "name"), argv[1]) == 0) *kind = argv[1];
-  }
+  const char *near = cli_suggest(word, next_kind, NULL);
+  if (near && strcmp(near, word) == 0) *kind = word;
   if (*kind) return HOOKE_EXIT_DONE;
-  const char *near = cli_suggest(argv[1], next_kind, NULL);
   return cli_report(arguments, HOOKE_EXIT_USAGE, "there is no kind '%s'%s%s%s; 'hooke %s --help' lists them",
-                    argv[1], near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "",
+                    word, near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "",
                     arguments->verb->name);
 }
 

@@ -43,6 +43,9 @@ int cli_arguments_parse(const struct cli_verb *const *verbs, const struct cli_ve
                         char **argv, struct cli_arguments *arguments);
 void cli_arguments_destroy(struct cli_arguments *arguments);
 
+/* 1 if `name` is among `words`, which blanks separate (NULL: none). */
+int32_t cli_is_among(const char *words, const char *name);
+
 /* An option's name on the command line, without the dashes: "atol-velocity". Returns `flag`. */
 const char *cli_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]);
 
@@ -54,7 +57,13 @@ int32_t cli_arguments_has_run(const struct cli_arguments *arguments);
 /* Sets every option of a run that was given. */
 int32_t cli_arguments_apply(const struct cli_arguments *arguments, hooke_options *options);
 
+/* The argument of a verb: "SCENE", "KIND", "OUT.h5". */
+const char *cli_arguments_operand(const struct cli_verb *verb);
+
 /* 1 for a row of a table that is true or false: it stands alone, or with "=false". */
 int32_t cli_argument_is_flag(const struct cli_argument *argument);
+/* 1 if repeating the row of a table adds to the previous value: rows of numbers, lists of words and numbers.
+ */
+int32_t cli_argument_adds_up(const struct cli_argument *argument);
 
 #endif

@@ -2,16 +2,12 @@
 #include "print.h"
 
 #include "report.h"
-#include "value.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
-static const struct {
-  int32_t code;
-  const char *meaning;
-} exits[] = {
+const struct cli_exit_row cli_exits[] = {
     {HOOKE_EXIT_DONE, "done"},
     {HOOKE_EXIT_USAGE, "wrong usage"},
     {HOOKE_EXIT_BAD_INPUT, "bad input"},
@@ -21,14 +17,8 @@ static const struct {
     {HOOKE_EXIT_NOT_MET, "the wanted error was not reached, or nobody can know"},
     {HOOKE_EXIT_INTERNAL, "a defect of hooke"},
     {HOOKE_EXIT_INTERRUPTED, "interrupted"},
+    {0, NULL},
 };
-enum { EXIT_COUNT = sizeof exits / sizeof exits[0] };
-
-const char *cli_describe_exit(int32_t i, int32_t *code) {
-  if (i >= EXIT_COUNT) return NULL;
-  *code = exits[i].code;
-  return exits[i].meaning;
-}
 
 static int32_t takes_methods(const struct cli_argument *argument) {
   return strcmp(argument->name, "method") == 0 || strcmp(argument->name, "methods") == 0;
@@ -42,9 +32,8 @@ static const char *property(const struct cli_argument *argument, const char *nam
 
 /* Says that an option is required, or gives its default. */
 static void add_default(char *doc, const struct cli_argument *argument) {
-  const char *fallback = property(argument, "default"), *family = property(argument, "family");
-  char example[HOOKE_EXAMPLE_SIZE];
-  cli_value_example(argument->table, argument->row, example);
+  const char *fallback = property(argument, "default"), *family = property(argument, "family"),
+             *example = property(argument, "example");
   if (hooke_options_row_number(argument->table, argument->row, "required") == 0.0 || fallback[0]) {
     cli_append(doc, HOOKE_DOC_SIZE, "; default: %s", fallback[0] ? fallback : "none");
     return;
@@ -53,35 +42,26 @@ static void add_default(char *doc, const struct cli_argument *argument) {
   if (example[0]) cli_append(doc, HOOKE_DOC_SIZE, ", such as %s", example);
 }
 
-static void describe_row(const struct cli_argument *argument, struct cli_description *description) {
+const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
+                                        struct cli_description *description) {
+  if (argument->own) return argument->own;
   const char *type = property(argument, "type"), *unit = property(argument, "unit");
+  const int is_flag = cli_argument_is_flag(argument);
   char methods[HOOKE_DOC_SIZE / 4];
-  if (strcmp(type, "flag") != 0) {
-    for (size_t i = 0; type[i] && type[i] != ' '; i++)
-      description->value[i] = (char)toupper((unsigned char)type[i]);
-  }
+  *description = (struct cli_description){
+      .is = {argument->flag, 0, is_flag ? NULL : description->value, description->doc}};
+  for (size_t i = 0; type[i] && type[i] != ' '; i++)
+    description->value[i] = (char)toupper((unsigned char)type[i]);
   if (takes_methods(argument)) cli_report_methods(methods, sizeof methods);
   cli_append(description->doc, HOOKE_DOC_SIZE, "%s%s%s%s; %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
              property(argument, "doc"), takes_methods(argument) ? methods : property(argument, "allowed"));
   add_default(description->doc, argument);
-}
-
-void cli_describe(const struct cli_argument *argument, struct cli_description *description) {
-  memset(description, 0, sizeof *description);
-  description->flag = argument->flag;
-  if (!argument->own) {
-    describe_row(argument, description);
-    return;
-  }
-  description->letter = argument->own->letter;
-  if (argument->own->value) snprintf(description->value, HOOKE_FLAG_SIZE, "%s", argument->own->value);
-  cli_append(description->doc, HOOKE_DOC_SIZE, "%s", argument->own->doc);
+  return &description->is;
 }
 
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc) {
   const char *family = argument->table ? property(argument, "family") : "";
-  if (!family[0]) return NULL;
-  for (int64_t row = 0; row < hooke_options_row_count(argument->table); row++) {
+  for (int64_t row = 0; family[0] && row < hooke_options_row_count(argument->table); row++) {
     if (strcmp(hooke_options_row(argument->table, row, "name"), family) == 0)
       *doc = hooke_options_row(argument->table, row, "doc");
   }
@@ -91,32 +71,24 @@ const char *cli_describe_family(const struct cli_argument *argument, const char 
 const char *cli_describe_words(const struct cli_argument *argument, char words[HOOKE_DOC_SIZE],
                                int32_t *many) {
   words[0] = '\0';
-  *many = strcmp(argument->name, "methods") == 0 || (argument->table && cli_value_adds_up(argument));
+  *many = strcmp(argument->name, "methods") == 0 || (argument->table && cli_argument_adds_up(argument));
   for (int64_t i = 0; takes_methods(argument) && i < hooke_method_count(); i++)
     cli_append(words, HOOKE_DOC_SIZE, "%s%s", i ? " " : "", hooke_method_name(i));
   if (words[0] || !argument->table) return words;
   cli_append(words, HOOKE_DOC_SIZE, "%s",
-             strcmp(property(argument, "type"), "flag") == 0 ? "true false" : property(argument, "words"));
+             cli_argument_is_flag(argument) ? "true false" : property(argument, "words"));
   return words;
 }
 
 /* A verb's own options show it by the name of their value: FILE, FILE.html. */
 const char *cli_describe_file(const struct cli_argument *argument) {
-  static const char *const endings[] = {"json", "html", "csv", "h5", "obj"};
-  const char *value = argument->own ? argument->own->value : NULL;
+  const char *value = argument->own ? argument->own->value : NULL, *dot = value ? strchr(value, '.') : NULL;
   if (argument->table) return strcmp(argument->name, "file") == 0 ? "" : NULL;
-  for (size_t k = 0; value && k < sizeof endings / sizeof endings[0]; k++) {
-    const char *dot = strchr(value, '.');
-    if (dot && strcmp(dot + 1, endings[k]) == 0) return endings[k];
-  }
+  if (dot) return dot + 1;
   return value && strncmp(value, "FILE", 4) == 0 ? "" : NULL;
 }
 
 /* ---- verbs ---- */
-
-const char *cli_describe_operand(const struct cli_verb *verb) {
-  return verb->takes_kind ? "KIND" : verb->input ? verb->input : "SCENE";
-}
 
 /* Required options, one of several with an example, and the first family. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]) {
@@ -125,10 +97,9 @@ const char *cli_describe_example(const struct cli_arguments *arguments, char com
   cli_append(command, HOOKE_DOC_SIZE, "hooke %s %s", arguments->verb->name, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
-    char example[HOOKE_EXAMPLE_SIZE];
     if (argument->table != arguments->of_kind) continue;
-    const char *family = property(argument, "family");
-    if (!cli_value_example(argument->table, argument->row, example)[0]) continue;
+    const char *family = property(argument, "family"), *example = property(argument, "example");
+    if (!example[0]) continue;
     if (!first[0]) first = family;
     if (family[0] == '\0' || strcmp(family, first) == 0)
       cli_append(command, HOOKE_DOC_SIZE, strchr(example, ';') ? " --%s '%s'" : " --%s %s", argument->flag,

@@ -6,20 +6,16 @@
 
 enum { HOOKE_DOC_SIZE = 1024 };
 
+/* An option as a row: its flag, argument and text. */
 struct cli_description {
-  char letter; /* 0: none */
-  const char *flag;
-  char value[HOOKE_FLAG_SIZE]; /* argument of the flag, "" for none */
-  char doc[HOOKE_DOC_SIZE];
+  struct cli_verb_row is;
+  char value[HOOKE_FLAG_SIZE], doc[HOOKE_DOC_SIZE]; /* of a row of a table */
 };
+const struct cli_verb_row *cli_describe(const struct cli_argument *argument,
+                                        struct cli_description *description);
 
-void cli_describe(const struct cli_argument *argument, struct cli_description *description);
-
-/* The family of an option, and its description; NULL: none. */
+/* The family of an option, and its description; "": none. */
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc);
-
-/* Argument of a verb: "SCENE", "KIND", "OUT.h5". */
-const char *cli_describe_operand(const struct cli_verb *verb);
 
 /* A complete command that makes a part of the current kind, from the examples of its table. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]);
@@ -32,7 +28,10 @@ const char *cli_describe_words(const struct cli_argument *argument, char words[H
 /* Ending of the files that an option takes, "" for any; NULL if it takes no file. */
 const char *cli_describe_file(const struct cli_argument *argument);
 
-/* Code and meaning of exit code `i`; NULL past the last. */
-const char *cli_describe_exit(int32_t i, int32_t *code);
+/* Exit codes; one without a meaning ends them. */
+extern const struct cli_exit_row {
+  int32_t code;
+  const char *meaning;
+} cli_exits[];
 
 #endif

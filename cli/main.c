@@ -1,7 +1,7 @@
 /* The command line of hooke: selects the verb, passes its options, and returns the exit code. */
 #include "arguments.h"
-#include "form.h"
 #include "os.h"
+#include "pages.h"
 #include "print.h"
 #include "report.h"
 #include "words.h"
@@ -24,7 +24,8 @@ static const struct cli_verb *const verbs[] = {&cli_verb_make,
 
 static int print_help(const struct cli_program *program, const char *value) {
   (void)value;
-  return cli_usage_print(stdout, program);
+  cli_usage_print(stdout, program);
+  return HOOKE_EXIT_DONE;
 }
 
 static int print_methods(const struct cli_program *program, const char *value) {
@@ -41,16 +42,20 @@ static int print_methods(const struct cli_program *program, const char *value) {
 }
 
 static const struct cli_program_row rows[] = {
-    {"help", 'h', NULL, NULL, "verbs and methods; after a verb, its options with units and defaults",
+    {{"help", 'h', NULL, "verbs and methods; after a verb, its options with units and defaults"},
+     NULL,
      print_help},
-    {"methods", 0, NULL, NULL,
-     "methods, and which of them take rigid bodies, overdamped scenes and x' = phi(t, x)", print_methods},
-    {"version", 0, NULL, NULL, "the version, and what it was built with", cli_version_print},
-    {"completion", 0, "SHELL", "bash zsh fish",
-     "a script that completes commands in bash, zsh or fish; it is installed with the program",
+    {{"methods", 0, NULL,
+      "methods, and which of them take rigid bodies, overdamped scenes and x' = phi(t, x)"},
+     NULL,
+     print_methods},
+    {{"version", 0, NULL, "the version, and what it was built with"}, NULL, cli_version_print},
+    {{"completion", 0, "SHELL",
+      "a script that completes commands in bash, zsh or fish; it is installed with the program"},
+     "bash zsh fish",
      cli_completion_print},
-    {"man", 0, NULL, NULL, "this program's manual page", cli_man_print},
-    {NULL, 0, NULL, NULL, NULL, NULL},
+    {{"man", 0, NULL, "this program's manual page"}, NULL, cli_man_print},
+    {{NULL, 0, NULL, NULL}, NULL, NULL},
 };
 
 static const struct cli_program program = {
@@ -110,25 +115,27 @@ static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
     return HOOKE_EXIT_USAGE;
   }
   int answer = cli_arguments_parse(verbs, verb, argc, argv, &arguments);
-  if (answer == HOOKE_EXIT_DONE)
-    answer = arguments.help ? cli_usage_print_verb(stdout, &arguments) : verb->function(&arguments);
+  if (answer == HOOKE_EXIT_DONE && arguments.help)
+    cli_usage_print_verb(stdout, &arguments);
+  else if (answer == HOOKE_EXIT_DONE)
+    answer = verb->function(&arguments);
   cli_arguments_destroy(&arguments);
   return answer;
 }
 
 static const struct cli_program_row *find_row(const char *word) {
-  for (const struct cli_program_row *row = rows; row->name; row++) {
-    const char letter[3] = {'-', row->letter, '\0'};
-    if (strcmp(strncmp(word, "--", 2) == 0 ? word + 2 : word, row->name) == 0) return row;
-    if (row->letter && strcmp(word, letter) == 0) return row;
+  for (const struct cli_program_row *row = rows; row->is.name; row++) {
+    const char letter[3] = {'-', row->is.letter, '\0'};
+    if (strcmp(strncmp(word, "--", 2) == 0 ? word + 2 : word, row->is.name) == 0) return row;
+    if (row->is.letter && strcmp(word, letter) == 0) return row;
   }
   return NULL;
 }
 
 static int do_row(const struct cli_program_row *row, const char *value) {
-  const int code = row->value && !value ? HOOKE_EXIT_USAGE : row->print(&program, value);
+  const int code = row->is.value && !value ? HOOKE_EXIT_USAGE : row->print(&program, value);
   if (code == HOOKE_EXIT_USAGE)
-    fprintf(stderr, "hooke: --%s wants a word after it, one of: %s\n", row->name, row->words);
+    fprintf(stderr, "hooke: --%s wants a word after it, one of: %s\n", row->is.name, row->words);
   return code;
 }
 
@@ -148,6 +155,8 @@ static int do_words(int argc, char **argv) {
     return HOOKE_EXIT_USAGE;
   }
   if (strcmp(argv[1], "help") == 0) return do_help(argc - 2, argv + 2);
+  if (strcmp(argv[1], "--complete") == 0)
+    return cli_complete(&program, argc > 2 ? find_verb(argv[2]) : NULL, argc - 2, argv + 2);
   const struct cli_program_row *row = find_row(argv[1]);
   if (!row) row = find_row(cli_words_meant(argv[1]));
   if (row) return do_row(row, argc > 2 ? argv[2] : NULL);

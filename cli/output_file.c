@@ -1,25 +1,29 @@
 #include "output_file.h"
 
-#include "os.h"
 #include "report.h"
 
-#include <errno.h>
-#include <stdio.h>
 #include <string.h>
 
-enum { FOLDER_SIZE = 4096 };
-
 int cli_output_file_check(const struct cli_arguments *arguments, const char *flag, const char *file) {
-  char folder[FOLDER_SIZE] = ".";
-  const char *slash = cli_os_last_slash(file);
-  if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - file + 1), file);
-  if (cli_os_may_write(folder) != 0) {
-    return cli_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file, strerror(errno));
+  static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
+                                          {".html", "'hooke view -o' writes a page"},
+                                          {".h5", "'hooke run -o' writes a trajectory"},
+                                          {".csv", "'hooke study -o' writes a table"},
+                                          {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
+                                          {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
+  const char *dot = file ? strrchr(file, '.') : NULL;
+  for (int32_t i = 0; dot && i < arguments->count; i++) {
+    const struct cli_argument *argument = &arguments->all[i];
+    const char *own =
+        argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
+    for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
+      const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
+      if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
+      return cli_report(arguments, HOOKE_EXIT_USAGE, "%s %s: its name has to end in .%s; %s", flag, file, own,
+                        others[k][1]);
+    }
   }
-  if (cli_os_is_other_than_file(file)) {
-    return cli_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
-  }
-  return cli_setup_check_other_file(arguments, file);
+  return HOOKE_EXIT_DONE;
 }
 
 int cli_output_file_check_report(const struct cli_arguments *arguments, const char *report) {

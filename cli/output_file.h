@@ -4,7 +4,8 @@
 
 #include "setup.h"
 
-/* Checks that `file`, given to `flag`, can be written and is not the scene. Returns the exit code. */
+/* Refuses `file` (NULL: none), given to `flag`, if it ends like another kind than the option writes, and says
+ * what writes that kind; with the scene it is known whether it can be written. Returns the exit code. */
 int cli_output_file_check(const struct cli_arguments *arguments, const char *flag, const char *file);
 
 /* The same for --report, which also needs the drawing library in this build; NULL is allowed. */

@@ -10,7 +10,6 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { ROUNDED_DIGITS = 6, SAID_SIZE = 16384 };
 
@@ -38,52 +37,53 @@ void cli_append(char *text, size_t size, const char *format, ...) {
 
 /* ---- foreign text ---- */
 
-/* Length of the UTF-8 character at `text` (1 to 4); 0 if the bytes are invalid. */
-static int32_t utf8_length(const unsigned char *text) {
-  if (text[0] < 0x80) return 1;
-  int32_t length = text[0] >= 0xf0 ? 4 : text[0] >= 0xe0 ? 3 : 2;
-  if (text[0] < 0xc2 || text[0] > 0xf4) return 0;
+/* Length of the UTF-8 character at `text` (1 to 4); 0 if the bytes are invalid: of no character, of an
+ * overlong form, a surrogate, or past U+10FFFF. */
+static int32_t read_character(const char *text, uint32_t *point) {
+  static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  const unsigned char *byte = (const unsigned char *)text;
+  const int32_t length = byte[0] < 0x80 ? 1 : byte[0] >= 0xf0 ? 4 : byte[0] >= 0xe0 ? 3 : 2;
+  *point = length == 1 ? byte[0] : byte[0] & (0xffu >> (length + 1));
+  if (length > 1 && (byte[0] < 0xc0 || byte[0] > 0xf7)) return 0;
   for (int32_t i = 1; i < length; i++) {
-    if ((text[i] & 0xc0) != 0x80) return 0;
+    if ((byte[i] & 0xc0) != 0x80) return 0;
+    *point = *point << 6 | (byte[i] & 0x3fu);
   }
-  /* overlong forms, surrogates, and values past U+10FFFF */
-  if (text[0] == 0xe0 && text[1] < 0xa0) return 0;
-  if (text[0] == 0xed && text[1] > 0x9f) return 0;
-  if (text[0] == 0xf0 && text[1] < 0x90) return 0;
-  if (text[0] == 0xf4 && text[1] > 0x8f) return 0;
-  return length;
+  return *point < least[length] || *point > 0x10ffff || (*point >= 0xd800 && *point <= 0xdfff) ? 0 : length;
 }
 
-/* The character at `text`, of `length` bytes, if it controls a terminal, ends a line or changes the direction
- * of writing; 0 if not. */
-static uint32_t control(const unsigned char *text, int32_t length) {
+/* The length of a character that does not control a terminal, end a line or change the direction of writing;
+ * 0 if it does, or there is none. */
+static int32_t plain_length(const char *text) {
   static const struct {
     uint32_t first, last;
   } table[] = {{0, 0x1f}, {0x7f, 0x9f}, {0x61c, 0x61c}, {0x200e, 0x200f}, {0x2028, 0x202e}, {0x2066, 0x2069}};
-  uint32_t point = text[0];
-  if (length == 2) point = (text[0] & 0x1fu) << 6 | (text[1] & 0x3fu);
-  if (length == 3) point = (text[0] & 0xfu) << 12 | (text[1] & 0x3fu) << 6 | (text[2] & 0x3fu);
-  for (size_t i = 0; length <= 3 && i < sizeof table / sizeof table[0]; i++) {
-    if (point >= table[i].first && point <= table[i].last) return point;
-  }
-  return 0;
+  uint32_t point;
+  const int32_t length = read_character(text, &point);
+  for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+    if (length > 0 && point >= table[i].first && point <= table[i].last) return 0;
+  return length;
+}
+
+/* Length of the character at `text`, or of the byte in its place. */
+static int32_t any_length(const char *text) {
+  uint32_t point;
+  const int32_t length = read_character(text, &point);
+  return length > 0 ? length : 1;
 }
 
 /* Prints the first character of `text`, or an invalid byte, with '?' in place of unsafe ones; returns its
  * length. */
 static int32_t print_character(FILE *file, const char *text) {
-  const int32_t length = utf8_length((const unsigned char *)text);
-  const int plain = length > 0 && control((const unsigned char *)text, length) == 0;
-  fwrite(plain ? text : "?", 1, plain ? (size_t)length : 1, file);
-  return length > 0 ? length : 1;
+  const int32_t plain = plain_length(text);
+  fwrite(plain ? text : "?", 1, plain ? (size_t)plain : 1, file);
+  return any_length(text);
 }
 
 static int32_t is_plain(const char *text) {
-  for (int32_t length; *text; text += length) {
-    length = utf8_length((const unsigned char *)text);
-    if (length == 0 || control((const unsigned char *)text, length)) return 0;
-  }
-  return 1;
+  while (*text && plain_length(text))
+    text += plain_length(text);
+  return *text == '\0';
 }
 
 int32_t cli_print_text(FILE *file, const char *text) {
@@ -112,33 +112,18 @@ void cli_print_padded(FILE *file, int32_t width, const char *text) {
     fputc(' ', file);
 }
 
-static int has_colour(FILE *file) {
-  const char *refused = getenv("NO_COLOR"), *terminal = getenv("TERM");
-  return isatty(fileno(file)) && !(refused && refused[0]) && terminal && strcmp(terminal, "dumb") != 0;
-}
-
-void cli_print_styled(FILE *file, const char *style, const char *text) {
-  if (has_colour(file))
-    fprintf(file, "\033[%sm%s\033[0m", style, text);
-  else
-    fputs(text, file);
-}
-
 /* $'...', with bytes by number unless they are plain characters. */
 static void print_escaped(FILE *file, const char *text) {
   fputs("$'", file);
   for (int32_t length; *text; text += length) {
-    length = utf8_length((const unsigned char *)text);
-    const int plain = length > 0 && control((const unsigned char *)text, length) == 0;
-    if (length == 0) length = 1;
-    if (*text == '\n') {
+    length = any_length(text);
+    if (*text == '\n')
       fputs("\\n", file);
-    } else if (plain) {
+    else if (plain_length(text))
       fprintf(file, "%s%.*s", *text == '\'' || *text == '\\' ? "\\" : "", length, text);
-    } else {
+    else
       for (int32_t i = 0; i < length; i++)
         fprintf(file, "\\%03o", (unsigned)(unsigned char)text[i]);
-    }
   }
   fputc('\'', file);
 }
@@ -206,21 +191,15 @@ void cli_print_fact(int32_t indent, int32_t width, const char *label, const char
 /* ---- JSON ---- */
 
 static void write_string(FILE *file, const char *text) {
-  const unsigned char *at = (const unsigned char *)text;
+  uint32_t point;
   fputc('"', file);
-  while (*at) {
-    int32_t length = utf8_length(at);
-    if (length == 0) {
+  for (; *text; text += any_length(text)) {
+    if (read_character(text, &point) == 0)
       fputs("\\ufffd", file);
-      length = 1;
-    } else if (*at == '"' || *at == '\\') {
-      fprintf(file, "\\%c", *at);
-    } else if (control(at, length)) {
-      fprintf(file, "\\u%04x", (unsigned)control(at, length));
-    } else {
-      fwrite(at, 1, (size_t)length, file);
-    }
-    at += length;
+    else if (plain_length(text) == 0)
+      fprintf(file, "\\u%04x", (unsigned)point);
+    else
+      fprintf(file, "%s%.*s", *text == '"' || *text == '\\' ? "\\" : "", plain_length(text), text);
   }
   fputc('"', file);
 }
@@ -228,10 +207,8 @@ static void write_string(FILE *file, const char *text) {
 static void write_key(struct cli_json *json, const char *key) {
   if (json->is_filled) fputs(", ", json->file);
   json->is_filled = 1;
-  if (key) {
-    write_string(json->file, key);
-    fputs(": ", json->file);
-  }
+  if (key) write_string(json->file, key);
+  if (key) fputs(": ", json->file);
 }
 
 void cli_json_begin(struct cli_json *json, FILE *file) {
@@ -279,11 +256,10 @@ void cli_json_count(struct cli_json *json, const char *key, int64_t value) {
 
 void cli_json_text(struct cli_json *json, const char *key, const char *text) {
   write_key(json, key);
-  if (text) {
+  if (text)
     write_string(json->file, text);
-  } else {
+  else
     fputs("null", json->file);
-  }
 }
 
 void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,

@@ -31,13 +31,6 @@ void cli_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same, padded with blanks to `width` characters. */
 void cli_print_padded(FILE *file, int32_t width, const char *text);
 
-/* Prints a text of the program's own in a style of terminals (HOOKE_BOLD, ...); plain where `file` is no
- * terminal or NO_COLOR is set (https://no-color.org). */
-#define HOOKE_BOLD  "1"
-#define HOOKE_RED   "1;31"
-#define HOOKE_GREEN "1;32"
-void cli_print_styled(FILE *file, const char *style, const char *text);
-
 /* Flushes standard output, so that words on standard error come after it. Returns 0 or the errno of the first
  * failure. */
 int cli_print_flush(void);

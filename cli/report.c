@@ -6,33 +6,43 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#define BOLD  "1" /* styles of terminals */
+#define RED   "1;31"
+#define GREEN "1;32"
 
 enum { MESSAGE_SIZE = 4096, WORD_SIZE = 48, LIST_SIZE = 512 };
 enum { WIDTH = 90, LEFT = 60, LONGEST_CHARACTER = 4 }; /* of an excerpt */
 
+/* Others are bad input: a value, or a scene too large for the memory. */
 int cli_exit_code(int32_t status) {
-  switch (status) {
-  case HOOKE_OK:
-    return HOOKE_EXIT_DONE;
-  case HOOKE_STOPPED:
-    return HOOKE_EXIT_INTERRUPTED;
-  case HOOKE_DIVERGED:
-  case HOOKE_STEP_LIMIT:
-  case HOOKE_SOLVER_FAILED:
-    return HOOKE_EXIT_DIVERGED;
-  case HOOKE_IO_FAILED:
-    return HOOKE_EXIT_IO;
-  case HOOKE_NOT_BUILT:
-    return HOOKE_EXIT_NOT_BUILT;
-  case HOOKE_INTERNAL:
-    return HOOKE_EXIT_INTERNAL;
-  default:
-    return HOOKE_EXIT_BAD_INPUT; /* a value, or a scene too large for the memory */
-  }
+  static const int32_t codes[][2] = {
+      {HOOKE_OK, HOOKE_EXIT_DONE},           {HOOKE_STOPPED, HOOKE_EXIT_INTERRUPTED},
+      {HOOKE_DIVERGED, HOOKE_EXIT_DIVERGED}, {HOOKE_STEP_LIMIT, HOOKE_EXIT_DIVERGED},
+      {HOOKE_IO_FAILED, HOOKE_EXIT_IO},      {HOOKE_SOLVER_FAILED, HOOKE_EXIT_DIVERGED},
+      {HOOKE_INTERNAL, HOOKE_EXIT_INTERNAL}, {HOOKE_NOT_BUILT, HOOKE_EXIT_NOT_BUILT},
+  };
+  for (size_t k = 0; k < sizeof codes / sizeof codes[0]; k++)
+    if (codes[k][0] == status) return codes[k][1];
+  return HOOKE_EXIT_BAD_INPUT;
 }
 
 int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
+}
+
+/* https://no-color.org */
+static int has_colour(void) {
+  const char *refused = getenv("NO_COLOR"), *terminal = getenv("TERM");
+  return isatty(STDERR_FILENO) && !(refused && refused[0]) && terminal && strcmp(terminal, "dumb") != 0;
+}
+
+static void print_styled(const char *style, const char *text) {
+  if (has_colour())
+    fprintf(stderr, "\033[%sm%s\033[0m", style, text);
+  else
+    fputs(text, stderr);
 }
 
 /* ---- the line of a scene that a message is about ---- */
@@ -40,12 +50,10 @@ int cli_refusal(const struct cli_arguments *arguments) {
 /* The numbers after the path; 0 if they are not there. */
 static int find_place(const char *path, const char *message, long *line, long *column) {
   const size_t length = strlen(path);
-  if (strncmp(message, path, length) != 0 || message[length] != ':') return 0;
-  char *end;
-  *line = strtol(message + length + 1, &end, 10);
-  if (*end != ':') return 0;
-  *column = strtol(end + 1, &end, 10);
-  return *line > 0 && *column > 0 && *end == ':';
+  char end;
+  return strncmp(message, path, length) == 0 &&
+         sscanf(message + length, ":%ld:%ld%c", line, column, &end) == 3 && end == ':' && *line > 0 &&
+         *column > 0;
 }
 
 static int is_continuation(int byte) {
@@ -95,7 +103,7 @@ static void print_excerpt(const char *path, const char *message) {
   fprintf(stderr, "%6ld | ", line);
   cli_print_text(stderr, text);
   fprintf(stderr, "\n       | %*s", (int)(column - first), "");
-  cli_print_styled(stderr, HOOKE_GREEN, "^");
+  print_styled(GREEN, "^");
   fputc('\n', stderr);
 }
 
@@ -105,7 +113,7 @@ static void print_excerpt(const char *path, const char *message) {
 static void say(const struct cli_arguments *arguments, const char *style, const char *message) {
   char begin[WORD_SIZE];
   snprintf(begin, sizeof begin, "hooke %s:", arguments->verb->name);
-  cli_print_styled(stderr, style, begin);
+  print_styled(style, begin);
   fputc(' ', stderr);
   cli_print_text(stderr, message);
   fputc('\n', stderr);
@@ -129,7 +137,7 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
   va_start(args, format);
   vsnprintf(message, sizeof message, format, args);
   va_end(args);
-  say(arguments, HOOKE_RED, message);
+  say(arguments, RED, message);
   return report_json(arguments, code, message);
 }
 
@@ -143,7 +151,7 @@ int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
   for (const char *at = message; *at; at += strspn(at, "\n")) {
     const size_t length = strcspn(at, "\n");
     snprintf(line, sizeof line, "%.*s", (int)length, at);
-    say(arguments, HOOKE_RED, line);
+    say(arguments, RED, line);
     at += length;
   }
   return report_json(arguments, cli_exit_code(status), message);
@@ -155,7 +163,7 @@ void cli_report_words(const struct cli_arguments *arguments, const char *format,
   va_start(args, format);
   vsnprintf(message, sizeof message, format, args);
   va_end(args);
-  say(arguments, HOOKE_BOLD, message);
+  say(arguments, BOLD, message);
 }
 
 int32_t cli_warnings_hear(const char *kind, const char *sentence, double t, double limit, int64_t spring,

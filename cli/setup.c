@@ -38,7 +38,7 @@ int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli
                          const char *output) {
   const int32_t status = output ? hooke_scene_check_output(setup->scene, output) : HOOKE_OK;
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
-  if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
+  if (status != HOOKE_BAD_VALUE) return cli_report_status(arguments, status);
   return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", hooke_last_error());
 }
 
@@ -53,7 +53,6 @@ int32_t cli_setup_is_scene(const char *path) {
 }
 
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
-  static const char *const outputs[] = {"output", "report"};
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
   if (ferror(stdin)) return cli_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
@@ -62,10 +61,10 @@ int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setu
   status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  for (int k = 0; k < 2; k++) {
-    const int code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, outputs[k]));
-    if (code != HOOKE_EXIT_DONE) return code;
-  }
+  int code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, "output"));
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, "report"));
+  if (code != HOOKE_EXIT_DONE) return code;
   cli_os_give_back_memory(); /* of loading, so that a run does not hold it besides its own */
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);
@@ -82,12 +81,21 @@ const char *cli_setup_title(const struct cli_arguments *arguments, const struct 
   return title && title[0] ? title : arguments->scene;
 }
 
-/* Reports a duration or a step that a run by `method` (NULL: by one of variable step) lacks. */
-static int require_times(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                         const char *method) {
+int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                      const char *method) {
   const int duration = hooke_options_number_count(setup->options, "duration") == 0;
   const int step = method && hooke_method_is_adaptive(method) == 0 &&
                    hooke_options_number_count(setup->options, "step") == 0;
+  if (method && hooke_method_is_adaptive(method) < 0) { /* a value given as an option was refused before */
+    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
+                      "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
+                      method);
+  }
+  if (method && !hooke_method_is_built(method)) {
+    return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
+                      "%s is not in this build of hooke; 'hooke --version' says what it was built with",
+                      method);
+  }
   if (!duration && !step) return HOOKE_EXIT_DONE;
   return cli_report(
       arguments, HOOKE_EXIT_USAGE, "%s%s%s%s%s: the scene's run names none; give %s in seconds, such as%s%s",
@@ -97,22 +105,7 @@ static int require_times(const struct cli_arguments *arguments, const struct cli
 }
 
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {
-  return require_times(arguments, setup, NULL);
-}
-
-int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                      const char *method) {
-  if (hooke_method_is_adaptive(method) < 0) { /* a value given as an option was refused before */
-    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
-                      "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
-                      method);
-  }
-  if (!hooke_method_is_built(method)) {
-    return cli_report(arguments, HOOKE_EXIT_NOT_BUILT,
-                      "%s is not in this build of hooke; 'hooke --version' says what it was built with",
-                      method);
-  }
-  return require_times(arguments, setup, method);
+  return cli_setup_require(arguments, setup, NULL);
 }
 
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
@@ -124,40 +117,6 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
   return HOOKE_EXIT_DONE;
 }
 
-/* Refuses an output that ends like another kind than its option writes, and says what writes that kind. */
-static int check_ending(const struct cli_arguments *arguments, const char *file) {
-  static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
-                                          {".html", "'hooke view -o' writes a page"},
-                                          {".h5", "'hooke run -o' writes a trajectory"},
-                                          {".csv", "'hooke study -o' writes a table"},
-                                          {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
-                                          {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
-  const char *dot = strrchr(file, '.');
-  for (int32_t i = 0; dot && i < arguments->count; i++) {
-    const struct cli_argument *argument = &arguments->all[i];
-    const char *own =
-        argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
-    for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
-      const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
-      if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
-      return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: its name has to end in .%s; %s",
-                        argument->flag, file, own, others[k][1]);
-    }
-  }
-  return HOOKE_EXIT_DONE;
-}
-
-/* The library refuses a file that is being written, too, but only when it writes it. */
-int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output) {
-  int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
-  for (int32_t k = 0; k < arguments->more_count && code == HOOKE_EXIT_DONE; k++)
-    code = cli_setup_check_apart(arguments, arguments->more_scenes[k], "one of the inputs", output);
-  if (code == HOOKE_EXIT_DONE && output) code = check_ending(arguments, output);
-  if (code != HOOKE_EXIT_DONE || !output || !cli_os_is_written(output)) return code;
-  return cli_report(arguments, HOOKE_EXIT_IO,
-                    "%s: another run is writing this file; wait for it to end, or name another file", output);
-}
-
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output) {
   const char *hdf5 = hooke_build_fact("hdf5");
   if (output && (!hdf5 || !hdf5[0])) {
@@ -166,7 +125,7 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
                       "trajectories; run without -o, or build hooke with HDF5",
                       output);
   }
-  return cli_setup_check_other_file(arguments, output);
+  return HOOKE_EXIT_DONE;
 }
 
 int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value) {

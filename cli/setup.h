@@ -25,7 +25,7 @@ void cli_setup_destroy(struct cli_setup *setup);
 /* The title of the scene, or the name of its file. */
 const char *cli_setup_title(const struct cli_arguments *arguments, const struct cli_setup *setup);
 
-/* Refuses `output` (NULL: none) if it is a file that the scene was read from. */
+/* Refuses `output` (NULL: none) if the scene was read from it, or it cannot be written. */
 int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
                          const char *output);
 
@@ -38,9 +38,7 @@ int cli_setup_require(const struct cli_arguments *arguments, const struct cli_se
 /* Checks that `output` (NULL: none) is another file than `input`, which is called `what` in the message. */
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
                           const char *output);
-/* Before any work: checks that FILE of -o (NULL: none) is not the scene itself and that no run is writing it;
- * the second function also checks that this build can write HDF5. */
-int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output);
+/* Before any work: checks that this build can write `output` (NULL: none), a file of HDF5. */
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 
 /* Reads the number given as --`name`, whose unit and bounds are those of a study's option;

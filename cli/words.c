@@ -67,8 +67,7 @@ const char *cli_suggest_file(const char *path) {
   static char found[PATH_SIZE];
   const char *slash = cli_os_last_slash(path), *name = slash ? slash + 1 : path;
   const int length = (int)(name - path);
-  const int32_t is_there = cli_os_is_same_file(path, path);
-  if (is_there || length >= PATH_SIZE - WORD_SIZE) return NULL;
+  if (cli_os_is_same_file(path, path) || length >= PATH_SIZE - WORD_SIZE) return NULL;
   snprintf(found, sizeof found, "%.*s", length, path);
   const char *near = cli_suggest(name, next_file, length ? found : ".");
   snprintf(found + length, sizeof found - (size_t)length, "%s", near ? near : "");

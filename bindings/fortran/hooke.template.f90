@@ -158,6 +158,17 @@ contains
     series => to_series(found, count(1))
   end function
 
+  ! What the results say: the texts of the table "claims", a line each, the most important first.
+  function measurement_describe(self) result(lines)
+    class(hooke_measurement), intent(in) :: self
+    character(:), allocatable :: lines
+    integer :: row
+    lines = ""
+    do row = 1, int(self%row_count("claims"))
+      lines = lines // self%text("claims", row, "text") // new_line(lines)
+    end do
+  end function
+
   ! Positions of all particles of the full system at positions q of the lean one, NaN where they were left out.
   subroutine measurement_lean_position(self, q, position, status)
     class(hooke_measurement), intent(in) :: self

@@ -54,9 +54,9 @@ DICTS = {
 }
 # What methods add that is not "a <kind>".
 ADDED = {"springs": "a group of springs", "bending": "a group of triples that resist bending", "driven": "prescribed motion",
-         "anchors": "a group of springs from a particle to a fixed point"}
+         "anchors": "a group of springs from a particle to a fixed point", "bodies": "existing particles as one rigid body"}
 # Keys with the particles of what a scene lists, each a number or ("part", number), and their types.
-LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "driven": "particles"}
+LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bodies": "particles", "driven": "particles"}
 PARTICLES = {"between": "Sequence[Sequence[Particle]] | IntArray", "triples": "Sequence[Sequence[Particle]] | IntArray",
              "particles": "Particle | Sequence[Particle] | IntArray"}
 TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str"}
@@ -108,8 +108,9 @@ def dictionary(name, definitions):
 def method(kind, schema):
     """The method that adds a part of a kind, or a member of a list."""
     keys = {key: inside for key, inside in schema["properties"].items() if key not in ("kind", "name")}
-    required = [f"{argument(key)}: {type_of(key, keys[key])}" for key in keys if key in schema["required"] and key != "motion"]
-    optional = [f"{argument(key)}: {type_of(key, keys[key])} | None = None" for key in keys if key not in schema["required"]]
+    needed = schema.get("required", ())
+    required = [f"{argument(key)}: {type_of(key, keys[key])}" for key in keys if key in needed and key != "motion"]
+    optional = [f"{argument(key)}: {type_of(key, keys[key])} | None = None" for key in keys if key not in needed]
     if "motion" in keys:
         arguments = ["self: S", *required, "*", 'motion: str = "harmonic"', *optional]
     else:

@@ -37,13 +37,9 @@ int32_t cli_os_is_same_file(const char *one, const char *other);
 /* 1 if there is something under this path that is no regular file. */
 int32_t cli_os_is_other_than_file(const char *path);
 
-/* These return 0, or -1 with errno. The second creates an empty file for this user alone, under a name that
- * nobody had and nobody guesses: the six X at the end of `path` become other letters. */
-int cli_os_may_write(const char *folder);
+/* Creates an empty file for this user alone, under a name that nobody had and nobody guesses: the six X at
+ * the end of `path` become other letters. Returns 0, or -1 with errno. */
 int cli_os_make_file(char *path);
-
-/* 1 if a run holds the lock of the file that it writes. */
-int32_t cli_os_is_written(const char *path);
 
 /* A stream into memory: `text`, for free(), holds everything, with a NUL, after cli_os_close_text(), which
  * returns 0 if all went well. NULL: it could not be opened. */

@@ -1,7 +1,8 @@
-/* Names in a folder, which mingw-w64 tells as POSIX has it. */
+/* Folders and files as mingw-w64 tells of them, too, as POSIX has it. */
 #include "os.h"
 
 #include <dirent.h>
+#include <sys/stat.h>
 
 const char *cli_os_next_file(const char *folder) {
   static DIR *open;
@@ -11,4 +12,9 @@ const char *cli_os_next_file(const char *folder) {
   if (open) closedir(open);
   open = NULL;
   return NULL;
+}
+
+int32_t cli_os_is_other_than_file(const char *path) {
+  struct stat there;
+  return stat(path, &there) == 0 && !S_ISREG(there.st_mode);
 }

@@ -1,7 +1,5 @@
-#define _GNU_SOURCE /* F_OFD_GETLK */
 #include "os.h"
 
-#include <fcntl.h>
 #include <inttypes.h>
 #include <signal.h>
 #include <spawn.h>
@@ -71,30 +69,9 @@ int32_t cli_os_is_same_file(const char *one, const char *other) {
          first.st_ino == second.st_ino;
 }
 
-int32_t cli_os_is_other_than_file(const char *path) {
-  struct stat there;
-  return stat(path, &there) == 0 && !S_ISREG(there.st_mode);
-}
-
-int cli_os_may_write(const char *folder) {
-  return access(folder, W_OK);
-}
-
 int cli_os_make_file(char *path) {
   const int descriptor = mkstemp(path);
   return descriptor < 0 ? -1 : close(descriptor);
-}
-
-#if !defined(F_OFD_GETLK) /* systems without such locks */
-#define F_OFD_GETLK (-1)
-#endif
-
-int32_t cli_os_is_written(const char *path) {
-  struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
-  const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  const int written = descriptor >= 0 && fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK;
-  if (descriptor >= 0) close(descriptor);
-  return written;
 }
 
 FILE *cli_os_open_text(char **text, size_t *size) {

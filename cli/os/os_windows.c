@@ -63,13 +63,10 @@ const char *cli_os_last_slash(const char *path) {
   return back > forward ? back : forward;
 }
 
-static HANDLE open_file(const char *path, DWORD access) {
-  return CreateFileA(path, access, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
-                     OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, NULL);
-}
-
 static int look(const char *path, BY_HANDLE_FILE_INFORMATION *there) {
-  HANDLE file = open_file(path, FILE_READ_ATTRIBUTES);
+  HANDLE file =
+      CreateFileA(path, FILE_READ_ATTRIBUTES, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
+                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, NULL);
   const int found = file != INVALID_HANDLE_VALUE && GetFileInformationByHandle(file, there);
   if (file != INVALID_HANDLE_VALUE) CloseHandle(file);
   return found;
@@ -80,15 +77,6 @@ int32_t cli_os_is_same_file(const char *one, const char *other) {
   return look(one, &first) && look(other, &second) &&
          first.dwVolumeSerialNumber == second.dwVolumeSerialNumber &&
          first.nFileIndexHigh == second.nFileIndexHigh && first.nFileIndexLow == second.nFileIndexLow;
-}
-
-int32_t cli_os_is_other_than_file(const char *path) {
-  struct stat there;
-  return stat(path, &there) == 0 && !S_ISREG(there.st_mode);
-}
-
-int cli_os_may_write(const char *folder) {
-  return _access(folder, 2);
 }
 
 int cli_os_make_file(char *path) {
@@ -102,17 +90,6 @@ int cli_os_make_file(char *path) {
     descriptor = _open(path, _O_CREAT | _O_EXCL | _O_RDWR | _O_BINARY, _S_IREAD | _S_IWRITE);
   } while (descriptor < 0 && errno == EEXIST);
   return descriptor < 0 ? -1 : _close(descriptor);
-}
-
-/* The lock is on the last byte that there could be. */
-int32_t cli_os_is_written(const char *path) {
-  OVERLAPPED place = {.Offset = MAXDWORD, .OffsetHigh = MAXDWORD};
-  HANDLE file = open_file(path, GENERIC_READ);
-  if (file == INVALID_HANDLE_VALUE) return 0;
-  const int written =
-      !LockFileEx(file, LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &place) && GetLastError() == ERROR_LOCK_VIOLATION;
-  CloseHandle(file);
-  return written;
 }
 
 /* A file that is removed when it is closed. */

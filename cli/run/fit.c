@@ -1,6 +1,5 @@
 #include "fit.h"
 
-#include "print.h"
 #include "report.h"
 
 #include <math.h>
@@ -41,12 +40,10 @@ static double largest_that_fits(const struct fit *fit, double most, double least
 }
 
 static int set(struct fit *fit, const char *name, double *number, double value, const char *why) {
-  char text[HOOKE_NUMBER_SIZE];
   const int32_t status = hooke_options_set_number(fit->options, name, value);
   *number = value;
   if (status != HOOKE_OK) return cli_report_status(fit->arguments, status);
-  if (!fit->arguments->quiet)
-    cli_report_words(fit->arguments, "%s is %s s: %s", name, cli_format_rounded(value, text), why);
+  if (!fit->arguments->quiet) cli_report_words(fit->arguments, "%s is %.6g s: %s", name, value, why);
   return HOOKE_EXIT_DONE;
 }
 

@@ -5,17 +5,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double MOST_STEPS = 9007199254740992.0; /* 2^53, up to which doubles hold every integer */
-
-static int32_t may_be_given(const char *name) {
-  static const char *const names[] = {"resume", "threads", "final", "no-why", "json", "quiet", "help"};
-  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-    if (strcmp(names[k], name) == 0) return 1;
-  }
-  return 0;
-}
+static const char MAY_BE_GIVEN[] = "resume threads final no-why json quiet help";
 
 int cli_resume_check(const struct cli_arguments *arguments) {
   const char *file = cli_arguments_text(arguments, "resume");
@@ -25,7 +17,7 @@ int cli_resume_check(const struct cli_arguments *arguments) {
   }
   for (int32_t i = 0; file && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
-    if (!argument->text || may_be_given(argument->name)) continue;
+    if (!argument->text || cli_is_among(MAY_BE_GIVEN, argument->name)) continue;
     return cli_report(arguments, HOOKE_EXIT_USAGE,
                       "--resume goes on with the scene and the options of %s, so that the bits are those of "
                       "a run that never stopped; leave out --%s",

@@ -125,8 +125,7 @@ static void print_row(const char *label) {
 }
 
 static void print_quantity(double value, const char *unit) {
-  char text[HOOKE_NUMBER_SIZE];
-  printf("%s %s", cli_format_rounded(value, text), unit);
+  printf("%.6g %s", value, unit);
 }
 
 static void print_count(const struct cli_run *run, int k) {
@@ -152,15 +151,11 @@ static void print_work(const struct cli_run *run) {
 }
 
 static void print_method(const struct cli_run *run) {
-  char text[HOOKE_NUMBER_SIZE];
   cli_say("%-22s%s, ", "method", cli_run_method(run));
-  if (is_adaptive(run)) {
-    printf("rtol %s, atol ", cli_format_rounded(option_of(run, "rtol"), text));
-    print_quantity(option_of(run, "atol"), "m\n");
-  } else {
-    printf("step ");
-    print_quantity(option_of(run, "step"), "s\n");
-  }
+  if (is_adaptive(run))
+    printf("rtol %.6g, atol %.6g m\n", option_of(run, "rtol"), option_of(run, "atol"));
+  else
+    printf("step %.6g s\n", option_of(run, "step"));
 }
 
 /* A sum that has overflowed, or a difference of two of those, is not known. */

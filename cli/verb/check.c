@@ -83,15 +83,13 @@ static void print_bodies(const hooke_system *system) {
 
 static void print_derived(const hooke_measurement *found) {
   const int64_t count = hooke_measurement_row_count(found, "derived");
-  char number[HOOKE_NUMBER_SIZE];
   if (count > 0) printf("derived from the options of parts:\n");
   for (int64_t row = 0; row < count; row++) {
     const char *family = hooke_measurement_text(found, "derived", row, "family"),
                *unit = hooke_measurement_text(found, "derived", row, "unit");
-    cli_say("  %s%s%s: %s %s%s%s\n", hooke_measurement_text(found, "derived", row, "part"), family ? "." : "",
-            family ? family : "", hooke_measurement_text(found, "derived", row, "name"),
-            cli_format_rounded(hooke_measurement_number(found, "derived", row, "value"), number),
-            unit[0] ? " " : "", unit);
+    cli_say("  %s%s%s: %s %.6g%s%s\n", hooke_measurement_text(found, "derived", row, "part"),
+            family ? "." : "", family ? family : "", hooke_measurement_text(found, "derived", row, "name"),
+            hooke_measurement_number(found, "derived", row, "value"), unit[0] ? " " : "", unit);
   }
 }
 

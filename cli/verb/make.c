@@ -5,7 +5,6 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
-#include "value.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -36,10 +35,9 @@ static int check_required(const struct make *make) {
   char list[2 * HOOKE_DOC_SIZE] = "";
   for (int32_t i = 0; i < make->arguments->count; i++) {
     const struct cli_argument *argument = &make->arguments->all[i];
-    char example[HOOKE_EXAMPLE_SIZE];
     if (argument->table != make->arguments->of_kind || !is_missing(argument->table, argument->row)) continue;
     const char *unit = hooke_options_row(argument->table, argument->row, "unit");
-    cli_value_example(argument->table, argument->row, example);
+    const char *example = hooke_options_row(argument->table, argument->row, "example");
     const char *quote = strchr(example, ';') ? "'" : "";
     cli_append(list, sizeof list, "%s--%s (%s%s%s%s)", list[0] ? "; " : "", argument->flag,
                hooke_options_row(argument->table, argument->row, "doc"), unit[0] ? " [" : "", unit,
@@ -53,16 +51,12 @@ static int check_required(const struct make *make) {
 
 /* Row of `table` whose name the message begins with; -1: none. */
 static int64_t row_of_message(const hooke_options *table, const char *message) {
-  int64_t found = -1;
-  size_t longest = 0;
+  const size_t length = strcspn(message, ":[");
   for (int64_t row = 0; row < hooke_options_row_count(table); row++) {
     const char *name = hooke_options_row(table, row, "name");
-    const size_t length = strlen(name);
-    if (length <= longest || strncmp(message, name, length) != 0 || !strchr(":[.", message[length])) continue;
-    found = row;
-    longest = length;
+    if (strlen(name) == length && strncmp(message, name, length) == 0) return row;
   }
-  return found;
+  return -1;
 }
 
 /* Reports a failure of the library, whose place is an option; one without place may concern a missing option.
@@ -188,10 +182,7 @@ static int do_make(const struct cli_arguments *arguments) {
   struct make make = {.arguments = arguments, .output = cli_arguments_text(arguments, "output")};
   struct cli_watch watch;
   if (make.output && strcmp(make.output, "-") == 0) make.output = NULL;
-  for (int64_t row = 0; row < hooke_options_row_count(arguments->run); row++) {
-    if (hooke_options_is_set(arguments->run, hooke_options_row(arguments->run, row, "name")))
-      make.run = arguments->run;
-  }
+  if (cli_arguments_has_run(arguments)) make.run = arguments->run;
   cli_watch_start(&watch, arguments);
   int code = make.output ? cli_output_file_check(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = check_required(&make);

@@ -2,6 +2,7 @@
 #include "blow_up.h"
 #include "fit.h"
 #include "os.h"
+#include "output_file.h"
 #include "report.h"
 #include "resume.h"
 #include "run.h"
@@ -32,12 +33,6 @@ static double state_energy(struct cli_run *run) {
 
 static void keep_message(struct cli_run *run) {
   snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
-}
-
-static int32_t see_progress(double done, const char *method, void *ctx) {
-  struct cli_run *run = ctx;
-  (void)method;
-  return cli_watch_progress(done, NULL, &run->watch);
 }
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
@@ -94,7 +89,8 @@ static int32_t prepare(struct cli_run *run) {
   run->duration = hooke_options_number(run->options, "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK)
-    status = hooke_integrator_on_progress(run->integrator, HOOKE_BETWEEN_LOOKS, see_progress, run);
+    status =
+        hooke_integrator_on_progress(run->integrator, HOOKE_BETWEEN_LOOKS, cli_watch_progress, &run->watch);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
   /* a pick has computed the limits already */
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
@@ -214,14 +210,13 @@ static int integrate(struct cli_run *run) {
 /* On standard error: that a run was interrupted, and what is kept. */
 static void tell_interrupted(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
-  char text[HOOKE_NUMBER_SIZE];
   char kept[sizeof run->message] = "";
   if (run->output) {
     snprintf(kept, sizeof kept, ", and %" PRId64 " frame%s in %s", run->frames, run->frames == 1 ? "" : "s",
              run->output);
   }
-  cli_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
-                   cli_format_rounded(hooke_state_time(run->setup.state), text), kept);
+  cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s",
+                   hooke_state_time(run->setup.state), kept);
   if (run->output) cli_resume_tell_how(arguments, run->output, run->kept_place);
 }
 
@@ -370,6 +365,7 @@ static int do_run(const struct cli_arguments *arguments) {
                         .output = cli_arguments_text(arguments, "output"),
                         .resumed = cli_arguments_text(arguments, "resume")};
   int code = cli_resume_check(arguments);
+  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check(arguments, "-o", run.output);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;

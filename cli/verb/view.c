@@ -77,6 +77,7 @@ static int write_page(const struct cli_arguments *arguments, const struct shown 
   for (int32_t k = 1; k < shown->count && status == HOOKE_OK; k++)
     status = hooke_view_add(shown->view[0], shown->view[k]);
   if (status == HOOKE_OK) status = hooke_measurement_write(shown->view[0], output);
+  if (status == HOOKE_BAD_VALUE) return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", hooke_last_error());
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   if (arguments->json) status = print_json(shown, output);
   for (int32_t k = 0; k < shown->count && !arguments->quiet; k++)

@@ -30,9 +30,9 @@ HOOKE_API int32_t hooke_options_copy(const hooke_options *options, hooke_options
 HOOKE_API void hooke_options_destroy(hooke_options *options);
 
 /* Sets the option `name` to one number, to `count` numbers (copied), or to the value of `text`: "0.5",
- * "1e-3", "0,-9.81,0", "5ms", "0.5 cm", "true", or one of the words that the option accepts. A number without
- * a unit is in that of the row; 3um is 3e-6 to the bit. A flag is the number 0 or 1. Setting a family name
- * ("structural") to "" makes it present with its defaults.
+ * "1e-3", "0,-9.81,0", rows "1,0,0;0,0,1", a size "64x64", "5ms", "0.5 cm", "true", or one of the words that
+ * the option accepts. A number without a unit is in that of the row; 3um is 3e-6 to the bit. A flag is the
+ * number 0 or 1. Setting a family name ("structural") to "" makes it present with its defaults.
  * HOOKE_BAD_VALUE for an unknown name, a wrong type or count, a non-finite value or one out of bounds; the
  * option then keeps its old value. HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_options_set_number(hooke_options *options, const char *name, double value);

@@ -63,7 +63,9 @@ HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *
                                         hooke_scene **scene);
 
 /* HOOKE_BAD_VALUE if `path` is, by any name, one of the files that the scene was read from: its own, meshes,
- * arrays. What writes results of its system refuses such a file, too. HOOKE_NO_MEMORY. */
+ * arrays. What writes results of its system refuses such a file, too. HOOKE_IO_FAILED if no file could be
+ * written there: in a folder that is not there, over a device, over a file that a run is writing.
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_scene_check_output(const hooke_scene *scene, const char *path);
 
 /* Releases the scene, its system and its options. NULL is allowed. */

@@ -34,10 +34,10 @@ struct hk_schedule {
 /* The standing of a run beside its state: everything that continuing it needs, and its counts. */
 struct hk_standing {
   double t0, t;
-  int64_t k, frames;                               /* steps since t0, frames reported */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
-  struct hk_counts count;
   double wall_seconds;
+  int64_t k, frames; /* steps since t0, frames reported */
+  struct hk_counts count;
 };
 
 /* State of the last restart of an error-controlled run. */

@@ -79,10 +79,6 @@ void hk_absolute(int64_t size, const double *x, double *z) {
   hk_spring_set(0)->vector->absolute(size, x, z);
 }
 
-void hk_add_number(int64_t size, double a, const double *x, double *z) {
-  hk_spring_set(0)->vector->add_number(size, a, x, z);
-}
-
 double hk_sum_of_squares(int64_t size, const double *x, const double *y) {
   return hk_spring_set(0)->vector->sum_of_squares(size, x, y);
 }

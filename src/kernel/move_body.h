@@ -77,7 +77,7 @@ HOOKE_INLINE void hk_move_axis(const struct hk_move *move, const int kind, ptrdi
     const hk_vector x = hk_load(q), u = hk_load(v), next = u + move->kick * hk_braked(move, a, w, f, u);
     hk_store(v, next);
     hk_store(q, x + move->drift * (kind == HOOKE_KICK_THEN_DRIFT ? next : u));
-  } else if (kind == HOOKE_MOVE_KEEP) {
+  } else {
     hk_store(move->f + a * move->stride + p, f);
   }
 }
@@ -85,7 +85,6 @@ HOOKE_INLINE void hk_move_axis(const struct hk_move *move, const int kind, ptrdi
 /* `w`, `q` and `v` at particle p. */
 HOOKE_INLINE void hk_move_vector(const struct hk_move *move, const int kind, ptrdiff_t p, const double *w,
                                  double *q, double *v, ptrdiff_t stride, const hk_vector f[3]) {
-  if (kind == HOOKE_MOVE_NOTHING) return;
   const hk_vector inverse_mass = hk_load(w);
   for (int a = 0; a < 3; a++)
     hk_move_axis(move, kind, p, a, inverse_mass, f[a], q + a * stride, v + a * stride);

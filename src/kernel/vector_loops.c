@@ -209,12 +209,6 @@ static void absolute(int64_t size, const double *x, double *z) {
     z[k] = x[k] < 0.0 ? -x[k] : x[k];
 }
 
-static void add_number(int64_t size, double a, const double *x, double *z) {
-  HOOKE_VECTORISE
-  for (int64_t k = 0; k < size; k++)
-    z[k] = a + x[k];
-}
-
 static double sum_of_long(double part[LONG_PARTS]) {
   double first[PARTS];
   for (int p = 0; p < PARTS; p++)
@@ -307,7 +301,6 @@ const struct hk_vector_set HOOKE_VECTOR_SET = {
     .divide = divide,
     .invert = invert,
     .absolute = absolute,
-    .add_number = add_number,
     .sum_of_squares = sum_of_squares,
     .long_dot = long_dot,
     .largest = largest,

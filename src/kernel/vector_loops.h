@@ -46,7 +46,6 @@ void hk_multiply(int64_t size, const double *x, const double *y, double *z);
 void hk_divide(int64_t size, const double *x, const double *y, double *z);
 void hk_invert(int64_t size, const double *x, double *z);
 void hk_absolute(int64_t size, const double *x, double *z);
-void hk_add_number(int64_t size, double a, const double *x, double *z);
 /* The sums of (x y)^2 and of x y in thirty-two parts, and the largest |x|. */
 double hk_sum_of_squares(int64_t size, const double *x, const double *y);
 double hk_long_dot(int64_t size, const double *x, const double *y);
@@ -73,7 +72,6 @@ struct hk_vector_set {
   void (*divide)(int64_t, const double *, const double *, double *);
   void (*invert)(int64_t, const double *, double *);
   void (*absolute)(int64_t, const double *, double *);
-  void (*add_number)(int64_t, double, const double *, double *);
   double (*sum_of_squares)(int64_t, const double *, const double *);
   double (*long_dot)(int64_t, const double *, const double *);
   double (*largest)(int64_t, const double *);

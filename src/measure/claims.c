@@ -13,24 +13,19 @@ static const char *of_name(const struct hk_claims *claims, int64_t row) {
   return names[claims->claim[row].of];
 }
 
-HOOKE_READER(const void *, find_claim, struct hk_claims, &it->claim[row])
 HOOKE_READER(const char *, of, struct hk_claims, of_name(it, row))
 
-static const struct hk_column columns[] = {
-    HOOKE_COLUMN(struct hk_claim, key, TEXT, "", "what it is about; it stays where the text changes"),
-    HOOKE_COLUMN(struct hk_claim, text, TEXT, "", "the sentence"),
-    HOOKE_COLUMN_BY(of, of, TEXT, "",
-                    "whole: it holds for the whole run; part: for a part of it, which the text names; "
-                    "unknown: that something is not known"),
-    HOOKE_COLUMN(struct hk_claim, by, TEXT, "", "what it rests on"),
-};
-
-const struct hk_table hk_claims_table = {.name = "claims",
-                                         .doc =
-                                             "what the results say, in sentences, the most important first",
-                                         HOOKE_TABLE_COLUMNS(columns),
-                                         HOOKE_TABLE_COUNT(struct hk_claims, count),
-                                         .row = find_claim};
+const struct hk_table hk_claims_table = {
+    .name = "claims",
+    .doc = "what the results say, in sentences, the most important first",
+    HOOKE_TABLE_ROWS(struct hk_claims, claim, count),
+    HOOKE_TABLE_COLUMNS(
+        HOOKE_COLUMN(struct hk_claim, key, TEXT, "", "what it is about; it stays where the text changes"),
+        HOOKE_COLUMN(struct hk_claim, text, TEXT, "", "the sentence"),
+        HOOKE_COLUMN_BY(of, TEXT, "",
+                        "whole: it holds for the whole run; part: for a part of it, which the text names; "
+                        "unknown: that something is not known"),
+        HOOKE_COLUMN(struct hk_claim, by, TEXT, "", "what it rests on"))};
 
 /* ---- filling it ---- */
 

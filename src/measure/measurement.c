@@ -9,7 +9,6 @@
 #include "model/state.h"
 #include "model/system.h"
 
-#include <math.h>
 #include <string.h>
 
 /* ---- creating ---- */
@@ -119,15 +118,14 @@ int32_t hk_measurement_claim(hooke_measurement *m) {
   return m->claims.status;
 }
 
-/* A kind that runs once is not run again where the claims alone had failed; one that has results though it
- * failed has composed them itself. */
 int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
-  const int32_t untold = m->has_run && !m->kind->takes_state && m->claims.status != HOOKE_OK;
+  /* one that runs once has its results where only the memory for claims was short */
+  const int32_t is_there = m->claims.status != HOOKE_OK && state == NULL && !m->kind->takes_state;
   hk_claims_release(&m->claims);
-  const int32_t outcome = untold                 ? m->outcome
+  const int32_t outcome = is_there               ? m->outcome
                           : m->kind->takes_state ? run_at(m, state)
                                                  : m->kind->run(m, state);
-  if (outcome < 0 && !untold) return outcome;
+  if (outcome < 0 && !is_there) return outcome; /* one with results all the same has composed what they say */
   m->has_run = 1;
   m->outcome = outcome;
   const int32_t status = hk_measurement_claim(m);
@@ -158,7 +156,7 @@ const void *hk_measured(const hooke_measurement *m, const struct hk_table *table
 
 int64_t hooke_measurement_row_count(const hooke_measurement *m, const char *table) {
   const struct hk_table *t = hk_measurement_table(m->kind, table);
-  return t ? hk_table_count(t, hk_measured(m, t)) : -1;
+  return t ? hk_measured_rows(m, t) : -1;
 }
 
 int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, const char *column,
@@ -171,34 +169,34 @@ int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, co
   return -1;
 }
 
-/* The table and the column of that name; NULL unless both are there, with the row. */
-static const struct hk_column *find(const hooke_measurement *m, const char *name, int64_t row,
-                                    const char *column, const struct hk_table **table) {
-  *table = hk_measurement_table(m->kind, name);
-  const int has = *table && row >= 0 && row < hk_table_count(*table, hk_measured(m, *table));
-  return has ? hk_table_find(*table, column) : NULL;
+int64_t hk_measured_rows(const hooke_measurement *m, const struct hk_table *table) {
+  return hk_table_count(table, hk_measured(m, table));
+}
+
+struct hk_value hk_measured_value(const hooke_measurement *m, const struct hk_table *table,
+                                  const struct hk_column *column, int64_t row) {
+  return hk_table_value(table, column, hk_measured(m, table), row);
+}
+
+static struct hk_value value_of(const hooke_measurement *m, const char *table, int64_t row,
+                                const char *column) {
+  const struct hk_table *t = hk_measurement_table(m->kind, table);
+  return hk_measured_value(m, t, t ? hk_table_find(t, column) : NULL, row);
 }
 
 double hooke_measurement_number(const hooke_measurement *m, const char *table, int64_t row,
                                 const char *column) {
-  const struct hk_table *t;
-  const struct hk_column *c = find(m, table, row, column, &t);
-  return c ? hk_table_number(t, c, hk_measured(m, t), row) : NAN;
+  return value_of(m, table, row, column).number;
 }
 
 const char *hooke_measurement_text(const hooke_measurement *m, const char *table, int64_t row,
                                    const char *column) {
-  const struct hk_table *t;
-  const struct hk_column *c = find(m, table, row, column, &t);
-  return c ? hk_table_text(t, c, hk_measured(m, t), row) : NULL;
+  return value_of(m, table, row, column).text;
 }
 
 const double *hooke_measurement_series(const hooke_measurement *m, const char *table, int64_t row,
                                        const char *column, int64_t *count) {
-  const struct hk_table *t;
-  const struct hk_column *c = find(m, table, row, column, &t);
-  const struct hk_series series =
-      c ? hk_table_series(t, c, hk_measured(m, t), row) : (struct hk_series){NULL, 0};
+  const struct hk_series series = value_of(m, table, row, column).series;
   if (count) *count = series.value ? series.count : 0;
   return series.value;
 }

@@ -67,4 +67,9 @@ const struct hk_table *hk_measurement_table_at(const struct hk_measurement_kind 
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name);
 const void *hk_measured(const hooke_measurement *measurement, const struct hk_table *table);
 
+/* The number of rows of a table, and a value of it as of hk_table_value(). */
+int64_t hk_measured_rows(const hooke_measurement *measurement, const struct hk_table *table);
+struct hk_value hk_measured_value(const hooke_measurement *measurement, const struct hk_table *table,
+                                  const struct hk_column *column, int64_t row);
+
 #endif

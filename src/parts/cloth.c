@@ -12,9 +12,9 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_ORIGIN,
     HOOKE_OPTION("edges", HOOKE_OPTION_VECTORS("m", 2, 2), NULL,
                  "the two edges from the origin, u and v, as vectors", .required = 1,
-                 .example = "1,0,0,0,0,1"),
+                 .example = "1,0,0;0,0,1"),
     HOOKE_OPTION("size", HOOKE_OPTION_WHOLES(2, INT32_MAX, 2, 2), NULL, "particles along u and along v",
-                 .required = 1, .example = "16,16"),
+                 .required = 1, .example = "16x16"),
     HOOKE_PART_MASS("equally"),
     HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED(

@@ -13,9 +13,9 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_ORIGIN,
     HOOKE_OPTION("edges", HOOKE_OPTION_VECTORS("m", 3, 3), NULL,
                  "the three edges from the origin, x, y and z, as vectors", .required = 1,
-                 .example = "1,0,0,0,1,0,0,0,1"),
+                 .example = "1,0,0;0,1,0;0,0,1"),
     HOOKE_OPTION("size", HOOKE_OPTION_WHOLES(2, INT32_MAX, 3, 3), NULL,
-                 "particles along x, along y and along z", .required = 1, .example = "5,5,5"),
+                 "particles along x, along y and along z", .required = 1, .example = "5x5x5"),
     HOOKE_PART_MASS("equally"),
     HOOKE_PART_DENSITY("kg/m^3", "mass over volume, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED(

@@ -7,7 +7,7 @@ import time
 import h5py
 import pytest
 from conftest import ENDLESS, METHODS, SIX_PARTICLES, STIFF_PAIR, interrupt
-from test_study import DOUBLE
+from test_study_watched import DOUBLE
 
 pytestmark = pytest.mark.everything
 

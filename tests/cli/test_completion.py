@@ -1,4 +1,4 @@
-"""Completion in bash: the script run by bash, compared with --help."""
+"""Completion: the scripts run by their shells, which ask the program, compared with --help."""
 
 import functools
 import json
@@ -14,6 +14,7 @@ from test_make import KINDS
 # One line of words a call, the last of them being completed; answers one line of candidates each.
 DRIVER = r"""
 source ./hooke.bash
+hooke() { "$HOOKE_CLI" "$@"; }
 while IFS= read -r line; do
   IFS=$'\x1f' read -r -a COMP_WORDS <<< "$line"
   [[ $line == *$'\x1f' ]] && COMP_WORDS+=("")
@@ -43,7 +44,8 @@ def complete(folder):
 
     def ask(*lines):
         text = "".join("\x1f".join(["hooke", *words]) + "\n" for words in lines)
-        done = subprocess.run(["bash", "-c", DRIVER], cwd=folder, input=text, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(["bash", "-c", DRIVER], cwd=folder, input=text, capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "HOOKE_CLI": CLI})  # fmt: skip
         assert (done.returncode, done.stderr) == (0, "")
         answers = done.stdout.split("\n")[:-1]
         assert len(answers) == len(lines)
@@ -95,29 +97,29 @@ def test_options_of_every_verb_are_those_of_its_help(complete, words):
     assert complete([*words, "-"], [*words, "--js"]) == [wanted, {"--json"}]
 
 
-@pytest.mark.parametrize("words", TAKERS, ids=" ".join)
-def test_values_are_words_files_or_nothing(complete, words):
+def test_values_are_words_files_or_nothing(complete):
     methods = set(listed("methods"))
-    flags = flags_of(words)
-    lines = [[*words, f"--{flag}", *sign, ""] for flag in flags for sign in ([], ["="])]
-    answers = complete(*lines)
-    for (flag, (letter, text)), plain, signed in zip(flags.items(), answers[::2], answers[1::2], strict=True):
+    rows = {(flag, *row): words for words in TAKERS for flag, row in flags_of(words).items()}  # each of several verbs once
+    asked = [(row, words, sign) for row, words in rows.items() for sign in ("", "=") if not sign or words in (["run"], ["make", "rope"])]
+    answers = complete(*([*words, f"--{row[0]}", *sign, ""] for row, words, sign in asked))
+    for ((flag, letter, text), words, sign), answer in zip(asked, answers, strict=True):
         value = re.match(r"([\w.,:]+)?", text).group() if text[:1].isupper() else ""
         choices = set(re.findall(r'"([\w-]+)"', text))
         if flag in ("method", "methods"):
-            assert plain == signed == methods, flag
+            assert answer == methods, flag
         elif "true or false" in text:
-            assert signed == {"true", "false"} and plain != signed, flag
+            assert (answer == {"true", "false"}) == (sign == "="), flag
         elif value.startswith(("NUMBER", "CHOICE")):
-            assert plain == signed == choices, flag
+            assert answer == choices, flag
         elif "." in value or value.startswith("FILE"):
             ending = value.partition(".")[2]
             everything = {"scene.json", "my scene.json", "out.h5", "page.html", "notes.txt", "hooke.bash", "scenes"}
             wanted = {name for name in everything if name == "scenes" or name.endswith(ending and f".{ending}")}
-            assert plain == signed == wanted, flag
+            assert answer == wanted, flag
             assert not letter or complete([*words, letter, ""]) == wanted
         elif value and flag != "file":
-            assert plain == signed == set(), flag
+            assert answer == set(), flag
+    assert {sign for *_, sign in asked} == {"", "="} and len(asked) > 150
 
 
 def test_scenes_are_files(complete):
@@ -134,6 +136,7 @@ def test_lists_go_on_after_a_comma(complete):
     assert complete(["compare", "x.json", "--methods", "rk4,ver"]) == {"rk4,verlet"}
     assert complete(["make", "cloth", "--pinned", "top,cor"]) == {"top,corners"}
     assert complete(["run", "x.json", "--method", "rk4,ver"]) == set()
+    assert complete(["make", "cloth", "--gravity", "=", "-9"], ["make", "cloth", "--gravity", "-"]) == [set(), set()]
 
 
 def test_no_word_is_offered_that_the_program_refuses(hooke, complete):
@@ -149,41 +152,66 @@ def script_of(shell):
     return subprocess.run([CLI, "--completion", shell], capture_output=True, text=True, check=True).stdout
 
 
-@pytest.mark.parametrize("words", TAKERS, ids=" ".join)
-def test_fish_offers_the_same_options(folder, complete, words):
-    if not shutil.which("fish"):
-        pytest.skip("needs fish")
-    (folder / "hooke.fish").write_text(script_of("fish"))
-    ask = f"source hooke.fish; complete -C 'hooke {' '.join(words)} --'; complete -C 'hooke {' '.join(words)} --method='"
-    done = subprocess.run(["fish", "--no-config", "-c", ask], cwd=folder, capture_output=True, text=True, timeout=60)
-    found = {line.split("\t")[0] for line in done.stdout.splitlines()}
-    assert done.stderr == ""
-    assert {word for word in found if "=" not in word} == {f"--{flag}" for flag in flags_of(words)}
-    if "method" in flags_of(words):
-        assert {f"--method={method}" for method in listed("methods")} <= found
+def run_by(shell, folder, script, lines=()):
+    """Answers of a shell to lines that it is given as $LINES_, parted by lines "=="."""
+    if not shutil.which(shell[0]):
+        pytest.skip(f"needs {shell[0]}")
+    (folder / f"hooke.{shell[0]}").write_text(script_of(shell[0]))
+    done = subprocess.run([*shell, "-c", script], cwd=folder, env={**os.environ, "LINES_": "\n".join(lines), "HOOKE_CLI": CLI},
+                          capture_output=True, text=True, timeout=60)  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout.split("==\n")
 
 
-# _arguments is asked what it was given, since zsh completes at a prompt only.
+LINES = [" ".join(words) for words in TAKERS]
+FISH = r"""
+function hooke; $HOOKE_CLI $argv; end
+source hooke.fish
+for line in (string split \n -- $LINES_); complete -C "hooke $line"; echo ==; end
+"""
+
+
+def test_fish_offers_the_same_options_words_and_files(folder):
+    ends = [line + end for line in LINES for end in (" --", " --method=")]
+    more = ["run --method rk", "compare --methods rk4,ver", "run -o ", "run ", "make ", "--completion z"]
+    answers = run_by(["fish", "--no-config"], folder, FISH, ends + more)
+    found = [{line.split("\t")[0] for line in answer.splitlines()} for answer in answers]
+    for k, words in enumerate(TAKERS):
+        assert found[2 * k] == {f"--{flag}" for flag in flags_of(words)}, words
+        if "method" in flags_of(words):
+            assert found[2 * k + 1] == {f"--method={method}" for method in listed("methods")}, words
+    method, methods, output, scene, kinds, shell = found[len(ends) : -1]
+    assert (method, methods, shell) == ({"rk4"}, {"rk4,verlet"}, {"zsh"}) and {*KINDS, "--help"} == kinds
+    assert "out.h5" in output and {"scene.json", "my scene.json", "scenes/"} <= scene
+    described = dict(line.split("\t") for line in answers[2 * LINES.index("run")].splitlines())
+    assert described["--final"].startswith("prints the position")
+
+
+# zsh completes at a prompt only: its functions say what they were given.
 ZSH = r"""
 compdef() { :; }
-_arguments() { print -rl -- "$@"; return 1; }
+compset() { [[ $2 == '--*=' && $words[-1] == --*=* ]] }
+_describe() { print -rl -- "${(@P)2}" "${@[3,-1]}" }
+_files() { print -r -- files "$@" }
+hooke() { "$HOOKE_CLI" "$@" }
 source ./hooke.zsh
 for line in "${(@f)LINES_}"; do
-  words=(hooke ${=line} ""); CURRENT=$#words
+  words=(hooke "${(@s: :)line}"); CURRENT=$#words
   _hooke
   print -r -- "=="
 done
 """
 
 
-def test_zsh_offers_the_same_options(folder):
-    if not shutil.which("zsh"):
-        pytest.skip("needs zsh")
-    (folder / "hooke.zsh").write_text(script_of("zsh"))
-    lines = "\n".join(" ".join(words) for words in TAKERS)
-    done = subprocess.run(["zsh", "-f", "-c", ZSH], cwd=folder, env={**os.environ, "LINES_": lines},
-                          capture_output=True, text=True, timeout=60)  # fmt: skip
-    assert (done.returncode, done.stderr) == (0, "")
-    for words, text in zip(TAKERS, done.stdout.split("==\n"), strict=False):
-        assert set(re.findall(r"^--([\w.-]+)=?\[", text, re.M)) == set(flags_of(words)), words
-    assert f":value:({' '.join(listed('methods'))})" in done.stdout
+def test_zsh_offers_the_same_options_words_and_files(folder):
+    more = ["run --method ", "compare --methods=rk4,", "run -o ", "run ", "run --newton", "verify ", "make mesh --file ", ""]
+    answers = run_by(["zsh", "-f"], folder, ZSH, [*(line + " --" for line in LINES), *more])
+    for words, text in zip(TAKERS, answers[: len(TAKERS)], strict=True):
+        assert set(re.findall(r"^--([\w.-]+):", text, re.MULTILINE)) == set(flags_of(words)), words
+    method, methods, output, scene, option, trajectory, mesh, first, _ = answers[len(TAKERS) :]
+    assert re.findall("^(.*):$", method, re.MULTILINE) == listed("methods")
+    assert "--methods=rk4,verlet:\n" in methods and methods.endswith("\n-S\n\n")
+    assert (output, scene) == ("files -g *.(h5)\n", "files -g *.(json|h5)\n")
+    assert (trajectory, mesh) == ("files -g *.(h5)\n", "files\n")
+    assert r"equations\: converged" in option
+    assert re.findall(r"^([\w-]+):", first, re.MULTILINE) == VERBS + re.findall(r"--\w+", help_of().split("in place of")[1])

@@ -117,7 +117,6 @@ CASES = [
     (raw, SPECIES, ELSEWHERE),
     (link, POSITION, LINK),
     (link, SPECIES, LINK),
-    (link, "h5md/author", LINK),
     (detour, SPECIES, LINK),
     (packed, POSITION, CODE),
     (packed, MASS, CODE),
@@ -140,3 +139,22 @@ def test_no_other_file_is_opened(made, tmp_path, way, name, words):
             for command in commands:
                 told += call(tmp_path, *command, whole).stderr
     assert words in told
+
+
+def test_a_link_that_nothing_reads_stays_a_link(made, tmp_path):
+    """A file that is made again, for a run that goes on, has it as it was: what it leads to is not copied."""
+    shutil.copy(made / "stopped.h5", tmp_path)
+    shutil.copy(made / "private.h5", tmp_path)
+    with h5py.File(tmp_path / "stopped.h5", "r+") as file:
+        link(file, "h5md/author", b"private.h5")
+    before = os.stat(tmp_path / "stopped.h5").st_ino
+    with untouched(tmp_path / "private.h5"):
+        words = [CLI, "run", "--resume", "stopped.h5", "--quiet"]
+        with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL, preexec_fn=default_signals) as process:
+            while os.stat(tmp_path / "stopped.h5").st_ino == before:
+                assert process.poll() is None
+                time.sleep(0.01)
+            interrupt(process)
+        assert process.returncode == 130
+    with h5py.File(tmp_path / "stopped.h5") as file:
+        assert isinstance(file["h5md"].get("author", getlink=True), h5py.ExternalLink)

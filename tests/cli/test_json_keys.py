@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from conftest import METHODS, SIX_PARTICLES
-from test_study import DOUBLE
+from test_study_watched import DOUBLE
 
 pytestmark = pytest.mark.everything
 

@@ -181,7 +181,7 @@ def long_scene():
     return scene
 
 
-@pytest.mark.parametrize("wait", [0.0, 0.5])
+@pytest.mark.parametrize("wait", [0.0, 0.2])
 def test_interrupted(start, write, tmp_path, wait):
     more = ["--report", "out.html"] if DRAWS else []
     process = start("needs", write(long_scene()), "--want", "1mm", "--duration", "2", "--json", *more)

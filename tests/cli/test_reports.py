@@ -15,7 +15,7 @@ def test_places_that_cannot_be_written(hooke, write, words):
     assert hooke(*words, scene, "--report", "nowhere/page.html").code == 5
     assert hooke(*words, scene, "--report", "/dev/null").code == 5
     answer = hooke(*words, scene, "--report", scene)
-    assert answer.code == 2 and "the scene itself" in answer.err
+    assert answer.code == 2 and "its name has to end in .html; 'hooke make -o' writes a scene" in answer.err
 
 
 @pytest.mark.skipif(DRAWS, reason="this build writes reports")

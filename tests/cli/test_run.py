@@ -188,7 +188,7 @@ def test_words_of_an_adaptive_method_count_the_solver(hooke, write):
         ({}, ["--every", "0.0333", "--strict"], 3, "multiple"),
         ({"method": "magic"}, [], 3, "magic"),
         ({"step": -1}, [], 3, "run.step"),
-        ({}, ["-o", "scene.json"], 2, "the scene itself"),
+        ({}, ["-o", "scene.json"], 2, "its name has to end in .h5; 'hooke make -o' writes a scene"),
         ({}, ["-o", "no/such/folder/out.h5"], 5, "no/such/folder/out.h5"),
         ({}, ["-o", "."], 5, "."),
     ],
@@ -440,7 +440,7 @@ def test_a_signal_that_was_ignored_stays_ignored(start, write):
     process = start("run", write(ENDLESS), preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    time.sleep(0.5)
+    time.sleep(0.2)
     assert process.poll() is None
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=60)

@@ -379,8 +379,8 @@ def interrupted(process, after):
 
 
 def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
-    """The first of the two steps is quick, the second takes hours."""
-    words = ["--methods", "symplectic-euler", "--steps", "10ms,1ns", "--duration", "10s", "--json", "-o", "rows.csv"]
+    """The first of the two steps is quick, the second takes half an hour."""
+    words = ["--methods", "symplectic-euler", "--steps", "10ms,1ns", "--duration", "2s", "--json", "-o", "rows.csv"]
     value = interrupted(start("study", write(SIX_PARTICLES), *words), 0.3)
     assert [row["status"] for row in value["rows"]] == ["finished", "stopped"]
     assert value["rows"][0]["error"] > 0 and value["rows"][1]["error"] is None
@@ -390,121 +390,6 @@ def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
 
 def test_ctrl_c_before_the_first_row(start, write, tmp_path):
     (tmp_path / "rows.csv").write_text("of old")
-    value = interrupted(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 0.3)
+    value = interrupted(start("study", write(ENDLESS), "--json", "-o", "rows.csv"), 0.1)
     assert value["rows"] == [] and value["reference"]["agreement"] is None
     assert (tmp_path / "rows.csv").read_text() == "of old"
-
-
-# ---- units, which every verb takes ----
-
-
-@pytest.mark.parametrize(
-    "text, value",
-    [
-        ("3e-3", 3e-3),
-        ("3ms", 3e-3),
-        ("3 ms", 3e-3),
-        ("3000us", 3e-3),
-        ("3e6ns", 3e-3),
-        (".7ms", 0.7e-3),
-        ("7.e-1 ms", 0.7e-3),
-        ("0.1s", 0.1),
-        ("0.001min", 0.001 * 60),
-        ("1e-5h", 1e-5 * 3600),
-    ],
-)
-def test_times_are_read_to_the_bit(hooke, write, text, value):
-    scene = write(SIX_PARTICLES, every=None, step=None, duration=None)
-    answer = hooke("run", scene, "--method", "cvode-adams", "--duration", text, "--json")
-    assert answer.code == 0 and answer.json["time"] == value
-
-
-@pytest.mark.parametrize("text", ["3 m s", "3ms2", "3m", "1 2ms", "ms", "3msms", "3,4ms", "1e400ms", "1e-400ms", "-3ms"])
-def test_what_is_no_time_is_refused(hooke, write, text):
-    answer = hooke("run", write(SIX_PARTICLES), f"--duration={text}")
-    assert answer.code == 2 and "--duration" in answer.err, answer.err
-
-
-def test_every_length_has_its_unit(hooke, write):
-    for text, value in [("2um", 2e-6), ("3nm", 3e-9), ("0.5 cm", 0.5e-2), ("1e-7km", 1e-4), ("7e-3", 7e-3)]:
-        answer = hooke("run", write(SIX_PARTICLES), "--method", "cvode-bdf", "--atol", text, "--json")
-        assert answer.json["atol"] == value, text
-    assert math.isclose(3 * 1e-9, 3e-9) and 3 * 1e-9 != 3e-9  # result of a plain product
-
-
-# ---- watched quantities and statistics ----
-
-DOUBLE = {
-    "hooke": 1,
-    "gravity": [0, -9.81, 0],
-    "particles": {"position": [[0, 0, 0], [1, 0.2, 0], [2, 0.5, 0.3]], "mass": 1, "pinned": [0]},
-    "springs": [{"name": "rods", "between": [[0, 1], [1, 2]], "stiffness": 200}],
-}
-WATCH = ["2.y", "rods:1.tension", "energy", "period:1.x"]
-
-
-def test_errors_of_watched_quantities(hooke, write, tmp_path):
-    words = ["--duration", 8, "--every", 0.05, "--methods", "verlet,cvode-adams", "--watch", ",".join(WATCH)]
-    scene = write(DOUBLE)
-    answer = hooke("study", scene, *words, "--json", "-o", "rows.csv")
-    assert (answer.code, answer.err) == (0, "")
-    reference = answer.json["reference"]["watched"]
-    assert [(item["quantity"], item["unit"]) for item in reference] == list(zip(WATCH, ["m", "N", "J", "s"]))
-    assert all(0 < item["agreement"] < 1e-4 for item in reference)
-    for row in answer.json["rows"]:
-        assert [item["quantity"] for item in row["watched"]] == WATCH
-        error = [item["error"] for item in row["watched"]]
-        assert 0 < error[0] <= row["error_max"] and math.isclose(error[2], row["energy_drift"], abs_tol=1e-12)
-    coarse, *_, fine = rows_of(answer.json, "verlet")
-    assert all(10 * b["error"] < a["error"] for a, b in zip(coarse["watched"], fine["watched"]))
-    assert answer.json["statistics"] is None
-    with open(tmp_path / "rows.csv") as file:
-        table = list(csv.DictReader(file))
-    for row, line in zip(answer.json["rows"], table):
-        assert [float(line[name]) for name in WATCH] == [item["error"] for item in row["watched"]]
-    out = hooke("study", scene, *words, "--ensemble", 2).out
-    assert "rods:1.tension [N]" in out and "errors are known over the whole run" in out
-
-
-@pytest.mark.parametrize("watch, message", [("9.y", "particles 0 to 2"), ("rods:2.length", "springs 0 to 1"),
-                                            ("poles:0.length", "allowed: rods"), ("speed", "nothing to watch")])  # fmt: skip
-def test_what_cannot_be_watched(hooke, write, watch, message):
-    answer = hooke("study", write(DOUBLE), "--duration", 1, "--watch", watch)
-    assert answer.code == 3 and message in answer.err
-
-
-def test_statistics_of_which_no_run_came_to_its_end(hooke, write):
-    """A run takes longer than the budget."""
-    words = ["--duration", 20000, "--every", 5, "--methods", "rk4", "--steps", "1ms", "--ensemble", 4, "--budget", "0.2s"]
-    found = hooke("study", write(DOUBLE), *words, "--json").json["statistics"]
-    assert found["from"] is None and found["until"] is None
-    assert found["quantities"][0]["reference"]["mean"] is None
-    out = hooke("study", write(DOUBLE), *words).out
-    assert "none came to its end" in out and "nan" not in out
-
-
-@pytest.mark.check
-def test_statistics_of_chaos(hooke, write, tmp_path):
-    words = ["--duration", 40, "--every", 0.1, "--methods", "rk4,backward-euler", "--steps", "2ms", "--watch", "2.y"]
-    scene = write(DOUBLE)
-    answer = hooke("study", scene, *words, "--ensemble", 6, "--json", "-o", "study.h5", "--report", "page.html")
-    assert (answer.code, answer.err) == (0, "")
-    found = answer.json["statistics"]
-    trusted = answer.json["reference"]["trusted_until"]
-    assert 5 < trusted < found["from"] <= trusted + 0.11 and found["until"] == 40 and found["members"] == 6
-    assert [item["quantity"] for item in found["quantities"]] == ["kinetic", "potential", "energy", "2.y"]
-    for item in found["quantities"]:
-        assert item["reference"]["members"] == 6 and item["reference"]["bias"] is None
-        assert set(item["methods"]) == {"rk4", "backward-euler"}
-        assert item["methods"]["rk4"]["step"] == 2e-3 and abs(item["methods"]["rk4"]["bias"]) < 6
-    assert found["quantities"][2]["methods"]["backward-euler"]["bias"] < -5, "it loses energy"
-    with h5py.File(tmp_path / "study.h5") as file:
-        group = file["study/statistics"]
-        assert group["method"][:].tolist() == [b"reference", b"rk4", b"backward-euler"]
-        assert group["mean"][1, 3] == found["quantities"][3]["methods"]["rk4"]["mean"]
-        assert file["study/watched/error"].shape == (2, 1)
-    page = (tmp_path / "page.html").read_text()
-    assert '"statistics":{"members":6,"from":' in page and '"watched":[{"quantity":"2.y","unit":"m"' in page
-    out = hooke("study", scene, *words, "--ensemble", 2).out
-    assert "of 2 runs of each method" in out and "standard errors" in out
-    assert "--ensemble 16" in hooke("study", scene, *words).out

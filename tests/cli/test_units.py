@@ -1,6 +1,7 @@
 """Numbers with a unit in scenes and options: the same run as with plain numbers, and clear refusals."""
 
 import copy
+import math
 
 import pytest
 from conftest import SIX_PARTICLES
@@ -65,3 +66,40 @@ def test_options_take_the_units_of_their_rows(hooke, tmp_path):
     assert hooke(*make, plain, "--mass", 0.2, "--structural.stiffness", 2e3, "--edges", "1,0,0;0,-1,0").code == 0
     assert hooke(*make, named, "--mass", "200g", "--structural.stiffness", "2 kN", "--edges", "100cm,0,0;0,-1m,0").code == 0
     assert named.read_text() == plain.read_text()
+
+
+# ---- options, as every verb takes them ----
+
+
+@pytest.mark.parametrize(
+    "text, value",
+    [
+        ("3e-3", 3e-3),
+        ("3ms", 3e-3),
+        ("3 ms", 3e-3),
+        ("3000us", 3e-3),
+        ("3e6ns", 3e-3),
+        (".7ms", 0.7e-3),
+        ("7.e-1 ms", 0.7e-3),
+        ("0.1s", 0.1),
+        ("0.001min", 0.001 * 60),
+        ("1e-5h", 1e-5 * 3600),
+    ],
+)
+def test_times_are_read_to_the_bit(hooke, write, text, value):
+    scene = write(SIX_PARTICLES, every=None, step=None, duration=None)
+    answer = hooke("run", scene, "--method", "cvode-adams", "--duration", text, "--json")
+    assert answer.code == 0 and answer.json["time"] == value
+
+
+@pytest.mark.parametrize("text", ["3 m s", "3ms2", "3m", "1 2ms", "ms", "3msms", "3,4ms", "1e400ms", "1e-400ms", "-3ms"])
+def test_what_is_no_time_is_refused(hooke, write, text):
+    answer = hooke("run", write(SIX_PARTICLES), f"--duration={text}")
+    assert answer.code == 2 and "--duration" in answer.err, answer.err
+
+
+def test_every_length_has_its_unit(hooke, write):
+    for text, value in [("2um", 2e-6), ("3nm", 3e-9), ("0.5 cm", 0.5e-2), ("1e-7km", 1e-4), ("7e-3", 7e-3)]:
+        answer = hooke("run", write(SIX_PARTICLES), "--method", "cvode-bdf", "--atol", text, "--json")
+        assert answer.json["atol"] == value, text
+    assert math.isclose(3 * 1e-9, 3e-9) and 3 * 1e-9 != 3e-9  # result of a plain product

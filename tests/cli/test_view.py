@@ -291,8 +291,10 @@ def test_several_are_refused_before_anything_is_written(hooke, cloth, tmp_path):
     for path in paths:
         path.write_bytes(content)
     first, second = paths[:2]
+    os.link(second, tmp_path / "twin.html")
     for words, message in [
-        ((first, second, "-o", second), "is one of the inputs itself"),
+        ((first, second, "-o", second), "its name has to end in .html"),
+        ((first, second, "-o", "twin.html"), "twin.html: is read, too, and would be replaced"),
         ((first, second), "several trajectories need -o"),
         ((*paths, "-o", "page.html"), "9 trajectories at once; allowed: up to 8"),
         ((first, second, "-o", "page.html", "--step", "1e-4"), "leave out the options of a run"),

@@ -52,6 +52,15 @@ def test_planted(planted):
     assert missing(PAGE.replace("\n\nThe first promise,", f"\n{planted}\n\nThe first promise,"))
 
 
+def test_a_tier_names_what_takes_too_long(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "tests"))
+    tier = importlib.import_module("tier")
+    assert tier.too_long("test", {"a": 3.9, "b": 4.1, "c": 1}) == ["b took 4.1 s, of at most 4.0"]
+    many = [tier.too_long("test", {str(k): 2.0 for k in range(count)}) for count in (150, 151)]
+    assert many == [[], ["more time than the tier may take"]]
+    assert tier.too_long("check", {"b": 60.0}) == [] and len(tier.too_long("check", {"b": 1501.0})) == 1
+
+
 @pytest.fixture
 def steps(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(LONG))

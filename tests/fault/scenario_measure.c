@@ -112,6 +112,22 @@ end:
   release(&m);
 }
 
+SCENARIO(estimate) {
+  struct made m = {.system = make_oscillator(a)};
+  m.run = make_options(a, "run", "method=%s step=0.02 duration=0.4 every=0.1", (const char *)with);
+  m.measurement = make_measurement(a, "estimate", m.system, NULL, "want=1e-7");
+  if (m.measurement == NULL) goto end;
+  TRY(a, hooke_integrator_create(m.system, m.run, &m.integrator));
+  TRY(a, hooke_state_create(m.system, &m.state));
+  TRY(a, hooke_integrator_on_frame(m.integrator, hooke_estimate_see, m.measurement));
+  TRY(a, hooke_estimate_begin(m.measurement, m.integrator, m.state));
+  TRY(a, hooke_integrator_run(m.integrator, m.state));
+  TRY(a, hooke_measurement_run(m.measurement, m.state));
+  TAKE(m.measurement, "estimate", "by", "#estimate", "#met", "#heat_excess");
+end:
+  release(&m);
+}
+
 SCENARIO(compare) {
   struct made m = {.system = make_rope(a, 3)};
   m.run = make_options(a, "run", "step=1e-3 duration=0.02 every=0.01");
@@ -154,6 +170,8 @@ const struct scenario measuring[] = {
     {"needs", needs, NULL, 300, NULL, NULL},
     {"study", study, NULL, 100, "sundials gsl", NULL},
     {"pick", pick, NULL, 2000, "sundials gsl", NULL},
+    {"estimate", estimate, "verlet", 1, "lapack", NULL},
+    {"estimate, judged at its beginning", estimate, "implicit-midpoint", 1, "lapack", NULL},
     {"compare", compare, NULL, 3, "sundials", NULL},
     {"cost", cost, NULL, 5, "lapack", NULL},
     {"cost, groups left out", cost, "", 5, "lapack", NULL},

@@ -126,6 +126,29 @@ end:
   release(&m);
 }
 
+static int32_t pull_back(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)t, (void)v, (void)ctx;
+  for (int64_t k = 0; k < n; k++)
+    force[k] -= q[k];
+  return 0;
+}
+
+SCENARIO(run_second_order) {
+  const double weight[] = {1.0, 0.5, 2.0};
+  struct made m = {.run = make_options(a, "run", SHORT_RUN, (const char *)with)};
+  if (m.run == NULL) goto end;
+  TRY(a, hooke_integrator_create_second_order(3, pull_back, NULL, NULL, 3, weight, m.run, &m.integrator));
+  TRY(a, hooke_state_create_second_order(3, &m.state));
+  TRY(a, hooke_state_create_second_order(3, &m.other));
+  for (int k = 0; k < 3; k++)
+    hooke_state_position(m.other)[k] = 1.0;
+  const uint64_t before = a->hash;
+  TRY(a, run_from_start(a, m.integrator, m.other, m.state, before));
+  take_state(a, m.state);
+end:
+  release(&m);
+}
+
 #define RUN(m, ...)                                                                                          \
   &(const struct with) {                                                                                     \
     .method = m, __VA_ARGS__                                                                                 \
@@ -138,6 +161,7 @@ const struct scenario running[] = {
     {"run, symplectic-euler, warned of", run, RUN("symplectic-euler", 1, .step = 0.02), 1, NULL, NULL},
     {"run, verlet", run, RUN("verlet", 1), 1, NULL, NULL},
     {"run, verlet, 2 threads", run, RUN("verlet", 2), 40, NULL, NULL},
+    {"run, shardlow", run, RUN("shardlow", 1), 1, NULL, NULL},
     {"run, rk4", run, RUN("rk4", 1), 1, NULL, NULL},
     {"run, rk4, 2 threads", run, RUN("rk4", 2), 40, NULL, NULL},
     {"run, backward-euler", run, RUN("backward-euler", 1), 1, NULL, NULL},
@@ -159,6 +183,8 @@ const struct scenario running[] = {
     {"run, rigid body, rk4", run_body, "rk4", 1, NULL, NULL},
     {"run, rigid body, tr-bdf2", run_body, "tr-bdf2", 1, NULL, NULL},
     {"run, rigid body, cvode-bdf", run_body, "cvode-bdf", 1, "sundials", NULL},
+    {"run, second order, verlet", run_second_order, "verlet", 1, NULL, NULL},
+    {"run, second order, tr-bdf2", run_second_order, "tr-bdf2", 1, NULL, NULL},
     {"run, first order, rk4", run_first_order, "rk4", 1, NULL, NULL},
     {"run, first order, cvode-bdf", run_first_order, "cvode-bdf", 1, "sundials", NULL},
     {"run, first order, rk8pd", run_first_order, "rk8pd", 1, "gsl", NULL},

@@ -139,7 +139,7 @@ const struct scenario typing[] = {
     {"type, --help", type, LINE("hooke --help"), 1, NULL, NULL},
     {"type, make --help", type, LINE("hooke make cloth --help"), 1, NULL, NULL},
     {"type, --man", type, LINE("hooke --man"), 25, NULL, NULL},
-    {"type, --completion bash", type, LINE("hooke --completion bash"), 25, NULL, NULL},
+    {"type, --complete", type, LINE("hooke --complete run --method rk"), 25, NULL, NULL},
     {"type, a word that is no option", type, LINE("hooke run @parts.json --stp 3 --json", .code = 2), 1, NULL,
      NULL},
     {"type, a scene that is wrong", type, LINE("hooke check @wrong.json --json", .code = 3), 1, NULL, NULL},

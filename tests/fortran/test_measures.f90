@@ -215,6 +215,8 @@ contains
     call expect_near(study%number("orders", 1, "theory"), 1.0_hooke_real, 0.0_hooke_real, &
       "and that of the other in theory")
     call expect(study%text("orders", 2, "note") == "", "nothing in its way")
+    call expect(index(study%describe(), study%text("claims", 1, "text") // new_line("a") // study%text("claims", 2, "text")) == 1, &
+      "what it says, a line each")
     call expect(study%number("reference", 1, "agreement") > 0 .and. &
       study%number("reference", 1, "agreement") < 1e-8_hooke_real, "the reference agrees")
     call expect(study%text("reference", 1, "method") /= study%text("reference", 1, "check"), "by two methods")

@@ -9,7 +9,7 @@
 #include "hooke.h"
 
 #include "core/crc32.h"
-#include "io/trajectory/trajectory_writer_h5.h"
+#include "io/trajectory/frame_file.h"
 #include "memory_folder.h"
 
 #include <hdf5.h>
@@ -395,8 +395,8 @@ static const struct place *place_of(const struct image *image, const char *name)
 
 /* Row `frame` of an array of the run; NULL if its location or form has changed. */
 static uint8_t *row_of(const struct image *image, int array, int64_t frame) {
-  char name[HOOKE_WRITER_PATH];
-  hk_trajectory_writer_path("all", array, name);
+  char name[HOOKE_FRAME_PATH];
+  hk_frame_path("all", array, name);
   const struct place *place = place_of(image, name);
   const uint64_t bytes = (uint64_t)hk_frame_bytes(4, array), begin = (uint64_t)frame * bytes;
   if (place == NULL || begin + bytes > place->stored) return NULL;

@@ -134,7 +134,7 @@ static void check_numbers(const uint8_t *bytes, size_t size) {
   memcpy(found, hooke_state_position(own.state), NUMBERS * sizeof(double));
   memcpy(found + NUMBERS, hooke_state_velocity(own.state), NUMBERS * sizeof(double));
   hooke_fuzz_require(size == WHOLE, "a file of another length");
-  hk_checkpoint_unpack_numbers(2 * NUMBERS, bytes + HOOKE_CHECKPOINT_HEADER, expected);
+  memcpy(expected, bytes + HOOKE_CHECKPOINT_HEADER, sizeof expected);
   hooke_fuzz_require(memcmp(found, expected, sizeof found) == 0, "the numbers of the file");
   for (int k = 0; k < 2 * NUMBERS; k++)
     hooke_fuzz_require(isfinite(found[k]), "a number that is none");

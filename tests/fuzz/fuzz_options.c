@@ -4,7 +4,7 @@
  * used literally, as "name=value" or a word of a command line; in any other the first byte selects a row of
  * the table and the rest is its value. So most inputs get past the names.
  *
- * Lines of: src/core/table/option*.c src/core/table/unit.c src/core/number.c cli/arguments.c cli/value.c
+ * Lines of: src/core/table/option*.c src/core/table/unit.c src/core/number.c cli/arguments.c
  * Longest input: 1024, mostly 256 */
 #include "fuzz.h"
 
@@ -227,10 +227,6 @@ const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const v
   for (int64_t i = 0; (candidate = next(i, ctx)); i++)
     if (candidate[0] == word[0]) break;
   return candidate;
-}
-
-const char *cli_describe_operand(const struct cli_verb *verb) {
-  return verb->input ? verb->input : "SCENE";
 }
 
 static void parse_words(uint8_t which, const hooke_options *table, char **line, int32_t count) {

@@ -1,7 +1,7 @@
 /* Reading trajectories: for any container, the result is its contents or a message.
  *
  * Lines of: src/io/trajectory/record.c src/io/trajectory/record_h5.c
- *           src/io/trajectory/record_array_h5.c src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c
+ *           src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c
  *           src/io/trajectory/frame_check_h5.c src/io/trajectory/xdmf.c src/io/trajectory/trajectory_resume.c
  * Longest input: 148 */
 #include "container.h"

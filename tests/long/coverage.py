@@ -1,7 +1,8 @@
-"""Lines and branches of src/ that the tests of a build with --coverage reached: python tests/long/coverage.py BUILD [FILE]
+"""Lines and branches of src/ that the tests of a build with --coverage reached: python tests/long/coverage.py BUILD [PATH ...]
 
-Prints the totals and a table of the files, those with most left first; with FILE the lines and branches of this one that
-are left. A loop that is compiled for several instruction sets counts once, a branch of it as reached if one of them took it.
+Prints the totals and a table of the files, those with most left first; with files or folders the lines and branches of these
+that are left, and their kind. A loop that is compiled for several instruction sets counts once, a branch of it as reached
+if one of them took it.
 """
 
 from __future__ import annotations
@@ -17,9 +18,17 @@ ROOT = Path(__file__).resolve().parents[2]
 # Where the compiler sees no other path: unreachable while the program is correct.
 NEVER = re.compile(r"\bassert\(|__builtin_unreachable")
 # Checks for a failure of an earlier call: of memory, of a file, of a library.
-# What everything rests on: branches of these are looked at one by one.
+FAILURE = re.compile(r"\bstatus\b|\bresult\b|(?<!->)\berror\b|\berrno\b|== NULL|!= NULL|< 0\b|NO_MEMORY|_new\(|\? HOOKE_OK")
+# What everything rests on: what is left there is of a kind, the first that fits its line, whose reason is in
+# docs/notes/reliability.md.
 CORE = ("src/kernel", "src/integrate", "src/measure/estimate")
-FAILURE = re.compile(r"\bstatus\b|\bresult\b|\berror\b|\berrno\b|== NULL|!= NULL|< 0\b|NO_MEMORY|_new\(|\? HOOKE_OK")
+KINDS = {
+    "failures": FAILURE,
+    "refusals by libraries": re.compile(r"ARK_|CV_|CVode|ARKode|ARKStep|stepper|created\b|where\(|x->factor\)"),
+    "other builds and processors": re.compile(r"is_built|->steps\b|__get_cpuid|KEEPS_AVX"),
+    "parts of what failed": re.compile(r"\bfine\b|\bspare\b|no_space|no_memory|\bcontent\b|own->(y|linear|nonlinear)\b|renew\(|inverse_mass;"),
+    "numbers that fail": re.compile(r"INFINITY|isfinite|isnan|isinf|NAN\b|broken|curvature|least \?|converged|residual|_FINE|NOT_FINITE"),
+}
 
 
 class Source:
@@ -71,13 +80,18 @@ def totals(sources: dict[str, Source]) -> tuple[int, int, int, int]:
     return tuple(sum(part[k] for part in parts) for k in range(4))  # type: ignore[return-value]
 
 
-def left_after_failures(sources: dict[str, Source]) -> int:
-    """Missed branches on lines that check for a failure."""
-    count = 0
+def left_by_kind(sources: dict[str, Source]) -> dict[str, int]:
+    count: dict[str, int] = defaultdict(int)
     for path, source in sources.items():
         text = (ROOT / path).read_text().splitlines()
-        count += sum(1 for (line, _), taken in source.branches.items() if not taken and FAILURE.search(text[line - 1]))
+        for (line, _), taken in source.branches.items():
+            if not taken:
+                count[kind_of(text[line - 1])] += 1
     return count
+
+
+def kind_of(line: str) -> str:
+    return next((kind for kind, words in KINDS.items() if words.search(line)), "others")
 
 
 def table(sources: dict[str, Source]) -> str:
@@ -99,25 +113,30 @@ def left(source: Source, text: list[str]) -> str:
         if not source.lines[number]:
             told.append(f"{number:>5} line      {text[number - 1]}")
         elif not all(taken):
-            told.append(f"{number:>5} {taken.count(False)} of {len(taken)}    {text[number - 1]}")
+            told.append(f"{number:>5} {taken.count(False)} of {len(taken)}    {text[number - 1]}  [{kind_of(text[number - 1])}]")
     return "\n".join(told)
 
 
-def main(build: str, *files: str) -> None:
+def below(sources: dict[str, Source], path: str) -> dict[str, Source]:
+    return {file: source for file, source in sources.items() if file == path or file.startswith(path.rstrip("/") + "/")}
+
+
+def main(build: str, *paths: str) -> None:
     sources = read(Path(build).resolve())
-    for file in files:
-        print(f"{file}\n{left(sources[file], (ROOT / file).read_text().splitlines())}\n")
-    if files:
+    for file, source in sorted(pair for path in paths for pair in below(sources, path).items()):
+        if told := left(source, (ROOT / file).read_text().splitlines()):
+            print(f"{file}\n{told}\n")
+    if paths:
         return
     lines, of_lines, branches, of_branches = totals(sources)
     print(f"lines {lines} of {of_lines}, {100 * lines / of_lines:.2f} %")
     print(f"branches {branches} of {of_branches}, {100 * branches / of_branches:.2f} %")
     for room in CORE:
-        of_room = {path: source for path, source in sources.items() if path.startswith(room + "/")}
-        _, _, taken, of_taken = totals(of_room)
-        print(f"branches of {room}: {taken} of {of_taken}; left where failures are looked for: {left_after_failures(of_room)}")
-    print(f"branches left where failures are looked for: {left_after_failures(sources)}; elsewhere: "
-          f"{of_branches - branches - left_after_failures(sources)}")
+        _, _, taken, of_taken = totals(below(sources, room))
+        kinds = sorted(left_by_kind(below(sources, room)).items(), key=lambda pair: -pair[1])
+        print(f"branches of {room}: {taken} of {of_taken}; left: {', '.join(f'{count} {kind}' for kind, count in kinds) or 'none'}")
+    failures = left_by_kind(sources)["failures"]
+    print(f"branches left where failures are looked for: {failures}; elsewhere: {of_branches - branches - failures}")
     print(table(sources))
 
 

@@ -126,6 +126,15 @@ static void check_refuses_a_body(const char *method) {
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
 }
 
+TEST(damping_of_bodies_is_not_solved_for) {
+  owned_system *system = free_body(AT, GOING, START);
+  owned_options *options =
+      run_options((struct run){.method = "verlet", .step = 0.01, .verlet_damping = "implicit"});
+  hooke_integrator *integrator = NULL;
+  check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
+  check_message("verlet_damping: implicit does not know rigid bodies yet");
+}
+
 /* Every method refuses a body, or has its order with one. */
 TEST(free_body_has_the_order_of_its_method) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {

@@ -160,6 +160,50 @@ TEST(test_callbacks_are_not_called_again_unless_asked) {
   }
 }
 
+/* Pushes from the third run on, which no force does: runs begin where time goes back. */
+struct liar {
+  double time;
+  int64_t runs;
+};
+
+static int32_t lie(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct liar *liar = ctx;
+  (void)n, (void)q, (void)v;
+  liar->runs += t < liar->time - 0.2;
+  liar->time = t;
+  force[3] += liar->runs < 3 ? 0.0 : 100.0;
+  return 0;
+}
+
+/* A run, one at half the step and one at twice agree, and the other method never comes near. */
+TEST(test_what_another_method_contradicts_is_not_known) {
+  struct liar liar = {0.0, 0};
+  owned_system *plain = small_oscillator(OMEGA), *system = NULL;
+  check_ok(hooke_system_with_force(plain, lie, NULL, &liar, &system));
+  owned_options *own = options_with("estimate", "callbacks=1"),
+                *options = run_options((struct run){
+                    .method = "implicit-midpoint", .step = 2.5e-3, .duration = 0.5, .every = EVERY});
+  owned_measurement *estimate;
+  check_ok(hooke_measurement_create("estimate", system, NULL, own, &estimate));
+  estimated_run(system, options, estimate);
+  assert_true(isnan(number_of(estimate, "estimate")) && isnan(number_of(estimate, "rms")));
+  assert_true(text_of(estimate, "by") == NULL && isnan(number_of(estimate, "known_until")));
+  assert_string_equal(text_of(estimate, "reason"), "another method, tr-bdf2, says otherwise");
+}
+
+/* No tighter tolerance is possible, and looser ones tell. */
+TEST(test_the_tightest_tolerance_is_judged_by_looser_ones) {
+  if (!hooke_method_is_built("cvode-adams")) skip();
+  owned_system *system = small_oscillator(OMEGA);
+  owned_measurement *estimate;
+  owned_options *options = run_options((struct run){
+      .method = "cvode-adams", .duration = DURATION, .every = EVERY, .rtol = 5e-14, .atol = 5e-14});
+  check_ok(estimate_of(system, NAN, &estimate));
+  const double truly = estimated_run(system, options, estimate);
+  check_between(number_of(estimate, "estimate") / truly, 1.0, 300.0);
+  assert_string_equal(text_of(estimate, "by"), "tolerance");
+}
+
 static double number_of_run(const hooke_system *system, const char *method, double step, const char *what) {
   owned_options *options =
       run_options((struct run){.method = method, .step = step, .duration = DURATION, .every = EVERY});
@@ -295,6 +339,59 @@ TEST(test_what_is_picked_keeps_to_the_wanted_error) {
   check_want(system, "cvode-adams", 1e-4);
 }
 
+/* However large the error that is wanted, a run that is not sound does not meet it; tolerances are sound. */
+TEST(test_runs_that_are_not_sound_meet_no_want) {
+  static const struct {
+    const char *method, *reason;
+    double step;
+  } cases[] = {{"forward-euler", "its step is above 0.9 of the stable one", 2.5e-3},
+               {"verlet", "its step is above 0.9 of the stable one", 0.96 * 2.0 / OMEGA},
+               {"cvode-adams", "", 0.0}};
+  owned_system *system = small_oscillator(OMEGA);
+  for (int k = 0; k < 3; k++) {
+    if (!hooke_method_is_built(cases[k].method)) continue;
+    owned_measurement *estimate;
+    owned_options *options = run_options((struct run){.method = cases[k].method,
+                                                      .step = cases[k].step,
+                                                      .rtol = 0.05,
+                                                      .duration = k < 2 ? 40 * cases[k].step : DURATION,
+                                                      .every = k < 2 ? cases[k].step : EVERY});
+    check_ok(estimate_of(system, 1e6, &estimate));
+    const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
+    assert_true(found >= truly);
+    check_close(number_of(estimate, "met"), k == 2, 0.0);
+    assert_string_equal(text_of(estimate, "reason"), cases[k].reason);
+  }
+}
+
+/* A run coarser than the picked one misses what is wanted, and finer ones come to it: each is as far off at
+ * some frame as is said, but for what the reference is not known to. */
+static void check_refinement(const char *method, const char *number, double coarser, double want) {
+  owned_system *system = small_oscillator(OMEGA);
+  owned_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
+  owned_measurement *estimate;
+  double met = 0.0;
+  check_ok(estimate_of(system, want, &estimate));
+  check_ok(hooke_estimate_pick(estimate, method, options));
+  check_ok(hooke_options_set_number(options, number, coarser));
+  for (int run = 0; run < 5 && met == 0.0; run++) {
+    if (run > 0) check_ok(hooke_estimate_refine(estimate, options));
+    const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
+    met = number_of(estimate, "met");
+    check_between(found, truly, truly + 0.02 * want);
+    check_close(met, found <= want, 0.0);
+    assert_string_equal(text_of(estimate, "by"), "reference");
+  }
+  check_close(met, 1.0, 0.0);
+}
+
+TEST(test_finer_runs_come_to_the_wanted_error) {
+  if (!hooke_method_is_built("cvode-adams")) skip();
+  check_refinement("verlet", "step", EVERY, 1e-5);
+  check_refinement("rk4", "step", EVERY, 1e-7);
+  check_refinement("cvode-adams", "rtol", 1e-2, 1e-5);
+}
+
 /* A soft block of 3 x 3 x 3 particles, fixed at one side, that sags: its bound lies far below its limit. */
 static hooke_system *sagging_block(void) {
   owned_options *options =
@@ -350,6 +447,7 @@ TEST(test_what_cannot_be_asked_for) {
   check_ok(estimate_of(system, NAN, &estimate));
   check_status(hooke_estimate_pick(estimate, NULL, options), HOOKE_BAD_CALL);
   check_status(hooke_estimate_refine(estimate, options), HOOKE_UNSUITED);
+  assert_int_equal(hooke_estimate_see(0, state, estimate), 0); /* of no run that has begun */
   check_status(hooke_measurement_run(estimate, state), HOOKE_BAD_CALL);
   check_status(hooke_measurement_run(estimate, NULL), HOOKE_BAD_VALUE);
   assert_true(isnan(number_of(estimate, "estimate")));
@@ -359,7 +457,18 @@ TEST(test_what_cannot_be_asked_for) {
   check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
   check_status(hooke_estimate_pick(cost, NULL, options), HOOKE_BAD_CALL);
   check_message("needs a measurement of the kind \"estimate\", this is a \"cost\"");
+  assert_int_equal(hooke_estimate_see(0, state, cost), 0);
   hooke_measurement_destroy(cost);
+  /* the run of another system */
+  owned_system *other = small_oscillator(2.0 * OMEGA);
+  owned_integrator *integrator =
+      start_run(other, (struct run){.method = "rk4", .step = 0.01, .duration = 0.1});
+  check_ok(estimate_of(system, 1e-3, &estimate));
+  check_status(hooke_estimate_begin(estimate, integrator, state), HOOKE_BAD_VALUE);
+  check_message("integrator: is not one of the system that the estimate is for");
+  check_status(hooke_estimate_pick(estimate, "no-such-method", options), HOOKE_BAD_VALUE);
+  check_message("no method \"no-such-method\"");
+  hooke_measurement_destroy(estimate);
   /* stable at no step without damping */
   check_ok(estimate_of(system, 1e-3, &estimate));
   const int32_t status = hooke_estimate_pick(estimate, "forward-euler", options);

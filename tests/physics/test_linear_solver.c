@@ -176,6 +176,30 @@ TEST(runs_repeat) {
   }
 }
 
+/* Fixed steps solve by the factor of the whole matrix as by blocks, in both forms, and have no plain gmres.
+ */
+TEST(fixed_steps) {
+  static const char *const methods[] = {"backward-euler", "tr-bdf2"}, *const forms[] = {"converged",
+                                                                                        "one-iteration"};
+  owned_system *system = rope(0.25 / PARTICLES);
+  double q[2][SIZE];
+  for (int k = 0; k < 4 && has_factor(); k++) {
+    for (int s = 0; s < 2; s++)
+      run_to_end(system,
+                 (struct run){.method = methods[k / 2],
+                              .newton = forms[k % 2],
+                              .linear_solver = solvers[1 + s],
+                              .step = 1e-3,
+                              .duration = 0.05},
+                 q[s], NULL);
+    check_between(largest_difference(SIZE, q[0], q[1]), 1e-18, 1e-9); /* another way, the same place */
+  }
+  owned_options *options = options_with("run", "method=backward-euler step=1e-3 linear_solver=gmres");
+  hooke_integrator *integrator = NULL;
+  check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
+  check_message("backward-euler has no plain gmres");
+}
+
 /* The message names the missing library. */
 TEST(not_built) {
   needs_cvode();

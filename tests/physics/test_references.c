@@ -46,6 +46,30 @@ TEST(test_names) {
   assert_null(hooke_method_name(-1));
 }
 
+/* ---- forces that are no numbers ---- */
+
+static int32_t pull_by_nothing(int64_t n, double t, const double *q, const double *v, double *force,
+                               void *ctx) {
+  (void)t, (void)q, (void)v, (void)ctx;
+  force[3 * n - 1] = NAN;
+  return 0;
+}
+
+TEST(test_no_start_without_a_force) {
+  int64_t k = 0;
+  for (const struct checker *c; (c = next_built(&k)) != NULL;) {
+    const double q[] = {0, 0, 0};
+    owned_system *system = small_system(1, q, NULL, 1.0, 0);
+    check_ok(hooke_system_set_force(system, pull_by_nothing, NULL, NULL));
+    check_ok(hooke_system_commit(system));
+    owned_integrator *integrator = start_run(system, (struct run){.method = c->method, .duration = 1.0});
+    owned_state *state = start_state(system);
+    check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
+    check_message(c == checkers ? "cannot start at t = 0 s: a force is not finite" : "gave up at t = 0 s");
+    check_same_bits(3, hooke_state_position(state), q);
+  }
+}
+
 /* ---- solutions to 15 digits, with frames at every state, at awkward times, and without ---- */
 
 struct visit {

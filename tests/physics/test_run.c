@@ -108,6 +108,23 @@ TEST(test_frames_of_adaptive_methods) {
   }
 }
 
+/* 6 times 0.7 is rounded to less than 4.2: methods that stop at frames go on to the end from there. */
+TEST(test_a_last_frame_just_before_the_end) {
+  const char *const methods[] = {"rk8pd", "arkode-esdirk"};
+  owned_system *system = small_oscillator(3.0);
+  for (int m = 0; m < 2; m++) {
+    if (!hooke_method_is_built(methods[m])) continue;
+    struct times times = {.now = -1.0};
+    owned_integrator *integrator =
+        start_run(system, (struct run){.method = methods[m], .duration = 4.2, .every = 0.7});
+    owned_state *state = start_state(system);
+    check_ok(hooke_integrator_on_frame(integrator, note_time, &times));
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_int_equal(times.seen, 7);
+    assert_true(times.now == 6 * 0.7 && hooke_state_time(state) == 4.2);
+  }
+}
+
 /* A million steps of 0.1: a running sum would have an error of 1e-6 s. */
 TEST(test_time_does_not_drift) {
   struct frames frames = {0.3, 0.1, 1000, 1000000, 0};
@@ -139,6 +156,13 @@ TEST(test_steps_that_do_not_fit) {
              "0.3333333333333333");
   refuse_run((struct run){.method = method, .step = 0.1, .duration = 1.0, .every = 0.25}, "every",
              "0.083333333333333", "0.125");
+  /* one of two directions has a step that fits, or none has */
+  refuse_run((struct run){.method = method, .step = 0.7, .duration = 1.0, .every = 0.4}, "duration",
+             "the nearest step that fits is 0.2", "s");
+  refuse_run((struct run){.method = method, .step = 1.0 / 200103.5, .duration = 1.0, .every = 1.0 / 200003.0},
+             "duration", "the nearest step that fits is 4.99992500112", "s");
+  refuse_run((struct run){.method = method, .step = 0.3, .duration = 1.0, .every = 1e-6 / 3.0}, "duration",
+             "no step near it fits", "s");
   refuse_run((struct run){.method = method, .duration = 1.0}, "step", "missing", "step");
   refuse_run((struct run){.method = "no-such-method", .step = 0.1}, "method", "no-such-method",
              "symplectic-euler");
@@ -248,6 +272,29 @@ TEST(test_step_limit) {
   check_between(hooke_state_time(state), 1e-3, 100.0);
 }
 
+static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)n, (void)t, (void)ctx;
+  rate[0] = -x[0];
+  return 0;
+}
+
+/* The state that was reached is the last of those kept. */
+TEST(test_step_limit_of_first_order) {
+  if (hooke_method_is_built("cvode-adams") != 1) skip();
+  owned_options *options = run_options((struct run){.method = "cvode-adams", .duration = 1000.0});
+  owned_integrator *integrator = NULL;
+  owned_state *state = NULL, *kept = NULL;
+  check_ok(hooke_options_set_number(options, "max_steps", 20));
+  check_ok(hooke_integrator_create_first_order(1, decay, NULL, options, &integrator));
+  check_ok(hooke_state_create_first_order(1, &state));
+  check_ok(hooke_state_create_first_order(1, &kept));
+  hooke_state_position(state)[0] = 1.0;
+  check_status(hooke_integrator_run(integrator, state), HOOKE_STEP_LIMIT);
+  check_ok(hooke_integrator_recent(integrator, 0, kept));
+  assert_true(hooke_state_time(kept) == hooke_state_time(state));
+  check_close(hooke_state_position(kept)[0], exp(-hooke_state_time(kept)), 1e-5);
+}
+
 /* ---- stepping by hand ---- */
 
 TEST(test_steps_by_hand) {
@@ -289,6 +336,9 @@ TEST(test_too_many_steps) {
     check_message("takes too many steps");
     check_message("allowed: fewer than 9000000000000000");
   }
+  if (hooke_method_is_built("cvode-adams"))
+    refuse_run((struct run){.method = "cvode-adams", .duration = 1e17, .every = 1.0}, "every",
+               "1 s gives 1e+17 frames", "up to 9e15");
   owned_integrator *integrator =
       start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 1.0});
   owned_state *state = start_state(system);

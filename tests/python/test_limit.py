@@ -118,6 +118,13 @@ def test_where(tmp_path):
         hooke.limit(build_oscillator(), result.state, predict=True)
 
 
+def test_the_step_of_one_mode():
+    step = hooke.Limit.step_of_mode
+    assert step("symplectic-euler", 4.0, 0.0) == pytest.approx(0.5) and step("forward-euler", 4.0, 0.0) == 0
+    many = step("rk4", [1.0, 2.0, 0.0], 0.0)
+    assert many.tolist() == pytest.approx([8**0.5, 8**0.5 / 2, np.inf]) and np.isinf(step("cvode-bdf", 1.0, 0.0)) and np.isnan(step("other", 1.0, 0.0))
+
+
 def test_along_a_run():
     scene = hooke.Scene.parse(SIX_PARTICLES)
     found = hooke.limit(scene, along=True)

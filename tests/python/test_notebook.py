@@ -10,7 +10,8 @@ import pytest
 from conftest import SIX_PARTICLES
 
 import hooke
-from hooke._notebook import Tabled, table
+from hooke._measurement import Found
+from hooke.notebook import table
 
 STRANGE = "</script><b>\"'&amp;"
 ROPE = {"kind": "rope", "name": f"rope{STRANGE}", "from": [9, 0, 0], "to": [9.4, 0, 0], "segments": 4, "mass": 0.1,
@@ -91,14 +92,15 @@ def test_a_diverged_run_says_why(scene, strange_path, tmp_path):
 def test_others_show_their_rows(scene, tmp_path):
     cost = hooke.cost(scene, predict=True)
     for result in (cost, *results(scene)):
-        shown = Tabled._repr_html_(result)
-        assert set(re.findall(r"<(\w+)", shown)) == {"div", "table", "tr", "th", "td"}
+        shown = Found._repr_html_(result)
+        assert set(re.findall(r"<(\w+)", shown)) <= {"p", "div", "table", "tr", "th", "td"}
+        assert [html.unescape(line) for line in re.findall("<p>([^<]*)</p>", shown)] == str(result).splitlines()
         texts = [html.unescape(cell) for cell in re.findall("<t[hd]>([^<]*)</t[hd]>", shown)]
         assert len(texts) == len(result.rows.dtype.names) * (1 + len(result.rows))
         known = {str(value) for row in result.rows.tolist() for value in row if isinstance(value, str)}
         assert known | set(result.rows.dtype.names) <= set(texts)
         assert any(STRANGE in text for text in texts) == isinstance(result, (hooke.Cost, hooke.Needs))
-    assert cost._repr_html_() == Tabled._repr_html_(cost) in cost.report(tmp_path / "cost.html").read_text("utf-8")
+    assert cost._repr_html_() == Found._repr_html_(cost) in cost.report(tmp_path / "cost.html").read_text("utf-8")
     assert html.escape(STRANGE) in table(np.array([(0,)], [(STRANGE, float)]))
 
 

@@ -182,3 +182,14 @@ def test_the_options_of_an_integrator_are_complete_and_fixed(system):
     assert integrator.options["atol_velocity"] == integrator.options["atol"] == 1e-9
     with pytest.raises(hooke.BadCall):
         integrator.options["step"] = 1
+
+
+def test_lists_of_words():
+    study = hooke.Options.for_study()
+    study["methods"] = (word for word in ("rk4", "verlet"))
+    study["watch"] = ["energy", "57.y"]
+    assert (study["methods"], study["watch"]) == ("rk4,verlet", "energy,57.y")
+    scene = hooke.Options.for_scene()
+    for wrong in (5, b"ab", (1, 2), {"a": 1}):
+        with pytest.raises(hooke.BadValue):
+            scene["title"] = wrong

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from conftest import PACKAGES, ROOT
@@ -132,10 +133,13 @@ def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
     )
     assert install.returncode == 0, install.stderr
     assert set(ROOT.iterdir()) | set((ROOT / "bindings/python").iterdir()) == before
-    files = {path.name for path in (target / "hooke").iterdir() if path.name != "__pycache__"}
+    modules, built = ({path.relative_to(of / "hooke") for path in (of / "hooke").rglob("*.py")} for of in (target, PACKAGES))
+    assert modules == built and Path("plot/__init__.py") in modules
+    packages = {path.parts[0] for path in modules} | {"__pycache__"}
+    files = {path.name for path in (target / "hooke").iterdir()} - packages
     share = {"share"} if hooke.build_facts()["chartjs"] else set()  # files of reports
     others = {"libhooke.so", "hooke", "LICENSE", "py.typed"}
-    assert files == {path.name for path in (PACKAGES / "hooke").glob("*.py")} | others | share
+    assert files == others | share
     beside = {path.name for path in target.iterdir()} - {"__pycache__"}
     assert beside == {"hooke", "hooke_program.py", "bin", f"libhooke-{hooke.__version__}.dist-info"}
     code = """

@@ -100,7 +100,7 @@ def imports(module, known):
     return found, inside
 
 
-UP = {"_problem": {"results"}}  # the type of what a problem's run() returns, which is above all problems
+UP = {"problems": {"results"}}  # the type of what a problem's run() returns, which is above all problems
 
 
 def circle(modules):
@@ -123,8 +123,30 @@ def test_a_planted_circle_is_seen():
     late = "def f():\n    from .a import x\n"
     assert circle({"a": "from .b import f", "b": late, "c": "from .a import f"}) == {"a", "b", "c"}
     assert circle({"a": "from . import b", "b": "if TYPE_CHECKING:\n    from .a import x\n"}) == {"a", "b"}
-    assert circle({"results": "from . import _problem", "_problem": "from .results import Result"}) == set()
+    assert circle({"results": "from . import problems", "problems": "from .results import Result"}) == set()
     assert imports(late, {"a"}) == (set(), {"a"})
+
+
+FOLDERS = {"animation", "notebook", "plot"}  # of the package; their modules are over its core
+
+
+def imported(path, level):
+    """The first words of what a module imports from its own folder (1), the one above (2), or elsewhere (0)."""
+    nodes = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, (ast.Import, ast.ImportFrom))]
+    there = [node for node in nodes if getattr(node, "level", 0) == level]
+    names = {getattr(node, "module", None) or name.name for node in there for name in node.names}
+    return {name.partition(".")[0] for name in names} - set(sys.stdlib_module_names)
+
+
+def test_folders_use_what_is_public_and_the_core_needs_numpy_alone():
+    public = {*hooke.__all__, "_status", "_types"}  # texts for people, and names of types
+    for folder in FOLDERS:
+        for path in (PACKAGES / "hooke" / folder).glob("*.py"):
+            assert imported(path, 2) <= public, path
+    core = [path for path in (PACKAGES / "hooke").glob("*.py") if path.stem not in ("_prototypes", "__main__")]
+    assert set.union(*(imported(path, 0) for path in core)) == {"numpy"}
+    above = {path.stem: imported(path, 1) & FOLDERS for path in core}
+    assert above.pop("trajectory") == {"plot"} and not any(above.values()), above  # for type checkers alone
 
 
 def test_dir_shows_public_names_only():

@@ -365,7 +365,7 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
 TEST(test_lanes_agree) {
   struct random_source source = {1234};
   struct lane_trial *trial = new_block(2, (int64_t)sizeof *trial);
-  for (int round = 0; round < 120; round++)
+  for (int round = 0; round < 600; round++)
     compare_lanes(&source, trial, trial + 1);
   free(trial);
 }

@@ -46,12 +46,21 @@ typedef int32_t solver(const struct hk_operator *a, const double *b, double tole
 
 static int32_t run_solver(solver *solve, struct dense *dense, const double *b, int64_t limit, double *x,
                           struct hk_solution *solution) {
-  double *scratch = new_doubles(HOOKE_GENERAL_VECTORS * SIZE);
+  double *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
   const struct hk_operator a = {SIZE, apply, dense};
   const int32_t status = solve(&a, b, 1e-12, limit, scratch, x, solution);
   free(scratch);
   return status;
 }
+
+static int32_t solve_positive(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
+                              double *scratch, double *x, struct hk_solution *solution) {
+  return hk_solve_positive(a, b, tolerance, 0.0, limit, scratch, x, solution);
+}
+
+static solver *const every_solver[] = {hk_solve_symmetric, solve_positive, hk_solve_general,
+                                       hk_solve_minimal};
+enum { SOLVERS = sizeof every_solver / sizeof every_solver[0] };
 
 static void random_side(uint64_t seed, double *b) {
   struct random_source source = {seed};
@@ -109,9 +118,11 @@ TEST(trivial_sides) {
     assert_true(solution.converged);
     assert_int_equal(solution.iterations, 1);
     check_close(x[3], 0.5, 1e-15);
-    b[3] = NAN;
-    check_ok(run_solver(solvers[s], &dense, b, 100, x, &solution));
-    assert_true(isnan(x[3]));
+    for (int k = 0; k < 2; k++) {
+      b[3] = k ? NAN : INFINITY;
+      check_ok(run_solver(solvers[s], &dense, b, 100, x, &solution));
+      check_same_bits(SIZE, x, b);
+    }
   }
 }
 
@@ -128,28 +139,41 @@ TEST(descends) {
     for (int k = 0; k < SIZE; k++)
       along += b[k] * x[k];
     assert_true(along > 0.0);
+    check_ok(run_solver(solve_positive, &dense, b, 1000, x, &solution));
+    assert_false(solution.converged);
+    assert_true(solution.iterations < SIZE);
   }
 }
 
+/* Each product may stop. */
+static void check_stops(solver *solve, struct dense *dense, const double *b) {
+  double x[SIZE];
+  struct hk_solution solution;
+  for (dense->stop_at = 1;; dense->stop_at++) {
+    dense->calls = 0;
+    const int32_t status = run_solver(solve, dense, b, 100, x, &solution);
+    if (status == HOOKE_OK) break;
+    check_status(status, HOOKE_STOPPED);
+    assert_int_equal(dense->calls, dense->stop_at);
+  }
+  assert_true(solution.converged && dense->calls == dense->stop_at - 1 && dense->calls > 20);
+}
+
 TEST(limits_and_stops) {
-  solver *const solvers[] = {hk_solve_symmetric, hk_solve_general};
-  for (int s = 0; s < 2; s++) {
+  for (int s = 0; s < SOLVERS; s++) {
     struct dense dense;
     double b[SIZE], x[SIZE];
     struct hk_solution solution;
     fill(&dense, 5, 1.0, 1.0, 0);
     random_side(6, b);
-    check_ok(run_solver(solvers[s], &dense, b, 4, x, &solution));
+    check_ok(run_solver(every_solver[s], &dense, b, 4, x, &solution));
     assert_false(solution.converged);
     assert_int_equal(solution.iterations, 4);
     check_between(solution.residual, 1e-6, 1.0);
-    dense.calls = 0;
-    dense.stop_at = 3;
-    check_status(run_solver(solvers[s], &dense, b, 100, x, &solution), HOOKE_STOPPED);
-    assert_int_equal(dense.calls, 3);
+    check_stops(every_solver[s], &dense, b);
     /* a zero matrix has no solution */
     memset(&dense, 0, sizeof dense);
-    check_ok(run_solver(solvers[s], &dense, b, 20, x, &solution));
+    check_ok(run_solver(every_solver[s], &dense, b, 20, x, &solution));
     assert_false(solution.converged);
   }
 }

@@ -53,6 +53,14 @@ static const struct hk_option_row rows[] = {
     {.name = "quick", .type = HOOKE_OPTION_FLAG},
     {.name = "structural", .type = HOOKE_OPTION_FAMILY, .family = &family},
     {.name = "shear", .type = HOOKE_OPTION_FAMILY, .family = &family},
+    {.name = "size",
+     .type = HOOKE_OPTION_NUMBERS,
+     .whole = 1,
+     .low = 1,
+     .high = 99,
+     .min_count = 2,
+     .max_count = 3},
+    {.name = "velocity", .type = HOOKE_OPTION_NUMBERS, .unit = "m/s", .min_count = 2, .columns = 2},
 };
 static const struct hk_option_table table = {"thing", HOOKE_OPTION_ROWS(rows)};
 
@@ -206,6 +214,17 @@ TEST(a_text_may_name_units) {
   assert_null(hk_options_unit_given(o, "shear.damping"));
 }
 
+TEST(rows_and_sizes_have_signs_of_their_own) {
+  hooke_options *o = *prepared;
+  static const double edges[] = {1, 0, 0, 0, 0.5, 1}, velocities[] = {1000, 2, 3e-3, 4}, sizes[] = {16, 3, 4};
+  check_ok(hooke_options_set_text(o, "edges", "1,0,0; 0 0.5 1"));
+  check_same_bits(6, hooke_options_numbers(o, "edges"), edges);
+  check_ok(hooke_options_set_text(o, "velocity", "1 km/s,2;3mm/s,4 m/s"));
+  check_same_bits(4, hooke_options_numbers(o, "velocity"), velocities);
+  check_ok(hooke_options_set_text(o, "size", "16x 3,4"));
+  check_same_bits(3, hooke_options_numbers(o, "size"), sizes);
+}
+
 TEST(a_word_and_numbers_replace_each_other) {
   hooke_options *o = *prepared;
   const double lengths[] = {1, 2};
@@ -287,6 +306,17 @@ TEST(refusals_give_value_and_allowed) {
   refuse_text(o, "gravity", "1,two,3", "gravity[1]: \"two\" is not allowed; allowed: 3 numbers [m/s^2]");
   refuse_text(o, "gravity", "1,,3", "gravity[1]: \"\" is not allowed; allowed: 3 numbers [m/s^2]");
   refuse_text(o, "gravity", "1,2,3,", "gravity: \"1,2,3,\" is not allowed; allowed: 3 numbers [m/s^2]");
+  refuse_text(o, "edges", "1,0;0,0,0,1", "edges: row [0] has 2 numbers; allowed: 2 rows of 3 numbers each");
+  refuse_text(o, "edges", "1,0,0;1", "edges: row [1] has 1 number; allowed: 2 rows of 3 numbers each");
+  refuse_text(o, "edges", "1,0,0,0,0,1;", "edges: row [0] has 6 numbers; allowed: 2 rows of 3 numbers each");
+  refuse_text(o, "edges", "1,0,0;", "edges: row [1] has 0 numbers; allowed: 2 rows of 3 numbers each");
+  refuse_text(o, "edges", "1x0", "edges[0][0]: \"1x0\" is not allowed; allowed: 2 rows of 3 numbers each");
+  refuse_text(o, "gravity", "1;2;3", "gravity: \"1;2;3\" is not allowed; allowed: 3 numbers [m/s^2]");
+  refuse_text(o, "size", "4xx4",
+              "size[1]: \"\" is not allowed; allowed: 2 to 3 whole numbers >= 1 and <= 99");
+  refuse_text(
+      o, "pinned", "1x2",
+      "pinned: \"1x2\" is not allowed; allowed: any number of whole numbers >= 0 and <= 2147483647, or any of \"start\" or \"end\"");
   refuse_text(o, "rest_length", "-1",
               "rest_length: -1 is not allowed; allowed: one or more numbers >= 0 or \"initial\"");
   refuse_text(o, "structural", "strong",
@@ -329,7 +359,7 @@ TEST(unknown_names_are_answered_with_names) {
   assert_string_equal(
       hooke_last_error(),
       "thing: unknown option \"setp\"; did you mean \"step\"? allowed: step, law, gravity, rest_length, "
-      "edges, pinned, order, title, quick, structural, shear");
+      "edges, pinned, order, title, quick, structural, shear, size, velocity");
   check_status(hooke_options_set_number(o, "structural.stifness", 1), HOOKE_BAD_VALUE);
   check_message(
       "unknown option \"stifness\"; did you mean \"stiffness\"? allowed: stiffness, damping, compression");
@@ -387,7 +417,7 @@ TEST(a_copy_is_equal_and_separate) {
 
 TEST(the_table_describes_itself) {
   hooke_options *o = *prepared;
-  assert_int_equal(hooke_options_row_count(o), 17);
+  assert_int_equal(hooke_options_row_count(o), 19);
   assert_string_equal(hooke_options_row(o, 0, "name"), "step");
   assert_string_equal(hooke_options_row(o, 0, "type"), "number");
   assert_string_equal(hooke_options_row(o, 0, "unit"), "s");
@@ -399,7 +429,7 @@ TEST(the_table_describes_itself) {
   assert_string_equal(hooke_options_row(o, 9, "type"), "family");
   assert_string_equal(hooke_options_row(o, 10, "name"), "structural.stiffness");
   assert_string_equal(hooke_options_row(o, 16, "name"), "shear.compression");
-  assert_null(hooke_options_row(o, 17, "name"));
+  assert_null(hooke_options_row(o, 19, "name"));
   assert_null(hooke_options_row(o, -1, "name"));
   assert_null(hooke_options_row(o, 0, "colour"));
   assert_string_equal(hooke_options_row(o, 1, "words"), "strain length");
@@ -428,7 +458,7 @@ TEST(the_table_tells_its_numbers) {
   assert_true(isnan(hooke_options_row_number(o, 3, "max_count")));
   assert_true(isnan(hooke_options_row_number(o, 0, "min_count")));
   assert_true(isnan(hooke_options_row_number(o, 0, "colour")));
-  assert_true(isnan(hooke_options_row_number(o, 17, "low")));
+  assert_true(isnan(hooke_options_row_number(o, 19, "low")));
 }
 
 TEST(a_wrong_default_is_noticed) {

@@ -617,6 +617,30 @@ TEST(files_of_every_length_are_read_whole) {
   assert_int_equal(rmdir(folder), 0);
 }
 
+TEST(outputs_are_checked_before_any_work) {
+  char folder[] = "hooke_scene_XXXXXX", path[64], other[64], none[64];
+  owned_scene *scene = NULL;
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/scene.json", folder);
+  snprintf(other, sizeof other, "%s/out.h5", folder);
+  snprintf(none, sizeof none, "%s/none/out.h5", folder);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fputs("{\"hooke\": 1, \"particles\": {\"mass\": 1, \"position\": [[0, 0, 7]]}}", file);
+  assert_int_equal(fclose(file), 0);
+  check_ok(hooke_scene_load(path, NULL, &scene));
+  check_ok(hooke_scene_check_output(scene, other));
+  assert_int_equal(access(other, F_OK), -1);
+  check_status(hooke_scene_check_output(scene, path), HOOKE_BAD_VALUE);
+  check_message("is read, too, and would be replaced");
+  check_status(hooke_scene_check_output(scene, none), HOOKE_IO_FAILED);
+  check_message("none/out.h5: could not create the file");
+  check_status(hooke_scene_check_output(scene, folder), HOOKE_IO_FAILED);
+  check_message("is not a regular file, and only such are replaced");
+  assert_int_equal(unlink(path), 0);
+  assert_int_equal(rmdir(folder), 0); /* nothing is left there */
+}
+
 /* Every truncation and every changed byte of a valid scene gives a scene or a message, never a crash. */
 TEST(damaged_scenes_are_survived) {
   char *text =

@@ -2,6 +2,7 @@
  * files are refused. */
 #include "check.h"
 #include "file_limit.h"
+#include "integrate/integrator.h"
 #include "io/trajectory/trajectory.h"
 #include "run.h"
 #include "small.h"
@@ -397,6 +398,28 @@ TEST(a_run_goes_on_where_its_file_ends) {
   check_goes_on(f, "the beginning, at t = 0 s"); /* from the scene's initial state, which is whole */
 }
 
+/* Opens the file for the rest of its run, and closes it again. Returns what gravity gave so far, by the
+ * frames. */
+static double swing_so_far(const struct fixture *f) {
+  owned_integrator *integrator = integrator_of(f->system, 0.1);
+  owned_state *state = start_state(f->system);
+  hooke_trajectory *trajectory = NULL;
+  check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
+  const double swing = integrator->gravity_swing;
+  check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
+  return swing;
+}
+
+/* Whether the file is written in place or made again, where its arrays lie elsewhere. */
+TEST(a_run_goes_on_with_the_energies_of_its_frames) {
+  const struct fixture *f = *prepared;
+  be_killed(f, 5, -1);
+  const double in_place = swing_so_far(f);
+  assert_true(in_place > 0.0);
+  end_early(f, 5);
+  assert_true(swing_so_far(f) == in_place);
+}
+
 static void check_not_resumed(const struct fixture *f, const hooke_system *system,
                               hooke_integrator *integrator, int32_t status, const char *message) {
   hooke_trajectory *trajectory = NULL;
@@ -472,8 +495,9 @@ AROUND_EACH(set_up, tear_down)
 TEST(it_is_not_in_this_build) {
   owned_system *system = rope(N);
   owned_integrator *integrator = integrator_of(system, 0.1);
+  owned_state *state = start_state(system);
   hooke_trajectory *trajectory;
-  check_status(hk_trajectory_reopen("out.h5", system, integrator, 0, &trajectory), HOOKE_NOT_BUILT);
+  check_status(hooke_trajectory_resume("out.h5", system, integrator, state, &trajectory), HOOKE_NOT_BUILT);
   assert_null(trajectory);
   check_status(hooke_trajectory_sync(NULL), HOOKE_BAD_CALL);
   check_status(hooke_record_check(NULL, 0), HOOKE_BAD_CALL);

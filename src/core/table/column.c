@@ -21,7 +21,9 @@ int64_t hk_table_count(const struct hk_table *table, const void *object) {
 static const void *place(const struct hk_table *table, const struct hk_column *column, const void *object,
                          int64_t row) {
   const char *holder = table->row ? table->row(object, row) : object;
-  return holder ? holder + column->offset : NULL;
+  if (table->row_size > 0) holder += table->rows;
+  if (table->by_pointer) holder = *(const char *const *)(const void *)holder;
+  return holder ? holder + (size_t)row * table->row_size + column->offset : NULL;
 }
 
 static double number_at(const struct hk_column *column, const void *at) {
@@ -30,33 +32,20 @@ static double number_at(const struct hk_column *column, const void *at) {
   return whole < 0 ? NAN : (double)whole;
 }
 
-double hk_table_number(const struct hk_table *table, const struct hk_column *column, const void *object,
-                       int64_t row) {
-  if (column->type == HOOKE_COLUMN_TEXT || column->type == HOOKE_COLUMN_SERIES) return NAN;
-  const void *at = place(table, column, object, row);
-  if (at == NULL) return NAN;
-  return column->number ? column->number(object, row) : number_at(column, at);
-}
-
-const char *hk_table_text(const struct hk_table *table, const struct hk_column *column, const void *object,
-                          int64_t row) {
-  if (column->type != HOOKE_COLUMN_TEXT) return NULL;
-  const void *at = place(table, column, object, row);
-  if (at == NULL) return NULL;
-  if (column->text) return column->text(object, row);
-  return column->storage == HOOKE_STORED_CHARS ? at : *(const char *const *)at;
-}
-
-struct hk_series hk_table_series(const struct hk_table *table, const struct hk_column *column,
-                                 const void *object, int64_t row) {
-  if (column->type != HOOKE_COLUMN_SERIES) return (struct hk_series){NULL, 0};
-  const void *at = place(table, column, object, row);
-  if (at == NULL) return (struct hk_series){NULL, 0};
-  return (struct hk_series){column->series ? column->series(object, row) : *(double *const *)at,
-                            table->length(object)};
-}
-
-const char *hk_column_type_name(enum hk_column_type type) {
-  static const char *const name[] = {"number", "count", "flag", "text", "series"};
-  return name[type];
+struct hk_value hk_table_value(const struct hk_table *table, const struct hk_column *column,
+                               const void *object, int64_t row) {
+  struct hk_value value = {NAN, NULL, {NULL, 0}};
+  const int32_t is_there = column && row >= 0 && row < hk_table_count(table, object);
+  const void *at = is_there ? place(table, column, object, row) : NULL;
+  if (at == NULL) return value;
+  if (column->type == HOOKE_COLUMN_TEXT)
+    value.text = column->text                            ? column->text(object, row)
+                 : column->storage == HOOKE_STORED_CHARS ? at
+                                                         : *(const char *const *)at;
+  else if (column->type == HOOKE_COLUMN_SERIES)
+    value.series = (struct hk_series){column->series ? column->series(object, row) : *(double *const *)at,
+                                      table->length(object)};
+  else
+    value.number = column->number ? column->number(object, row) : number_at(column, at);
+  return value;
 }

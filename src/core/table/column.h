@@ -1,6 +1,7 @@
 /* Result tables, the counterpart of option tables: a column is described once, by its name, type, unit and
- * documentation, and by the member of an object that holds its values. All output of results (C, JSON, CSV,
- * HDF5, pages, Python, Fortran, the reference) is made from the same tables. */
+ * documentation, and by the member of a row that holds its values; rows are structs of the object itself. All
+ * output of results (C, JSON, CSV, HDF5, pages, Python, Fortran, the reference) is made from the same tables.
+ */
 #ifndef HOOKE_CORE_TABLE_COLUMN_H
 #define HOOKE_CORE_TABLE_COLUMN_H
 
@@ -35,6 +36,13 @@ struct hk_series {
   int64_t count;
 };
 
+/* A value by the type of its column; the others are NaN and NULL. */
+struct hk_value {
+  double number;
+  const char *text;
+  struct hk_series series;
+};
+
 struct hk_column {
   const char *name;
   enum hk_column_type type;
@@ -66,7 +74,10 @@ struct hk_table {
   size_t member, member_size;           /* of the object: int32_t or int64_t; of size 0: none */
   /* number of inner indices; NULL: the table is no matrix */
   int64_t (*inner)(const void *object);
-  /* struct with the members of one row; NULL: the object. A row that is NULL has no value. */
+  /* Rows of that size at a member of the object, or (by_pointer) from where it points to. Of size 0: what
+   * `row` finds, or the object if that is NULL. A row that is NULL has no value. */
+  size_t rows, row_size;
+  int32_t by_pointer;
   const void *(*row)(const void *object, int64_t row);
   int64_t (*length)(const void *object); /* of every series */
 };
@@ -87,8 +98,9 @@ struct hk_table {
            char *: _Generic(&(member), char **: HOOKE_STORED_TEXT, default: HOOKE_STORED_CHARS))
 /* clang-format on */
 
-/* A column of what a reader finds; in a matrix, along one index. */
-#define HOOKE_COLUMN_BY(reader, title, kind, units, text)                                                    \
+/* A column of what a reader finds, by its name or by another; in a matrix, along one index. */
+#define HOOKE_COLUMN_BY(reader, kind, units, text) HOOKE_COLUMN_BY_AS(reader, reader, kind, units, text)
+#define HOOKE_COLUMN_BY_AS(reader, title, kind, units, text)                                                 \
   HOOKE_COLUMN_ALONG(BOTH, reader, title, kind, units, text)
 #define HOOKE_COLUMN_ALONG(index, reader, title, kind, units, text)                                          \
   {                                                                                                          \
@@ -114,26 +126,27 @@ struct hk_table {
     return (value);                                                                                          \
   }
 
-#define HOOKE_TABLE_COLUMNS(list)                                                                            \
-  .columns = (list), .column_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
+#define HOOKE_TABLE_COLUMNS(...)                                                                             \
+  .columns = (const struct hk_column[]){__VA_ARGS__},                                                        \
+  .column_count = (int32_t)(sizeof((const struct hk_column[]){__VA_ARGS__}) / sizeof(struct hk_column))
 
-/* The number of rows as a member of the object. */
+/* The number of rows as a member of the object; the rows as another, an array (of more bytes than a pointer
+ * has) or a pointer to the first; both; the one row as a member. */
 #define HOOKE_TABLE_COUNT(object, name)                                                                      \
   .member = offsetof(object, name), .member_size = sizeof((const object *)0)->name
+#define HOOKE_TABLE_AT(object, list)                                                                         \
+  .rows = offsetof(object, list), .row_size = sizeof((const object *)0)->list[0],                            \
+  .by_pointer = sizeof((const object *)0)->list == sizeof(void *)
+#define HOOKE_TABLE_ROWS(object, list, count) HOOKE_TABLE_AT(object, list), HOOKE_TABLE_COUNT(object, count)
+#define HOOKE_TABLE_IN(object, name)                                                                         \
+  .rows = offsetof(object, name), .row_size = sizeof((const object *)0)->name
 
 /* Column of that name; NULL if there is none. */
 const struct hk_column *hk_table_find(const struct hk_table *table, const char *name);
 int64_t hk_table_count(const struct hk_table *table, const void *object);
 
-/* Value of a column in a row: NaN or NULL for a column of another type. */
-double hk_table_number(const struct hk_table *table, const struct hk_column *column, const void *object,
-                       int64_t row);
-const char *hk_table_text(const struct hk_table *table, const struct hk_column *column, const void *object,
-                          int64_t row);
-struct hk_series hk_table_series(const struct hk_table *table, const struct hk_column *column,
-                                 const void *object, int64_t row);
-
-/* "number", "count", "flag", "text" or "series". */
-const char *hk_column_type_name(enum hk_column_type type);
+/* Value of a column in a row; none for a column that is NULL and for a row that is not there. */
+struct hk_value hk_table_value(const struct hk_table *table, const struct hk_column *column,
+                               const void *object, int64_t row);
 
 #endif

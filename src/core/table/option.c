@@ -11,14 +11,15 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NAME_SIZE = 128, TEXT_SIZE = 512 };
+enum { DOTTED_SIZE = 64, NAME_SIZE = 128, TEXT_SIZE = 512 };
 
 /* One row of the table or of one of its families, flattened: a family is followed by its members. */
 struct slot {
   const struct hk_option_row *row;
   int64_t family;        /* slot of its family; -1: none */
-  const char *name;      /* with dots: the row's own, or one in `names` */
+  const char *name;      /* with dots: the row's own, or `dotted` */
   char *allowed, *units; /* NULL until first requested */
+  char dotted[DOTTED_SIZE];
   int32_t is_set;
   struct hk_option_value value, fallback;
 };
@@ -27,7 +28,6 @@ struct hooke_options {
   const struct hk_option_table *table;
   int64_t slot_count;
   struct slot *slot;
-  char *names; /* of members of families, concatenated */
 };
 
 static int64_t count_rows(const struct hk_option_table *table) {
@@ -37,34 +37,18 @@ static int64_t count_rows(const struct hk_option_table *table) {
   return count;
 }
 
-/* Bytes needed for the dotted names of the members of families, with a prefix of `prefix` bytes. */
-static int64_t name_bytes(const struct hk_option_table *table, int64_t prefix) {
-  int64_t bytes = 0;
-  for (int32_t k = 0; k < table->row_count; k++) {
-    const int64_t length = prefix + (int64_t)strlen(table->rows[k].name);
-    if (prefix > 0) bytes += length + 1;
-    if (table->rows[k].family) bytes += name_bytes(table->rows[k].family, length + 1);
-  }
-  return bytes;
-}
-
-/* `names` points to where the next name goes; it is advanced. */
-static int32_t fill_slots(hooke_options *options, const struct hk_option_table *table, int64_t family,
-                          char **names) {
+static int32_t fill_slots(hooke_options *options, const struct hk_option_table *table, int64_t family) {
   for (int32_t k = 0; k < table->row_count; k++) {
     const struct hk_option_row *row = &table->rows[k];
     const int64_t at = options->slot_count++;
     struct slot *slot = &options->slot[at];
     slot->row = row;
     slot->family = family;
-    slot->name = row->name;
-    if (family >= 0) {
-      slot->name = *names;
-      *names += sprintf(*names, "%s.%s", options->slot[family].name, row->name) + 1;
-    }
+    slot->name = family < 0 ? row->name : slot->dotted;
+    if (family >= 0) hk_print(slot->dotted, DOTTED_SIZE, "%s.%s", options->slot[family].name, row->name);
     int32_t status = HOOKE_OK;
     if (row->fallback) status = hk_option_value_from_text(row, slot->name, row->fallback, &slot->fallback);
-    if (status == HOOKE_OK && row->family) status = fill_slots(options, row->family, at, names);
+    if (status == HOOKE_OK && row->family) status = fill_slots(options, row->family, at);
     if (status) return status;
   }
   return HOOKE_OK;
@@ -76,8 +60,7 @@ int32_t hk_options_create(const struct hk_option_table *table, hooke_options **o
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->table = table;
   made->slot = hk_new(count_rows(table), sizeof *made->slot);
-  char *names = made->names = hk_reserve(name_bytes(table, 0), 1);
-  int32_t status = made->slot && names ? fill_slots(made, table, -1, &names) : HOOKE_NO_MEMORY;
+  int32_t status = made->slot ? fill_slots(made, table, -1) : HOOKE_NO_MEMORY;
   if (status)
     hooke_options_destroy(made);
   else
@@ -95,21 +78,7 @@ void hooke_options_destroy(hooke_options *options) {
     hk_free(slot->units);
   }
   hk_free(options->slot);
-  hk_free(options->names);
   hk_handle_free(options);
-}
-
-int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
-  int32_t status = hk_options_create(options->table, copy);
-  for (int64_t k = 0; status == HOOKE_OK && k < options->slot_count; k++) {
-    (*copy)->slot[k].is_set = options->slot[k].is_set;
-    status = hk_option_value_copy(&options->slot[k].value, &(*copy)->slot[k].value);
-  }
-  if (status) {
-    hooke_options_destroy(*copy);
-    *copy = NULL;
-  }
-  return status;
 }
 
 const struct hk_option_table *hk_options_table(const hooke_options *options) {
@@ -181,6 +150,27 @@ static void put(hooke_options *options, struct slot *slot, const struct hk_optio
   slot->is_set = 1;
   for (int64_t family = slot->family; family >= 0; family = options->slot[family].family)
     options->slot[family].is_set = 1;
+}
+
+int32_t hk_options_set_from(hooke_options *options, const hooke_options *from) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < from->slot_count && status == HOOKE_OK; k++) {
+    struct hk_option_value value;
+    if (!from->slot[k].is_set) continue;
+    status = hk_option_value_copy(&from->slot[k].value, &value);
+    if (status == HOOKE_OK) put(options, &options->slot[k], &value);
+  }
+  return status;
+}
+
+int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
+  int32_t status = hk_options_create(options->table, copy);
+  if (status == HOOKE_OK) status = hk_options_set_from(*copy, options);
+  if (status) {
+    hooke_options_destroy(*copy);
+    *copy = NULL;
+  }
+  return status;
 }
 
 int32_t hk_options_set_in_unit(hooke_options *options, const char *name, int64_t count, const double *values,

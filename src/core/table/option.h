@@ -85,6 +85,9 @@ const char *hk_options_unit_given(const hooke_options *options, const char *name
 int32_t hk_options_set_in_unit(hooke_options *options, const char *name, int64_t count, const double *values,
                                const char *unit);
 
+/* Sets what is set in options of the same table. HOOKE_NO_MEMORY. */
+int32_t hk_options_set_from(hooke_options *options, const hooke_options *from);
+
 /* 1 if the family `name` is present. */
 int32_t hk_options_has_family(const hooke_options *options, const char *name);
 

@@ -180,30 +180,42 @@ static int is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-/* Reads the next item of a list "1, 2 3". Returns 0 at the end, 1 for an item (empty between two commas). */
-static int next_piece(const char *bases, const char **rest, const char *end, const char **piece,
+/* Numbers that come in rows have a semicolon between rows, sizes an x between numbers: "64x64". */
+static int is_between(const struct hk_option_row *row, char c) {
+  return c == ',' || (c == ';' && row->columns > 1) || (c == 'x' && row->whole && row->words == NULL);
+}
+
+/* Reads the next item of a list "1, 2 3". Returns 0 at the end, else what is behind the item (empty between
+ * two commas), a blank for the end. */
+static int next_piece(const struct hk_option_row *row, const char **rest, const char *end, const char **piece,
                       int64_t *length) {
   const char *at = *rest;
   while (is_blank(*at))
     at++;
   if (*at == '\0') return 0;
   *piece = at;
-  at += bases ? hk_unit_scan(bases, at, end - at).whole : 0; /* blanks may stand before and in a unit */
-  while (*at && *at != ',' && !is_blank(*at))
+  at += row->unit ? hk_unit_scan(row->unit, at, end - at).whole : 0; /* blanks may stand in and before it */
+  while (*at && !is_between(row, *at) && !is_blank(*at))
     at++;
   *length = at - *piece;
   while (is_blank(*at))
     at++;
   /* a trailing comma is followed by one more, empty item */
-  *rest = *at == ',' ? at + 1 : at;
-  return 1;
+  const int between = is_between(row, *at);
+  *rest = at + between;
+  return between ? *at : ' ';
 }
 
-static int ends_with_comma(const char *text) {
-  size_t length = strlen(text);
-  while (length > 0 && is_blank(text[length - 1]))
-    length--;
-  return length > 0 && text[length - 1] == ',';
+/* Rows that a semicolon ends are told of by their numbers; `first` is that of the row, and moves on. */
+static int32_t end_row(const struct hk_option_row *row, const char *where, int64_t count, int64_t *first) {
+  char may[HOOKE_OPTION_ALLOWED];
+  const int64_t given = count - *first;
+  if (given != row->columns)
+    return hk_fail(HOOKE_BAD_VALUE, where, "row [%lld] has %lld number%s; allowed: %s",
+                   (long long)(*first / row->columns), (long long)given, given == 1 ? "" : "s",
+                   hk_option_allowed(row, may));
+  *first = count;
+  return HOOKE_OK;
 }
 
 /* Fills `numbers` and `words`, which have room for all items of the text, and the counts and the unit of
@@ -211,9 +223,11 @@ static int ends_with_comma(const char *text) {
 static int32_t split_list(const struct hk_option_row *row, const char *where, const char *text,
                           struct hk_option_value *found, double *numbers, char *words, int64_t *word_count) {
   const char *piece = NULL, *end = text + strlen(text);
-  int64_t length = 0;
+  int64_t length = 0, first = 0;
   size_t used = 0;
-  for (const char *rest = text; next_piece(row->unit, &rest, end, &piece, &length);) {
+  int behind, last = ' ';
+  for (const char *rest = text; (behind = next_piece(row, &rest, end, &piece, &length)) != 0;) {
+    last = behind;
     if (hk_option_has_word(row->words, piece, length)) {
       if (used) words[used++] = ' ';
       memcpy(words + used, piece, (size_t)length);
@@ -227,9 +241,11 @@ static int32_t split_list(const struct hk_option_row *row, const char *where, co
     int32_t status = hk_option_parse_number(row, item, piece, length, &numbers[found->count], &found->unit);
     if (status) return status;
     found->count++;
+    if (behind == ';' && end_row(row, where, found->count, &first)) return HOOKE_BAD_VALUE;
   }
   words[used] = '\0';
-  if (ends_with_comma(text)) return refuse_text(row, where, text);
+  if (strchr(text, ';') && end_row(row, where, found->count, &first)) return HOOKE_BAD_VALUE;
+  if (last != ' ') return refuse_text(row, where, text);
   if (*word_count && !row->word_lists && *word_count + found->count > 1) return refuse_text(row, where, text);
   return HOOKE_OK;
 }

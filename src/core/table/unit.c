@@ -152,11 +152,11 @@ static int64_t scan_exponent(const char *text, int64_t length) {
 /* Length of the longest unit that stands here alone, or of what stands in its place. */
 static int64_t scan_unit(const char *bases, const char *text, int64_t length) {
   for (int64_t most = length < LONGEST_UNIT ? length : LONGEST_UNIT; most > 0; most--) {
-    if (most < length && !strchr(", \t", text[most])) continue;
+    if (most < length && !strchr(",; \t", text[most])) continue;
     if (hk_unit_find(bases, text, most)) return most;
   }
   int64_t end = 0;
-  while (end < length && !strchr(", \t", text[end]))
+  while (end < length && !strchr(",; \t", text[end]))
     end++;
   return end;
 }
@@ -168,7 +168,7 @@ struct hk_quantity hk_unit_scan(const char *bases, const char *text, int64_t len
   found.number += scan_exponent(text + found.number, length - found.number);
   found.whole = found.number;
   const int64_t unit = found.number + count_of(" \t", text + found.number, length - found.number);
-  if (unit < length && !strchr("0123456789+-.,", text[unit]))
+  if (unit < length && !strchr("0123456789+-.,;", text[unit]))
     found.whole = unit + scan_unit(bases, text + unit, length - unit);
   return found;
 }

@@ -19,8 +19,8 @@ const struct hk_unit *hk_unit_find(const char *bases, const char *name, int64_t 
 void hk_unit_list(const char *bases, char *list, int64_t size);
 
 /* Lengths in characters of the number that `text` begins with (0: none), and of that number, blanks and a
- * unit. Both are equal where no unit follows. A name that is not a unit of `bases` ends at a comma or a
- * blank. */
+ * unit. Both are equal where no unit follows. A name that is not a unit of `bases` ends at a comma, a
+ * semicolon or a blank. */
 struct hk_quantity {
   int64_t number, whole;
 };

@@ -302,7 +302,7 @@ int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double to
   *solution = (struct hk_solution){0};
   memset(x, 0, (size_t)size * sizeof(double));
   copy(size, b, g.v[0]);
-  for (int broken = 0; !broken;) {
+  for (int broken = 0;;) {
     const double length = solution->residual = norm(size, g.v[0]);
     solution->converged = length <= tolerance;
     if (solution->converged || solution->iterations >= limit || !(length < INFINITY)) return HOOKE_OK;
@@ -324,5 +324,4 @@ int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double to
     for (int64_t k = 0; k < size; k++)
       g.v[0][k] = b[k] - g.v[1][k];
   }
-  return HOOKE_OK;
 }

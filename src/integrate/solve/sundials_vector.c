@@ -38,7 +38,6 @@ struct job {
   /* the loop of the kernel that it calls */
   void (*of_two)(int64_t count, const double *x, const double *y, double *z);
   void (*of_one)(int64_t count, const double *x, double *z);
-  void (*by_number)(int64_t count, double a, const double *x, double *z);
   double (*sum_of)(int64_t count, const double *x, const double *y);
   double a, b;
   const double *x, *y;
@@ -63,7 +62,6 @@ static void run(N_Vector v, struct job *job) {
   const int64_t least = (size_of(v) + MOST_BLOCKS - 1) / MOST_BLOCKS;
   job->size = size_of(v);
   job->block = (least + LEAST_BLOCK - 1) / LEAST_BLOCK * LEAST_BLOCK;
-  if (job->block < LEAST_BLOCK) job->block = LEAST_BLOCK;
   hk_pool_run(job->size < LARGE ? NULL : ((struct content *)v->content)->pool, work, job);
 }
 
@@ -103,17 +101,13 @@ static void quotient(N_Vector x, N_Vector y, N_Vector z) {
   run(z, &(struct job){some_of_two, .of_two = hk_divide, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
 }
 
-static void some_by_number(const struct job *j, int64_t at, int64_t count, double *sum) {
+static void some_scale(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  j->by_number(count, j->a, j->x + at, j->z + at);
+  hk_scale(count, j->a, j->x + at, j->z + at);
 }
 
 static void scale(sunrealtype a, N_Vector x, N_Vector z) {
-  run(z, &(struct job){some_by_number, .by_number = hk_scale, .a = a, .x = numbers(x), .z = numbers(z)});
-}
-
-static void add_number(N_Vector x, sunrealtype a, N_Vector z) {
-  run(z, &(struct job){some_by_number, .by_number = hk_add_number, .a = a, .x = numbers(x), .z = numbers(z)});
+  run(z, &(struct job){some_scale, .a = a, .x = numbers(x), .z = numbers(z)});
 }
 
 static void some_of_one(const struct job *j, int64_t at, int64_t count, double *sum) {
@@ -166,10 +160,6 @@ static sunrealtype mean_square(N_Vector x, N_Vector weight) {
   return sqrt(sum_of(x, weight, hk_sum_of_squares) / (double)size_of(x));
 }
 
-static sunrealtype norm(N_Vector x, N_Vector weight) {
-  return sqrt(sum_of(x, weight, hk_sum_of_squares));
-}
-
 /* ---- several vectors at once ---- */
 
 static void some_combination(const struct job *j, int64_t at, int64_t count, double *sum) {
@@ -194,12 +184,6 @@ static void some_add_to_each(const struct job *j, int64_t at, int64_t count, dou
 static int add_to_each(int count, sunrealtype *a, N_Vector x, N_Vector *y, N_Vector *z) {
   run(x, &(struct job){
              .some = some_add_to_each, .vectors = count, .factor = a, .x = numbers(x), .from = y, .to = z});
-  return 0;
-}
-
-static int dot_each(int count, N_Vector x, N_Vector *y, sunrealtype *products) {
-  for (int k = 0; k < count; k++)
-    products[k] = dot(x, y[k]);
   return 0;
 }
 
@@ -274,14 +258,11 @@ N_Vector hk_sundials_vector(int64_t size, struct hk_pool *pool, SUNContext conte
   v->ops->nvscale = scale;
   v->ops->nvabs = absolute;
   v->ops->nvinv = inverse;
-  v->ops->nvaddconst = add_number;
   v->ops->nvdotprod = v->ops->nvdotprodlocal = dot;
   v->ops->nvmaxnorm = v->ops->nvmaxnormlocal = largest;
   v->ops->nvwrmsnorm = mean_square;
-  v->ops->nvwl2norm = norm;
   v->ops->nvlinearcombination = combination;
   v->ops->nvscaleaddmulti = add_to_each;
-  v->ops->nvdotprodmulti = v->ops->nvdotprodmultilocal = dot_each;
   v->ops->nvscalevectorarray = scale_each;
   return v;
 }

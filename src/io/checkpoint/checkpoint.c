@@ -16,8 +16,6 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { CHUNK = 1024 };
-
 /* ---- writing ---- */
 
 static int32_t find_place(const hooke_integrator *it, const hooke_state *state, struct hk_standing *standing,
@@ -41,40 +39,13 @@ static int32_t find_place(const hooke_integrator *it, const hooke_state *state, 
   return hk_fail(HOOKE_BAD_VALUE, "state", "is not finite; nobody can go on from there");
 }
 
-/* The position of the next bytes; each function returns 0 or an errno. */
-struct sink {
-  int descriptor;
-  int64_t at;
-  uint32_t check;
-};
-
-static int write_some(struct sink *sink, const void *bytes, int64_t count) {
-  const int error = hk_bytes_write(sink->descriptor, sink->at, count, bytes);
-  sink->check = hk_crc32(sink->check, bytes, count);
-  sink->at += count;
-  return error;
-}
-
-static int write_numbers(struct sink *sink, int64_t count, const double *value) {
-  unsigned char bytes[8 * CHUNK];
-  int error = 0;
-  for (int64_t done = 0; done < count && error == 0; done += CHUNK) {
-    const int64_t some = count - done < CHUNK ? count - done : CHUNK;
-    hk_checkpoint_pack_numbers(some, value + done, bytes);
-    error = write_some(sink, bytes, 8 * some);
-  }
-  return error;
-}
-
+/* Returns 0 or an errno. */
 static int write_all(int descriptor, const struct hk_checkpoint_header *header, const hooke_state *state) {
-  unsigned char bytes[HOOKE_CHECKPOINT_HEADER], end[HOOKE_CHECKPOINT_END];
-  struct sink sink = {.descriptor = descriptor};
-  hk_checkpoint_pack(header, bytes);
-  int error = write_some(&sink, bytes, sizeof bytes);
-  if (error == 0) error = write_numbers(&sink, (state->has_v ? 2 : 1) * state->size, state->q);
-  for (int k = 0; k < HOOKE_CHECKPOINT_END; k++)
-    end[k] = (unsigned char)(sink.check >> 8 * k);
-  return error ? error : write_some(&sink, end, sizeof end);
+  const int64_t bytes = (state->has_v ? 16 : 8) * state->size;
+  const uint32_t check = hk_crc32(hk_crc32(0, header, HOOKE_CHECKPOINT_HEADER), state->q, bytes);
+  int error = hk_bytes_write(descriptor, 0, HOOKE_CHECKPOINT_HEADER, header);
+  if (error == 0) error = hk_bytes_write(descriptor, HOOKE_CHECKPOINT_HEADER, bytes, state->q);
+  return error ? error : hk_bytes_write(descriptor, HOOKE_CHECKPOINT_HEADER + bytes, sizeof check, &check);
 }
 
 int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, const hooke_state *state,
@@ -113,67 +84,41 @@ static int32_t damaged(const char *path, const char *what) {
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", path, what);
 }
 
-static int read_some(FILE *file, uint32_t *check, void *bytes, int64_t count) {
-  if (fread(bytes, 1, (size_t)count, file) != (size_t)count) return 0;
-  *check = hk_crc32(*check, bytes, count);
-  return 1;
-}
-
-static int read_numbers(FILE *file, uint32_t *check, int64_t count, double *value) {
-  unsigned char bytes[8 * CHUNK];
-  for (int64_t done = 0; done < count; done += CHUNK) {
-    const int64_t some = count - done < CHUNK ? count - done : CHUNK;
-    if (!read_some(file, check, bytes, 8 * some)) return 0;
-    hk_checkpoint_unpack_numbers(some, bytes, value + done);
-  }
-  return 1;
-}
-
-static int32_t read_end(const char *path, FILE *file, uint32_t check) {
-  unsigned char end[HOOKE_CHECKPOINT_END];
-  if (fread(end, 1, sizeof end, file) != sizeof end) return damaged(path, "is cut off");
-  for (int k = 0; k < HOOKE_CHECKPOINT_END; k++) {
-    if (end[k] != (unsigned char)(check >> 8 * k))
-      return damaged(path, "is damaged: its check value is not that of its bytes");
-  }
-  return HOOKE_OK;
-}
-
 /* Nothing is allocated before the length of the file is known to match the size of the problem. */
-static int32_t read_open(const char *path, FILE *file, const hooke_integrator *it, struct found *found) {
-  unsigned char bytes[HOOKE_CHECKPOINT_HEADER];
+static int32_t read_open(const char *path, int file, const hooke_integrator *it, struct found *found) {
   struct hk_os_file there;
-  uint32_t check = 0;
-  if (hk_os_look_open(fileno(file), &there) != 0) return hk_file_fail(path, "read the file", errno);
-  if (!read_some(file, &check, bytes, sizeof bytes)) return damaged(path, "is cut off");
-  hk_checkpoint_unpack(bytes, &found->header);
+  uint32_t stored = 0;
+  if (hk_os_look_open(file, &there) != 0) return hk_file_fail(path, "read the file", errno);
+  if (hk_bytes_read(file, 0, HOOKE_CHECKPOINT_HEADER, &found->header) != 0)
+    return damaged(path, "is cut off");
+  found->header.standing.count.zero_passages = -1;
   const char *damage = hk_checkpoint_damage(&found->header, there.bytes);
   if (damage) return damaged(path, damage);
-  const int64_t size = found->header.size;
-  if (size != it->size || found->header.has_v != (it->system != NULL)) {
+  if (found->header.size != it->size || (int)(found->header.kind & 1) != (it->system != NULL)) {
     found->finding = HOOKE_CHECKPOINT_OTHER;
     return damaged(path, "is of another scene");
   }
-  int32_t status = hk_state_create_sized(hk_integrator_numbers(it), it->system != NULL, &found->state);
+  const int32_t status = hk_state_create_sized(hk_integrator_numbers(it), it->system != NULL, &found->state);
   if (status != HOOKE_OK) return status;
-  if (!read_numbers(file, &check, (found->state->has_v ? 2 : 1) * size, found->state->q))
+  const int64_t bytes = (found->state->has_v ? 16 : 8) * found->header.size;
+  double *q = found->state->q;
+  if (hk_bytes_read(file, HOOKE_CHECKPOINT_HEADER, bytes, q) != 0 ||
+      hk_bytes_read(file, HOOKE_CHECKPOINT_HEADER + bytes, sizeof stored, &stored) != 0)
     return damaged(path, "is cut off");
+  if (hk_crc32(hk_crc32(0, &found->header, HOOKE_CHECKPOINT_HEADER), q, bytes) != stored)
+    return damaged(path, "is damaged: its check value is not that of its bytes");
   *found->state->t = found->header.standing.t;
-  return read_end(path, file, check);
+  return HOOKE_OK;
 }
 
 static int32_t read_file(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
-  const int descriptor = hk_file_open(path);
-  FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
-  found->finding = file == NULL && errno == ENOENT ? HOOKE_CHECKPOINT_ABSENT : HOOKE_CHECKPOINT_DAMAGED;
-  if (file == NULL) {
-    const int error = errno;
-    if (descriptor >= 0) close(descriptor);
-    return error == EINVAL || error == EISDIR ? damaged(path, "is not a regular file")
-                                              : hk_file_fail(path, "open the checkpoint", error);
-  }
+  const int file = hk_file_open(path);
+  found->finding = file < 0 && errno == ENOENT ? HOOKE_CHECKPOINT_ABSENT : HOOKE_CHECKPOINT_DAMAGED;
+  if (file < 0)
+    return errno == EINVAL || errno == EISDIR ? damaged(path, "is not a regular file")
+                                              : hk_file_fail(path, "open the checkpoint", errno);
   int32_t status = read_open(path, file, it, found);
-  fclose(file);
+  close(file);
   if (status != HOOKE_OK) return status;
   if (run && strcmp(found->header.run, run) != 0) {
     found->finding = HOOKE_CHECKPOINT_OTHER_RUN;

@@ -1,4 +1,4 @@
-/* A checkpoint file. Numbers are little-endian:
+/* A checkpoint file. Numbers have the machine's byte order, as those of frames:
  *
  *   0    "hookeCKP", version u32, 1 if there are velocities and 2 times the callbacks (model/callbacks.h) u32
  *   16   bytes of the file i64, numbers in q i64
@@ -13,6 +13,8 @@
 
 #include "integrate/integrator.h"
 
+#include <stddef.h>
+
 enum {
   HOOKE_CHECKPOINT_HEADER = 264,
   HOOKE_CHECKPOINT_METHOD = 32,
@@ -20,25 +22,21 @@ enum {
   HOOKE_CHECKPOINT_END = 4
 };
 
+/* Its first HOOKE_CHECKPOINT_HEADER bytes are those of the file. */
 struct hk_checkpoint_header {
   char magic[8];
-  uint32_t version, has_v, calls; /* calls: 0 also where an older version wrote it */
+  uint32_t version, kind; /* without callbacks also where an older version wrote it */
   int64_t length, size;
   uint32_t system, options;
   char method[HOOKE_CHECKPOINT_METHOD], run[HOOKE_CHECKPOINT_RUN];
   struct hk_standing standing;
 };
+_Static_assert(offsetof(struct hk_checkpoint_header, standing.count.zero_passages) == HOOKE_CHECKPOINT_HEADER,
+               "members lie as in the file");
 
 /* Header for the run of an integrator at `standing`. */
 void hk_checkpoint_describe(const hooke_integrator *integrator, const struct hk_standing *standing,
                             const char *run, struct hk_checkpoint_header *header);
-
-void hk_checkpoint_pack(const struct hk_checkpoint_header *header,
-                        unsigned char bytes[HOOKE_CHECKPOINT_HEADER]);
-void hk_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
-                          struct hk_checkpoint_header *header);
-void hk_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes);
-void hk_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value);
 
 /* Check value of the options of a run that have a value, given or default, except `threads`, which affects no
  * bit. */

@@ -74,22 +74,11 @@ int32_t hk_file_refuse(int32_t status, int error, const char *kind) {
                  hk_print_error(error, reason), kind);
 }
 
-static int32_t compare(const char *path, const struct hk_os_file *there, int descriptor) {
-  struct hk_os_file ours;
+int32_t hk_file_is(const char *path, int descriptor) {
+  struct hk_os_file there, ours;
+  if (hk_os_look(path, &there) != 0) return hk_file_fail(path, "find the file that was written", errno);
   if (hk_os_look_open(descriptor, &ours) != 0) return hk_file_fail(path, "look at the file", errno);
-  if (hk_os_is_same(there, &ours)) return HOOKE_OK;
+  if (hk_os_is_same(&there, &ours)) return HOOKE_OK;
   return hk_fail(HOOKE_IO_FAILED, NULL,
                  "%s: another file has taken this name since it was written; it is left as it is", path);
-}
-
-int32_t hk_file_same(const char *path, int descriptor, int other) {
-  struct hk_os_file there;
-  if (hk_os_look_open(descriptor, &there) != 0) return hk_file_fail(path, "look at the file", errno);
-  return compare(path, &there, other);
-}
-
-int32_t hk_file_is(const char *path, int descriptor) {
-  struct hk_os_file there;
-  if (hk_os_look(path, &there) != 0) return hk_file_fail(path, "find the file that was written", errno);
-  return compare(path, &there, descriptor);
 }

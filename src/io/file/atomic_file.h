@@ -33,6 +33,9 @@ struct hk_atomic_file {
  * run is writing the older file; HOOKE_NO_MEMORY. hk_atomic_file_release() has to follow in any case. */
 int32_t hk_atomic_file_make(const char *path, struct hk_atomic_file *file);
 
+/* Whether that would be refused now, without creating anything. */
+int32_t hk_atomic_file_check(const char *path);
+
 /* The same for the output of a run: locked against other runs until it is released or closed, or the process
  * ends. `again`: the caller already holds the lock of the file to be replaced. */
 int32_t hk_atomic_file_make_locked(const char *path, int32_t again, struct hk_atomic_file *file);
@@ -48,6 +51,9 @@ int32_t hk_atomic_file_commit(struct hk_atomic_file *file, const char *previous)
 
 /* Closes the descriptor, and with it the lock. HOOKE_IO_FAILED. */
 int32_t hk_atomic_file_close(struct hk_atomic_file *file);
+
+/* The same after checking that the file still has its name, and flushing it to the disk. */
+int32_t hk_atomic_file_finish(struct hk_atomic_file *file);
 
 /* Closes the descriptors, removes a file that was not committed, and frees the names. */
 void hk_atomic_file_release(struct hk_atomic_file *file);
@@ -71,10 +77,8 @@ int32_t hk_file_refuse(int32_t status, int error, const char *kind);
 /* Writes a whole file atomically. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 int32_t hk_file_write(const char *path, const char *bytes, int64_t length);
 
-/* Check that two descriptors, or a name and a descriptor, are of the same file. HOOKE_IO_FAILED if another
- * file has taken the name meanwhile, or none has it any more: data written by the descriptor would be lost.
- */
-int32_t hk_file_same(const char *path, int descriptor, int other);
+/* HOOKE_IO_FAILED if another file than that of the descriptor has the name meanwhile, or none any more: data
+ * written by the descriptor would be lost. */
 int32_t hk_file_is(const char *path, int descriptor);
 
 #endif

@@ -112,6 +112,18 @@ int32_t hk_atomic_file_make(const char *path, struct hk_atomic_file *file) {
   return status == HOOKE_OK ? create(path, file) : status;
 }
 
+int32_t hk_atomic_file_check(const char *path) {
+  HOOKE_KEEP_ERRNO;
+  struct hk_atomic_file file;
+  int32_t status = begin(path, &file);
+  if (status == HOOKE_OK) status = look_whether_free(path);
+  if (status == HOOKE_OK) file.path[hk_os_last_slash(file.path) - file.path + 1] = '\0'; /* its folder */
+  if (status == HOOKE_OK && !hk_os_may_write(file.path))
+    status = hk_file_fail(path, "create the file", errno);
+  hk_atomic_file_release(&file);
+  return status;
+}
+
 int32_t hk_atomic_file_make_locked(const char *path, int32_t again, struct hk_atomic_file *file) {
   HOOKE_KEEP_ERRNO;
   int32_t status = begin(path, file);
@@ -205,6 +217,14 @@ int32_t hk_atomic_file_close(struct hk_atomic_file *file) {
   file->descriptor = -1;
   if (file->locked && is_own(file)) hk_os_unlock(descriptor);
   return close(descriptor) == 0 ? HOOKE_OK : hk_file_fail(file->path, "write", errno);
+}
+
+int32_t hk_atomic_file_finish(struct hk_atomic_file *file) {
+  int32_t status = hk_file_is(file->path, file->descriptor);
+  if (status == HOOKE_OK && hk_os_sync(file->descriptor) != 0)
+    status = hk_file_fail(file->path, "bring the data to the disk", errno);
+  const int32_t closed = hk_atomic_file_close(file);
+  return status == HOOKE_OK ? closed : status;
 }
 
 void hk_atomic_file_release(struct hk_atomic_file *file) {

@@ -23,6 +23,10 @@ void hk_text_add(struct hk_text *text, const char *bytes, int64_t length) {
   text->length += length;
 }
 
+void hk_text_say(struct hk_text *text, const char *words) {
+  hk_text_add(text, words, (int64_t)strlen(words));
+}
+
 void hk_text_release(struct hk_text *text) {
   hk_free(text->bytes);
   *text = (struct hk_text){.bytes = NULL};
@@ -30,14 +34,10 @@ void hk_text_release(struct hk_text *text) {
 
 /* ---- JSON ---- */
 
-static void add(struct hk_text *text, const char *words) {
-  hk_text_add(text, words, (int64_t)strlen(words));
-}
-
 /* Escapes "<", so that no text ends the enclosing element or begins a comment, and characters that control
  * terminals. */
 static void add_quoted(struct hk_text *text, const char *words) {
-  add(text, "\"");
+  hk_text_say(text, "\"");
   const char *at = words;
   for (int64_t left = (int64_t)strlen(words), bytes; left > 0; left -= bytes) {
     bytes = hk_utf8_character(at, left);
@@ -49,19 +49,19 @@ static void add_quoted(struct hk_text *text, const char *words) {
     char escaped[12];
     snprintf(escaped, sizeof escaped, "\\u%04x", (unsigned)escape);
     hk_text_add(text, words, at - bytes - words);
-    add(text, escaped);
+    hk_text_say(text, escaped);
     words = at;
   }
   hk_text_add(text, words, at - words);
-  add(text, "\"");
+  hk_text_say(text, "\"");
 }
 
 static void begin(struct hk_text *text, const char *key) {
   const char last = text->length > 0 ? text->bytes[text->length - 1] : '{';
-  if (last != '{' && last != '[') add(text, text->is_spaced ? ", " : ",");
+  if (last != '{' && last != '[') hk_text_say(text, text->is_spaced ? ", " : ",");
   if (key == NULL) return;
   add_quoted(text, key);
-  add(text, text->is_spaced ? ": " : ":");
+  hk_text_say(text, text->is_spaced ? ": " : ":");
 }
 
 void hk_text_open(struct hk_text *text, const char *key, char bracket) {
@@ -79,12 +79,12 @@ void hk_text_number(struct hk_text *text, const char *key, double value) {
   if (isfinite(value)) hk_number_print(value, number);
   if (value == 0.0 && signbit(value)) strcpy(number, "-0.0");
   begin(text, key);
-  add(text, number);
+  hk_text_say(text, number);
 }
 
 void hk_text_flag(struct hk_text *text, const char *key, int32_t flag) {
   begin(text, key);
-  add(text, flag ? "true" : "false");
+  hk_text_say(text, flag ? "true" : "false");
 }
 
 void hk_text_word(struct hk_text *text, const char *key, const char *word) {
@@ -92,5 +92,5 @@ void hk_text_word(struct hk_text *text, const char *key, const char *word) {
   if (word)
     add_quoted(text, word);
   else
-    add(text, "null");
+    hk_text_say(text, "null");
 }

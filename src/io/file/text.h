@@ -13,6 +13,7 @@ struct hk_text {
 };
 
 void hk_text_add(struct hk_text *text, const char *bytes, int64_t length);
+void hk_text_say(struct hk_text *text, const char *words);
 void hk_text_release(struct hk_text *text);
 
 /* JSON: `key` is NULL in an array. Non-finite numbers and NULL texts become null. Any text is safe inside a

@@ -5,10 +5,6 @@
 
 enum { LINE = 100, INDENT = 2 };
 
-static void add(struct hk_text *text, const char *words) {
-  hk_text_add(text, words, (int64_t)strlen(words));
-}
-
 /* The comma after the value, or the key and its value, that begins at `at`, or the end. */
 static const char *past_value(const char *at, const char *end) {
   int64_t depth = 0;
@@ -22,9 +18,9 @@ static const char *past_value(const char *at, const char *end) {
 }
 
 static void new_line(struct hk_text *laid, int32_t depth) {
-  add(laid, "\n");
+  hk_text_say(laid, "\n");
   for (int32_t k = 0; k < depth * INDENT; k++)
-    add(laid, " ");
+    hk_text_say(laid, " ");
 }
 
 /* Copies it on one line, with a space after every comma and colon outside strings. */
@@ -37,7 +33,7 @@ static void add_line(struct hk_text *laid, const char *at, const char *end) {
       quoted = !quoted;
     }
     hk_text_add(laid, at, 1);
-    if (!quoted && (*at == ',' || *at == ':')) add(laid, " ");
+    if (!quoted && (*at == ',' || *at == ':')) hk_text_say(laid, " ");
   }
 }
 
@@ -58,7 +54,7 @@ static void lay_out(struct hk_text *laid, const char *at, const char *end, int32
       at = colon + 2;
     }
     lay_out(laid, at, stop, depth + 1);
-    if (stop < end - 1) add(laid, ",");
+    if (stop < end - 1) hk_text_say(laid, ",");
     at = stop + 1;
   }
   new_line(laid, depth);
@@ -71,5 +67,5 @@ void hk_text_lay_out(const struct hk_text *json, struct hk_text *laid) {
     return;
   }
   lay_out(laid, json->bytes, json->bytes + json->length, 0);
-  add(laid, "\n");
+  hk_text_say(laid, "\n");
 }

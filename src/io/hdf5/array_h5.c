@@ -7,7 +7,6 @@
 
 #if HOOKE_HAVE_HDF5
 
-#include "io/hdf5/array_open_h5.h"
 #include "io/hdf5/dataset_h5.h"
 #include "io/trajectory/frame_check_h5.h"
 #include "io/trajectory/h5md_h5.h"

@@ -28,6 +28,12 @@ int32_t hk_dataset_find(struct hk_h5_guard *guard, hid_t file, const char *path,
  * a part of one, and its bookkeeping for each. */
 double hk_dataset_read_bytes(const struct hk_dataset *data, const hsize_t *part);
 
+/* Like hk_array_read(); `path` is for messages. Without `check` a frame is not compared with its check value.
+ */
+int32_t hk_array_read_open(struct hk_h5_guard *guard, hid_t file, const char *path, const char *dataset,
+                           int64_t frame, int32_t has_frame, int32_t check, double **values, int64_t *rows,
+                           int64_t *columns);
+
 /* Fails with HOOKE_BAD_VALUE, "path: dataset <name> <what>". */
 int32_t hk_dataset_refuse(const char *path, const char *name, const char *what);
 

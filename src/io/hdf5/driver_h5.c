@@ -30,21 +30,14 @@ static void keep(struct driven *f, int error) {
   if (*f->error == 0) *f->error = error;
 }
 
+/* Whatever room the new file was given, HDF5 finds it empty. */
 static H5FD_t *open_file(const char *name, unsigned flags, hid_t list, haddr_t longest) {
   const struct setting *setting = H5Pget_driver_info(list);
-  struct hk_os_file there;
+  struct driven *f = setting ? hk_new(1, sizeof *f) : NULL;
   (void)name, (void)flags, (void)longest;
-  if (setting == NULL) return NULL;
-  struct driven *f = hk_new(1, sizeof *f);
   if (f == NULL) return NULL;
   f->error = setting->error;
   f->descriptor = setting->descriptor;
-  if (hk_os_look_open(f->descriptor, &there) != 0) {
-    keep(f, errno);
-    hk_free(f);
-    return NULL;
-  }
-  f->size = (haddr_t)there.bytes;
   return &f->pub;
 }
 
@@ -57,7 +50,7 @@ static herr_t close_file(H5FD_t *file) {
 static herr_t tell_features(const H5FD_t *file, unsigned long *flags) {
   (void)file;
   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
-           H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_POSIX_COMPAT_HANDLE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+           H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
 }
 
@@ -75,12 +68,6 @@ static herr_t take_until(H5FD_t *file, H5FD_mem_t type, haddr_t end) {
 static haddr_t end_of_file(const H5FD_t *file, H5FD_mem_t type) {
   (void)type;
   return ((const struct driven *)file)->size;
-}
-
-static herr_t give_handle(H5FD_t *file, hid_t list, void **handle) {
-  (void)list;
-  *handle = &((struct driven *)file)->descriptor;
-  return 0;
 }
 
 /* Missing data are read as zeros. */
@@ -109,7 +96,6 @@ static herr_t write_file(H5FD_t *file, H5FD_mem_t type, hid_t list, haddr_t at, 
 static herr_t cut_file(H5FD_t *file, hid_t list, hbool_t closing) {
   struct driven *f = (struct driven *)file;
   (void)list, (void)closing;
-  if (f->end == f->size) return 0;
   if (*f->error == 0 && hk_os_set_length(f->descriptor, (int64_t)f->end) != 0) keep(f, errno);
   f->size = f->end;
   return 0;
@@ -130,7 +116,6 @@ static const H5FD_class_t driver = {
     .get_eoa = end_of_taken,
     .set_eoa = take_until,
     .get_eof = end_of_file,
-    .get_handle = give_handle,
     .read = read_file,
     .write = write_file,
     .truncate = cut_file,

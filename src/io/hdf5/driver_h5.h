@@ -7,7 +7,7 @@
 
 #include <hdf5.h>
 
-/* An access list for the new, empty file of `descriptor`, with this driver, for any name given to HDF5. The
+/* An access list for the new file of `descriptor`, with this driver, for any name given to HDF5. The
  * caller keeps the descriptor; `error` receives the errno of the first failure; both must outlive the open
  * file. So must the list: the driver, which H5Fclose() still uses, is released with the last of its lists.
  * Set `error` to any number to suppress all further writes. Negative on failure. */

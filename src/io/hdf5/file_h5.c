@@ -91,101 +91,34 @@ int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char
 
 /* ---- a file ---- */
 
-/* Checks that `bytes` fit before anything is written. */
-static int32_t try_space(const char *path, int descriptor, double bytes) {
+static int32_t reserve(const struct hk_atomic_file *atomic, double bytes) {
   char what[64];
   hk_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
-  int error = bytes < 9e18 ? hk_os_reserve_disk(descriptor, (int64_t)bytes) : EFBIG;
-  if (hk_os_set_length(descriptor, 0) != 0 && error == 0) error = errno;
-  return error ? hk_file_fail(path, what, error) : HOOKE_OK;
+  const int error = bytes < 9e18 ? hk_os_reserve_disk(atomic->descriptor, (int64_t)bytes) : EFBIG;
+  return error ? hk_file_fail(atomic->path, what, error) : HOOKE_OK;
 }
 
-static int32_t create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file) {
-  const int32_t status = try_space(path, file->atomic.descriptor, bytes);
-  if (status != HOOKE_OK) return status;
-  file->list = hk_h5_access_list(file->atomic.descriptor, &file->error);
-  if (file->list >= 0) file->id = H5Fcreate(file->atomic.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
-  if (file->id >= 0) return HOOKE_OK;
-  return file->error && !was_without_memory(guard) ? hk_file_fail(path, "create the file", file->error)
-                                                   : hk_h5_fail(guard, path, "create the file");
-}
-
-int32_t hk_h5_file_create(struct hk_h5_guard *guard, const char *path, double bytes,
+int32_t hk_h5_file_create(struct hk_h5_guard *guard, double bytes, const struct hk_atomic_file *atomic,
                           struct hk_h5_file *file) {
-  *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hk_atomic_file_make(path, &file->atomic);
-  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
+  *file = (struct hk_h5_file){.id = -1, .list = -1, .atomic = atomic};
+  const int32_t status = reserve(atomic, bytes);
+  if (status != HOOKE_OK) return status;
+  file->list = hk_h5_access_list(atomic->descriptor, &file->error);
+  if (file->list >= 0) file->id = H5Fcreate(atomic->temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
+  return file->id >= 0 ? HOOKE_OK : hk_h5_fail(guard, atomic->path, "create the file");
 }
 
-int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
-                                 struct hk_h5_file *file) {
-  *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hk_atomic_file_make_locked(path, again, &file->atomic);
-  return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
-}
-
-/* Allocates disk space for the whole file, not only its length. */
-static int32_t take_space(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
+int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file, int32_t status) {
+  const struct hk_atomic_file *atomic = file->atomic;
   hsize_t bytes = 0;
-  if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic.path, "write");
-  const int error = hk_os_reserve_disk(file->atomic.descriptor, (int64_t)bytes);
-  return error ? hk_file_fail(file->atomic.path, "make room for all frames", error) : HOOKE_OK;
-}
-
-/* Whatever happens, HDF5 does not use the file afterwards. */
-static int32_t let_go(struct hk_h5_guard *guard, struct hk_h5_file *file) {
-  const hid_t id = file->id;
-  file->id = -1;
-  const herr_t result = H5Fclose(id);
+  if (file->id >= 0) H5Fget_filesize(file->id, &bytes);
+  if (status == HOOKE_OK && file->error == 0) status = reserve(atomic, (double)bytes);
+  if (status != HOOKE_OK && file->error == 0) file->error = ECANCELED;
+  const herr_t result = file->id >= 0 ? H5Fclose(file->id) : 0;
   hk_h5_drop(file->list);
-  file->list = -1;
-  if (file->error) return hk_file_fail(file->atomic.path, "write", file->error);
-  return result < 0 ? hk_h5_fail(guard, file->atomic.path, "close the file") : HOOKE_OK;
-}
-
-int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
-  const int32_t status = take_space(guard, file);
-  return status == HOOKE_OK ? let_go(guard, file) : status;
-}
-
-int32_t hk_h5_file_publish(struct hk_h5_file *file) {
-  return hk_atomic_file_commit(&file->atomic, NULL);
-}
-
-int32_t hk_h5_file_close(struct hk_h5_file *file) {
-  int32_t status = hk_file_is(file->atomic.path, file->atomic.descriptor);
-  if (status == HOOKE_OK && hk_os_sync(file->atomic.descriptor) != 0)
-    status = hk_file_fail(file->atomic.path, "bring the data to the disk", errno);
-  const int32_t closed = hk_atomic_file_close(&file->atomic);
-  return status == HOOKE_OK ? closed : status;
-}
-
-int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id) {
-  void *handle = NULL;
-  *id = H5Fopen(file->atomic.path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (*id < 0) return hk_h5_fail(guard, file->atomic.path, "open the file as HDF5");
-  int32_t status = H5Fget_vfd_handle(*id, H5P_DEFAULT, &handle) < 0
-                       ? hk_h5_fail(guard, file->atomic.path, "open the file as HDF5")
-                       : hk_file_same(file->atomic.path, *(const int *)handle, file->atomic.descriptor);
-  if (status == HOOKE_OK) return status;
-  H5Fclose(*id);
-  *id = -1;
-  return status;
-}
-
-double hk_h5_file_bytes(const struct hk_h5_file *file) {
-  struct hk_os_file now;
-  return hk_os_look_open(file->atomic.descriptor, &now) == 0 ? (double)now.bytes : 0.0;
-}
-
-void hk_h5_file_release(struct hk_h5_file *file) {
-  if (file->id >= 0) {
-    file->error = ECANCELED; /* discard everything that HDF5 has not written yet */
-    H5Fclose(file->id);
-  }
-  hk_h5_drop(file->list);
-  hk_atomic_file_release(&file->atomic);
-  *file = HOOKE_NO_H5_FILE;
+  if (file->error == ECANCELED || status == HOOKE_NO_MEMORY) return status;
+  if (file->error) return hk_file_fail(atomic->path, "write", file->error);
+  return result < 0 ? hk_h5_fail(guard, atomic->path, "close the file") : HOOKE_OK;
 }
 
 #endif

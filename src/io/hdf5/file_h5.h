@@ -29,43 +29,24 @@ void hk_h5_guard_end(const struct hk_h5_guard *guard);
  * out of memory. */
 int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char *what);
 
+/* A new file while HDF5 writes it. */
 struct hk_h5_file {
   hid_t id;
   hid_t list; /* its access list, which owns the driver: HDF5 uses that until the file is closed */
-  int error;  /* errno of the first write that failed while HDF5 had the file open */
-  struct hk_atomic_file atomic; /* bytes may be written by its descriptor after HDF5 has closed the file */
+  int error;  /* errno of the first write that failed */
+  const struct hk_atomic_file *atomic;
 };
 
-/* Initial value, which may be released. */
-#define HOOKE_NO_H5_FILE ((struct hk_h5_file){.id = -1, .list = -1, .atomic = HOOKE_NO_ATOMIC_FILE})
-
-/* Creates a file of up to `bytes`, like hk_atomic_file_make(): default format, no raw data cached in memory,
- * everything aligned to 16 bytes so that no number crosses a page boundary. HOOKE_IO_FAILED, HOOKE_NO_MEMORY;
- * hk_h5_file_release() has to follow in any case. */
-int32_t hk_h5_file_create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file);
-
-/* The same for the output of a run, like hk_atomic_file_make_locked(). */
-int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
-                                 struct hk_h5_file *file);
+/* Creates a file of at least `bytes`, for which there must be room before anything is written, in one that
+ * was just made: default format, no raw data cached in memory, everything aligned to 16 bytes so that no
+ * number crosses a page boundary. HOOKE_IO_FAILED, HOOKE_NO_MEMORY; hk_h5_file_settle() has to follow in any
+ * case. */
+int32_t hk_h5_file_create(struct hk_h5_guard *guard, double bytes, const struct hk_atomic_file *atomic,
+                          struct hk_h5_file *file);
 
 /* Allocates its disk space and closes it for HDF5; from here on bytes in it may be written by the descriptor.
- * HOOKE_IO_FAILED. */
-int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file);
-
-/* Flushes the file and replaces an older one; the descriptor stays open. HOOKE_IO_FAILED. */
-int32_t hk_h5_file_publish(struct hk_h5_file *file);
-
-/* Flushes and closes the file. HOOKE_IO_FAILED, also if another file has taken the name meanwhile. */
-int32_t hk_h5_file_close(struct hk_h5_file *file);
-
-/* Opens the published file for HDF5 to read; HOOKE_IO_FAILED, also if another file has taken the name
- * meanwhile. The caller closes all objects that it opens in it. */
-int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id);
-
-/* Current size of the file [bytes], by its descriptor. */
-double hk_h5_file_bytes(const struct hk_h5_file *file);
-
-/* Closes everything that is still open, removes a file that was not published, and releases the names. */
-void hk_h5_file_release(struct hk_h5_file *file);
+ * With a `status` that is a failure, nothing more is written, and it is returned, unless a failed write came
+ * first. HOOKE_IO_FAILED. */
+int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file, int32_t status);
 
 #endif

@@ -19,6 +19,19 @@ hid_t hk_h5_open_own(hid_t where, const char *name) {
   return is_own ? H5Oopen(where, name, H5P_DEFAULT) : -1;
 }
 
+hid_t hk_h5_group(hid_t where, const char *name) {
+  return H5Lexists(where, name, H5P_DEFAULT) > 0
+             ? H5Gopen2(where, name, H5P_DEFAULT)
+             : H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+hid_t hk_h5_new_links(void) {
+  hid_t list = H5Pcreate(H5P_LINK_CREATE);
+  if (list >= 0 && H5Pset_create_intermediate_group(list, 1) >= 0) return list;
+  hk_h5_drop(list);
+  return -1;
+}
+
 static herr_t refuse_link(const char *from_file, const char *from, const char *to_file, const char *to,
                           unsigned *flags, hid_t access, void *ctx) {
   struct hk_h5_guard *guard = ctx;
@@ -60,11 +73,24 @@ const char *hk_h5_foreign(hid_t dataset) {
   return what;
 }
 
-/* Creates and writes an attribute; closes `type` and `space`. */
-static herr_t write_attribute(hid_t object, const char *name, hid_t type, hid_t memory, hid_t space,
-                              const void *data) {
+int64_t hk_h5_place(hid_t dataset, hid_t type, int64_t bytes) {
+  if (dataset < 0 || H5Iget_type(dataset) != H5I_DATASET || hk_h5_foreign(dataset)) return -1;
+  hid_t own = H5Dget_type(dataset), list = H5Dget_create_plist(dataset), file = H5Iget_file_id(dataset);
+  hsize_t end = 0;
+  int fits = own >= 0 && list >= 0 && H5Pget_layout(list) == H5D_CONTIGUOUS &&
+             (type < 0 || H5Tequal(own, type) > 0) && H5Dget_storage_size(dataset) == (hsize_t)bytes;
+  const haddr_t at = fits && bytes > 0 ? H5Dget_offset(dataset) : 0;
+  fits = fits && at != HADDR_UNDEF && H5Fget_filesize(file, &end) >= 0 && at + (haddr_t)bytes <= end;
+  hk_h5_drop(file);
+  hk_h5_drop(list);
+  hk_h5_drop(own);
+  return fits ? (int64_t)at : -1;
+}
+
+/* Creates and writes an attribute; closes `space`. */
+static herr_t write_attribute(hid_t object, const char *name, hid_t type, hid_t space, const void *data) {
   hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  herr_t result = attribute < 0 ? -1 : H5Awrite(attribute, memory, data);
+  herr_t result = attribute < 0 ? -1 : H5Awrite(attribute, type, data);
   hk_h5_drop(attribute);
   hk_h5_drop(space);
   return result;
@@ -80,7 +106,7 @@ static herr_t write_text_attribute(hid_t object, const char *name, int64_t count
   hid_t type = H5Tcopy(H5T_C_S1);
   herr_t result = type < 0 ? -1 : H5Tset_size(type, H5T_VARIABLE);
   if (result >= 0) result = H5Tset_cset(type, H5T_CSET_UTF8);
-  if (result >= 0) result = write_attribute(object, name, type, type, line_space(count, scalar), text);
+  if (result >= 0) result = write_attribute(object, name, type, line_space(count, scalar), text);
   hk_h5_drop(type);
   return result;
 }
@@ -93,29 +119,24 @@ herr_t hk_h5_text_attribute(hid_t object, const char *name, const char *text) {
   return write_text_attribute(object, name, 1, 1, &text);
 }
 
-herr_t hk_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number) {
-  return write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, line_space(count, count == 1),
-                         number);
-}
-
-herr_t hk_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number) {
-  return write_attribute(object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, line_space(count, count == 1),
-                         number);
+herr_t hk_h5_attribute(hid_t object, const char *name, hid_t type, int64_t count, const void *value) {
+  return write_attribute(object, name, type, line_space(count, count == 1), value);
 }
 
 static hid_t new_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
                        H5D_fill_time_t time, const void *fill) {
-  hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+  hid_t list = H5Pcreate(H5P_DATASET_CREATE), links = hk_h5_new_links();
   hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
   hid_t dataset = -1;
-  herr_t result = list < 0 || space < 0 ? -1 : H5Pset_layout(list, H5D_CONTIGUOUS);
+  herr_t result = list < 0 || links < 0 || space < 0 ? -1 : H5Pset_layout(list, H5D_CONTIGUOUS);
   if (result >= 0) result = H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
   if (result >= 0) result = H5Pset_fill_time(list, time);
   if (result >= 0 && fill) result = H5Pset_fill_value(list, type, fill);
   /* no dates: the same run gives the same bytes */
   if (result >= 0) result = H5Pset_obj_track_times(list, 0);
-  if (result >= 0) dataset = H5Dcreate2(where, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+  if (result >= 0) dataset = H5Dcreate2(where, name, type, space, links, list, H5P_DEFAULT);
   hk_h5_drop(space);
+  hk_h5_drop(links);
   hk_h5_drop(list);
   return dataset;
 }

@@ -20,17 +20,27 @@ hid_t hk_h5_open_own(hid_t where, const char *name);
  * reason; negative without memory. */
 hid_t hk_h5_own_links(struct hk_h5_guard *guard);
 
+/* The group of that name, which is created if it is not there; negative on failure. */
+hid_t hk_h5_group(hid_t where, const char *name);
+
+/* A list for new links that creates the groups on their paths; negative without memory. */
+hid_t hk_h5_new_links(void);
+
 /* NULL if the data of a dataset are in this very file and HDF5 can read them by itself; otherwise words for
  * what it is. Call it before querying the dataspace: HDF5 opens the sources of a virtual dataset for that. */
 const char *hk_h5_foreign(hid_t dataset);
 
+/* Offset in the file of an array that is one block of so many bytes of `type` (negative: any), 0 if it is
+ * empty; -1 if it is something else, or negative itself. */
+int64_t hk_h5_place(hid_t dataset, hid_t type, int64_t bytes);
+
 herr_t hk_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text);
 herr_t hk_h5_text_attribute(hid_t object, const char *name, const char *text);
-herr_t hk_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number);
-herr_t hk_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number);
+/* One number, or a line of them. */
+herr_t hk_h5_attribute(hid_t object, const char *name, hid_t type, int64_t count, const void *value);
 
-/* An array of `rank` dimensions and `type` on disk, allocated at once and filled with `fill` (of the type
- * `type`; NULL: zeros). Returns the dataset, or a negative number. */
+/* An array of `rank` dimensions and `type` on disk, with the groups on its path, allocated at once and filled
+ * with `fill` (of the type `type`; NULL: zeros). Returns the dataset, or a negative number. */
 hid_t hk_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size, const void *fill);
 
 /* The same without contents: bytes are undefined until they are written. */

@@ -12,18 +12,15 @@ struct sheet {
   const hooke_measurement *m;
   const struct hk_table *rows;
   const struct hk_table *matrix;          /* NULL: none */
+  int64_t columns;                        /* of it */
   const struct hk_column *label, *number; /* of the matrix: column of the name, column of the value */
 };
 
-static void add(struct hk_text *text, const char *words) {
-  hk_text_add(text, words, (int64_t)strlen(words));
-}
-
 static void add_quoted(struct hk_text *text, const char *name) {
-  add(text, "\"");
+  hk_text_say(text, "\"");
   for (; *name; name++)
     hk_text_add(text, *name == '"' ? "\"\"" : name, *name == '"' ? 2 : 1);
-  add(text, "\"");
+  hk_text_say(text, "\"");
 }
 
 /* Quotes texts that would break the line. */
@@ -32,20 +29,16 @@ static void add_text(struct hk_text *text, const char *words) {
   if (strpbrk(words, ",\"\r\n"))
     add_quoted(text, words);
   else
-    add(text, words);
+    hk_text_say(text, words);
 }
 
 static void add_value(struct hk_text *text, const struct hk_table *table, const struct hk_column *column,
                       const void *object, int64_t row) {
   char number[HOOKE_NUMBER_SIZE] = "";
-  const double value = hk_table_number(table, column, object, row);
-  if (isfinite(value)) hk_number_print(value, number);
-  add(text, number);
-  if (column->type == HOOKE_COLUMN_TEXT) add_text(text, hk_table_text(table, column, object, row));
-}
-
-static int64_t matrix_columns(const struct sheet *sheet) {
-  return sheet->matrix ? sheet->matrix->inner(sheet->m->object) : 0;
+  const struct hk_value value = hk_table_value(table, column, object, row);
+  if (isfinite(value.number)) hk_number_print(value.number, number);
+  hk_text_say(text, number);
+  add_text(text, value.text);
 }
 
 /* Line `row`; -1: the line of names. */
@@ -55,22 +48,21 @@ static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t ro
   for (int32_t k = 0; k < sheet->rows->column_count; k++) {
     const struct hk_column *column = &sheet->rows->columns[k];
     if (column->type == HOOKE_COLUMN_SERIES) continue;
-    if (!first) add(text, ",");
+    if (!first) hk_text_say(text, ",");
     first = 0;
     if (row < 0)
-      add(text, column->name);
+      hk_text_say(text, column->name);
     else
       add_value(text, sheet->rows, column, object, row);
   }
-  const int64_t columns = matrix_columns(sheet);
-  for (int64_t k = 0; k < columns; k++) {
-    add(text, ",");
+  for (int64_t k = 0; k < sheet->columns; k++) {
+    hk_text_say(text, ",");
     if (row < 0)
-      add_quoted(text, hk_table_text(sheet->matrix, sheet->label, object, k));
+      add_quoted(text, hk_table_value(sheet->matrix, sheet->label, object, k).text);
     else
-      add_value(text, sheet->matrix, sheet->number, object, row * columns + k);
+      add_value(text, sheet->matrix, sheet->number, object, row * sheet->columns + k);
   }
-  add(text, "\n");
+  hk_text_say(text, "\n");
 }
 
 /* A matrix whose outer index is the row number. */
@@ -79,6 +71,7 @@ static void find_matrix(struct sheet *sheet) {
   for (const struct hk_table *table = kind->tables; table->name; table++) {
     if (table->inner == NULL || hk_table_find(table, "row") == NULL) continue;
     if (hk_table_count(table, sheet->m->object) > 0) sheet->matrix = table;
+    if (sheet->matrix) sheet->columns = table->inner(sheet->m->object);
     for (int32_t c = 0; c < table->column_count; c++) {
       const struct hk_column *column = &table->columns[c];
       if (column->axis == HOOKE_AXIS_INNER) sheet->label = column;

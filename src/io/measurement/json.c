@@ -26,29 +26,26 @@ static const char *key_of(const struct hk_table *table) {
 /* ---- values ---- */
 
 /* A want that is met as far as errors are known is not known to be met to the end. */
-static double number_of(const hooke_measurement *m, const struct hk_table *table,
-                        const struct hk_column *column, int64_t row) {
-  const int is_met = m->kind == &hk_study_kind && is_named("met", column->name);
-  return is_met && !hk_study_knows_met(m->object)
-             ? NAN
-             : hk_table_number(table, column, hk_measured(m, table), row);
+static struct hk_value value_of(const hooke_measurement *m, const struct hk_table *table,
+                                const struct hk_column *column, int64_t row) {
+  struct hk_value value = hk_measured_value(m, table, column, row);
+  if (m->kind == &hk_study_kind && is_named("met", column->name) && !hk_study_knows_met(m->object))
+    value.number = NAN;
+  return value;
 }
 
-static void add_value(struct hk_text *text, const hooke_measurement *m, const char *key,
-                      const struct hk_table *table, const struct hk_column *column, int64_t row) {
-  const double number = number_of(m, table, column, row);
-  if (column->type == HOOKE_COLUMN_TEXT)
-    hk_text_word(text, key, hk_table_text(table, column, hk_measured(m, table), row));
-  else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
-    hk_text_flag(text, key, number != 0.0);
+static void add_value(struct hk_text *text, const char *key, enum hk_column_type type,
+                      struct hk_value value) {
+  if (type == HOOKE_COLUMN_TEXT)
+    hk_text_word(text, key, value.text);
+  else if (type == HOOKE_COLUMN_FLAG && !isnan(value.number))
+    hk_text_flag(text, key, value.number != 0.0);
   else
-    hk_text_number(text, key, number);
+    hk_text_number(text, key, value.number);
 }
 
-static int is_known(const hooke_measurement *m, const struct hk_table *table, const struct hk_column *column,
-                    int64_t row) {
-  return hk_table_text(table, column, hk_measured(m, table), row) != NULL ||
-         !isnan(hk_table_number(table, column, hk_measured(m, table), row));
+static int is_known(struct hk_value value) {
+  return value.text || !isnan(value.number);
 }
 
 /* An array that is named like its first column stands in place of all of them. */
@@ -59,14 +56,15 @@ static int replaces(const char *const *list) {
 /* Of the known values; null where the first is not known, if the columns say so as well. */
 static void add_list(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
                      const char *const *list, int64_t row) {
-  if (!replaces(list) && !is_known(m, table, hk_table_find(table, list[1]), row)) {
+  if (!replaces(list) && !is_known(value_of(m, table, hk_table_find(table, list[1]), row))) {
     hk_text_word(text, list[0], NULL);
     return;
   }
   hk_text_open(text, list[0], '[');
   for (int k = 1; k < HOOKE_LIST_SIZE && list[k]; k++) {
     const struct hk_column *column = hk_table_find(table, list[k]);
-    if (is_known(m, table, column, row)) add_value(text, m, NULL, table, column, row);
+    const struct hk_value value = value_of(m, table, column, row);
+    if (is_known(value)) add_value(text, NULL, column->type, value);
   }
   hk_text_close(text, ']');
 }
@@ -99,7 +97,7 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
   for (int32_t k = 0; k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
     if (column->type == HOOKE_COLUMN_SERIES || is_said(table, column->name)) continue;
-    add_value(text, m, column->name, table, column, row);
+    add_value(text, column->name, column->type, value_of(m, table, column, row));
   }
   if (table == hk_measurement_table(&hk_needs_kind, "lean")) add_left_out(text, m);
   const struct hk_table *other;
@@ -107,7 +105,7 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
     if (!is_named(other->inside, table->name)) continue;
     if (is_named(other->key, "quantities"))
       add_quantities(text, m, other);
-    else if (other->record || hk_table_count(other, hk_measured(m, other)) > 0)
+    else if (other->record || hk_measured_rows(m, other) > 0)
       add_table(text, m, key_of(other), other, row);
   }
 }
@@ -124,20 +122,21 @@ static void add_object(struct hk_text *text, const hooke_measurement *m, const s
 /* A row of a table, as an object or a value. */
 static void add_member(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
                        int64_t row, const char *key) {
-  if (table->value)
-    add_value(text, m, key, table, hk_table_find(table, table->value), row);
+  const struct hk_column *value = table->value ? hk_table_find(table, table->value) : NULL;
+  if (value)
+    add_value(text, key, value->type, value_of(m, table, value, row));
   else
     add_object(text, m, table, row, key);
 }
 
 static const char *text_of(const hooke_measurement *m, const struct hk_table *table, int64_t row,
                            const char *column) {
-  return hk_table_text(table, hk_table_find(table, column), hk_measured(m, table), row);
+  return hk_measured_value(m, table, hk_table_find(table, column), row).text;
 }
 
 /* The statistics of each quantity: of the reference, and by method. */
 static void add_quantities(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table) {
-  const int64_t count = hk_table_count(table, hk_measured(m, table)), inner = table->inner(m->object);
+  const int64_t count = hk_measured_rows(m, table), inner = table->inner(m->object);
   hk_text_open(text, "quantities", '[');
   for (int64_t k = 0; k < inner; k++) {
     hk_text_open(text, NULL, '{');
@@ -157,7 +156,7 @@ static void add_quantities(struct hk_text *text, const hooke_measurement *m, con
 static int is_there(const hooke_measurement *m, const struct hk_table *table, int64_t row) {
   int there = table->by == NULL;
   for (int32_t k = 0; k < table->column_count; k++)
-    there |= !isnan(hk_table_number(table, &table->columns[k], hk_measured(m, table), row));
+    there |= !isnan(hk_measured_value(m, table, &table->columns[k], row).number);
   return there;
 }
 
@@ -165,7 +164,7 @@ static int is_there(const hooke_measurement *m, const struct hk_table *table, in
 static void add_table(struct hk_text *text, const hooke_measurement *m, const char *key,
                       const struct hk_table *table, int64_t of) {
   const char *by = table->by;
-  int64_t count = hk_table_count(table, hk_measured(m, table)), first = 0;
+  int64_t count = hk_measured_rows(m, table), first = 0;
   if (table->inside && table->inner) {
     count = table->inner(m->object);
     first = of * count;
@@ -185,28 +184,23 @@ void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, co
   add_row(text, m, hk_measurement_table(m->kind, table), row);
 }
 
-void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, const char *table) {
-  const struct hk_table *found = hk_measurement_table(m->kind, table);
-  add_table(text, m, key_of(found), found, 0);
-}
-
 /* ---- documents ---- */
 
-void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *m) {
+void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *m, const char *except) {
   const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
   if (calls) hk_text_word(text, "callbacks", hk_callbacks_text(calls));
   const struct hk_table *table;
   for (int64_t k = 0; (table = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
     if (is_named(table->name, m->kind->name))
       add_row(text, m, table, 0);
-    else if (!table->inside)
+    else if (!table->inside && !is_named(table->name, except))
       add_table(text, m, key_of(table), table, 0);
   }
 }
 
 static void add_document(struct hk_text *text, const hooke_measurement *m) {
   hk_text_open(text, NULL, '{');
-  hk_measurement_add_all(text, m);
+  hk_measurement_add_all(text, m, NULL);
   hk_text_close(text, '}');
 }
 
@@ -224,7 +218,7 @@ int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) 
 const char *hooke_measurement_json(hooke_measurement *m, const char *table, int64_t row) {
   const struct hk_table *t = table ? hk_measurement_table(m->kind, table) : NULL;
   struct hk_text text = {.is_spaced = 1};
-  if (table && (!t || row < -1 || row >= hk_table_count(t, hk_measured(m, t)))) return NULL;
+  if (table && (!t || row < -1 || row >= hk_measured_rows(m, t))) return NULL;
   if (t && row < 0) add_table(&text, m, NULL, t, 0);
   if (t && row >= 0) add_object(&text, m, t, row, NULL);
   if (!t) add_document(&text, m);

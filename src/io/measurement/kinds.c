@@ -57,6 +57,7 @@ const char *hooke_measurement_table(const char *kind, int64_t table, const char 
 }
 
 const char *hooke_measurement_column(const char *kind, const char *table, int64_t column, const char *what) {
+  static const char *const types[] = {"number", "count", "flag", "text", "series"};
   const struct hk_measurement_kind *k = find(kind);
   const struct hk_table *t = k ? hk_measurement_table(k, table) : NULL;
   if (t == NULL || column < 0 || column >= t->column_count) return NULL;
@@ -64,5 +65,5 @@ const char *hooke_measurement_column(const char *kind, const char *table, int64_
   if (strcmp(what, "name") == 0) return c->name;
   if (strcmp(what, "unit") == 0) return c->unit;
   if (strcmp(what, "doc") == 0) return c->doc;
-  return strcmp(what, "type") == 0 ? hk_column_type_name(c->type) : NULL;
+  return strcmp(what, "type") == 0 ? types[c->type] : NULL;
 }

@@ -14,10 +14,10 @@ int32_t hk_measurement_write_h5(const hooke_measurement *measurement, const char
 /* HOOKE_BAD_VALUE for a kind without a page. */
 int32_t hk_measurement_write_page(const hooke_measurement *measurement, const char *path);
 
-/* Members of a JSON object, for pages: those of the whole document, a table under its name, or those of one
- * row. A record is an object, or null if it has no row; rows are an array. Series are left out. */
-void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *measurement);
-void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *measurement, const char *table);
+/* Members of a JSON object, for pages: those of the whole document but for the table `except` (NULL: none),
+ * or those of one row. A record is an object, or null if it has no row; rows are an array. Series are left
+ * out. */
+void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *measurement, const char *except);
 void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *measurement, const char *table,
                             int64_t row);
 

@@ -31,12 +31,6 @@
 
 enum { LEAST_LENGTH = 32, NAME_SIZE = 64 };
 
-static hid_t open_group(hid_t where, const char *name) {
-  return H5Lexists(where, name, H5P_DEFAULT) > 0
-             ? H5Gopen2(where, name, H5P_DEFAULT)
-             : H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-}
-
 /* ---- one column ---- */
 
 /* Rows of a table in a column: every `stride`-th of the first `count` strides. */
@@ -61,7 +55,7 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
   double *value = hk_new(extent.count, sizeof *value);
   if (value == NULL) return -1;
   for (int64_t k = 0; k < extent.count; k++)
-    value[k] = hk_table_number(table, column, hk_measured(m, table), k * extent.stride);
+    value[k] = hk_measured_value(m, table, column, k * extent.stride).number;
   const herr_t result =
       hk_h5_array_of(group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, extent.rank, extent.size, value);
   hk_free(value);
@@ -71,8 +65,8 @@ static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struc
 static int64_t longest_text(const hooke_measurement *m, const struct hk_table *table,
                             const struct hk_column *column) {
   size_t length = LEAST_LENGTH;
-  for (int64_t row = 0; row < hk_table_count(table, hk_measured(m, table)); row++) {
-    const char *text = hk_table_text(table, column, hk_measured(m, table), row);
+  for (int64_t row = 0; row < hk_measured_rows(m, table); row++) {
+    const char *text = hk_measured_value(m, table, column, row).text;
     const size_t own = text ? strlen(text) + 1 : 0;
     length = own > length ? own : length;
   }
@@ -84,7 +78,7 @@ static herr_t write_texts(hid_t group, const hooke_measurement *m, const struct 
   hid_t data = hk_h5_texts(group, column->name, extent.count, longest_text(m, table, column));
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t k = 0; result >= 0 && k < extent.count; k++) {
-    const char *text = hk_table_text(table, column, hk_measured(m, table), k * extent.stride);
+    const char *text = hk_measured_value(m, table, column, k * extent.stride).text;
     result = hk_h5_write_text(data, k, text ? text : "");
   }
   hk_h5_drop(data);
@@ -105,16 +99,10 @@ static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *
   return result;
 }
 
-static struct hk_series series_at(const hooke_measurement *m, const struct hk_table *table,
-                                  const struct hk_column *column, int64_t row) {
-  if (row >= hk_table_count(table, hk_measured(m, table))) return (struct hk_series){NULL, 0};
-  return hk_table_series(table, column, hk_measured(m, table), row);
-}
-
 static herr_t write_series(hid_t group, const hooke_measurement *m, const struct hk_table *table,
                            const struct hk_column *column) {
-  const int64_t rows = hk_table_count(table, hk_measured(m, table));
-  struct hk_series series = series_at(m, table, column, 0);
+  const int64_t rows = hk_measured_rows(m, table);
+  struct hk_series series = hk_measured_value(m, table, column, 0).series;
   const hsize_t size[2] = {(hsize_t)rows, (hsize_t)series.count};
   const double none = NAN;
   char name[NAME_SIZE];
@@ -127,7 +115,7 @@ static herr_t write_series(hid_t group, const hooke_measurement *m, const struct
   hid_t data = hk_h5_array(group, name, H5T_IEEE_F64LE, 2, size, &none);
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t row = 0; result >= 0 && row < rows; row++) {
-    series = series_at(m, table, column, row);
+    series = hk_measured_value(m, table, column, row).series;
     if (series.value && series.count > 0) result = write_series_row(data, row, &series);
   }
   hk_h5_drop(data);
@@ -136,52 +124,40 @@ static herr_t write_series(hid_t group, const hooke_measurement *m, const struct
 
 /* ---- tables ---- */
 
-static herr_t write_record(hid_t group, const hooke_measurement *m, const struct hk_table *table) {
-  herr_t result = 0;
-  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
-    const struct hk_column *column = &table->columns[k];
-    const double number = hk_table_number(table, column, hk_measured(m, table), 0);
-    const char *text = hk_table_text(table, column, hk_measured(m, table), 0);
-    if (column->type == HOOKE_COLUMN_TEXT)
-      result = hk_h5_text_attribute(group, column->name, text ? text : "");
-    else if (column->type != HOOKE_COLUMN_SERIES)
-      result = hk_h5_number_attribute(group, column->name, 1, &number);
-  }
-  return result;
+static herr_t write_attribute(hid_t group, const hooke_measurement *m, const struct hk_table *table,
+                              const struct hk_column *column) {
+  const struct hk_value value = hk_measured_value(m, table, column, 0);
+  return column->type == HOOKE_COLUMN_TEXT
+             ? hk_h5_text_attribute(group, column->name, value.text ? value.text : "")
+             : hk_h5_attribute(group, column->name, H5T_NATIVE_DOUBLE, 1, &value.number);
 }
 
-static herr_t write_columns(hid_t group, const hooke_measurement *m, const struct hk_table *table) {
-  herr_t result = 0;
-  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
-    const struct hk_column *column = &table->columns[k];
-    const struct extent extent = extent_of(table, column, hk_measured(m, table));
-    /* tables that share a group share the names of their indices */
-    if (column->type == HOOKE_COLUMN_SERIES || H5Lexists(group, column->name, H5P_DEFAULT) > 0) continue;
-    result = column->type == HOOKE_COLUMN_TEXT ? write_texts(group, m, table, column, extent)
-                                               : write_numbers(group, m, table, column, extent);
+/* Series go into a group of their own. */
+static herr_t write_column(hid_t kind, hid_t group, const hooke_measurement *m, const struct hk_table *table,
+                           const struct hk_column *column) {
+  const struct extent extent = extent_of(table, column, hk_measured(m, table));
+  if (column->type == HOOKE_COLUMN_SERIES) {
+    if (!table->record && strcmp(table->name, "rows") != 0) return 0;
+    hid_t series = hk_h5_group(kind, "series");
+    const herr_t result = series < 0 ? -1 : write_series(series, m, table, column);
+    hk_h5_drop(series);
+    return result;
   }
-  return result;
-}
-
-static herr_t write_all_series(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
-  herr_t result = 0;
-  for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
-    if (table->columns[k].type != HOOKE_COLUMN_SERIES) continue;
-    hid_t group = open_group(kind, "series");
-    result = group < 0 ? -1 : write_series(group, m, table, &table->columns[k]);
-    hk_h5_drop(group);
-  }
-  return result;
+  if (table->record) return write_attribute(group, m, table, column);
+  /* tables that share a group share the names of their indices */
+  if (H5Lexists(group, column->name, H5P_DEFAULT) > 0) return 0;
+  return column->type == HOOKE_COLUMN_TEXT ? write_texts(group, m, table, column, extent)
+                                           : write_numbers(group, m, table, column, extent);
 }
 
 static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct hk_table *table) {
   const char *name = table->group ? table->group : table->name;
   const int is_own = strcmp(table->name, m->kind->name) == 0, is_rows = strcmp(table->name, "rows") == 0;
-  if (hk_table_count(table, hk_measured(m, table)) == 0 && !is_rows) return 0;
-  hid_t group = is_own || is_rows ? kind : open_group(kind, name);
+  if (hk_measured_rows(m, table) == 0 && !is_rows) return 0;
+  hid_t group = is_own || is_rows ? kind : hk_h5_group(kind, name);
   herr_t result = group < 0 ? -1 : 0;
-  if (result >= 0) result = table->record ? write_record(group, m, table) : write_columns(group, m, table);
-  if (result >= 0 && (is_rows || table->record)) result = write_all_series(kind, m, table);
+  for (int32_t k = 0; result >= 0 && k < table->column_count; k++)
+    result = write_column(kind, group, m, table, &table->columns[k]);
   if (group != kind) hk_h5_drop(group);
   return result;
 }
@@ -189,7 +165,7 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
 /* ---- the file ---- */
 
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
-  hid_t kind = open_group(file, m->kind->name);
+  hid_t kind = hk_h5_group(file, m->kind->name);
   herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
   const struct hk_table *table;
   for (int64_t k = 0; result >= 0 && (table = hk_measurement_table_at(m->kind, k)) != NULL; k++)
@@ -198,52 +174,35 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
   return result;
 }
 
-/* An approximate, generous size. */
-static double bytes_of(const hooke_measurement *m) {
-  double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
-  const struct hk_table *table;
-  for (int64_t k = 0; (table = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
-    const double rows = (double)hk_table_count(table, hk_measured(m, table));
-    for (int32_t c = 0; rows > 0.0 && c < table->column_count; c++) {
-      const struct hk_column *column = &table->columns[c];
-      const int64_t length = column->type == HOOKE_COLUMN_TEXT     ? longest_text(m, table, column)
-                             : column->type == HOOKE_COLUMN_SERIES ? 8 * series_at(m, table, column, 0).count
-                                                                   : 8;
-      bytes += 512.0 + rows * (double)length;
-    }
-  }
-  return bytes;
-}
-
 static int32_t write_results(const hooke_measurement *m, const char *path, const char *scene_text,
-                             struct hk_h5_file *file, struct hk_motions *motions) {
+                             const struct hk_atomic_file *atomic, struct hk_motions *motions) {
   struct hk_h5_guard guard;
+  struct hk_h5_file file;
   hk_h5_guard_begin(&guard);
-  int32_t status = hk_h5_file_create(&guard, path, bytes_of(m) + hk_motions_bytes(motions), file);
+  int32_t status = hk_h5_file_create(&guard, 0.0, atomic, &file);
   if (status == HOOKE_OK) {
-    herr_t result = hk_h5md_describe(file->id, m->system, NULL, m->run, scene_text);
-    if (result >= 0) result = write_all(file->id, m);
-    if (result >= 0) result = hk_motions_make(motions, file->id);
-    if (result >= 0) result = hk_h5md_set_status(file->id, m->outcome);
-    status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_settle(&guard, file);
+    herr_t result = hk_h5md_describe(file.id, m->system, NULL, m->run, scene_text);
+    if (result >= 0) result = write_all(file.id, m);
+    if (result >= 0) result = hk_motions_make(motions, file.id);
+    if (result >= 0) result = hk_h5md_set_status(file.id, m->outcome);
+    if (result < 0) status = hk_h5_fail(&guard, path, "write the results");
   }
-  if (status != HOOKE_OK) hk_h5_file_release(file);
+  status = hk_h5_file_settle(&guard, &file, status);
   hk_h5_guard_end(&guard);
   return status;
 }
 
 /* Motions need no HDF5, which waits for nobody while they are made. */
 static int32_t write_file(const hooke_measurement *m, const char *path, const char *scene_text) {
-  struct hk_h5_file file;
+  struct hk_atomic_file file = HOOKE_NO_ATOMIC_FILE;
   struct hk_motions motions;
   int32_t status = hk_motions_create(m, &motions);
   if (status != HOOKE_OK) return status;
-  status = write_results(m, path, scene_text, &file, &motions);
-  if (status == HOOKE_OK) {
-    status = hk_motions_write(&motions, &file.atomic);
-    if (status == HOOKE_OK) status = hk_h5_file_publish(&file);
-    hk_h5_file_release(&file);
-  }
+  status = hk_atomic_file_make(path, &file);
+  if (status == HOOKE_OK) status = write_results(m, path, scene_text, &file, &motions);
+  if (status == HOOKE_OK) status = hk_motions_write(&motions, &file);
+  if (status == HOOKE_OK) status = hk_atomic_file_commit(&file, NULL);
+  hk_atomic_file_release(&file);
   hk_free(motions.writer);
   return status;
 }

@@ -18,20 +18,14 @@ static int64_t frames_of(const struct hk_study *study, int64_t k) {
   return k == 0 ? study->reference.frames.recorded : study->row[k - 1].trial.frames;
 }
 
-double hk_motions_bytes(const struct hk_motions *motions) {
-  double bytes = 0.0;
-  for (int64_t k = 0; k < motions->count; k++)
-    bytes += hk_trajectory_writer_bytes(motions->m->system, frames_of(motions->m->object, k));
-  return bytes;
-}
-
 herr_t hk_motions_make(struct hk_motions *motions, hid_t file) {
   const hooke_system *system = motions->m->system;
   herr_t result = 0;
   for (int64_t k = 0; result >= 0 && k < motions->count; k++) {
     const struct hk_study *study = motions->m->object;
     const char *group = k == 0 ? "all" : study->method[study->row[k - 1].method];
-    result = hk_trajectory_writer_create(file, system, group, frames_of(study, k), &motions->writer[k]);
+    hk_frame_arrays_plan(system, group, frames_of(study, k), &motions->writer[k]);
+    result = hk_frame_arrays_create(file, &motions->writer[k]);
   }
   return result >= 0 && motions->count > 0 ? hk_h5md_connect(file, system, "all") : result;
 }
@@ -47,9 +41,10 @@ struct run {
 
 static int32_t write_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
-  struct hk_trajectory_writer *writer = &run->motions->writer[run->number];
+  struct hk_frame_file *writer = &run->motions->writer[run->number];
   if (frame >= writer->frame_count) return 1;
-  run->error = hk_trajectory_writer_write(writer, step, state);
+  run->error = hk_frame_write(writer, writer->written, step, state);
+  writer->written += run->error == 0;
   return run->error != 0;
 }
 
@@ -62,7 +57,7 @@ static int32_t tell(double fraction, void *ctx) {
 
 static int32_t run_again(struct run *run, const char *path) {
   const struct hk_study *study = run->motions->m->object;
-  const struct hk_trajectory_writer *writer = &run->motions->writer[run->number];
+  const struct hk_frame_file *writer = &run->motions->writer[run->number];
   const struct hk_listener listener = {.on_progress = tell, .on_frame = write_frame, .ctx = run};
   struct hk_frames frames; /* none: they go into the file */
   hooke_options *options = NULL;
@@ -83,7 +78,7 @@ int32_t hk_motions_write(struct hk_motions *motions, const struct hk_atomic_file
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; status == HOOKE_OK && k < motions->count; k++) {
     struct run run = {.motions = motions, .number = k};
-    motions->writer[k].file.descriptor = file->descriptor;
+    motions->writer[k].descriptor = file->descriptor;
     status = run_again(&run, file->path);
   }
   return status;

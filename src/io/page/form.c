@@ -16,7 +16,7 @@ static int32_t fill(const char *from, hk_form_part add, void *ctx, struct hk_tex
     from = mark + strcspn(mark, "}");
     from += strspn(from, "}");
   }
-  if (status == HOOKE_OK) hk_text_add(page, from, (int64_t)strlen(from));
+  if (status == HOOKE_OK) hk_text_say(page, from);
   return status == HOOKE_OK ? page->status : status;
 }
 

@@ -1,24 +1,86 @@
-/* Pages: a frame filled with the style, the drawing library, the data, the body and the scripts. */
+/* Pages: a frame filled with the style, the drawing library, the data, the body and the scripts. The files of
+ * a kind in share/hooke are <kind>.html, <kind>.js and <kind>_tables.js. */
 #include "io/page/report.h"
 
+#include "core/os/os.h"
 #include "core/status.h"
 #include "io/page/form.h"
 #include "io/file/atomic_file.h"
 #include "io/file/data_folder.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
+
+/* ---- facts that all pages show ---- */
+
+static void add_machine(struct hk_text *text) {
+  struct hk_os_machine machine;
+  if (text->status == HOOKE_OK && hk_os_describe_machine(&machine) != 0)
+    text->status = hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to describe the machine");
+  if (text->status != HOOKE_OK) return;
+  hk_text_open(text, "machine", '{');
+  hk_text_word(text, "processor", machine.processor[0] ? machine.processor : NULL);
+  hk_text_number(text, "cores", machine.cores > 0 ? (double)machine.cores : (double)NAN);
+  hk_text_word(text, "system", machine.system);
+  hk_text_close(text, '}');
+}
+
+static void add_versions(struct hk_text *text) {
+  static const char *const facts[] = {"sundials", "cholmod", "lapack",  "gsl",          "arpack",
+                                      "hdf5",     "chartjs", "threejs", "instructions", "licence"};
+  hk_text_open(text, "versions", '{');
+  hk_text_word(text, "hooke", hooke_version());
+  for (int k = 0; k < (int)(sizeof facts / sizeof facts[0]); k++)
+    hk_text_word(text, facts[k], hooke_build_fact(facts[k]));
+  hk_text_close(text, '}');
+}
+
+static void add_date(struct hk_text *text) {
+  char date[32] = "";
+  const time_t now = time(NULL);
+  struct tm parts;
+  if (gmtime_r(&now, &parts)) strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &parts);
+  hk_text_word(text, "date", date);
+}
+
+void hk_report_add_facts(struct hk_text *text) {
+  add_date(text);
+  add_machine(text);
+  add_versions(text);
+}
+
+/* ---- pages ---- */
+
+static const struct page {
+  const char *kind;
+  const char *more; /* a file of scripts that it shares with another; NULL: none */
+  const char *own;  /* the table that it adds by itself; NULL: none */
+  void (*add)(struct hk_text *data, const hooke_measurement *measurement);
+} pages[] = {
+    {"study", NULL, NULL, hk_study_page_add},
+    {"limit", "mode.js", "rows", hk_limit_page_add},
+    {"needs", NULL, NULL, hk_needs_page_add},
+    {"why", "mode.js", NULL, hk_why_page_add},
+};
 
 #if HOOKE_HAVE_CHARTJS
 
-/* ---- the page ---- */
+struct report {
+  const struct page *page;
+  const hooke_measurement *m;
+};
 
-static int32_t add_data(struct hk_text *page, const struct hk_report *report) {
+static int32_t add_data(struct hk_text *page, const struct report *report) {
+  const hooke_measurement *m = report->m;
   struct hk_text data = {.bytes = NULL};
   hk_text_open(&data, NULL, '{');
-  hk_text_word(&data, "scene", report->scene);
+  hk_text_word(&data, "scene", m->label[HOOKE_LABEL_TITLE]);
+  if (m->label[HOOKE_LABEL_COMMAND]) hk_text_word(&data, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_report_add_facts(&data);
-  report->add_data(&data, report->ctx);
+  hk_measurement_add_all(&data, m, report->page->own);
+  report->page->add(&data, m);
   hk_text_close(&data, '}');
   if (data.status == HOOKE_OK) hk_text_add(page, data.bytes, data.length);
   const int32_t status = data.status != HOOKE_OK ? data.status : page->status;
@@ -26,28 +88,29 @@ static int32_t add_data(struct hk_text *page, const struct hk_report *report) {
   return status;
 }
 
-/* A file with the report's name, and `ending`. */
-static int32_t add_own(struct hk_text *page, const struct hk_report *report, const char *ending) {
+/* A file with the name of the kind, and `ending`. */
+static int32_t add_own(struct hk_text *page, const struct report *report, const char *ending) {
   char name[64];
-  snprintf(name, sizeof name, "%s%s", report->name, ending);
+  snprintf(name, sizeof name, "%s%s", report->page->kind, ending);
   return hk_data_folder_read(name, page);
 }
 
 /* Fills {{name}} in the form: a part of the report, or a file that all reports share. */
 static int32_t add_part(const char *name, struct hk_text *page, void *ctx) {
-  const struct hk_report *report = ctx;
+  const struct report *report = ctx;
   if (strcmp(name, "data") == 0) return add_data(page, report);
   if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
-  if (strcmp(name, "more") == 0) return report->more ? hk_data_folder_read(report->more, page) : HOOKE_OK;
+  if (strcmp(name, "more") == 0)
+    return report->page->more ? hk_data_folder_read(report->page->more, page) : HOOKE_OK;
   if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
   if (strcmp(name, "tables") == 0) return add_own(page, report, "_tables.js");
   return hk_data_folder_read(name, page);
 }
 
-int32_t hk_report_write(const struct hk_report *report, const char *path) {
+static int32_t write(const struct page *found, const hooke_measurement *m, const char *path) {
   struct hk_text page = {.bytes = NULL};
-  struct hk_report copy = *report;
-  int32_t status = hk_form_fill("page.html", add_part, &copy, &page);
+  struct report report = {found, m};
+  int32_t status = hk_form_fill("page.html", add_part, &report, &page);
   if (status == HOOKE_OK) status = hk_file_write(path, page.bytes, page.length);
   hk_text_release(&page);
   return status;
@@ -55,8 +118,8 @@ int32_t hk_report_write(const struct hk_report *report, const char *path) {
 
 #else
 
-int32_t hk_report_write(const struct hk_report *report, const char *path) {
-  (void)report, (void)path;
+static int32_t write(const struct page *found, const hooke_measurement *m, const char *path) {
+  (void)found, (void)m, (void)path;
   return hk_fail(
       HOOKE_NOT_BUILT, NULL,
       "reports need Chart.js (on Debian: apt-get install libjs-chart.js, then configure again), and "
@@ -64,3 +127,9 @@ int32_t hk_report_write(const struct hk_report *report, const char *path) {
 }
 
 #endif
+
+int32_t hk_measurement_write_page(const hooke_measurement *m, const char *path) {
+  for (size_t k = 0; k < sizeof pages / sizeof pages[0]; k++)
+    if (strcmp(pages[k].kind, m->kind->name) == 0) return write(&pages[k], m, path);
+  return hk_fail(HOOKE_BAD_VALUE, "path", "%s: there is no page for a %s", path, m->kind->name);
+}

@@ -1,7 +1,5 @@
 /* The page of a study: its contents as JSON. */
-#include "io/measurement/measurement_file.h"
-#include "io/page/measurement_pages.h"
-#include "measure/study/study.h"
+#include "io/page/report.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,10 +42,7 @@ static void add_curve(struct hk_text *text, const hooke_measurement *m, int64_t 
 
 /* ---- the page ---- */
 
-void hk_study_page_add(struct hk_text *data, const void *measurement) {
-  const hooke_measurement *m = measurement;
-  hk_measurement_add_all(data, m);
-  hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
+void hk_study_page_add(struct hk_text *data, const hooke_measurement *m) {
   add_times(data, m);
   hk_text_open(data, "curves", '[');
   for (int64_t row = 0; row < hooke_measurement_row_count(m, "rows"); row++) {

@@ -1,27 +1,373 @@
-/* The page of an explanation: what it shows, as JSON. */
+/* The page of an explanation, with the steps around the trouble. */
+#include "core/memory.h"
 #include "core/status.h"
-#include "io/measurement/measurement_file.h"
-#include "io/page/measurement_pages.h"
-#include "io/page/why_frames.h"
+#include "core/table/option.h"
+#include "io/page/picture.h"
+#include "io/page/report.h"
+#include "io/page/view/view_bodies.h"
+#include "measure/limit/limit.h"
+#include "measure/spectrum/mode_growth.h"
+#include "measure/why/why.h"
 
 #include <math.h>
+#include <string.h>
 
-void hk_why_page_add(struct hk_text *data, const void *measurement) {
-  const hooke_measurement *m = measurement;
+/* Steps before and after the trouble whose energy is told, and frames to play. */
+enum { ENERGY_BEFORE = 1000, ENERGY_AFTER = 60, BEFORE = 48, AFTER = 40, LEAST_AFTER = 10, LOOKS = 24 };
+/* Particles and springs times steps that the energies, and the advised run, may take. */
+static const double ENERGY_WORK = 3e8, ADVISED_WORK = 2e9;
+/* Frames end when the scene is so much wider than at first; the mode grows about so much before the trouble.
+ * */
+static const double WIDEST = 1e5, GROWN = 1e4;
+/* Counted work at eigenvalues [s], of so many particles. */
+static const double LOOK_WORK = 3.0, MOST_LOOKED_AT = 2e4;
+static const double MOVE_SCALE = 1e4;
+
+struct frames {
+  struct hk_text *data;
+  const struct hk_why *why;
+  const hooke_system *system;
+  double h, t0;
+  int64_t last; /* step within all bounds */
+  struct hk_picture picture;
+  int64_t *list;
+  double extent; /* of the first frame */
+  int64_t shown, after;
+
+  double energy[ENERGY_BEFORE + ENERGY_AFTER + 1];
+  int64_t energies, first_energy;
+
+  hooke_measurement *limit;
+  struct hk_budget budget;
+  /* 3n: NULL before a mode was found; positions and time then, and its growth in a step */
+  double *shape, *mode_q, mode_time, mode_growth;
+  int32_t is_above, looks;
+  struct {
+    double time, limit, frequency, decay, growth;
+  } look[LOOKS + 1];
+};
+
+/* ---- energies ---- */
+
+/* Kinetic and of springs: never negative, unlike that of gravity. [J] */
+static double energy_of(const hooke_system *system, const hooke_state *state) {
+  const double *q = hooke_state_position((hooke_state *)state),
+               *v = hooke_state_velocity((hooke_state *)state);
+  return hooke_system_energy(system, "kinetic", NULL, v) + hooke_system_energy(system, "potential", q, NULL) -
+         hooke_system_energy(system, "gravity", q, NULL);
+}
+
+static int32_t see_energy(int64_t k, const hooke_state *state, void *ctx) {
+  struct frames *f = ctx;
+  f->energy[k] = energy_of(f->system, state);
+  f->energies = k + 1;
+  return 0;
+}
+
+static double time_of(const struct frames *f, int64_t step) {
+  return f->t0 + (double)step * f->h;
+}
+
+static double work_of(const hooke_system *system) {
+  return (double)(hooke_system_particle_count(system) + hooke_system_count(system, "springs") + 1);
+}
+
+static int32_t find_energies(struct frames *f, const hooke_options *run) {
+  double time[ENERGY_BEFORE + ENERGY_AFTER + 1];
+  const int64_t fit = (int64_t)(ENERGY_WORK / work_of(f->system)),
+                back = fit < ENERGY_BEFORE ? fit : ENERGY_BEFORE;
+  const int64_t begun = f->why->start.standing.k;
+  f->first_energy = f->last - back > begun ? f->last - back : begun;
+  const int64_t count = f->last - f->first_energy + ENERGY_AFTER + 1;
+  for (int64_t k = 0; k < count; k++)
+    time[k] = time_of(f, f->first_energy + k);
+  return hk_why_walk(f->system, &f->why->start, run, count, time, see_energy, f);
+}
+
+static void add_energies(struct frames *f) {
+  hk_text_open(f->data, "energy", '{');
+  hk_text_number(f->data, "first", (double)f->first_energy);
+  hk_text_number(f->data, "last", (double)(f->last - f->first_energy));
+  hk_text_open(f->data, "value", '[');
+  for (int64_t k = 0; k < f->energies; k++)
+    hk_text_number(f->data, NULL, f->energy[k]);
+  hk_text_close(f->data, ']');
+  hk_text_close(f->data, '}');
+}
+
+/* Steps between frames, so that those before the trouble show the mode from small on. */
+static int64_t stride_of(const struct frames *f) {
+  const int64_t end = f->last - f->first_energy, back = end < 50 ? end : 50;
+  const double rise = back > 0 && end < f->energies ? log(f->energy[end] / f->energy[end - back]) : NAN;
+  const double steps = 2.0 * log(GROWN) * (double)back / rise / BEFORE;
+  const double most = 1.0 + (double)end / BEFORE;
+  return isfinite(steps) && steps > 1.0 ? (int64_t)ceil(fmin(steps, most)) : 1;
+}
+
+/* ---- limits along the way ---- */
+
+static int32_t begin_limits(struct frames *f, const hooke_options *run) {
+  hooke_options *options = NULL;
+  if ((double)hooke_system_particle_count(f->system) > MOST_LOOKED_AT) return HOOKE_OK;
+  int32_t status = hk_options_create(hk_limit_kind.options, &options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "methods", f->why->method);
+  if (status == HOOKE_OK)
+    status = hk_measurement_create(&hk_limit_kind, NULL, f->system, run, options, &f->limit);
+  hooke_options_destroy(options);
+  f->budget = hk_budget_of_work(LOOK_WORK, NULL, NULL);
+  return status;
+}
+
+/* Frequency and damping of the mode that limits, and whether it is the one to draw: the first above the
+ * limit. */
+static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
+                         int64_t step) {
+  const struct hk_stability *stability = hk_method_stability_in(row->method, f->system);
+  struct hk_growing g;
+  struct hk_rigid rigid;
+  int32_t status = hk_rigid_create(f->system, limit->q, NULL, &rigid);
+  if (status != HOOKE_OK) return status;
+  /* modes have the length 1 by masses */
+  const double *const mode[3] = {row->mode, row->mode + 1, row->mode + 2};
+  const double geometric = hk_rigid_energy(&rigid, mode, 3);
+  hk_rigid_release(&rigid);
+  status = hk_growing_create(f->system, row->mode, NULL, &g);
+  if (status != HOOKE_OK) return status;
+  const int inertial = !f->system->overdamped;
+  const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0) + geometric);
+  const double frequency = inertial ? sqrt(stiffness) : 0.0;
+  const double decay = inertial ? 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0) : stiffness;
+  const double growth = inertial ? hk_mode_growth(stability, f->h, frequency, decay)
+                                 : hk_relaxation_growth(stability, f->h, stiffness);
+  hk_growing_release(&g);
+  f->look[f->looks].frequency = frequency;
+  f->look[f->looks].decay = decay;
+  f->look[f->looks].growth = growth;
+  const int above = row->predicted < f->h;
+  if (f->is_above || (!above && step != f->last)) return HOOKE_OK;
+  const size_t bytes = 3 * (size_t)hooke_system_particle_count(f->system) * sizeof(double);
+  if (f->shape == NULL) f->shape = hk_new(6 * hooke_system_particle_count(f->system), sizeof(double));
+  if (f->shape == NULL) return HOOKE_NO_MEMORY;
+  f->mode_q = f->shape + 3 * hooke_system_particle_count(f->system);
+  memcpy(f->shape, limit->shape, bytes);
+  memcpy(f->mode_q, limit->q, bytes);
+  f->mode_time = limit->time;
+  f->mode_growth = growth;
+  f->is_above = above;
+  return HOOKE_OK;
+}
+
+static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
+  if (f->limit == NULL || f->looks > LOOKS) return HOOKE_OK;
+  if (step != f->last && hk_budget_ends(&f->budget, NULL)) return HOOKE_OK;
+  struct hk_limit *limit = f->limit->object;
+  limit->budget = step == f->last ? &limit->endless : &f->budget;
+  const double *q = hooke_state_position((hooke_state *)state);
+  int32_t status = hk_limit_look(limit, q, state->v, hooke_state_time(state));
+  if (status != HOOKE_OK)
+    return status == HOOKE_NO_MEMORY ? status : HOOKE_OK; /* then it is not known there */
+  const struct hk_limit_row *row = hk_limit_limiting_row(limit);
+  f->look[f->looks].time = hooke_state_time(state);
+  f->look[f->looks].limit = limit->row[0].predicted;
+  f->look[f->looks].frequency = f->look[f->looks].decay = f->look[f->looks].growth = NAN;
+  if (row) status = take_mode(f, limit, row, step);
+  f->looks++;
+  return status;
+}
+
+static void add_limits(const struct frames *f) {
+  hk_text_open(f->data, "limits", '[');
+  for (int32_t k = 0; k < f->looks; k++) {
+    hk_text_open(f->data, NULL, '{');
+    hk_text_number(f->data, "time", f->look[k].time);
+    if (isinf(f->look[k].limit))
+      hk_text_word(f->data, "limit", "none");
+    else
+      hk_text_number(f->data, "limit", f->look[k].limit);
+    hk_text_number(f->data, "frequency", f->look[k].frequency);
+    hk_text_number(f->data, "decay", f->look[k].decay);
+    hk_text_number(f->data, "growth", f->look[k].growth);
+    hk_text_close(f->data, '}');
+  }
+  hk_text_close(f->data, ']');
+}
+
+/* ---- frames ---- */
+
+static int32_t choose_springs(struct frames *f) {
+  int32_t status = hk_picture_create(f->system, &f->picture);
+  for (int64_t k = 0; k < f->why->limiting.count && status == HOOKE_OK; k++) {
+    if (f->why->limiting.row[k].spring >= 0) hk_picture_take(&f->picture, f->why->limiting.row[k].spring);
+  }
+  if (status != HOOKE_OK) return status;
+  const int32_t any = hk_picture_take_families(&f->picture, HOOKE_FILM_SPRINGS);
+  hk_text_open(f->data, "picture", '{');
+  hk_text_number(f->data, "springs", (double)f->picture.spring_count);
+  hk_text_number(f->data, "particles", (double)hooke_system_particle_count(f->system));
+  hk_picture_add_springs(f->data, &f->picture);
+  hk_view_add_bodies(f->data, f->system);
+  if (!any) hk_picture_show_evenly(&f->picture);
+  f->list = hk_picture_list(&f->picture);
+  return f->list ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+static double extent_of(const struct frames *f, const double *q) {
+  double extent = 0.0;
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t k = 0; k < f->picture.shown_count; k++) {
+      low = fmin(low, q[3 * f->list[k] + axis]);
+      high = fmax(high, q[3 * f->list[k] + axis]);
+    }
+    extent = fmax(extent, high - low);
+  }
+  return extent;
+}
+
+static void add_frame(struct frames *f, const hooke_state *state) {
+  const double *q = hooke_state_position((hooke_state *)state);
+  hk_text_open(f->data, NULL, '{');
+  hk_text_number(f->data, "time", hooke_state_time(state));
+  hk_text_number(f->data, "energy", energy_of(f->system, state));
+  hk_picture_add_vectors(f->data, "position", q, f->list, f->picture.shown_count,
+                         hk_picture_scale(q, f->list, f->picture.shown_count));
+  hk_text_close(f->data, '}');
+}
+
+/* One of the run as it was: its number tells the step. */
+static int32_t see_frame(int64_t k, const hooke_state *state, void *ctx) {
+  struct frames *f = ctx;
+  const int64_t step = llround((hooke_state_time(state) - f->t0) / f->h);
+  const double extent = extent_of(f, hooke_state_position((hooke_state *)state));
+  if (k == 0) f->extent = extent;
+  f->after += step > f->last;
+  if (f->after > LEAST_AFTER && f->extent > 0.0 && extent > WIDEST * f->extent) return 1;
+  add_frame(f, state);
+  f->shown++;
+  return step <= f->last && (k % 2 == 0 || step == f->last) ? look(f, state, step) : HOOKE_OK;
+}
+
+static int32_t see_advised(int64_t k, const hooke_state *state, void *ctx) {
+  (void)k;
+  add_frame(ctx, state);
+  return 0;
+}
+
+/* ---- the advised run ---- */
+
+static int32_t is_within_reach(const struct frames *f, const hooke_options *run, double until) {
+  const double steps = (until - f->why->start.standing.t) / hooke_options_number(run, "step");
+  return !hooke_method_is_adaptive(hooke_options_text(run, "method")) &&
+         steps * work_of(f->system) < ADVISED_WORK;
+}
+
+/* The first advice that is another run with a fixed step, within the work; `advised` is NULL where there is
+ * none. */
+static int32_t find_advice(const struct frames *f, const hooke_options *run, double until,
+                           hooke_options **advised, const char **change) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < f->why->advice_count && *advised == NULL && status == HOOKE_OK; k++) {
+    const struct hk_why_advice *advice = &f->why->advice[k];
+    if (advice->run == NULL || strcmp(advice->option, "duration") == 0) continue;
+    status = hooke_options_copy(run, advised);
+    if (status == HOOKE_OK) status = hk_options_set_from(*advised, advice->run);
+    *change = advice->change;
+    if (status == HOOKE_OK && is_within_reach(f, *advised, until)) break;
+    hooke_options_destroy(*advised);
+    *advised = NULL;
+  }
+  return status;
+}
+
+static int32_t add_advised(struct frames *f, const hooke_options *run, const double *time) {
+  hooke_options *advised = NULL;
+  const char *change = NULL;
+  int32_t status = f->shown > 0 ? find_advice(f, run, time[f->shown - 1], &advised, &change) : HOOKE_OK;
+  hk_text_open(f->data, "advised", '{');
+  if (advised) {
+    hk_text_word(f->data, "change", change);
+    hk_text_word(f->data, "method", hooke_options_text(advised, "method"));
+    hk_text_number(f->data, "step", hooke_options_number(advised, "step"));
+    hk_text_open(f->data, "frames", '[');
+    status = hk_why_walk(f->system, &f->why->start, advised, f->shown, time, see_advised, f);
+    hk_text_close(f->data, ']');
+  }
+  hk_text_close(f->data, '}');
+  hooke_options_destroy(advised);
+  return status;
+}
+
+/* ---- all of it ---- */
+
+/* The mode that grows, at the positions where it was found. */
+static void add_mode(const struct frames *f) {
+  if (f->shape == NULL) return;
+  hk_text_open(f->data, "mode", '{');
+  hk_text_number(f->data, "time", f->mode_time);
+  hk_text_number(f->data, "growth", f->mode_growth);
+  hk_picture_add_vectors(f->data, "position", f->mode_q, f->list, f->picture.shown_count,
+                         hk_picture_scale(f->mode_q, f->list, f->picture.shown_count));
+  hk_picture_add_vectors(f->data, "move", f->shape, f->list, f->picture.shown_count, MOVE_SCALE);
+  hk_text_close(f->data, '}');
+}
+
+static int32_t add(struct frames *f, const hooke_options *run) {
+  double time[BEFORE + AFTER + 1];
+  int32_t status = find_energies(f, run);
+  if (status != HOOKE_OK) return status;
+  add_energies(f);
+  const int64_t stride = stride_of(f), back = (f->last - f->first_energy) / stride;
+  const int64_t before = back < BEFORE ? back : BEFORE;
+  for (int64_t k = 0; k <= before + AFTER; k++)
+    time[k] = time_of(f, f->last + (k - before) * stride);
+  hk_text_number(f->data, "stride", (double)stride);
+  hk_text_number(f->data, "last", (double)before);
+  if (status == HOOKE_OK) status = choose_springs(f);
+  if (status == HOOKE_OK) status = begin_limits(f, run);
+  if (status != HOOKE_OK) return status;
+  hk_picture_add_particles(f->data, &f->picture, f->list);
+  hk_text_close(f->data, '}');
+  hk_text_open(f->data, "frames", '[');
+  status = hk_why_walk(f->system, &f->why->start, run, before + AFTER + 1, time, see_frame, f);
+  hk_text_close(f->data, ']');
+  if (status == HOOKE_OK) status = add_advised(f, run, time);
+  add_limits(f);
+  add_mode(f);
+  return status;
+}
+
+/* Adds, where steps can be taken again, "energy" (of every step around the trouble), "picture" (springs, and
+ * the mode that grows), "frames" (steps to play), "advised" (the same by the first advice with a fixed step)
+ * and "limits" (of the method, along the way). */
+static void add_frames(struct hk_text *data, const struct hk_why *why, const hooke_options *run) {
+  struct frames *f = hk_new(1, sizeof *f);
+  if (f == NULL) {
+    data->status = HOOKE_NO_MEMORY;
+    return;
+  }
+  *f = (struct frames){
+      .data = data, .why = why, .h = why->step, .t0 = why->start.standing.t0, .system = why->system};
+  f->last = llround((why->time - f->t0) / f->h);
+  const int32_t status = add(f, run);
+  if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
+  hk_picture_release(&f->picture);
+  hk_free(f->list);
+  hk_free(f->shape);
+  hooke_measurement_destroy(f->limit);
+  hk_free(f);
+}
+
+void hk_why_page_add(struct hk_text *data, const hooke_measurement *m) {
   const struct hk_why *why = m->object;
   if (why->cause == NULL) {
     data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report: no explanation was found");
     return;
   }
-  hk_measurement_add_row(data, m, "why", 0);
-  hk_measurement_add_table(data, m, "blame");
-  hk_measurement_add_table(data, m, "advice");
-  hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_text_open(data, "rows", '[');
   hk_text_open(data, NULL, '{');
   hk_text_word(data, "method", why->method);
   hk_limit_page_add_reach(data, why->system, why->method);
   hk_text_close(data, '}');
   hk_text_close(data, ']');
-  if (why->start.state && !isnan(why->step)) hk_why_frames_add(data, why, m->run);
+  if (why->start.state && !isnan(why->step)) add_frames(data, why, m->run);
 }

@@ -5,6 +5,7 @@
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "io/file/atomic_file.h"
 #include "io/file/inputs.h"
 #include "io/scene/json.h"
 #include "io/trajectory/record.h"
@@ -133,7 +134,8 @@ int32_t hooke_scene_commit(hooke_scene *scene) {
 }
 
 int32_t hooke_scene_check_output(const hooke_scene *scene, const char *path) {
-  return hk_inputs_refuse(scene->system, path);
+  const int32_t status = hk_inputs_refuse(scene->system, path);
+  return status == HOOKE_OK ? hk_atomic_file_check(path) : status;
 }
 
 void hooke_scene_destroy(hooke_scene *scene) {

@@ -4,39 +4,11 @@
 #if HOOKE_HAVE_HDF5
 
 #include "core/crc32.h"
-#include "io/hdf5/array_open_h5.h"
 #include "io/hdf5/dataset_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/trajectory/error_h5.h"
 #include "io/trajectory/file_check_h5.h"
-#include "io/trajectory/h5md_h5.h"
 
-#include <stdio.h>
 #include <string.h>
-
-/* A text in a room of `bytes`, filled with zeros. */
-static uint32_t add_padded(uint32_t value, const char *text, size_t bytes) {
-  char padded[HOOKE_ERROR_REASON] = {0};
-  memcpy(padded, text, strnlen(text, bytes));
-  return hk_crc32(value, padded, (int64_t)bytes);
-}
-
-int32_t hk_file_check_run(uint32_t description, const char *run) {
-  char digits[HOOKE_RUN_SIZE - HOOKE_RUN_RANDOM];
-  if (strlen(run) != HOOKE_RUN_SIZE - 1) return 0;
-  snprintf(digits, sizeof digits, "%08x", (unsigned)hk_crc32(description, run, HOOKE_RUN_RANDOM));
-  return strcmp(run + HOOKE_RUN_RANDOM, digits) == 0;
-}
-
-uint32_t hk_file_check_outcome(uint32_t description, const char *status, int64_t beyond, int64_t frames) {
-  const uint32_t value = add_padded(description, status, HOOKE_H5MD_STATUS);
-  return hk_crc32(hk_crc32(value, &beyond, sizeof beyond), &frames, sizeof frames);
-}
-
-uint32_t hk_file_check_error(uint32_t outcome, const double *numbers, const char *by, const char *reason) {
-  const uint32_t value = hk_crc32(outcome, numbers, HOOKE_ERROR_COUNT * sizeof *numbers);
-  return add_padded(add_padded(value, by, HOOKE_ERROR_BY), reason, HOOKE_ERROR_REASON);
-}
 
 static void add_text(uint32_t *value, const char *text) {
   *value = hk_crc32(*value, text, (int64_t)strlen(text) + 1);

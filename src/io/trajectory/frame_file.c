@@ -8,6 +8,8 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 const struct hk_observable hk_observables[HOOKE_OBSERVABLE_COUNT] = {
     {"kinetic_energy", 1},   {"potential_energy", 1}, {"total_energy", 1},
@@ -24,6 +26,26 @@ int64_t hk_frame_numbers(int64_t particle_count, int array) {
 int64_t hk_frame_bytes(int64_t particle_count, int array) {
   const int64_t size = array == HOOKE_FRAME_CHECK ? (int64_t)sizeof(uint32_t) : (int64_t)sizeof(double);
   return size * hk_frame_numbers(particle_count, array);
+}
+
+double hk_frame_all_bytes(const struct hk_frame_file *file) {
+  double bytes = 0.0;
+  for (int k = 0; k < HOOKE_FRAME_ARRAY_COUNT; k++)
+    bytes += (double)file->frame_count * (double)hk_frame_bytes(file->particle_count, k);
+  return bytes;
+}
+
+void hk_frame_path(const char *group, int array, char path[HOOKE_FRAME_PATH]) {
+  static const char *const moving[] = {"position/step", "position/time", "position/value", "velocity/value"};
+  const int all = strcmp(group, "all") == 0;
+  const char *slash = all ? "" : "/", *folder = all ? "" : group;
+  if (array < HOOKE_FRAME_OBSERVABLE)
+    snprintf(path, HOOKE_FRAME_PATH, "/particles/%s/%s", group, moving[array]);
+  else if (array == HOOKE_FRAME_CHECK)
+    snprintf(path, HOOKE_FRAME_PATH, "/hooke%s%s/frame_check", slash, folder);
+  else
+    snprintf(path, HOOKE_FRAME_PATH, "/observables%s%s/%s/value", slash, folder,
+             hk_observables[array - HOOKE_FRAME_OBSERVABLE].name);
 }
 
 /* ---- writing ---- */

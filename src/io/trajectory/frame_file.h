@@ -21,9 +21,12 @@ enum hk_frame_array {
 
 struct hk_frame_file {
   const hooke_system *system;
-  int descriptor; /* -1: none */
-  int64_t particle_count;
-  int64_t at[HOOKE_FRAME_ARRAY_COUNT]; /* offsets of the arrays */
+  char group[48];
+  int descriptor;                      /* belongs to the file's owner, who sets it; -1: none */
+  int64_t particle_count, frame_count; /* frames: those planned; while a file is read -1: not known yet */
+  int64_t written;
+  int64_t
+      at[HOOKE_FRAME_ARRAY_COUNT]; /* offsets of the arrays; in a file that is read also -1: not as here */
 };
 
 struct hk_observable {
@@ -35,6 +38,13 @@ extern const struct hk_observable hk_observables[HOOKE_OBSERVABLE_COUNT];
 /* Numbers in a row of an array, and its bytes. */
 int64_t hk_frame_numbers(int64_t particle_count, int array);
 int64_t hk_frame_bytes(int64_t particle_count, int array);
+
+/* Bytes of all frames that are planned. */
+double hk_frame_all_bytes(const struct hk_frame_file *file);
+
+/* Path of an array of a group: "/particles/all/position/value". */
+enum { HOOKE_FRAME_PATH = 160 };
+void hk_frame_path(const char *group, int array, char path[HOOKE_FRAME_PATH]);
 
 /* Writes a frame: its numbers, their check value, and its time last. Returns 0 or an errno. */
 int hk_frame_write(const struct hk_frame_file *file, int64_t frame, int64_t step, const hooke_state *state);

@@ -1,7 +1,6 @@
 /* Continues the run of a trajectory: finds the point, and opens the file for the missing frames. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
@@ -9,22 +8,20 @@
 #include "io/checkpoint/checkpoint_form.h"
 #include "io/file/atomic_file.h"
 #include "io/file/bytes.h"
+#include "io/hdf5/array_h5.h"
 #include "io/trajectory/record.h"
 #include "io/trajectory/trajectory.h"
 #include "model/callbacks.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_integrator *integrator,
                                     const hooke_state *state) {
   char *path = NULL;
   int32_t status = hooke_trajectory_sync(trajectory);
-  if (status == HOOKE_OK)
-    status = hk_file_beside(hk_trajectory_path(trajectory), HOOKE_CHECKPOINT_ENDING, &path);
-  if (status == HOOKE_OK)
-    status = hooke_checkpoint_write(path, integrator, state, hooke_trajectory_text(trajectory, "run"));
+  if (status == HOOKE_OK) status = hk_file_beside(trajectory->file.path, HOOKE_CHECKPOINT_ENDING, &path);
+  if (status == HOOKE_OK) status = hooke_checkpoint_write(path, integrator, state, trajectory->run);
   hk_free(path);
   return status;
 }
@@ -38,7 +35,6 @@ struct going {
   hooke_state *first; /* the first frame; NULL: the file has none */
   hooke_state *state; /* continues from here */
   hooke_trajectory *trajectory;
-  char origin[512];
 };
 
 /* ---- match of file and run ---- */
@@ -48,17 +44,16 @@ static int32_t refuse(const struct going *going, const char *what) {
 }
 
 /* Compares an array of the file with the system's own, number by number. */
-static int32_t check_array(const struct going *going, const char *what, int64_t count, const double *own) {
+static int32_t check_array(const struct going *going, const char *what, const char *dataset, int64_t count,
+                           const double *own) {
+  double *there = NULL;
   int64_t rows = 0, columns = 0;
-  const int32_t status = hooke_record_size(going->record, what, &rows, &columns);
-  if (status != HOOKE_OK) return status;
-  if (rows * columns != count) return refuse(going, what);
-  double *there = hk_new(count, sizeof(double));
-  if (there == NULL) return HOOKE_NO_MEMORY;
-  int32_t read = hooke_record_numbers(going->record, what, there);
-  if (read == HOOKE_OK && memcmp(there, own, (size_t)count * sizeof(double)) != 0) read = refuse(going, what);
+  int32_t status = hk_array_read(going->path, dataset, 0, 0, &there, &rows, &columns);
+  if (status == HOOKE_OK &&
+      (rows * columns != count || memcmp(there, own, (size_t)count * sizeof(double)) != 0))
+    status = refuse(going, what);
   hk_free(there);
-  return read;
+  return status;
 }
 
 static int32_t check_springs(const struct going *going) {
@@ -69,7 +64,8 @@ static int32_t check_springs(const struct going *going) {
                                    : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     numbers[k] = (double)ends[k];
-  if (status == HOOKE_OK && count > 0) status = check_array(going, "springs", count, numbers);
+  if (status == HOOKE_OK && count > 0)
+    status = check_array(going, "springs", "/connectivity/springs", count, numbers);
   hk_free(numbers);
   hk_free(ends);
   return status;
@@ -82,27 +78,25 @@ static int32_t check_fit(const struct going *going) {
   int32_t status = hk_callbacks_check(hk_callbacks_find(hooke_record_text(going->record, "callbacks")),
                                       hk_system_calls_back(going->system));
   if (status != HOOKE_OK) return hk_fail_before(status, "%s: ", going->path);
-  status = check_array(going, "mass", going->system->particle_count, hooke_system_mass(going->system));
+  status = check_array(going, "mass", "/particles/all/mass", going->system->particle_count,
+                       hooke_system_mass(going->system));
   return status == HOOKE_OK ? check_springs(going) : status;
 }
 
 /* ---- from a frame ---- */
 
-/* Repeats the divergence checks of the run at its frames; its other numbers are those of the start. */
+/* Repeats the divergence checks of the run at its frames, which the file has at other places if it was made
+ * again; the other numbers of the run are those of the start. */
 static int32_t follow(const struct going *going, int64_t frames) {
-  hooke_integrator *it = going->integrator;
-  const int64_t place = hooke_record_place(going->record, "position"),
-                bytes = it->size * (int64_t)sizeof(double);
-  const int descriptor = place < 0 ? -1 : hk_os_open(going->path);
-  int32_t status = HOOKE_OK;
-  for (int64_t k = 1; k < frames && status == HOOKE_OK; k++) {
-    const int there =
-        descriptor >= 0 && hk_bytes_read(descriptor, place + k * bytes, bytes, going->state->q) == 0;
-    if (!there) status = hooke_record_read(going->record, k, going->state);
-    if (status == HOOKE_OK) hk_divergence_follow(it, going->state);
+  const struct hk_frame_file *file = &going->trajectory->frames;
+  const int64_t bytes = hk_frame_bytes(file->particle_count, HOOKE_FRAME_POSITION);
+  int error = 0;
+  for (int64_t k = 1; k < frames && error == 0; k++) {
+    error =
+        hk_bytes_read(file->descriptor, file->at[HOOKE_FRAME_POSITION] + k * bytes, bytes, going->state->q);
+    if (error == 0) hk_divergence_follow(going->integrator, going->state);
   }
-  if (descriptor >= 0) close(descriptor);
-  return status;
+  return error ? hk_file_fail(going->path, "read its frames", error) : HOOKE_OK;
 }
 
 static int32_t stand_at_start(struct going *going) {
@@ -125,12 +119,12 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   const int32_t adaptive = going->integrator->method->adaptive;
   int32_t status = hk_trajectory_reopen(going->path, going->system, going->integrator, 0, &going->trajectory);
   if (status != HOOKE_OK) return status;
-  const int64_t there = going->first ? hk_trajectory_there(going->trajectory) : 0;
+  const int64_t there = going->first ? going->trajectory->there : 0;
   const int64_t frames = adaptive && there > 1 ? 1 : there;
   status = frames > 0 ? stand_at_frame(going, frames - 1) : stand_at_start(going);
   if (status != HOOKE_OK) return status;
   hk_trajectory_keep(going->trajectory, frames);
-  hk_print(going->origin, sizeof going->origin, "%s at t = %.6g s: %s",
+  hk_print(going->trajectory->origin, sizeof going->trajectory->origin, "%s at t = %.6g s: %s",
            frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
   return HOOKE_OK;
 }
@@ -148,7 +142,8 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
                                   &going->trajectory);
     if (status == HOOKE_OK) {
       hk_recent_set_first(&going->integrator->recent, going->first);
-      hk_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.6g s", *going->state->t);
+      hk_print(going->trajectory->origin, sizeof going->trajectory->origin, "the checkpoint, at t = %.6g s",
+               *going->state->t);
     }
     if (status != HOOKE_BAD_VALUE) return status;
     going->integrator->count = (struct hk_counts){0}; /* those of the checkpoint are of another point */
@@ -206,7 +201,6 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   if (status == HOOKE_OK) status = resume(&going);
   if (status == HOOKE_OK) {
     hooke_state_copy(going.state, state);
-    hk_trajectory_set_origin(going.trajectory, going.origin);
     *trajectory = going.trajectory;
   } else if (going.trajectory) {
     char message[512];

@@ -46,7 +46,7 @@ static void add(struct hk_text *text, const char *format, ...) {
 static void add_array(struct companion *c, const char *type, int bytes, const char *size, const char *path) {
   add(&c->text, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%s\">", type, bytes,
       size);
-  hk_text_add(&c->text, c->file, (int64_t)strlen(c->file));
+  hk_text_say(&c->text, c->file);
   add(&c->text, ":%s</DataItem>", path);
 }
 
@@ -223,7 +223,6 @@ static int32_t read_sizes(struct companion *c) {
 int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
   const char *there = hk_record_path(record);
   struct companion c = {.record = record};
-  if (there == NULL) return hk_fail(HOOKE_NOT_BUILT, NULL, "this build of the library is without HDF5");
   if (hooke_record_count(record, "frames") == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames yet", there);
   char *beside = NULL;

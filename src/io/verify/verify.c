@@ -39,27 +39,21 @@ static int is_on(const struct hk_verify *verify, const char *name) {
 }
 
 static int32_t find_slice(struct hk_verify *verify) {
-  const int64_t last = hooke_record_count(verify->record, "good_frames") - 1;
-  const double *slice = hooke_options_numbers(verify->options, "slice");
-  int64_t rows_there = 0, columns = 0;
+  const int64_t last = verify->record->good_count - 1;
+  const double *slice = hooke_options_numbers(verify->options, "slice"), *time = verify->record->time;
   verify->by_budget = !slice && !is_on(verify, "all");
   verify->from = verify->by_budget ? last / 2 : 0;
   verify->to = last;
-  int32_t status = hooke_record_size(verify->record, "time", &rows_there, &columns);
-  double *time = status == HOOKE_OK ? hk_new(rows_there, sizeof(double)) : NULL;
-  if (status == HOOKE_OK && time == NULL) status = HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = hooke_record_numbers(verify->record, "time", time);
-  while (status == HOOKE_OK && slice && verify->from < last && time[verify->from + 1] <= slice[0])
+  while (slice && verify->from < last && time[verify->from + 1] <= slice[0])
     verify->from++;
-  while (status == HOOKE_OK && slice && verify->to > 0 && time[verify->to - 1] >= slice[1])
+  while (slice && verify->to > 0 && time[verify->to - 1] >= slice[1])
     verify->to--;
-  if (status == HOOKE_OK && verify->from >= verify->to && last > 0)
-    status = hk_fail(HOOKE_BAD_VALUE, "slice",
-                     "no two frames are around %g to %g s; allowed: times from %g to %g s, ascending",
-                     slice ? slice[0] : 0.0, slice ? slice[1] : 0.0, time[0], time[last]);
-  hk_free(time);
+  if (verify->from >= verify->to && last > 0)
+    return hk_fail(HOOKE_BAD_VALUE, "slice",
+                   "no two frames are around %g to %g s; allowed: times from %g to %g s, ascending",
+                   slice ? slice[0] : 0.0, slice ? slice[1] : 0.0, time[0], time[last]);
   if (!verify->fixed) verify->from = 0;
-  return status;
+  return HOOKE_OK;
 }
 
 /* The bits of these methods depend on libraries, and through them on the processor. */
@@ -104,7 +98,7 @@ static int32_t open(struct hk_verify *verify) {
 /* As before it runs. */
 static void forget(struct hk_verify *verify) {
   verify->verdict = NULL;
-  verify->parts = hk_record_parts(verify->record);
+  verify->parts = verify->record->is_covered ? "checked" : "not-covered";
   verify->balance = "not-checked";
   verify->difference[0] = '\0';
   verify->checked = 0;
@@ -268,8 +262,8 @@ static int32_t compare_slice(struct hk_verify *verify) {
 /* Extremes over checked frames; a damaged frame may hold any numbers. */
 static void find_times(struct hk_verify *verify) {
   const int64_t from = verify->from, to = verify->to;
-  verify->time_from = from < verify->checked ? hk_record_time(verify->record, from) : NAN;
-  verify->time_to = to < verify->checked ? hk_record_time(verify->record, to) : NAN;
+  verify->time_from = from < verify->checked ? verify->record->time[from] : NAN;
+  verify->time_to = to < verify->checked ? verify->record->time[to] : NAN;
 }
 
 static int32_t run_all(struct hk_verify *verify) {

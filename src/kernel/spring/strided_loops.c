@@ -246,9 +246,8 @@ static __attribute__((noinline)) void move_otherwise(const struct hk_strided_pas
     CASE(HOOKE_KICK_DRIFT_KICK)
     CASE(HOOKE_FIRST_STAGE)
     CASE(HOOKE_MIDDLE_STAGE)
-    CASE(HOOKE_LAST_STAGE)
   default:
-    break;
+    MOVE(HOOKE_LAST_STAGE);
   }
 }
 
@@ -275,7 +274,8 @@ HOOKE_INLINE void fill_any(const struct batch *batch, const struct item *item, c
     BODY(0)
     BODY(HOOKE_RUN_DAMPED)
     BODY(HOOKE_RUN_PULL_ONLY)
-    BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
+  default:
+    fill(batch, item, 1, at, HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED, shortest, sum);
   }
 }
 

@@ -19,7 +19,7 @@ static double per_particle(const struct hk_check *check) {
          (double)hooke_system_particle_count(check->system);
 }
 
-/* ---- the whole scene ---- */
+/* ---- columns ---- */
 
 #define COUNT_OF(name, what)                                                                                 \
   HOOKE_READER(double, name, struct hk_check, (double)hooke_system_count(it->system, what))
@@ -32,117 +32,93 @@ COUNT_OF(inside_bodies, "inside_bodies")
 COUNT_OF(dropped_springs, "dropped_springs")
 COUNT_OF(idle_particles, "idle")
 HOOKE_READER(double, particles, struct hk_check, (double)it->system->particle_count)
-HOOKE_READER(double, particle_bytes, struct hk_check, per_particle(it))
-HOOKE_READER(double, spring_bytes, struct hk_check, per_spring(it))
-
-static const struct hk_column check_columns[] = {
-    HOOKE_COLUMN_BY(particles, particles, COUNT, "", "particles of the scene"),
-    HOOKE_COLUMN_BY(free_particles, free, COUNT, "", "those that are neither pinned nor driven"),
-    HOOKE_COLUMN_BY(springs, springs, COUNT, "", "springs that act"),
-    HOOKE_COLUMN_BY(triples, triples, COUNT, "", "triples of bending"),
-    HOOKE_COLUMN_BY(tetrahedra, tetrahedra, COUNT, "", "tetrahedra of altitude springs"),
-    HOOKE_COLUMN_BY(bodies, bodies, COUNT, "", "rigid bodies"),
-    HOOKE_COLUMN_BY(inside_bodies, inside_bodies, COUNT, "", "members of forces inside them, left out"),
-    HOOKE_COLUMN_BY(dropped_springs, dropped_springs, COUNT, "",
-                    "springs without stiffness and damping, left out"),
-    HOOKE_COLUMN_BY(idle_particles, idle_particles, COUNT, "", "pinned particles that nothing touches"),
-    HOOKE_COLUMN_AS(struct hk_check, most, memory_bytes, COUNT, "B", "memory at the peak of a run"),
-    HOOKE_COLUMN_AS(struct hk_check, written, memory_bytes_output, COUNT, "B",
-                    "that of a run that writes its frames"),
-    HOOKE_COLUMN_AS(struct hk_check, factor, memory_bytes_factor, COUNT, "B",
-                    "that with a factor of the equations, which an implicit method makes where that pays; "
-                    "NaN if it makes none"),
-    HOOKE_COLUMN_BY(particle_bytes, bytes_per_particle, NUMBER, "B",
-                    "memory of the model for each particle; NaN without any"),
-    HOOKE_COLUMN_BY(spring_bytes, bytes_per_spring, NUMBER, "B", "the same for each spring"),
-};
-
-/* ---- its pieces ---- */
+HOOKE_READER(double, bytes_per_particle, struct hk_check, per_particle(it))
+HOOKE_READER(double, bytes_per_spring, struct hk_check, per_spring(it))
 
 static const struct hk_group *group_of(const struct hk_check *check, const char *force, int64_t row) {
   return &check->system->group[hk_system_first_group(check->system, hk_force_find(force)) + row];
 }
 
+HOOKE_READER(const void *, derived_row, struct hk_check, &it->system->rest->derived[row])
+HOOKE_COUNTER(derived_count, struct hk_check, hooke_system_count(it->system, "derived"))
+HOOKE_READER(const char *, force_name, struct hk_check, hooke_system_force_name(it->system, row))
+HOOKE_COUNTER(force_count, struct hk_check, hooke_system_count(it->system, "forces"))
+HOOKE_READER(const char *, method, struct hk_check, it ? hooke_method_name(row) : NULL)
+HOOKE_READER(double, seconds, struct hk_check, it->bound[row])
+HOOKE_COUNTER(method_count, struct hk_check, it ? hooke_method_count() : 0)
+
 /* The groups of a force, with the number of its members by the name they have. */
 #define GROUPS(force, members)                                                                               \
   HOOKE_READER(const void *, members##_group, struct hk_check, group_of(it, #force, row))                    \
-  HOOKE_COUNTER(members##_groups, struct hk_check, hooke_system_group_count(it->system, #force))             \
-  static const struct hk_column members##_columns[] = {                                                      \
-      HOOKE_COLUMN(struct hk_group, name, TEXT, "", "name of the group; empty if it has none"),              \
-      HOOKE_COLUMN_AS(struct hk_group, count, members, COUNT, "", "its " #members)};
+  HOOKE_COUNTER(members##_groups, struct hk_check, hooke_system_group_count(it->system, #force))
 GROUPS(springs, springs)
 GROUPS(bending, triples)
 GROUPS(altitude, tetrahedra)
-
-HOOKE_READER(const void *, derived_row, struct hk_check, &it->system->rest->derived[row])
-HOOKE_COUNTER(derived_count, struct hk_check, hooke_system_count(it->system, "derived"))
-
-static const struct hk_column derived_columns[] = {
-    HOOKE_COLUMN(struct hk_derived, part, TEXT, "", "name of the part"),
-    HOOKE_COLUMN(struct hk_derived, family, TEXT, "", "its family of springs; none for the part as a whole"),
-    HOOKE_COLUMN(struct hk_derived, name, TEXT, "", "what the number is"),
-    HOOKE_COLUMN(struct hk_derived, value, NUMBER, "", "the number, in the unit of the row"),
-    HOOKE_COLUMN(struct hk_derived, unit, TEXT, "", "its unit"),
-};
-
-HOOKE_READER(const char *, force_name, struct hk_check, hooke_system_force_name(it->system, row))
-HOOKE_COUNTER(force_count, struct hk_check, hooke_system_count(it->system, "forces"))
-
-static const struct hk_column force_columns[] = {
-    HOOKE_COLUMN_BY(force_name, name, TEXT, "", "name of a force that the scene has")};
-
-HOOKE_READER(const char *, method_name, struct hk_check, it ? hooke_method_name(row) : NULL)
-HOOKE_READER(double, bound, struct hk_check, it->bound[row])
-HOOKE_COUNTER(method_count, struct hk_check, it ? hooke_method_count() : 0)
-
-static const struct hk_column limit_columns[] = {
-    HOOKE_COLUMN_BY(method_name, method, TEXT, "", "name of the method"),
-    HOOKE_COLUMN_BY(bound, seconds, NUMBER, "s",
-                    "hooke_step_bound(): certain to be stable at the start; 0: no step, infinity: any"),
-};
-
-HOOKE_READER(const void *, warning_row, struct hk_check, &it->warnings.claim[row])
-
-static const struct hk_column warning_columns[] = {
-    HOOKE_COLUMN_AS(struct hk_claim, key, kind, TEXT, "", "what it warns of"),
-    HOOKE_COLUMN(struct hk_claim, text, TEXT, "", "the sentence"),
-};
+#define GROUP_TABLE(title, members)                                                                          \
+  {                                                                                                          \
+    .name = #title, .doc = "the groups of " #members, .count = members##_groups, .row = members##_group,     \
+    HOOKE_TABLE_COLUMNS(                                                                                     \
+        HOOKE_COLUMN(struct hk_group, name, TEXT, "", "name of the group; empty if it has none"),            \
+        HOOKE_COLUMN_AS(struct hk_group, count, members, COUNT, "", "its " #members))                        \
+  }
 
 /* ---- the tables ---- */
 
-#define GROUP_TABLE(title, members)                                                                          \
-  {                                                                                                          \
-    .name = #title, .doc = "the groups of " #members, HOOKE_TABLE_COLUMNS(members##_columns),                \
-    .count = members##_groups, .row = members##_group                                                        \
-  }
-
 const struct hk_table hk_check_tables[] = {
-    {.name = "check", .doc = "the whole scene", .record = 1, HOOKE_TABLE_COLUMNS(check_columns)},
+    {.name = "check",
+     .doc = "the whole scene",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY(particles, COUNT, "", "particles of the scene"),
+         HOOKE_COLUMN_BY_AS(free_particles, free, COUNT, "", "those that are neither pinned nor driven"),
+         HOOKE_COLUMN_BY(springs, COUNT, "", "springs that act"),
+         HOOKE_COLUMN_BY(triples, COUNT, "", "triples of bending"),
+         HOOKE_COLUMN_BY(tetrahedra, COUNT, "", "tetrahedra of altitude springs"),
+         HOOKE_COLUMN_BY(bodies, COUNT, "", "rigid bodies"),
+         HOOKE_COLUMN_BY(inside_bodies, COUNT, "", "members of forces inside them, left out"),
+         HOOKE_COLUMN_BY(dropped_springs, COUNT, "", "springs without stiffness and damping, left out"),
+         HOOKE_COLUMN_BY(idle_particles, COUNT, "", "pinned particles that nothing touches"),
+         HOOKE_COLUMN_AS(struct hk_check, most, memory_bytes, COUNT, "B", "memory at the peak of a run"),
+         HOOKE_COLUMN_AS(struct hk_check, written, memory_bytes_output, COUNT, "B",
+                         "that of a run that writes its frames"),
+         HOOKE_COLUMN_AS(struct hk_check, factor, memory_bytes_factor, COUNT, "B",
+                         "that with a factor of the equations, which an implicit method makes where that "
+                         "pays; NaN if it makes none"),
+         HOOKE_COLUMN_BY(bytes_per_particle, NUMBER, "B",
+                         "memory of the model for each particle; NaN without any"),
+         HOOKE_COLUMN_BY(bytes_per_spring, NUMBER, "B", "the same for each spring"))},
     GROUP_TABLE(groups, springs),
     GROUP_TABLE(bending_groups, triples),
     GROUP_TABLE(altitude_groups, tetrahedra),
     {.name = "derived",
      .doc = "the numbers that parts made of their materials",
-     HOOKE_TABLE_COLUMNS(derived_columns),
      .count = derived_count,
-     .row = derived_row},
+     .row = derived_row,
+     HOOKE_TABLE_COLUMNS(HOOKE_COLUMN(struct hk_derived, part, TEXT, "", "name of the part"),
+                         HOOKE_COLUMN(struct hk_derived, family, TEXT, "",
+                                      "its family of springs; none for the part as a whole"),
+                         HOOKE_COLUMN(struct hk_derived, name, TEXT, "", "what the number is"),
+                         HOOKE_COLUMN(struct hk_derived, value, NUMBER, "", "in the unit of the row"),
+                         HOOKE_COLUMN(struct hk_derived, unit, TEXT, "", "its unit"))},
     {.name = "forces",
      .doc = "the forces that the scene has",
      .value = "name",
-     HOOKE_TABLE_COLUMNS(force_columns),
-     .count = force_count},
+     .count = force_count,
+     HOOKE_TABLE_COLUMNS(HOOKE_COLUMN_BY_AS(force_name, name, TEXT, "", "name of the force"))},
     {.name = "step_limit",
      .doc = "the step up to which each method is certain to be stable at the start",
      .by = "method",
      .value = "seconds",
-     HOOKE_TABLE_COLUMNS(limit_columns),
-     .count = method_count},
+     .count = method_count,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY(method, TEXT, "", "name of the method"),
+         HOOKE_COLUMN_BY(seconds, NUMBER, "s", "hooke_step_bound(): 0: at no step, infinity: at any"))},
     {.name = "warnings",
      .doc = "what is allowed but seldom meant; they are the first claims",
      .value = "text",
-     HOOKE_TABLE_COLUMNS(warning_columns),
-     HOOKE_TABLE_COUNT(struct hk_check, warnings.count),
-     .row = warning_row},
+     HOOKE_TABLE_ROWS(struct hk_check, warnings.claim, warnings.count),
+     HOOKE_TABLE_COLUMNS(HOOKE_COLUMN_AS(struct hk_claim, key, kind, TEXT, "", "what it warns of"),
+                         HOOKE_COLUMN(struct hk_claim, text, TEXT, "", "the sentence"))},
     {.name = NULL}};
 
 /* ---- claims ---- */

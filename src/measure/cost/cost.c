@@ -7,9 +7,11 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
+#include "model/group.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double ACCURACY = 1e-3;    /* of limits, relative */
@@ -27,6 +29,70 @@ static const struct hk_option_row cost_rows[] = {
 };
 
 static const struct hk_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
+
+/* ---- listing the ingredients ---- */
+
+static void add_row(struct hk_cost *cost, const char *kind, int64_t group, int64_t size) {
+  if (size > 0)
+    cost->row[cost->row_count++] =
+        (struct hk_cost_row){.kind = kind, .group = group, .size = size, .chosen = 1};
+}
+
+static void add_groups(struct hk_cost *cost) {
+  const hooke_system *system = cost->system;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    add_row(cost, group->force->name, g, group->count);
+  }
+}
+
+static void add_others(struct hk_cost *cost) {
+  const hooke_system *system = cost->system;
+  add_row(cost, "damping", -1, hk_system_is_damped(system, ~HOOKE_UNIFORM));
+  for (int32_t k = 0; hk_force_table(k); k++)
+    if (hk_force_table(k)->copy)
+      add_row(cost, hk_force_table(k)->name, -1, hk_force_is_present(system, hk_force_table(k)));
+}
+
+/* The largest first; those of one size in the order of the rows. */
+static int compare_sizes(const void *one, const void *two) {
+  const struct hk_cost_row *a = *(struct hk_cost_row *const *)one, *b = *(struct hk_cost_row *const *)two;
+  if (a->size != b->size) return a->size < b->size ? 1 : -1;
+  return (a > b) - (a < b);
+}
+
+/* Every group rebuilds the scene, so that the time for very many would grow with their square. The rows so
+ * far are those of groups. */
+static int32_t leave_small_groups_out(struct hk_cost *cost) {
+  const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
+  if (count <= most) return HOOKE_OK;
+  struct hk_cost_row **sorted = hk_new(count, sizeof *sorted);
+  if (sorted == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < count; k++)
+    sorted[k] = &cost->row[k];
+  qsort(sorted, (size_t)count, sizeof *sorted, compare_sizes);
+  for (int64_t k = most; k < count; k++)
+    sorted[k]->chosen = 0;
+  hk_free(sorted);
+  return HOOKE_OK;
+}
+
+/* Lists the ingredients, and selects those without group and as many groups as the options say. */
+static int32_t list_rows(struct hk_cost *cost) {
+  const hooke_system *system = cost->system;
+  cost->row = hk_new(system->group_count + 1 + HOOKE_FORCES, sizeof *cost->row);
+  if (cost->row == NULL) return HOOKE_NO_MEMORY;
+  add_groups(cost);
+  const int32_t status = leave_small_groups_out(cost);
+  add_others(cost);
+  for (int64_t k = 0; k < cost->row_count; k++)
+    cost->chosen_count += cost->row[k].chosen;
+  return status;
+}
+
+const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row) {
+  return row->group < 0 ? row->kind : cost->system->group[row->group].name;
+}
 
 /* ---- creating ---- */
 
@@ -63,7 +129,7 @@ static int32_t create(hooke_measurement *m) {
   cost->options = m->options;
   cost->step = NAN;
   status = choose_method(cost);
-  if (status == HOOKE_OK) status = hk_cost_list_rows(cost);
+  if (status == HOOKE_OK) status = list_rows(cost);
   forget(cost);
   return status;
 }

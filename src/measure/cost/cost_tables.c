@@ -12,24 +12,6 @@ HOOKE_READER(double, dropped_springs, struct hk_cost,
              (double)hooke_system_count(it->system, "dropped_springs"))
 HOOKE_READER(double, idle_particles, struct hk_cost, (double)hooke_system_count(it->system, "idle"))
 
-static const struct hk_column cost_columns[] = {
-    HOOKE_COLUMN(
-        struct hk_cost, method, TEXT, "",
-        "method that was timed and whose steps are limited: that of the run, or symplectic Euler where "
-        "that chooses its own steps or is not in this build"),
-    HOOKE_COLUMN(struct hk_cost, step, NUMBER, "s", "step that was timed"),
-    HOOKE_COLUMN(struct hk_cost, nanoseconds, NUMBER, "ns", "time of one step of the whole scene"),
-    HOOKE_COLUMN(struct hk_cost, resolution, NUMBER, "ns", "resolution of differences of it"),
-    HOOKE_COLUMN_AS(struct hk_cost, memory, memory_bytes, COUNT, "B",
-                    "memory of system, state and integrator"),
-    HOOKE_COLUMN_AS(struct hk_cost, limit, step_limit, NUMBER, "s",
-                    "largest stable step, as a limit predicts it; "
-                    "infinity where nothing limits it, NaN without LAPACK"),
-    HOOKE_COLUMN_BY(dropped_springs, dropped_springs, COUNT, "",
-                    "springs without stiffness and damping, which commit has left out"),
-    HOOKE_COLUMN_BY(idle_particles, idle_particles, COUNT, "", "pinned particles that nothing touches"),
-};
-
 /* ---- ingredients ---- */
 
 /* Number among the groups of its force. */
@@ -39,33 +21,46 @@ static double group_of(const struct hk_cost *cost, const struct hk_cost_row *row
   return (double)(row->group - hk_system_first_group(cost->system, force));
 }
 
-HOOKE_READER(const void *, find_row, struct hk_cost, &it->row[row])
 HOOKE_READER(const char *, ingredient, struct hk_cost, hk_cost_row_name(it, &it->row[row]))
 HOOKE_READER(double, group, struct hk_cost, group_of(it, &it->row[row]))
 HOOKE_READER(double, springs, struct hk_cost,
              strcmp(it->row[row].kind, "springs") == 0 ? (double)it->row[row].size : NAN)
 
-static const struct hk_column row_columns[] = {
-    HOOKE_COLUMN_BY(ingredient, ingredient, TEXT, "", "name of the group, else the kind"),
-    HOOKE_COLUMN(struct hk_cost_row, kind, TEXT, "",
-                 "springs, bending, altitude, damping, drag, callback or gravity"),
-    HOOKE_COLUMN_BY(group, group, COUNT, "", "number of the group, among those of its kind"),
-    HOOKE_COLUMN_BY(springs, springs, COUNT, "", "springs of the group"),
-    HOOKE_COLUMN(struct hk_cost_row, nanoseconds, NUMBER, "ns",
-                 "time of a step that it costs; 0 where nothing can be seen"),
-    HOOKE_COLUMN(struct hk_cost_row, resolution, NUMBER, "ns", "difference of two equal systems"),
-    HOOKE_COLUMN_AS(struct hk_cost_row, memory, memory_bytes, COUNT, "B", "memory that it costs"),
-    HOOKE_COLUMN_AS(struct hk_cost_row, limit, step_limit_without, NUMBER, "s",
-                    "largest stable step of the scene without it; infinity where nothing limits it"),
-};
-
 /* ---- the tables ---- */
 
 const struct hk_table hk_cost_tables[] = {
-    {.name = "cost", .doc = "the whole scene", .record = 1, HOOKE_TABLE_COLUMNS(cost_columns)},
+    {.name = "cost",
+     .doc = "the whole scene",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(
+             struct hk_cost, method, TEXT, "",
+             "method that was timed and whose steps are limited: that of the run, or symplectic Euler "
+             "where that chooses its own steps or is not in this build"),
+         HOOKE_COLUMN(struct hk_cost, step, NUMBER, "s", "step that was timed"),
+         HOOKE_COLUMN(struct hk_cost, nanoseconds, NUMBER, "ns", "time of one step of the whole scene"),
+         HOOKE_COLUMN(struct hk_cost, resolution, NUMBER, "ns", "resolution of differences of it"),
+         HOOKE_COLUMN_AS(struct hk_cost, memory, memory_bytes, COUNT, "B",
+                         "memory of system, state and integrator"),
+         HOOKE_COLUMN_AS(struct hk_cost, limit, step_limit, NUMBER, "s",
+                         "largest stable step, as a limit predicts it; infinity where nothing limits it, "
+                         "NaN without LAPACK"),
+         HOOKE_COLUMN_BY(dropped_springs, COUNT, "",
+                         "springs without stiffness and damping, which commit has left out"),
+         HOOKE_COLUMN_BY(idle_particles, COUNT, "", "pinned particles that nothing touches"))},
     {.name = "rows",
      .doc = "the ingredients that are there; numbers are NaN of those that were not looked at",
-     HOOKE_TABLE_COLUMNS(row_columns),
-     HOOKE_TABLE_COUNT(struct hk_cost, row_count),
-     .row = find_row},
+     HOOKE_TABLE_ROWS(struct hk_cost, row, row_count),
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY(ingredient, TEXT, "", "name of the group, else the kind"),
+         HOOKE_COLUMN(struct hk_cost_row, kind, TEXT, "",
+                      "springs, bending, altitude, damping, drag, callback or gravity"),
+         HOOKE_COLUMN_BY(group, COUNT, "", "number of the group, among those of its kind"),
+         HOOKE_COLUMN_BY(springs, COUNT, "", "springs of the group"),
+         HOOKE_COLUMN(struct hk_cost_row, nanoseconds, NUMBER, "ns",
+                      "time of a step that it costs; 0 where nothing can be seen"),
+         HOOKE_COLUMN(struct hk_cost_row, resolution, NUMBER, "ns", "difference of two equal systems"),
+         HOOKE_COLUMN_AS(struct hk_cost_row, memory, memory_bytes, COUNT, "B", "memory that it costs"),
+         HOOKE_COLUMN_AS(struct hk_cost_row, limit, step_limit_without, NUMBER, "s",
+                         "largest stable step of the scene without it; infinity where nothing limits it"))},
     {.name = NULL}};

@@ -1,4 +1,5 @@
-#include "measure/cost/cost_time.h"
+/* Increase of the time of a step due to an ingredient. */
+#include "measure/cost/cost.h"
 
 #include "core/clock.h"
 #include "core/memory.h"

@@ -15,7 +15,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { KEPT = 100, MOST_KEPT = 1000, STEPS_APART = 4, MOST_SEEN = 128, MOST_REFINED = 4 };
+enum {
+  KEPT = 100,
+  MOST_KEPT = 1000,
+  STEPS_APART = 4,
+  MOST_SEEN = 128,
+  MOST_REFINED = 4,
+  LEAST_COMPARED = 25
+};
 static const double KEPT_BYTES = 1 << 26, FEW_BYTES = 1 << 22;
 static const double BUDGET = 2.0;                        /* counted work for limits [s] */
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
@@ -195,28 +202,49 @@ static int is_out_of_reach(const struct hk_estimate *e) {
   return is_whole_reference(e) && !(e->pick.reference.agreement < e->want);
 }
 
-/* The picked run was compared with the reference at its frames; its end is measured on its own. */
-static void measure_by_reference(struct hk_estimate *e, const hooke_state *state) {
+/* Distances of the kept frames from trusted ones of the reference at the same times; returns how many there
+ * are. */
+static int64_t compare(const struct hk_estimate *e, double *most, double *rms) {
   const struct hk_reference *r = &e->pick.reference;
-  const int to_end = r->trusted == r->frames.count;
-  double end = 0.0, end_rms = 0.0;
-  if (to_end)
-    end_rms = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), &end);
-  if ((e->picked && r->trusted > 1) || to_end) {
-    if (e->picked) end = fmax(end, e->pick.best.error), end_rms = fmax(end_rms, e->pick.best.rms);
-    e->error = end + r->agreement;
-    e->rms = fmin(e->error, end_rms + r->agreement);
+  const double *time = r->frames.time, *kept = e->kept.time, near = 1e-9 * e->duration;
+  int64_t count = 0;
+  *most = *rms = 0.0;
+  for (int64_t f = 0, k = 0; f < e->kept.recorded; f++) {
+    double far;
+    while (k < r->trusted && time[k] - time[0] < kept[f] - kept[0] - near)
+      k++;
+    if (k == r->trusted) break;
+    if (time[k] - time[0] > kept[f] - kept[0] + near) continue;
+    *rms = fmax(*rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
+    *most = fmax(*most, far);
+    count++;
+  }
+  return count;
+}
+
+/* The picked run was compared with the reference at frames of the pick; 0 of another one that has few of
+ * them. */
+static int measure_by_reference(struct hk_estimate *e) {
+  const struct hk_reference *r = &e->pick.reference;
+  double most, rms;
+  const int64_t count = compare(e, &most, &rms);
+  if (!e->picked && count < LEAST_COMPARED && count < e->kept.recorded) return 0;
+  if (r->trusted > 1) {
+    if (e->picked) most = fmax(most, e->pick.best.error), rms = fmax(rms, e->pick.best.rms);
+    e->error = most + r->agreement;
+    e->rms = fmin(e->error, rms + r->agreement);
     e->known_until = e->begin + hk_pick_trusted(&e->pick);
     e->by = "reference";
   }
   if (is_out_of_reach(e))
     hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
-  if (to_end) return;
+  if (r->trusted == r->frames.count) return 1;
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
            r->hurried ? ", for want of time"
                       : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
+  return 1;
 }
 
 /* Why nothing is run again; NULL: it is. */
@@ -228,11 +256,8 @@ static const char *find_obstacle(const struct hk_estimate *e, const hooke_state 
   return hk_system_calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;
 }
 
-static int32_t measure_again(struct hk_estimate *e, const hooke_state *state) {
-  if (is_whole_reference(e)) {
-    measure_by_reference(e, state);
-    return HOOKE_OK;
-  }
+static int32_t measure_again(struct hk_estimate *e) {
+  if (is_whole_reference(e) && measure_by_reference(e)) return HOOKE_OK;
   int32_t status = hk_estimate_by_runs(e);
   if (status == HOOKE_OK && !isnan(e->error)) status = hk_estimate_by_other_method(e);
   /* a pick from the beginning alone: its error is over more frames */
@@ -275,7 +300,7 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
     return HOOKE_OK;
   }
   const double begun = hk_clock_seconds();
-  status = measure_again(e, state);
+  status = measure_again(e);
   forget_overflow(e);
   if (status == HOOKE_OK)
     status = hk_estimate_heat(e);

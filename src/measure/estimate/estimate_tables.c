@@ -13,47 +13,49 @@ static double memory_of(const struct hk_estimate *e) {
 HOOKE_READER(double, met, struct hk_estimate, hk_estimate_met(it))
 HOOKE_READER(double, memory_bytes, struct hk_estimate, memory_of(it))
 
-static const struct hk_column columns[] = {
-    HOOKE_COLUMN_AS(
-        struct hk_estimate, error, estimate, NUMBER, "m",
-        "error of the run: distance of the farthest free particle, at any frame, from where it should be"),
-    HOOKE_COLUMN(struct hk_estimate, rms, NUMBER, "m",
-                 "its root mean square over free particles, at the worst frame"),
-    HOOKE_COLUMN(
-        struct hk_estimate, known_until, NUMBER, "s",
-        "time up to which that holds: the end of the run or, where the motion is not predictable that "
-        "long, the time until which the reference can be trusted"),
-    HOOKE_COLUMN(struct hk_estimate, by, TEXT, "",
-                 "half-step, tolerance (of runs of the method at other steps or tolerances), other-method or "
-                 "reference; none without an estimate"),
-    HOOKE_COLUMN_AS(struct hk_estimate, want, wanted, NUMBER, "m", "wanted error"),
-    HOOKE_COLUMN_BY(met, met, FLAG, "", "1 if the run meets it"),
-    HOOKE_COLUMN_AS(
-        struct hk_estimate, rise, energy_rise, NUMBER, "",
-        "spontaneous rise of energy over the last half of the run, as a fraction of the energy of the scene"),
-    HOOKE_COLUMN(
-        struct hk_estimate, heat_excess, NUMBER, "",
-        "energy that damping and drag dissipated, at the beginning or in the last slice, beyond the energy "
-        "that was available, as such a fraction and as far as it is the heat of velocities that reverse at "
-        "each step; unknown with callbacks or error control, or where there was no time to sum it"),
-    HOOKE_COLUMN_AS(struct hk_estimate, last_error, last_piece, NUMBER, "m",
-                    "where the error is not known: what the last piece of the "
-                    "run added to it at the end, from a finer run of that piece"),
-    HOOKE_COLUMN(struct hk_estimate, last_from, NUMBER, "s",
-                 "start of that piece, whose end is that of the run"),
-    HOOKE_COLUMN_AS(struct hk_estimate, spent, seconds, NUMBER, "s",
-                    "time that picking and measuring took so far"),
-    HOOKE_COLUMN_BY(memory_bytes, memory_bytes, COUNT, "bytes",
-                    "memory of the states that it keeps while the run goes on"),
-    HOOKE_COLUMN(struct hk_estimate, reason, TEXT, "",
-                 "why the error is not known, or why the wanted one is not met"),
-    HOOKE_COLUMN(struct hk_estimate, reversal, TEXT, "",
-                 "the times on this machine of the two best picks, "
-                 "where they would reverse the choice by more than 2"),
-};
-
 /* ---- the tables ---- */
 
 const struct hk_table hk_estimate_tables[] = {
-    {.name = "estimate", .doc = "the error of the run", .record = 1, HOOKE_TABLE_COLUMNS(columns)},
+    {.name = "estimate",
+     .doc = "the error of the run",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_AS(
+             struct hk_estimate, error, estimate, NUMBER, "m",
+             "error of the run: distance of the farthest free particle, at any frame, from where it should be"),
+         HOOKE_COLUMN(struct hk_estimate, rms, NUMBER, "m",
+                      "its root mean square over free particles, at the worst frame"),
+         HOOKE_COLUMN(
+             struct hk_estimate, known_until, NUMBER, "s",
+             "time up to which that holds: the end of the run or, where the motion is not predictable "
+             "that long, the time until which the reference can be trusted"),
+         HOOKE_COLUMN(
+             struct hk_estimate, by, TEXT, "",
+             "half-step, tolerance (of runs of the method at other steps or tolerances), other-method or "
+             "reference; none without an estimate"),
+         HOOKE_COLUMN_AS(struct hk_estimate, want, wanted, NUMBER, "m", "wanted error"),
+         HOOKE_COLUMN_BY(met, FLAG, "", "1 if the run meets it"),
+         HOOKE_COLUMN_AS(
+             struct hk_estimate, rise, energy_rise, NUMBER, "",
+             "spontaneous rise of energy over the last half of the run, as a fraction of the energy of the scene"),
+         HOOKE_COLUMN(
+             struct hk_estimate, heat_excess, NUMBER, "",
+             "energy that damping and drag dissipated, at the beginning or in the last slice, beyond the "
+             "energy that was available, as such a fraction and as far as it is the heat of velocities "
+             "that reverse at each step; unknown with callbacks or error control, or where there was no "
+             "time to sum it"),
+         HOOKE_COLUMN_AS(struct hk_estimate, last_error, last_piece, NUMBER, "m",
+                         "where the error is not known: what the last piece of the run added to it at the "
+                         "end, from a finer run of that piece"),
+         HOOKE_COLUMN(struct hk_estimate, last_from, NUMBER, "s",
+                      "start of that piece, whose end is that of the run"),
+         HOOKE_COLUMN_AS(struct hk_estimate, spent, seconds, NUMBER, "s",
+                         "time that picking and measuring took so far"),
+         HOOKE_COLUMN_BY(memory_bytes, COUNT, "bytes",
+                         "memory of the states that it keeps while the run goes on"),
+         HOOKE_COLUMN(struct hk_estimate, reason, TEXT, "",
+                      "why the error is not known, or why the wanted one is not met"),
+         HOOKE_COLUMN(struct hk_estimate, reversal, TEXT, "",
+                      "the times on this machine of the two best picks, where they would reverse the "
+                      "choice by more than 2"))},
     {.name = NULL}};

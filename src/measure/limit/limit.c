@@ -158,7 +158,7 @@ static int32_t find_participation(struct hk_limit *limit) {
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status = hk_participation_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h,
                                          h, &limit->participation);
-  if (status == HOOKE_OK) hk_limiting_take(limit->system, &limit->participation, &limit->limiting);
+  if (status == HOOKE_OK) hk_limiting_take(&limit->participation, &limit->limiting);
   limit->participation.undamped = 2.0 / limit->frequency;
   limit->participation.budget = limit->budget;
   limit->participation.memory = limit->memory;

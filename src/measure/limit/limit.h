@@ -74,7 +74,8 @@ extern const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS];
   .doc =                                                                                                     \
       "limiting springs, at most 100, the largest share first; before them the force that has half of the "  \
       "whole or more, if it is not the stiffness of springs",                                                \
-  HOOKE_TABLE_COLUMNS(hk_limiting_columns), .lists = {{"spring", "first", "second"}}
+  .columns = hk_limiting_columns, .column_count = HOOKE_LIMITING_COLUMNS,                                    \
+  .lists = {{"spring", "first", "second"}}
 
 extern const struct hk_table hk_limit_tables[];
 extern const struct hk_measurement_kind hk_limit_kind;

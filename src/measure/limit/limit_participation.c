@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Inserts an element into a list of at most HOOKE_MOST_LIMITING, the largest share first and equal ones in
@@ -44,14 +43,6 @@ struct weights {
   double k, c;
 };
 
-static void add_spring(const struct hk_element *e, int64_t number, int64_t group, double stiffness,
-                       double damping, struct hk_participation *participation) {
-  const struct hk_limiting_spring spring = {number, e->particle[0],      e->particle[1],
-                                            group,  stiffness + damping, stiffness};
-  keep(participation->spring, &participation->spring_count, sizeof spring,
-       offsetof(struct hk_limiting_spring, share), &spring);
-}
-
 static void add_element(const struct hk_elements *at, const struct hk_element *e, int64_t group,
                         const double *mode, struct weights h, struct whole *whole,
                         struct hk_participation *participation) {
@@ -66,8 +57,16 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
   if (group >= 0) participation->group_share[group] += stiffness + damping;
   if (group >= 0 && stiffness + damping > participation->heaviest.share)
     participation->heaviest = (struct hk_limiting_element){force, hk_element_number(at), stiffness + damping};
+  const struct hk_limiting spring = {.spring = hk_element_number(at),
+                                     .first = e->particle[0],
+                                     .second = e->particle[1],
+                                     .share = stiffness + damping,
+                                     .stiffness_share = stiffness,
+                                     .group =
+                                         group < 0 ? "" : hk_participation_group_name(at->system, group)};
   if (at->force->kind & HOOKE_LOOPED)
-    add_spring(e, hk_element_number(at), group, stiffness, damping, participation);
+    keep(participation->spring, &participation->spring_count, sizeof spring,
+         offsetof(struct hk_limiting, share), &spring);
 }
 
 /* Shares of the elements at q; the mode is 0 at constrained particles. */
@@ -192,13 +191,15 @@ void hk_limiting_add(const hooke_system *system, int64_t spring, double share,
                      struct hk_limiting_list *list) {
   if (spring < 0 || list->count > HOOKE_MOST_LIMITING) return;
   const struct hk_spring found = hk_springs_find(system->springs, spring);
-  struct hk_limiting *made = &list->row[list->count++];
-  *made = (struct hk_limiting){.spring = spring, .first = found.head, .second = found.tail, .share = share};
-  snprintf(made->group, sizeof made->group, "%s", hk_naming_group(system, &hk_force_springs, spring));
+  list->row[list->count++] =
+      (struct hk_limiting){.spring = spring,
+                           .first = found.head,
+                           .second = found.tail,
+                           .share = share,
+                           .group = hk_naming_group(system, &hk_force_springs, spring)};
 }
 
-void hk_limiting_take(const hooke_system *system, const struct hk_participation *participation,
-                      struct hk_limiting_list *list) {
+void hk_limiting_take(const struct hk_participation *participation, struct hk_limiting_list *list) {
   const int32_t force = hk_participation_force(participation);
   list->count = force >= 0;
   if (force >= 0)
@@ -206,9 +207,10 @@ void hk_limiting_take(const hooke_system *system, const struct hk_participation 
                                         .first = -1,
                                         .second = -1,
                                         .share = participation->force_share[force],
+                                        .group = "",
                                         .force = hk_participation_force_name(force)};
   for (int64_t k = 0; k < participation->spring_count; k++)
-    hk_limiting_add(system, participation->spring[k].spring, participation->spring[k].share, list);
+    list->row[list->count++] = participation->spring[k];
 }
 
 void hk_participation_release(struct hk_participation *participation) {

@@ -8,10 +8,13 @@
 
 enum { HOOKE_MOST_LIMITING = 100 };
 
-struct hk_limiting_spring {
-  int64_t spring, first, second, group;
-  double share;           /* of x.(h^2 K + 2 h C)x, all forces included in the whole */
-  double stiffness_share; /* part of `share` due to h^2 K */
+/* What limits a step: a spring, or a force. */
+struct hk_limiting {
+  int64_t spring, first, second; /* -1: of a force */
+  double share;                  /* of x.(h^2 K + 2 h C)x, all forces included in the whole; NaN: unknown */
+  double stiffness_share;        /* part of `share` due to h^2 K */
+  const char *group;             /* of the system; "" for none */
+  const char *force;             /* NULL: a spring */
 };
 
 /* The element of a group, of any force, with the largest share; 0: none. */
@@ -38,7 +41,7 @@ enum {
 struct hk_participation {
   /* the largest shares first */
   int64_t spring_count, particle_count;
-  struct hk_limiting_spring spring[HOOKE_MOST_LIMITING];
+  struct hk_limiting spring[HOOKE_MOST_LIMITING];
   struct hk_limiting_particle particle[HOOKE_MOST_LIMITING];
   struct hk_limiting_element heaviest;
   double stiffness_share; /* of h^2 K in the whole */
@@ -68,21 +71,13 @@ int64_t hk_participation_group(const struct hk_participation *participation);
 /* Name of a group by its index in `group_share`; "" if it has none. */
 const char *hk_participation_group_name(const hooke_system *system, int64_t group);
 
-/* What limits a step: a spring, or a force. */
-struct hk_limiting {
-  int64_t spring, first, second; /* -1: of a force */
-  double share;                  /* NaN: unknown */
-  char group[256];               /* "" for none */
-  const char *force;             /* NULL: a spring */
-};
 struct hk_limiting_list {
   int64_t count;
   struct hk_limiting row[HOOKE_MOST_LIMITING + 1];
 };
 
 /* Fills the list: hk_participation_force(), if there is one, then the springs. */
-void hk_limiting_take(const hooke_system *system, const struct hk_participation *participation,
-                      struct hk_limiting_list *list);
+void hk_limiting_take(const struct hk_participation *participation, struct hk_limiting_list *list);
 /* Adds a spring; -1, or one more than there is room for, is left out. */
 void hk_limiting_add(const hooke_system *system, int64_t spring, double share, struct hk_limiting_list *list);
 

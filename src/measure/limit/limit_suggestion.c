@@ -137,25 +137,23 @@ static const char *figure(double value, char text[24]) {
 }
 
 /* ", group `hem`" if all are of one named group; a single one by its number otherwise. */
-static void add_place(const hooke_system *system, const struct hk_participation *participation,
-                      const struct set *set, char *text, size_t size) {
+static void add_place(const struct hk_participation *participation, const struct set *set, char *text,
+                      size_t size) {
   if (!set->springs) {
     if (set->count == 1)
       hk_append(text, size, ", number %lld,", (long long)participation->particle[0].particle);
     return;
   }
-  const int64_t group = participation->spring[0].group;
-  int one = hk_participation_group_name(system, group)[0] != '\0';
+  const char *group = participation->spring[0].group;
+  int one = group[0] != '\0';
   for (int64_t k = 0; k < set->count; k++)
     one &= participation->spring[k].group == group;
   if (set->count == 1) hk_append(text, size, ", number %lld,", (long long)participation->spring[0].spring);
-  if (one)
-    hk_append(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",",
-              hk_participation_group_name(system, group));
+  if (one) hk_append(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", group);
 }
 
-static void tell(const hooke_system *system, const struct hk_participation *participation,
-                 const struct set *set, struct hk_suggestion *suggestion) {
+static void tell(const struct hk_participation *participation, const struct set *set,
+                 struct hk_suggestion *suggestion) {
   char *text = suggestion->sentence;
   const size_t size = sizeof suggestion->sentence;
   const int one = set->count == 1;
@@ -165,7 +163,7 @@ static void tell(const hooke_system *system, const struct hk_participation *part
   figure(suggestion->gain, gain);
   hk_append(text, size, "%lld of %lld %s", (long long)set->count, (long long)set->of,
             set->springs ? "springs" : "free particles");
-  add_place(system, participation, set, text, size);
+  add_place(participation, set, text, size);
   hk_append(text, size, " %s a factor %s in step; ", one ? "costs" : "cost", cost);
   if (set->springs)
     hk_append(text, size, "softening %s by %s", one ? "it" : "them", factor);
@@ -274,7 +272,7 @@ static int32_t try_set(const hooke_system *system, const double *q, const char *
   suggestion->factor = factor;
   suggestion->gain = changed / limit;
   suggestion->gain_predicted = perturbed(participation, set, factor);
-  tell(system, participation, set, suggestion);
+  tell(participation, set, suggestion);
   return HOOKE_OK;
 }
 

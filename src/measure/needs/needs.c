@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "measure/quantity/watched.h"
 #include "measure/recommend/pick.h"
 #include "measure/trial/step_unit.h"
 
@@ -48,13 +49,42 @@ static int32_t read_method(struct hk_needs *needs) {
   return HOOKE_OK;
 }
 
+/* Fills `watch` from the option. HOOKE_BAD_VALUE. */
+static int32_t read_watch(struct hk_needs *needs) {
+  const hooke_system *system = needs->system;
+  const char *text = hooke_options_text(needs->options, "watch");
+  uint8_t *mark = hk_new(system->particle_count, 1);
+  if (mark == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = HOOKE_OK;
+  if (text[0] == '\0') {
+    for (int64_t p = 0; p < system->particle_count; p++)
+      mark[p] = system->constrained[p] == 0;
+  } else {
+    status = hk_watched_mark_particles(system, "watch", text, mark);
+  }
+  for (int64_t p = 0; p < system->particle_count; p++)
+    needs->watch_count += mark[p];
+  needs->watch = hk_new(needs->watch_count, sizeof *needs->watch);
+  if (status == HOOKE_OK && needs->watch == NULL) status = HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK && needs->watch_count == 0) {
+    status =
+        hk_fail(HOOKE_BAD_VALUE, "watch", "no particle of the scene is free, so there is nothing to watch");
+  }
+  int64_t at = 0;
+  for (int64_t p = 0; p < system->particle_count && status == HOOKE_OK; p++) {
+    if (mark[p]) needs->watch[at++] = p;
+  }
+  hk_free(mark);
+  return status;
+}
+
 static int32_t prepare(struct hk_needs *needs) {
   int32_t status = hk_options_check_required(needs->options);
   if (status != HOOKE_OK) return status;
   needs->want = hooke_options_number(needs->options, "want");
   status = read_times(needs);
   if (status == HOOKE_OK) status = read_method(needs);
-  if (status == HOOKE_OK) status = hk_needs_read_watch(needs);
+  if (status == HOOKE_OK) status = read_watch(needs);
   if (status != HOOKE_OK) return status;
   needs->largest_force = hk_new(needs->system->springs->count, sizeof *needs->largest_force);
   return needs->largest_force ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -67,22 +97,15 @@ static int32_t create(hooke_measurement *m) {
   needs->system = m->system;
   needs->run = m->run;
   needs->options = m->options;
-  needs->lean_error = needs->cheapest_error = needs->other_seconds = NAN;
+  hk_needs_forget(needs);
   return prepare(needs);
 }
 
 static void destroy(void *object) {
   struct hk_needs *needs = object;
   if (needs == NULL) return;
-  for (int64_t k = 0; k < needs->row_count; k++)
-    hk_variant_release(&needs->row[k].variant);
+  hk_needs_forget(needs);
   hk_needs_path_release(&needs->path);
-  hk_needs_path_release(&needs->displaced);
-  hk_needs_path_release(&needs->lean_path);
-  hk_variant_release(&needs->lean_variant);
-  hk_variant_map_release(&needs->lean_map);
-  hooke_system_destroy(needs->lean);
-  hooke_options_destroy(needs->lean_run);
   hk_free(needs->row);
   hk_free(needs->part);
   hk_free(needs->watch);

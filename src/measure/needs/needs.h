@@ -4,6 +4,7 @@
 #define HOOKE_MEASURE_NEEDS_NEEDS_H
 
 #include "measure/measurement.h"
+#include "measure/recommend/soundness.h"
 #include "model/variant/variant.h"
 
 enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
@@ -32,8 +33,8 @@ struct hk_needs_row {
   char note[HOOKE_NEEDS_NOTE];
   struct hk_variant variant;
   double error; /* [m] */
-  int32_t measured, needed, left_out;
-  int32_t untold; /* 1: nothing moves, so needs are unknown; also sets `needed` */
+  int32_t measured, left_out;
+  double needed; /* 1 or 0; NaN where nothing moves that could tell, which counts as needed */
   struct hk_needs_cost cost;
 };
 
@@ -42,6 +43,16 @@ struct hk_needs_part {
   int64_t cells[3]; /* -1: no such axis */
   double change, change_fine, order, error, factor;
   char note[HOOKE_NEEDS_NOTE];
+};
+
+/* A system with something left out, and its recommended run. */
+struct hk_needs_lean {
+  struct hk_variant variant;
+  hooke_system *system; /* NULL: there is none */
+  struct hk_variant_map map;
+  struct hk_needs_cost cost;
+  struct hk_needs_path path;
+  double error; /* [m] */
 };
 
 struct hk_needs {
@@ -64,13 +75,8 @@ struct hk_needs {
   int64_t row_count, row_capacity;
   struct hk_needs_row *row;
 
-  hooke_system *lean;
-  struct hk_variant lean_variant;
-  struct hk_variant_map lean_map;
+  struct hk_needs_lean lean;
   hooke_options *lean_run;
-  struct hk_needs_cost lean_cost;
-  struct hk_needs_path lean_path; /* of the recommended run */
-  double lean_error;
   char lean_note[HOOKE_NEEDS_NOTE];
   struct hk_needs_cost cheapest; /* of the full system within the wanted error, as of the lean one */
   double cheapest_error;
@@ -86,11 +92,6 @@ struct hk_needs {
   double spread;                     /* of the times of equal runs: the largest quotient of two */
   double told;
 };
-
-/* ---- needs_watch.c ---- */
-
-/* Fills `watch` from the option. HOOKE_BAD_VALUE. */
-int32_t hk_needs_read_watch(struct hk_needs *needs);
 
 /* ---- needs_ingredients.c ---- */
 
@@ -120,6 +121,23 @@ struct hk_needs_trial {
   const hooke_system *system;
   const struct hk_variant_map *map;
 };
+/* Of one run. */
+struct hk_needs_recorder {
+  struct hk_needs *needs;
+  const struct hk_needs_trial *trial;
+  struct hk_needs_path *path; /* NULL: only the time is needed */
+  double last_step;
+  double share_begun, fraction; /* of the measurement: before this run, and for it */
+  int32_t displaced;            /* 1: it starts from a displaced start */
+  int32_t judges, sound; /* 1: its step and its energy are judged; they are sound (recommend/soundness.h) */
+  struct hk_soundness soundness;
+};
+
+/* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. Returns HOOKE_STOPPED
+ * and other failures. */
+int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
+                          struct hk_needs_cost *cost);
+
 /* Finds the largest step, or tolerance, whose error is at most a tenth of `want`, and the cost of that run;
  * `fine` is the path of the run with half the step, which for the full system may have an error of
  * `own_error`. If differences grow so fast that no step is small enough, step_error is that of the best; the
@@ -156,6 +174,7 @@ int64_t hk_needs_known_rows(const struct hk_needs *needs);
 /* Computes the table of ingredients, then the lean system; or the resolution of every part. A failure leaves
  * no results. */
 int32_t hk_needs_find(struct hk_needs *needs);
+void hk_needs_forget(struct hk_needs *needs); /* the table and the lean system */
 int32_t hk_needs_refine(struct hk_needs *needs);
 
 /* Reports the progress of one measurement; a non-zero result asks to stop. The second is that of a pick. */

@@ -28,13 +28,13 @@ static int64_t list_rows(const struct hk_needs *needs, int32_t left_out, char na
 
 static int32_t has_unknown(const struct hk_needs *needs) {
   for (int64_t row = 0; row < hk_needs_known_rows(needs); row++)
-    if (needs->row[row].untold) return 1;
+    if (isnan(needs->row[row].needed)) return 1;
   return 0;
 }
 
 /* Both within the wanted error, each at its cheapest. */
 static void tell_saving(const struct hk_needs *needs, struct hk_claims *claims) {
-  const double lean = needs->lean_cost.wall_seconds, full = needs->cheapest.wall_seconds;
+  const double lean = needs->lean.cost.wall_seconds, full = needs->cheapest.wall_seconds;
   const int less = lean <= full;
   hk_claim(
       claims, "saving", HOOKE_OF_WHOLE, "clock",
@@ -56,7 +56,7 @@ static void tell_lean(const struct hk_needs *needs, struct hk_claims *claims) {
         claims, "lean", of, "runs",
         "%s can be left out%s: %s; the scene is then at most %.3g m off, with %.0f springs instead of %.0f",
         count == 1 ? "one ingredient" : "these ingredients", count == 1 ? "" : " together", names,
-        needs->lean_error, needs->lean_cost.springs, needs->full.springs);
+        needs->lean.error, needs->lean.cost.springs, needs->full.springs);
     tell_saving(needs, claims);
   } else if (!needs->lean_note[0]) {
     hk_claim(claims, "lean", has_unknown(needs) ? HOOKE_OF_UNKNOWN : of, "runs", "%s",
@@ -118,10 +118,10 @@ void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *clai
   const struct hk_needs *needs = measurement->object;
   const int ran = !isnan(needs->full.step_error),
             refine = hooke_options_number(needs->options, "refine") != 0.0;
-  if (ran && needs->lean) tell_lean(needs, claims);
+  if (ran && needs->lean.system) tell_lean(needs, claims);
   for (int64_t part = 0; part < needs->part_count; part++)
     tell_part(needs, &needs->part[part], claims);
-  if (!needs->lean && !refine) tell_unfinished(needs, claims);
+  if (!needs->lean.system && !refine) tell_unfinished(needs, claims);
   if (ran && needs->note[0]) hk_claim(claims, "note", HOOKE_OF_WHOLE, "runs", "%s", needs->note);
   if (ran && !judges_all(needs))
     hk_claim(

@@ -1,5 +1,5 @@
 /* The full scene: its method and its step. */
-#include "measure/needs/needs_run.h"
+#include "measure/needs/needs.h"
 
 #include "core/print.h"
 #include "core/status.h"

@@ -13,17 +13,7 @@
 static const double CLEARLY_LESS = 0.8;    /* of the work: less is not worth telling */
 static const double WORTH_SPLITTING = 0.5; /* of the work, left over if a part is written spring by spring */
 
-/* Result of a run of a lean system. */
-struct candidate {
-  struct hk_variant variant;
-  hooke_system *system;
-  struct hk_variant_map map;
-  struct hk_needs_cost cost;
-  struct hk_needs_path path; /* of the recommended run */
-  double error;
-};
-
-static void release(struct candidate *candidate) {
+static void release(struct hk_needs_lean *candidate) {
   hk_variant_release(&candidate->variant);
   hk_variant_map_release(&candidate->map);
   hk_needs_path_release(&candidate->path);
@@ -32,7 +22,7 @@ static void release(struct candidate *candidate) {
 }
 
 /* Its recommended run; NaN if it has none. */
-static int32_t try_variant(struct hk_needs *needs, struct candidate *candidate) {
+static int32_t try_variant(struct hk_needs *needs, struct hk_needs_lean *candidate) {
   candidate->error = NAN;
   int32_t status = hk_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* mutually exclusive */
@@ -46,22 +36,14 @@ static int32_t try_variant(struct hk_needs *needs, struct candidate *candidate) 
   return status;
 }
 
-static int32_t take(struct hk_needs *needs, struct candidate *candidate) {
-  hk_variant_release(&needs->lean_variant);
-  hk_variant_map_release(&needs->lean_map);
-  hooke_system_destroy(needs->lean);
+static int32_t take(struct hk_needs *needs, struct hk_needs_lean *candidate) {
+  release(&needs->lean);
   hooke_options_destroy(needs->lean_run);
-  hk_needs_path_release(&needs->lean_path);
-  needs->lean_variant = candidate->variant;
-  needs->lean_map = candidate->map;
-  needs->lean = candidate->system;
-  needs->lean_cost = candidate->cost;
-  needs->lean_path = candidate->path;
-  needs->lean_error = candidate->error;
+  needs->lean = *candidate;
   needs->lean_note[0] = '\0';
   memset(candidate, 0, sizeof *candidate);
   const int32_t status = hooke_options_copy(needs->run, &needs->lean_run);
-  return status == HOOKE_OK ? hk_needs_set_step(&needs->lean_cost, needs->lean_run) : status;
+  return status == HOOKE_OK ? hk_needs_set_step(&needs->lean.cost, needs->lean_run) : status;
 }
 
 /* In evaluations of springs and particles: unlike time, this is reproducible. */
@@ -102,23 +84,23 @@ static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {
     const struct hk_needs_row *row = &needs->row[k];
-    if (tried[k] || !row->measured || row->needed || !may_save(needs, row)) continue;
-    if (hk_variant_covers(needs->system, &needs->lean_variant, &row->variant)) continue;
+    if (tried[k] || !row->measured || row->needed != 0.0 || !may_save(needs, row)) continue;
+    if (hk_variant_covers(needs->system, &needs->lean.variant, &row->variant)) continue;
     if (found < 0 || comes_before(needs, row, &needs->row[found])) found = k;
   }
   return found;
 }
 
-static int32_t is_worth_it(const struct hk_needs *needs, const struct candidate *candidate) {
+static int32_t is_worth_it(const struct hk_needs *needs, const struct hk_needs_lean *candidate) {
   const double fraction = is_split(needs, &candidate->variant) ? WORTH_SPLITTING : 1.0;
-  return work(&candidate->cost) <= fraction * work(&needs->lean_cost);
+  return work(&candidate->cost) <= fraction * work(&needs->lean.cost);
 }
 
 static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
-  struct candidate candidate = {.system = NULL};
+  struct hk_needs_lean candidate = {.system = NULL};
   int32_t status = hk_variant_create(needs->system, &candidate.variant);
   if (status == HOOKE_OK) {
-    hk_variant_join(needs->system, &candidate.variant, &needs->lean_variant);
+    hk_variant_join(needs->system, &candidate.variant, &needs->lean.variant);
     hk_variant_join(needs->system, &candidate.variant, &row->variant);
     status = try_variant(needs, &candidate);
   }
@@ -131,7 +113,7 @@ static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
 }
 
 static int32_t begin_with_everything(struct hk_needs *needs) {
-  struct candidate candidate = {.system = NULL};
+  struct hk_needs_lean candidate = {.system = NULL};
   int32_t status = hk_variant_create(needs->system, &candidate.variant);
   if (status == HOOKE_OK) status = try_variant(needs, &candidate);
   if (status == HOOKE_OK) {
@@ -162,8 +144,8 @@ static void tidy_up(struct hk_needs *needs) {
 
 /* Reason why a row that is not needed stays in the lean system, if it has no other note. */
 static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *row) {
-  if (row->needed || row->left_out || row->note[0]) return;
-  if (hk_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
+  if (row->needed != 0.0 || row->left_out || row->note[0]) return;
+  if (hk_variant_covers(needs->system, &needs->lean.variant, &row->variant)) return;
   snprintf(row->note, sizeof row->note, "%s",
            !may_save(needs, row)            ? "saves nothing, so it stays"
            : is_split(needs, &row->variant) ? "saves too little to write a part spring by spring"
@@ -187,10 +169,10 @@ static void print_steps(const struct hk_needs_cost *cost, char text[64]) {
 static void note_bodies(struct hk_needs *needs) {
   char names[HOOKE_NEEDS_NAME] = "", lean[64], full[64];
   for (int64_t k = 0; k < needs->system->part_count; k++)
-    if (needs->lean_variant.rigid[k] && !needs->lean_variant.part[k])
+    if (needs->lean.variant.rigid[k] && !needs->lean.variant.part[k])
       append(names, needs->system->part[k].name);
   if (names[0] == '\0') return;
-  print_steps(&needs->lean_cost, lean);
+  print_steps(&needs->lean.cost, lean);
   print_steps(&needs->cheapest, full);
   hk_print(needs->lean_note, sizeof needs->lean_note, "%s: rigid (\"rigid\": true); %s instead of %s", names,
            lean, full);
@@ -202,7 +184,7 @@ static void note_splits(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   char names[HOOKE_NEEDS_NAME] = "";
   int64_t count = 0;
-  for (int64_t g = -1; (g = hk_variant_next_split(system, &needs->lean_variant, g + 1)) >= 0; count++) {
+  for (int64_t g = -1; (g = hk_variant_next_split(system, &needs->lean.variant, g + 1)) >= 0; count++) {
     append(names, system->group[g].name);
   }
   if (count == 0) return;
@@ -214,8 +196,8 @@ static void note_splits(struct hk_needs *needs) {
 
 /* Repeats both runs in turns, so that their times are comparable. */
 static int32_t compare_times(struct hk_needs *needs) {
-  const struct hk_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean, &needs->lean_map}};
-  struct hk_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean_cost};
+  const struct hk_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean.system, &needs->lean.map}};
+  struct hk_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean.cost};
   return hk_needs_time_in_turns(needs, trial, cost);
 }
 
@@ -265,24 +247,17 @@ static int32_t find_lean(struct hk_needs *needs) {
   return status;
 }
 
-/* As before the table was begun. */
-static void forget(struct hk_needs *needs) {
+void hk_needs_forget(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);
   needs->row_count = 0;
   hk_needs_path_release(&needs->displaced);
-  hk_needs_path_release(&needs->lean_path);
-  hk_variant_release(&needs->lean_variant);
-  hk_variant_map_release(&needs->lean_map);
-  hooke_system_destroy(needs->lean);
+  release(&needs->lean);
   hooke_options_destroy(needs->lean_run);
-  needs->lean = NULL;
   needs->lean_run = NULL;
-  needs->lean_error = needs->cheapest_error = NAN;
+  needs->lean.error = needs->cheapest_error = needs->other_seconds = NAN;
   needs->lean_note[0] = '\0';
   needs->other_method = NULL;
-  needs->other_seconds = NAN;
-  memset(&needs->lean_cost, 0, sizeof needs->lean_cost);
 }
 
 int32_t hk_needs_find(struct hk_needs *needs) {
@@ -291,6 +266,6 @@ int32_t hk_needs_find(struct hk_needs *needs) {
   if (status == HOOKE_OK) status = hk_needs_run_full(needs);
   if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
   if (status == HOOKE_OK) status = find_lean(needs);
-  if (status < 0) forget(needs);
+  if (status < 0) hk_needs_forget(needs);
   return status;
 }

@@ -25,8 +25,7 @@ static void judge(const struct hk_needs *needs, const struct hk_needs_path *path
   const double beyond = fmax(0.0, row->cost.step_error - HOOKE_NEEDS_STEP_SHARE * needs->want);
   row->error = hk_needs_distance(needs, &needs->path, path);
   row->needed = !(row->error + beyond <= needs->want);
-  row->untold = !row->needed && hk_needs_rests(needs);
-  if (row->untold) row->needed = 1;
+  if (row->needed == 0.0 && hk_needs_rests(needs)) row->needed = NAN;
   if (beyond > 0.0)
     hk_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
 }
@@ -35,7 +34,7 @@ static void judge(const struct hk_needs *needs, const struct hk_needs_path *path
 static int32_t judge_displaced(struct hk_needs *needs, const struct hk_needs_trial *trial,
                                struct hk_needs_row *row) {
   double error;
-  if (row->needed) return HOOKE_OK;
+  if (row->needed != 0.0) return HOOKE_OK;
   const int32_t status = hk_needs_displace(needs, trial, &row->cost, &error);
   if (status != HOOKE_OK || error <= needs->want) return status;
   row->needed = 1;
@@ -98,7 +97,7 @@ static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
     tried = count;
     name_idle(row, idle_shares[k] * most, count);
     const int32_t status = hk_needs_run_row(needs, row);
-    if (status != HOOKE_OK || !row->needed) return status;
+    if (status != HOOKE_OK || row->needed == 0.0) return status;
   }
   return HOOKE_OK;
 }

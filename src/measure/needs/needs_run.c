@@ -1,5 +1,5 @@
 /* One run of a variant: the watched positions at every frame, and the cost. */
-#include "measure/needs/needs_run.h"
+#include "measure/needs/needs.h"
 
 #include "core/memory.h"
 #include "core/random.h"

@@ -1,5 +1,5 @@
 /* Finds the step with which a variant has an error of at most a tenth of the wanted one. */
-#include "measure/needs/needs_run.h"
+#include "measure/needs/needs.h"
 
 #include "core/clock.h"
 #include "core/status.h"

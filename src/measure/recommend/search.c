@@ -3,7 +3,6 @@
 #include "measure/recommend/pick.h"
 #include "measure/recommend/soundness.h"
 #include "measure/spectrum/step_bound.h"
-#include "measure/trial/displaced.h"
 
 #include "core/status.h"
 #include "measure/counted_work/work.h"

@@ -5,7 +5,6 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "measure/study/study.h"
-#include "measure/trial/displaced.h"
 
 #include <math.h>
 #include <stddef.h>

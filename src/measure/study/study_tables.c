@@ -14,12 +14,6 @@ static int is_made(const struct hk_study *study) {
 
 HOOKE_READER(double, frames, struct hk_study, is_made(it) ? (double)it->reference.trusted : NAN)
 
-static const struct hk_column study_columns[] = {
-    HOOKE_COLUMN(struct hk_study, duration, NUMBER, "s", "duration of the run"),
-    HOOKE_COLUMN_BY(frames, frames, COUNT, "", "frames over which errors are judged"),
-    HOOKE_COLUMN(struct hk_study, budget_spent, FLAG, "", "rows are missing for lack of time"),
-};
-
 /* ---- the reference ---- */
 
 static const char *how_it_ended(const struct hk_study *study) {
@@ -35,98 +29,21 @@ HOOKE_READER(double, checked_until, struct hk_study,
              hk_reference_time(&it->reference, it->reference.checked, it->duration))
 HOOKE_COUNTER(trusted, struct hk_study, it->reference.trusted)
 
-static const struct hk_column reference_columns[] = {
-    HOOKE_COLUMN(
-        struct hk_reference, agreement, NUMBER, "m",
-        "twice the largest distance of a particle between the two over the frames that are trusted, and of "
-        "what rounding may do to one; no error below it means anything, and none within ten times of it "
-        "much; NaN if no frame after the start is trusted"),
-    HOOKE_COLUMN_BY(trusted_until, trusted_until, NUMBER, "s",
-                    "time up to which the two agree to the wanted digits; errors are judged up to there"),
-    HOOKE_COLUMN(struct hk_reference, growth, NUMBER, "",
-                 "factor by which a small displacement of the start grows at "
-                 "most, with growth_probability; NaN where that is not known"),
-    HOOKE_COLUMN(struct hk_reference, growth_probability, NUMBER, "", "probability that growth holds"),
-    HOOKE_COLUMN(struct hk_reference, growth_seen, NUMBER, "",
-                 "the largest growth of the displacements tried"),
-    HOOKE_COLUMN(struct hk_reference, displacements, COUNT, "", "displacements tried"),
-    HOOKE_COLUMN(struct hk_reference, energy_agreement, NUMBER, "J",
-                 "twice the largest difference of their energies there"),
-    HOOKE_COLUMN_BY(
-        ended, ended, TEXT, "",
-        "why they were tightened no further: agreed, time (the budget was short), rounding (it keeps "
-        "them apart at the tightest tolerances), or parted (which ends a first look)"),
-    HOOKE_COLUMN(struct hk_reference, method, TEXT, "", "integrator that made the reference"),
-    HOOKE_COLUMN(struct hk_reference, check, TEXT, "",
-                 "integrator that checked it; they share only the forces"),
-    HOOKE_COLUMN_BY(checked_until, checked_until, NUMBER, "s",
-                    "time up to which the two were compared; before the end where the budget was spent"),
-    HOOKE_COLUMN_AS(struct hk_reference, frames.zero_passages, zero_passages, TEXT, "",
-                    "of springs that passed through length zero in it; empty where none did"),
-    HOOKE_COLUMN_AS(struct hk_reference, frames.time, time, SERIES, "s",
-                    "times of the frames that are judged"),
-};
-
 /* ---- rows ---- */
 
 int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row) {
   return row->trial.error <= NEAR * fmax(study->reference.agreement, row->trial.rounding);
 }
 
-HOOKE_READER(const void *, find_row, struct hk_study, &it->row[row])
 HOOKE_READER(const char *, row_method, struct hk_study, it->method[it->row[row].method])
 HOOKE_READER(double, near_floor, struct hk_study, hk_study_is_near_floor(it, &it->row[row]))
 HOOKE_READER(double, near_energy_floor, struct hk_study,
              it->row[row].trial.energy_drift <= NEAR * it->reference.energy_agreement)
 
-static const struct hk_column row_columns[] = {
-    HOOKE_COLUMN_BY(row_method, method, TEXT, "", "method"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.step, step, NUMBER, "s", "step of a fixed-step method"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.rtol, rtol, NUMBER, "",
-                    "relative tolerance of an error-controlled method"),
-    HOOKE_TRIAL_COLUMNS(struct hk_study_row),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.wall_seconds, wall_seconds, NUMBER, "s",
-                    "wall time, the least of the repeated runs"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.status, status, TEXT, "",
-                    "finished, diverged, stopped or failed"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.atol, atol, NUMBER, "m", "absolute tolerance of positions"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.linear_iterations, linear_iterations, COUNT, "",
-                    "iterations of linear solvers"),
-    HOOKE_COLUMN(struct hk_study_row, wall_median, NUMBER, "s", "median of the repeated runs"),
-    HOOKE_COLUMN(struct hk_study_row, repeats, COUNT, "", "runs that were timed"),
-    HOOKE_COLUMN_BY(near_floor, near_floor, FLAG, "",
-                    "the error is within ten times of the agreement, or of what rounding may do"),
-    HOOKE_COLUMN_BY(near_energy_floor, near_energy_floor, FLAG, "",
-                    "the energy drift is within ten times of the agreement of energies"),
-    HOOKE_COLUMN(struct hk_study_row, timed_alone, FLAG, "",
-                 "0: timed while other rows were running, so its time may be too long"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.error_at, error_at, SERIES, "m",
-                    "root mean square distance at every frame"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.error_max_at, error_max_at, SERIES, "m",
-                    "largest distance of any free particle at every frame"),
-    HOOKE_COLUMN_AS(struct hk_study_row, trial.drift_at, energy_drift_at, SERIES, "J",
-                    "energy less that of the reference at every frame"),
-};
-
 /* ---- orders ---- */
 
-HOOKE_READER(const void *, find_order, struct hk_study, &it->order[row])
 HOOKE_READER(const char *, order_method, struct hk_study, it->method[row])
 HOOKE_COUNTER(count_orders, struct hk_study, is_made(it) ? it->method_count : 0)
-
-static const struct hk_column order_columns[] = {
-    HOOKE_COLUMN_BY(order_method, method, TEXT, "", "method"),
-    HOOKE_COLUMN(
-        struct hk_study_order, order, NUMBER, "",
-        "slope of log error over log step by least squares, over the finest rows clear of the floor; NaN "
-        "with fewer than three of them, and for an error-controlled method"),
-    HOOKE_COLUMN(struct hk_study_order, low, NUMBER, "",
-                 "lower end of the 95 % confidence interval of that "
-                 "slope, as if errors scattered about a line by chance"),
-    HOOKE_COLUMN(struct hk_study_order, high, NUMBER, "", "upper end of that interval"),
-    HOOKE_COLUMN(struct hk_study_order, theory, NUMBER, "", "the method's order"),
-    HOOKE_COLUMN(struct hk_study_order, note, TEXT, "", "why they may differ"),
-};
 
 /* ---- the recommendation ---- */
 
@@ -163,33 +80,6 @@ HOOKE_COUNTER(count_recommendations, struct hk_study, hk_study_recommends(it))
 HOOKE_READER(const char *, command, struct hk_study,
              it->recommendation.met ? it->measurement->label[HOOKE_LABEL_COMMAND] : NULL)
 
-static const struct hk_column recommendation_columns[] = {
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.want, want, NUMBER, "m",
-                    "the wanted error, a distance that no free particle exceeds"),
-    HOOKE_COLUMN_BY(recommended_method, method, TEXT, "",
-                    "method of the cheapest run that meets the wanted error, else of the closest run"),
-    HOOKE_COLUMN_BY(recommended_step, step, NUMBER, "s", "its step"),
-    HOOKE_COLUMN_BY(recommended_rtol, rtol, NUMBER, "", "its relative tolerance"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.error, error, NUMBER, "m",
-                    "its error: the largest distance of any free particle"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.until, until, NUMBER, "s",
-                    "time up to which that holds; before the end where nobody knows the motion that long"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.wall_seconds, wall_seconds, NUMBER, "s",
-                    "its wall time, the least of several"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.wall_median, wall_median, NUMBER, "s", "their median"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.met, met, FLAG, "",
-                    "a run was seen to have at most that error"),
-    HOOKE_COLUMN_AS(
-        struct hk_study, recommendation.note, note, TEXT, "",
-        "what is in the way where nothing meets it; else empty, or that this machine's times would reverse "
-        "the choice, which is by counted work"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.atol, atol, NUMBER, "m",
-                    "its absolute tolerance of positions"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.force_evaluations, force_evaluations, COUNT, "",
-                    "its evaluations of the forces"),
-    HOOKE_COLUMN_BY(command, command, TEXT, "", "its command line, where the caller gave one as a label"),
-};
-
 /* ---- its margin ---- */
 
 /* fmax() would take an unknown number for 0. */
@@ -201,40 +91,13 @@ static double least_error(const struct hk_study *study) {
 HOOKE_READER(double, error_low, struct hk_study, least_error(it))
 HOOKE_READER(double, error_high, struct hk_study, it->recommendation.error + it->reference.agreement)
 
-static const struct hk_column margin_columns[] = {
-    HOOKE_COLUMN_BY(error_low, error_low, NUMBER, "m", "error less the agreement of the reference"),
-    HOOKE_COLUMN_BY(error_high, error_high, NUMBER, "m", "error plus the agreement of the reference"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.limit_share, limit_share, NUMBER, "",
-                    "its step over the largest stable one at the start"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.holds[HOOKE_STUDY_STIFFNESS], holds_stiffness,
-                    FLAG, "", "the wanted error is met with 10 % more stiffness, and with 10 % less"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.error[HOOKE_STUDY_STIFFNESS], error_stiffness,
-                    NUMBER, "m", "the larger error of those two"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.holds[HOOKE_STUDY_START], holds_start, FLAG, "",
-                    "the wanted error is met with 10 % of the largest speed "
-                    "added along (1, 1, 1) at the start, and against it"),
-    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.error[HOOKE_STUDY_START], error_start, NUMBER, "m",
-                    "the larger error of those two"),
-};
-
 /* ---- watched quantities ---- */
 
 HOOKE_COUNTER(count_watched, struct hk_study, it->reference.frames.watched.list ? it->watched.count : 0)
-HOOKE_READER(const void *, find_watched, struct hk_study, &it->watched.item[row])
 HOOKE_READER(const char *, watched_unit, struct hk_study, hk_watched_unit(&it->watched.item[row]))
 HOOKE_READER(double, agreement, struct hk_study, it->reference.frames.watched.figure[row])
 HOOKE_READER(const double *, watched_value, struct hk_study,
              hk_watched_series_of(&it->reference.frames.watched, row))
-
-static const struct hk_column watched_columns[] = {
-    HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
-    HOOKE_COLUMN_BY(watched_unit, unit, TEXT, "", "its unit"),
-    HOOKE_COLUMN_BY(agreement, agreement, NUMBER, "of the quantity",
-                    "twice the largest difference in it between the two "
-                    "integrators of the reference, the floor of its errors"),
-    HOOKE_COLUMN_BY(watched_value, value, SERIES, "of the quantity",
-                    "the reference's values at every frame; of a period those of the quantity that it is of"),
-};
 
 /* ---- their errors ---- */
 
@@ -251,31 +114,10 @@ HOOKE_READER(double, error, struct hk_study, series_of(it, row)->figure[row % co
 HOOKE_READER(const double *, error_value, struct hk_study,
              hk_watched_series_of(series_of(it, row), row % count_watched(it)))
 
-static const struct hk_column error_columns[] = {
-    HOOKE_COLUMN_ALONG(OUTER, row_number, row, COUNT, "", "row of the table \"rows\""),
-    HOOKE_COLUMN_ALONG(INNER, error_unit, unit, TEXT, "", "unit of the quantity"),
-    HOOKE_COLUMN_ALONG(INNER, error_quantity, quantity, TEXT, "", "watched quantity"),
-    HOOKE_COLUMN_BY(error, error, NUMBER, "of the quantity",
-                    "the largest difference from the reference over the frames "
-                    "that are trusted; of a period that of the two periods over "
-                    "these, NaN with fewer than two passages or four frames a period"),
-    HOOKE_COLUMN_BY(error_value, value, SERIES, "of the quantity", "its values at every frame"),
-};
-
 /* ---- the ensemble ---- */
 
-HOOKE_READER(const void *, find_ensemble, struct hk_study, it->ensemble)
 HOOKE_READER(double, seed, struct hk_study, hooke_options_number(it->options, "seed"))
 HOOKE_COUNTER(count_ensembles, struct hk_study, it->ensemble != NULL)
-
-static const struct hk_column ensemble_columns[] = {
-    HOOKE_COLUMN(struct hk_ensemble, members, COUNT, "", "displaced runs of each method"),
-    HOOKE_COLUMN(struct hk_ensemble, from, NUMBER, "s", "begin of the means over time"),
-    HOOKE_COLUMN(struct hk_ensemble, until, NUMBER, "s", "end of the means over time"),
-    HOOKE_COLUMN(struct hk_ensemble, noise, NUMBER, "m",
-                 "root mean square displacement of a free particle at the start"),
-    HOOKE_COLUMN_BY(seed, seed, COUNT, "", "seed of the noise"),
-};
 
 /* ---- statistics ---- */
 
@@ -347,88 +189,233 @@ HOOKE_READER(double, mean, struct hk_study, sample_of(it, row).mean)
 HOOKE_READER(double, spread, struct hk_study, sample_of(it, row).spread)
 HOOKE_READER(double, bias, struct hk_study, bias_of(it, row))
 
-static const struct hk_column statistic_columns[] = {
-    HOOKE_COLUMN_ALONG(OUTER, statistic_method, method, TEXT, "", "method, the reference first"),
-    HOOKE_COLUMN_ALONG(INNER, statistic_quantity, quantity, TEXT, "",
-                       "kinetic, potential, energy, and what is watched"),
-    HOOKE_COLUMN_ALONG(INNER, statistic_unit, unit, TEXT, "", "unit of the quantity"),
-    HOOKE_COLUMN_BY(statistic_step, step, NUMBER, "s", "step of the runs"),
-    HOOKE_COLUMN_BY(statistic_rtol, rtol, NUMBER, "", "relative tolerance of the runs"),
-    HOOKE_COLUMN_BY(statistic_members, members, COUNT, "", "runs that have the quantity"),
-    HOOKE_COLUMN(struct hk_ensemble_source, failed, COUNT, "",
-                 "runs that did not come to their end; a method that has one has no statistics"),
-    HOOKE_COLUMN_BY(mean, mean, NUMBER, "of the quantity", "mean over the runs of each run's mean over time"),
-    HOOKE_COLUMN_BY(spread, spread, NUMBER, "of the quantity", "standard deviation of the runs"),
-    HOOKE_COLUMN_BY(bias, bias, NUMBER, "",
-                    "the mean less the reference's, in standard errors "
-                    "of that difference; below 2 in size none is seen"),
-};
-
 /* ---- the tables ---- */
 
 const struct hk_table hk_study_tables[] = {
-    {.name = "study", .doc = "the study itself", .record = 1, HOOKE_TABLE_COLUMNS(study_columns)},
+    {.name = "study",
+     .doc = "the study itself",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(struct hk_study, duration, NUMBER, "s", "duration of the run"),
+         HOOKE_COLUMN_BY(frames, COUNT, "", "frames over which errors are judged"),
+         HOOKE_COLUMN(struct hk_study, budget_spent, FLAG, "", "rows are missing for lack of time"))},
     {.name = "reference",
      .doc = "the solution that errors are measured against, made by two integrators that check each other",
      .record = 1,
-     HOOKE_TABLE_COLUMNS(reference_columns),
      .lists = {{"methods", "method", "check"}},
      .row = find_reference,
-     .length = trusted},
+     .length = trusted,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(
+             struct hk_reference, agreement, NUMBER, "m",
+             "twice the largest distance of a particle between the two over the frames that are trusted, "
+             "and of what rounding may do to one; no error below it means anything, and none within ten "
+             "times of it much; NaN if no frame after the start is trusted"),
+         HOOKE_COLUMN_BY(
+             trusted_until, NUMBER, "s",
+             "time up to which the two agree to the wanted digits; errors are judged up to there"),
+         HOOKE_COLUMN(struct hk_reference, growth, NUMBER, "",
+                      "factor by which a small displacement of the start grows at most, with "
+                      "growth_probability; NaN where that is not known"),
+         HOOKE_COLUMN(struct hk_reference, growth_probability, NUMBER, "", "probability that growth holds"),
+         HOOKE_COLUMN(struct hk_reference, growth_seen, NUMBER, "",
+                      "the largest growth of the displacements tried"),
+         HOOKE_COLUMN(struct hk_reference, displacements, COUNT, "", "displacements tried"),
+         HOOKE_COLUMN(struct hk_reference, energy_agreement, NUMBER, "J",
+                      "twice the largest difference of their energies there"),
+         HOOKE_COLUMN_BY(
+             ended, TEXT, "",
+             "why they were tightened no further: agreed, time (the budget was short), rounding (it keeps "
+             "them apart at the tightest tolerances), or parted (which ends a first look)"),
+         HOOKE_COLUMN(struct hk_reference, method, TEXT, "", "integrator that made the reference"),
+         HOOKE_COLUMN(struct hk_reference, check, TEXT, "",
+                      "integrator that checked it; they share only the forces"),
+         HOOKE_COLUMN_BY(checked_until, NUMBER, "s",
+                         "time up to which the two were compared; before the end where the budget was spent"),
+         HOOKE_COLUMN_AS(struct hk_reference, frames.zero_passages, zero_passages, TEXT, "",
+                         "of springs that passed through length zero in it; empty where none did"),
+         HOOKE_COLUMN_AS(struct hk_reference, frames.time, time, SERIES, "s",
+                         "times of the frames that are judged"))},
     {.name = "rows",
      .doc = "a method with one step or tolerance each, the coarsest first",
-     HOOKE_TABLE_COLUMNS(row_columns),
-     HOOKE_TABLE_COUNT(struct hk_study, row_count),
-     .row = find_row,
-     .length = trusted},
+     HOOKE_TABLE_ROWS(struct hk_study, row, row_count),
+     .length = trusted,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY_AS(row_method, method, TEXT, "", "method"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.step, step, NUMBER, "s", "step of a fixed-step method"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.rtol, rtol, NUMBER, "",
+                         "relative tolerance of an error-controlled method"),
+         HOOKE_COLUMN_AS(
+             struct hk_study_row, trial.error, error, NUMBER, "m",
+             "largest root mean square over the free particles of the distance to the reference; no error "
+             "is below what rounding may do to a position in the steps taken, half a unit in its last "
+             "place in each; NaN where nothing after the start is judged"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_max, error_max, NUMBER, "m",
+                         "largest distance of any free particle, which a wanted error is held against"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_final, error_final, NUMBER, "m",
+                         "root mean square distance at the last judged frame"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.energy_drift, energy_drift, NUMBER, "J",
+                         "largest difference of energy from the reference"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.force_evaluations, force_evaluations, COUNT, "",
+                         "evaluations of the forces"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.steps, steps, COUNT, "", "steps taken"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.wall_seconds, wall_seconds, NUMBER, "s",
+                         "wall time, the least of the repeated runs"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.status, status, TEXT, "",
+                         "finished, diverged, stopped or failed"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.atol, atol, NUMBER, "m",
+                         "absolute tolerance of positions"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.linear_iterations, linear_iterations, COUNT, "",
+                         "iterations of linear solvers"),
+         HOOKE_COLUMN(struct hk_study_row, wall_median, NUMBER, "s", "median of the repeated runs"),
+         HOOKE_COLUMN(struct hk_study_row, repeats, COUNT, "", "runs that were timed"),
+         HOOKE_COLUMN_BY(near_floor, FLAG, "",
+                         "the error is within ten times of the agreement, or of what rounding may do"),
+         HOOKE_COLUMN_BY(near_energy_floor, FLAG, "",
+                         "the energy drift is within ten times of the agreement of energies"),
+         HOOKE_COLUMN(struct hk_study_row, timed_alone, FLAG, "",
+                      "0: timed while other rows were running, so its time may be too long"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_at, error_at, SERIES, "m",
+                         "root mean square distance at every frame"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_max_at, error_max_at, SERIES, "m",
+                         "largest distance of any free particle at every frame"),
+         HOOKE_COLUMN_AS(struct hk_study_row, trial.drift_at, energy_drift_at, SERIES, "J",
+                         "energy less that of the reference at every frame"))},
     {.name = "orders",
      .doc = "the order that each method showed",
      .by = "method",
-     HOOKE_TABLE_COLUMNS(order_columns),
      .count = count_orders,
-     .row = find_order},
+     HOOKE_TABLE_AT(struct hk_study, order),
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY_AS(order_method, method, TEXT, "", "method"),
+         HOOKE_COLUMN(
+             struct hk_study_order, order, NUMBER, "",
+             "slope of log error over log step by least squares, over the finest rows clear of the floor; "
+             "NaN with fewer than three of them, and for an error-controlled method"),
+         HOOKE_COLUMN(struct hk_study_order, low, NUMBER, "",
+                      "lower end of the 95 % confidence interval of that slope, as if errors scattered "
+                      "about a line by chance"),
+         HOOKE_COLUMN(struct hk_study_order, high, NUMBER, "", "upper end of that interval"),
+         HOOKE_COLUMN(struct hk_study_order, theory, NUMBER, "", "the method's order"),
+         HOOKE_COLUMN(struct hk_study_order, note, TEXT, "", "why they may differ"))},
     {.name = "recommendation",
      .doc = "which run to make for the wanted error",
      .record = 1,
-     HOOKE_TABLE_COLUMNS(recommendation_columns),
-     .count = count_recommendations},
+     .count = count_recommendations,
+     HOOKE_TABLE_IN(struct hk_study, recommendation),
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(struct hk_study_recommendation, want, NUMBER, "m",
+                      "the wanted error, a distance that no free particle exceeds"),
+         HOOKE_COLUMN_BY_AS(
+             recommended_method, method, TEXT, "",
+             "method of the cheapest run that meets the wanted error, else of the closest run"),
+         HOOKE_COLUMN_BY_AS(recommended_step, step, NUMBER, "s", "its step"),
+         HOOKE_COLUMN_BY_AS(recommended_rtol, rtol, NUMBER, "", "its relative tolerance"),
+         HOOKE_COLUMN(struct hk_study_recommendation, error, NUMBER, "m",
+                      "its error: the largest distance of any free particle"),
+         HOOKE_COLUMN(struct hk_study_recommendation, until, NUMBER, "s",
+                      "time up to which that holds; before the end where nobody knows the motion that long"),
+         HOOKE_COLUMN(struct hk_study_recommendation, wall_seconds, NUMBER, "s",
+                      "its wall time, the least of several"),
+         HOOKE_COLUMN(struct hk_study_recommendation, wall_median, NUMBER, "s", "their median"),
+         HOOKE_COLUMN(struct hk_study_recommendation, met, FLAG, "",
+                      "a run was seen to have at most that error"),
+         HOOKE_COLUMN(
+             struct hk_study_recommendation, note, TEXT, "",
+             "what is in the way where nothing meets it; else empty, or that this machine's times would "
+             "reverse the choice, which is by counted work"),
+         HOOKE_COLUMN(struct hk_study_recommendation, atol, NUMBER, "m",
+                      "its absolute tolerance of positions"),
+         HOOKE_COLUMN(struct hk_study_recommendation, force_evaluations, COUNT, "",
+                      "its evaluations of the forces"),
+         HOOKE_COLUMN_BY(command, TEXT, "", "its command line, where the caller gave one as a label"))},
     {.name = "margin",
      .doc = "what the recommendation has to spare",
      .group = "recommendation",
      .inside = "recommendation",
      .record = 1,
-     HOOKE_TABLE_COLUMNS(margin_columns),
-     .count = count_recommendations},
+     .count = count_recommendations,
+     HOOKE_TABLE_IN(struct hk_study, recommendation.margin),
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY(error_low, NUMBER, "m", "error less the agreement of the reference"),
+         HOOKE_COLUMN_BY(error_high, NUMBER, "m", "error plus the agreement of the reference"),
+         HOOKE_COLUMN(struct hk_study_margin, limit_share, NUMBER, "",
+                      "its step over the largest stable one at the start"),
+         HOOKE_COLUMN_AS(struct hk_study_margin, holds[HOOKE_STUDY_STIFFNESS], holds_stiffness, FLAG, "",
+                         "the wanted error is met with 10 % more stiffness, and with 10 % less"),
+         HOOKE_COLUMN_AS(struct hk_study_margin, error[HOOKE_STUDY_STIFFNESS], error_stiffness, NUMBER, "m",
+                         "the larger error of those two"),
+         HOOKE_COLUMN_AS(struct hk_study_margin, holds[HOOKE_STUDY_START], holds_start, FLAG, "",
+                         "the wanted error is met with 10 % of the largest speed added along (1, 1, 1) at "
+                         "the start, and against it"),
+         HOOKE_COLUMN_AS(struct hk_study_margin, error[HOOKE_STUDY_START], error_start, NUMBER, "m",
+                         "the larger error of those two"))},
     {.name = "watched",
      .inside = "reference",
      .doc = "the watched quantities",
-     HOOKE_TABLE_COLUMNS(watched_columns),
      .count = count_watched,
-     .row = find_watched,
-     .length = trusted},
+     HOOKE_TABLE_AT(struct hk_study, watched.item),
+     .length = trusted,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
+         HOOKE_COLUMN_BY_AS(watched_unit, unit, TEXT, "", "its unit"),
+         HOOKE_COLUMN_BY(agreement, NUMBER, "of the quantity",
+                         "twice the largest difference in it between the two integrators of the "
+                         "reference, the floor of its errors"),
+         HOOKE_COLUMN_BY_AS(
+             watched_value, value, SERIES, "of the quantity",
+             "the reference's values at every frame; of a period those of the quantity that it is of"))},
     {.name = "watched_errors",
      .group = "watched",
      .inside = "rows",
      .key = "watched",
      .doc = "the error of every row in every watched quantity",
-     HOOKE_TABLE_COLUMNS(error_columns),
      .count = count_errors,
      .inner = count_watched,
-     .length = trusted},
+     .length = trusted,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_ALONG(OUTER, row_number, row, COUNT, "", "row of the table \"rows\""),
+         HOOKE_COLUMN_ALONG(INNER, error_unit, unit, TEXT, "", "unit of the quantity"),
+         HOOKE_COLUMN_ALONG(INNER, error_quantity, quantity, TEXT, "", "watched quantity"),
+         HOOKE_COLUMN_BY(error, NUMBER, "of the quantity",
+                         "the largest difference from the reference over the frames that are trusted; of "
+                         "a period that of the two periods over these, NaN with fewer than two passages "
+                         "or four frames a period"),
+         HOOKE_COLUMN_BY_AS(error_value, value, SERIES, "of the quantity", "its values at every frame"))},
     {.name = "ensemble",
      .group = "statistics",
      .key = "statistics",
      .doc = "the displaced runs that statistics are of, for motion that cannot be judged to the end",
      .record = 1,
-     HOOKE_TABLE_COLUMNS(ensemble_columns),
      .count = count_ensembles,
-     .row = find_ensemble},
+     HOOKE_TABLE_AT(struct hk_study, ensemble),
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(struct hk_ensemble, members, COUNT, "", "displaced runs of each method"),
+         HOOKE_COLUMN(struct hk_ensemble, from, NUMBER, "s", "begin of the means over time"),
+         HOOKE_COLUMN(struct hk_ensemble, until, NUMBER, "s", "end of the means over time"),
+         HOOKE_COLUMN(struct hk_ensemble, noise, NUMBER, "m",
+                      "root mean square displacement of a free particle at the start"),
+         HOOKE_COLUMN_BY(seed, COUNT, "", "seed of the noise"))},
     {.name = "statistics",
      .inside = "ensemble",
      .key = "quantities",
      .doc = "means and spreads of an ensemble, by quantity and method",
-     HOOKE_TABLE_COLUMNS(statistic_columns),
      .count = count_statistics,
      .inner = count_quantities,
-     .row = find_source},
+     .row = find_source,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_ALONG(OUTER, statistic_method, method, TEXT, "", "method, the reference first"),
+         HOOKE_COLUMN_ALONG(INNER, statistic_quantity, quantity, TEXT, "",
+                            "kinetic, potential, energy, and what is watched"),
+         HOOKE_COLUMN_ALONG(INNER, statistic_unit, unit, TEXT, "", "unit of the quantity"),
+         HOOKE_COLUMN_BY_AS(statistic_step, step, NUMBER, "s", "step of the runs"),
+         HOOKE_COLUMN_BY_AS(statistic_rtol, rtol, NUMBER, "", "relative tolerance of the runs"),
+         HOOKE_COLUMN_BY_AS(statistic_members, members, COUNT, "", "runs that have the quantity"),
+         HOOKE_COLUMN(struct hk_ensemble_source, failed, COUNT, "",
+                      "runs that did not come to their end; a method that has one has no statistics"),
+         HOOKE_COLUMN_BY(mean, NUMBER, "of the quantity", "mean over the runs of each run's mean over time"),
+         HOOKE_COLUMN_BY(spread, NUMBER, "of the quantity", "standard deviation of the runs"),
+         HOOKE_COLUMN_BY(bias, NUMBER, "",
+                         "the mean less the reference's, in standard errors of that difference; below 2 "
+                         "in size none is seen"))},
     {.name = NULL}};

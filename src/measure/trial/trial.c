@@ -1,9 +1,11 @@
 #include "measure/trial/trial.h"
 
 #include "core/memory.h"
+#include "core/random.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "measure/counted_work/work.h"
+#include "model/coordinates/coordinates.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -211,4 +213,13 @@ int32_t hk_trial_set_value(hooke_options *run, const char *method, double value)
   if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
   if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * fraction);
   return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+}
+
+void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random) {
+  double *q = hooke_state_position(state);
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    for (int64_t k = 3 * p; k < 3 * p + 3 && system->inverse_mass[p] > 0.0; k++)
+      q[k] += length * hk_random_normal(random);
+  }
+  hk_movers_renew(system, q, hooke_state_velocity(state));
 }

@@ -3,7 +3,6 @@
 #ifndef HOOKE_MEASURE_TRIAL_TRIAL_H
 #define HOOKE_MEASURE_TRIAL_TRIAL_H
 
-#include "core/table/column.h"
 #include "hooke/measurement.h"
 #include "measure/trial/frames.h"
 
@@ -58,21 +57,8 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
  * follows it. */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
 
-/* A column of a struct `holder` that has a trial; the columns for its errors and its work. */
-#define HOOKE_TRIAL_COLUMN(holder, member, type, unit, doc)                                                  \
-  HOOKE_COLUMN_AS(holder, trial.member, member, type, unit, doc)
-#define HOOKE_TRIAL_COLUMNS(holder)                                                                          \
-  HOOKE_TRIAL_COLUMN(holder, error, NUMBER, "m",                                                             \
-                     "largest root mean square over the free particles of the distance to the reference; "   \
-                     "no error is below what rounding may do to a position in the steps taken, half a unit " \
-                     "in its last place in each; NaN where nothing after the start is judged"),              \
-      HOOKE_TRIAL_COLUMN(holder, error_max, NUMBER, "m",                                                     \
-                         "largest distance of any free particle, which a wanted error is held against"),     \
-      HOOKE_TRIAL_COLUMN(holder, error_final, NUMBER, "m",                                                   \
-                         "root mean square distance at the last judged frame"),                              \
-      HOOKE_TRIAL_COLUMN(holder, energy_drift, NUMBER, "J",                                                  \
-                         "largest difference of energy from the reference"),                                 \
-      HOOKE_TRIAL_COLUMN(holder, force_evaluations, COUNT, "", "evaluations of the forces"),                 \
-      HOOKE_TRIAL_COLUMN(holder, steps, COUNT, "", "steps taken")
+/* A displaced start: adds to every coordinate of a free particle a normal number times `length` [m]; a rigid
+ * body goes where the three particles go that say where it is. */
+void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random);
 
 #endif

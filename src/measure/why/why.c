@@ -276,5 +276,5 @@ int32_t hooke_why_advice_apply(const hooke_measurement *m, int64_t row, hooke_op
   }
   status = hk_run_options_require(run, "run");
   const hooke_options *changes = why->advice[row].run;
-  return status == HOOKE_OK && changes ? hk_why_apply(changes, run) : status;
+  return status == HOOKE_OK && changes ? hk_options_set_from(run, changes) : status;
 }

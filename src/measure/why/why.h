@@ -130,9 +130,6 @@ int32_t hk_inquiry_advise(struct hk_inquiry *inquiry);
 extern const struct hk_table hk_why_tables[];
 extern const struct hk_measurement_kind hk_why_kind;
 
-/* Sets every option that is set in `changes`. */
-int32_t hk_why_apply(const hooke_options *changes, hooke_options *run);
-
 /* The largest round step (1, 2 or 5 times a power of ten, else an integer fraction) up to `limit` of which
  * `every` (NaN: free) and `duration` are whole multiples; `step` (NaN: none) is one that fits. */
 double hk_handy_step(double step, double limit, double every, double duration);

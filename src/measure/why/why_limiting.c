@@ -10,7 +10,7 @@
 #include <string.h>
 
 static void take_participation(struct hk_inquiry *inquiry, const struct hk_participation *participation) {
-  hk_limiting_take(inquiry->system, participation, &inquiry->why->limiting);
+  hk_limiting_take(participation, &inquiry->why->limiting);
   inquiry->force = hk_participation_force(participation);
   inquiry->heaviest = participation->heaviest;
   inquiry->group = hk_participation_group(participation);

@@ -1,4 +1,4 @@
-/* What an inquiry may still take of time and memory, and how a suggestion is applied. */
+/* What an inquiry may still take of time and memory. */
 #include "measure/why/why.h"
 
 #include "core/print.h"
@@ -38,17 +38,4 @@ void hk_inquiry_spend(struct hk_inquiry *inquiry, const hooke_integrator *run, d
 
 void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what) {
   if (hk_budget_take_back(&inquiry->budget)) leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
-}
-
-int32_t hk_why_apply(const hooke_options *changes, hooke_options *run) {
-  int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < hooke_options_row_count(changes) && status == HOOKE_OK; k++) {
-    const char *name = hooke_options_row(changes, k, "name");
-    if (!hooke_options_is_set(changes, name)) continue;
-    if (hooke_options_number_count(changes, name) > 0)
-      status = hooke_options_set_number(run, name, hooke_options_number(changes, name));
-    else
-      status = hooke_options_set_text(run, name, hooke_options_text(changes, name));
-  }
-  return status;
 }

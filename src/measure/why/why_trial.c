@@ -81,7 +81,7 @@ static int32_t changed_options(const struct hk_trials *trials, const struct hk_c
   if (status == HOOKE_OK && !run->schedule.every_given) status = hooke_options_unset(*out, "every");
   if (status == HOOKE_OK && isnan(run->schedule.duration))
     status = hooke_options_set_number(*out, "duration", trials->duration);
-  return status == HOOKE_OK ? hk_why_apply(change->run, *out) : status;
+  return status == HOOKE_OK ? hk_options_set_from(*out, change->run) : status;
 }
 
 /* ---- trials ---- */

@@ -31,22 +31,19 @@ except ModuleNotFoundError as missing:
 from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from .cost import Cost, cost
-from .estimate import RunError
-from .first_order import FirstOrder
+from .files import Verification, verify, view, write_xdmf
 from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
 from .parts import Springs, Transform
-from .results import Frames, Result, resume, run, why
+from .problems import FirstOrder, SecondOrder
+from .results import Frames, Result, RunError, resume, run, why
 from .scene import Scene
-from .second_order import SecondOrder
 from .state import State
 from .study import Study, compare, study
 from .system import System
 from .trajectory import Energy, Frame, Trajectory, open
-from .verify import Verification, verify
-from .view import view, write_xdmf
 from .why import Why
 
 __version__: str = build_facts()["version"]

@@ -21,9 +21,9 @@ from typing import Any, Callable
 import numpy as np
 
 from ._library import lib
+from ._look import Shown, shown
 from ._memory import Handle, text, view
-from ._progress import Shown, shown
-from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
+from ._prototypes import PROGRESS
 from ._status import pending
 from ._types import Table
 
@@ -80,9 +80,18 @@ def _answered(answer: Any) -> int:
     return 0 if answer is None and pending.exception is None else guarded(lambda: answer)
 
 
-def _callback(function: Callable[..., Any], inputs: int, shape: Callable[[int], Shape], dtype: Any = float) -> Any:
-    """The callback for ``function(t, *arrays)``, whose first `inputs` arrays are read-only. They have the `shape` for
-    the count that the library gives, and are the library's own."""
+def on_arrays(
+    kind: Any,
+    function: Callable[..., Any] | None,
+    inputs: int,
+    shape: Callable[[int], Shape] = lambda n: (n, 3),
+    dtype: Any = float,
+) -> Any:
+    """The callback of a kind for ``function(t, *arrays)``, whose first `inputs` arrays are read-only; none for None. They
+    have the `shape` for the count that the library gives, and are the library's own."""
+    if function is None:
+        return kind()
+    user = function
     known: dict[tuple[int, int], tuple[Table, list[Table]]] = {}
 
     def look(key: tuple[int, int], others: tuple[int, ...]) -> tuple[Table, list[Table]]:
@@ -111,7 +120,7 @@ def _callback(function: Callable[..., Any], inputs: int, shape: Callable[[int], 
             memory, rows = known.get(key) or look(key, others[:-1])
             users = getrefcount(memory)
             try:
-                return _answered(function(t, *map(_again, rows)))
+                return _answered(user(t, *map(_again, rows)))
             finally:
                 if getrefcount(memory) != users:
                     leave(key, memory)
@@ -119,41 +128,26 @@ def _callback(function: Callable[..., Any], inputs: int, shape: Callable[[int], 
             pending.exception = exception
             return _STOP
 
-    return called
+    return kind(called)
 
 
-def force_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
-    """The callback that adds forces, for `function` of `System.set_force`; `row` () for one of coordinates."""
-    return FORCE(_callback(function, 2, lambda n: (n, *row)))
-
-
-def product_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
-    """The callback for the product with the derivative of a force."""
-    return FORCE_PRODUCT(_callback(function, 4, lambda n: (n, *row)))
-
-
-def drive_callback(function: Callable[..., Any]) -> Any:
-    """The callback that moves driven particles."""
-    return DRIVE(_callback(function, 0, lambda n: (n, 3)))
-
-
-def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any:
-    """The callback for the rate of a first-order problem."""
-    return RATE(_callback(function, 1, lambda _: shape, dtype))
+@contextlib.contextmanager
+def attached(attach: Callable[..., Any], handle: Any, callback: Any, *how: Any) -> Iterator[None]:
+    """Has the library call back during its work; ``attach(handle, *how, callback, None)`` is the function that sets it."""
+    attach(handle, *how, callback, None)
+    try:
+        yield
+    finally:
+        attach(handle, *how, type(callback)(), None)
 
 
 @contextlib.contextmanager
 def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Iterator[None]:
-    """Reports progress of the object during the library's work, and handles Ctrl-C; ``attach(handle, watcher, None)``
-    is the library function that sets the callback."""
+    """Reports progress of the object during the library's work, and handles Ctrl-C."""
     with shown(progress) as told, interruptible():
         tell = told or (lambda done, what: None)
-        watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
-        attach(handle, watcher, None)
-        try:
+        with attached(attach, handle, PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))):
             yield
-        finally:
-            attach(handle, PROGRESS(), None)
 
 
 @contextlib.contextmanager
@@ -175,14 +169,12 @@ def interruptible(integrator: Any = None) -> Iterator[None]:
         except BaseException as exception:
             pending.exception = exception
 
+    hear = attached(lib.hooke_integrator_on_progress, integrator, _HEAR, _HEARING) if integrator else contextlib.nullcontext()
     signal.signal(signal.SIGINT, note)
     try:
-        if integrator is not None:
-            lib.hooke_integrator_on_progress(integrator, _HEARING, _HEAR, None)
-        yield
+        with hear:
+            yield
     finally:
-        if integrator is not None:
-            lib.hooke_integrator_on_progress(integrator, _HEARING, PROGRESS(), None)
         if signal.getsignal(signal.SIGINT) is note:
             signal.signal(signal.SIGINT, before)
         late, pending.exception = pending.exception, None

@@ -4,22 +4,87 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import operator
 import os
 import pathlib
-from collections.abc import Mapping
-from typing import Any, Callable, TypeVar
+import textwrap
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from ._callback import listening
 from ._library import lib
+from ._look import draw
 from ._memory import Handle, address_of, text, view
-from ._notebook import Tabled, embed
 from ._prototypes import MEASUREMENT
-from ._status import OUTCOMES
+from ._status import OUTCOMES, NotBuilt, plain
 from ._types import FloatArray, Path, Table
 
-R = TypeVar("R")
+R = TypeVar("R", bound="Record")
+
+
+class Column(NamedTuple):
+    """A column of a table: "number", "count", "flag", "text" or "series", its unit and what it says."""
+
+    type: str
+    unit: str
+    doc: str
+
+
+@functools.lru_cache
+def columns(kind: str, table: str) -> dict[str, Column]:
+    """The columns of a table of a kind, by name."""
+    found: dict[str, Column] = {}
+    of, key = lib.hooke_measurement_column, (kind.encode(), table.encode())
+    while name := of(*key, len(found), b"name"):
+        found[text(name)] = Column(*(text(of(*key, len(found), what.encode())) for what in Column._fields))
+    return found
+
+
+def described(kind: str, table: str, without: tuple[str, ...] = ()) -> str:
+    """What the columns of a table say, for a docstring."""
+    shown = ((name, *column[1:]) for name, column in columns(kind, table).items() if name not in without)
+    lines = (f"- `{name}`: {doc}{f' [{unit}]' if unit else ''}" for name, unit, doc in shown)
+    return "\n".join(textwrap.fill(line, 110, subsequent_indent="  ") for line in lines)
+
+
+class Record(tuple[Any, ...]):
+    """A row of a table of results: a tuple with a name for each column but series, and for what a class has `also`.
+    Numbers that do not apply or are not known are NaN, flags None, and so is what a class names in `none`."""
+
+    _fields: tuple[str, ...]
+    _none: tuple[str, ...]
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any: ...
+
+    def __init_subclass__(
+        cls, table: str, also: tuple[str, ...] = (), without: tuple[str, ...] = (), none: tuple[str, ...] = ()
+    ) -> None:
+        kind, _, name = table.partition(".")
+        there = [one for one, column in columns(kind, name).items() if column.type != "series" and one not in without]
+        cls._fields, cls._none = (*there, *also), none
+        cls.__doc__ = f"{cls.__doc__}\n\n{described(kind, name, without)}"
+        for place, field in enumerate(cls._fields):
+            column = columns(kind, name).get(field)
+            setattr(cls, field, property(operator.itemgetter(place), doc=column and column.doc))
+
+    def __new__(cls: type[R], **values: Any) -> R:
+        return tuple.__new__(cls, ((values[name] or None) if name in cls._none else values[name] for name in cls._fields))
+
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]:
+        return (), self._asdict()
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self._asdict().items())})"
+
+    def _asdict(self) -> dict[str, Any]:
+        return dict(zip(self._fields, self))
+
+    def _replace(self: R, **values: Any) -> R:
+        return type(self)(**{**self._asdict(), **values})
 
 
 class Measurement:
@@ -70,35 +135,34 @@ class Measurement:
 
     def value(self, table: str, row: int, column: str) -> Any:
         """A number, a text, or a flag: True, False, or None if unknown."""
-        kind = columns(self.kind, table)[column]
+        kind = columns(self.kind, table).get(column, Column("number", "", "")).type
         if kind == "text":
             return self.text(table, row, column)
         number = self.number(table, row, column)
-        if kind == "flag":
-            return None if np.isnan(number) else bool(number)
-        return number
+        if np.isnan(number):
+            return None if kind == "flag" else number
+        return bool(number) if kind == "flag" else int(number) if kind == "count" else number
 
-    def record(self, table: str) -> dict[str, Any] | None:
-        """The one row of a record; None if there is none."""
-        if self.count(table) < 1:
-            return None
-        return {name: self.value(table, 0, name) for name, kind in columns(self.kind, table).items() if kind != "series"}
+    def record(self, table: str) -> dict[str, Any]:
+        """The values of a record by name, without series; {} if there is none."""
+        names = columns(self.kind, table).items() if self.count(table) > 0 else ()
+        return {name: self.value(table, 0, name) for name, column in names if column.type != "series"}
 
-    def one(self, kind: Any, table: str, **others: Any) -> Any:
-        """A record as a named tuple, whose fields are columns or `others`; None if there is none."""
-        found = self.record(table)
-        return None if found is None else kind(**typed(kind, {**found, **others}))
+    def each(self, kind: type[R], table: str, **others: Any) -> list[R]:
+        """The rows of a table, each with `others`; what the table has no column for is NaN."""
+        names = [name for name in kind._fields if name not in others]
+        rows = range(self.count(table))
+        return [kind(**{name: self.value(table, row, name) for name in names}, **others) for row in rows]
 
-    def each(self, kind: Callable[..., R], table: str) -> list[R]:
-        """Its rows as named tuples, whose fields are columns."""
-        rows = self.rows(table)
-        return [kind(**typed(kind, dict(zip(rows.dtype.names or (), row)))) for row in rows.tolist()]
+    def one(self, kind: type[R], table: str, **others: Any) -> R | None:
+        """A record; None if there is none."""
+        return next(iter(self.each(kind, table, **others)), None)
 
     def rows(self, table: str) -> Table:
         """A structured array with a field for each column but series; flags are bool if all are known."""
         count = self.count(table)
         fields = []
-        for name, kind in columns(self.kind, table).items():
+        for name, (kind, *_) in columns(self.kind, table).items():
             if kind == "series":
                 continue
             read = self.text if kind == "text" else self.number
@@ -128,19 +192,59 @@ class Measurement:
         lib.hooke_measurement_write(self.handle, os.fsencode(path))
 
 
-class Found(Tabled):
-    """A finished measurement with rows, of a scene if it was made of one. It has the attributes that the record of the
-    kind's own name has columns for."""
+class Claim(Record, table="study.claims"):
+    """A sentence about results."""
+
+
+def said(claims: Sequence[Claim]) -> str:
+    """The texts of claims, a line each; foreign names in them are made plain."""
+    return "\n".join(plain(claim.text) for claim in claims)
+
+
+class Found:
+    """A finished measurement with rows, of a scene if it was made of one. The columns of the record of its `kind` are its
+    attributes."""
 
     outcome: str
+    rows: Table
+    _rows: str  # the table that they are
     _untitled = ""  # the heading of a page without a title
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any: ...
+
+    def __init_subclass__(cls, kind: str = "", rows: str = "rows") -> None:
+        if kind:
+            cls._rows = rows
+            cls.__doc__ = f"{cls.__doc__}\n\n{described(kind, kind)}\n\n`rows`, by name:\n\n{described(kind, rows)}"
 
     def __init__(self, found: Measurement, scene: Any, system: Any, status: int):
         self._handle, self._scene = found, scene
         self._system = system  # its callbacks have to live as long as the measurement
         self.outcome = OUTCOMES.get(status, "stopped")
-        self.rows = found.rows("rows")
-        vars(self).update(typed(type(self), found.record(found.kind) or {}))
+        self.rows = found.rows(self._rows)
+        vars(self).update(found.record(found.kind))
+        self._read(found)
+
+    @property
+    def claims(self) -> list[Claim]:
+        """What the results say, the most important first; `str()` has their texts, a line each."""
+        return self._handle.each(Claim, "claims")
+
+    def __str__(self) -> str:
+        return said(self.claims)
+
+    def _read(self, found: Measurement) -> None:
+        """Reads what a kind has beside its rows and its record."""
+
+    def __getitem__(self, name: str) -> np.void:
+        """The first row that has this name in the first column."""
+        names = self.rows[self.rows.dtype.names[0]].tolist() if self.rows.dtype.names else []
+        if name not in names:
+            raise KeyError(f"{name!r}; there are {', '.join(names)}")
+        row: np.void = self.rows[names.index(name)]
+        return row
 
     def write(self, path: Path, title: str | None = None) -> None:
         """Writes the results in the format given by the ending of `path`: .csv, the rows; .json or .h5, all tables; .html,
@@ -149,12 +253,30 @@ class Found(Tabled):
         text = self._scene.text if self._scene else None
         self._handle.write(path, title=title or None, scene=text)
 
+    def _repr_html_(self) -> str | None:
+        shown: str | None = draw("notebook.table", self.rows, str(self))
+        return shown
+
+    def report(self, path: Path) -> pathlib.Path:
+        """Writes a page to look at, offline, and returns its path."""
+        page = pathlib.Path(os.fspath(path))
+        draw("notebook.page", page, type(self).__name__, self.rows, str(self))
+        return page
+
+    def to_pandas(self) -> Any:
+        """The rows as a pandas data frame; pandas has to be installed."""
+        return draw("notebook.data_frame", self.rows)
+
 
 class Paged(Found):
     """One with a page of its own, which a notebook shows."""
 
-    def _repr_html_(self) -> str:
-        return embed(self.write, 720)
+    def _repr_html_(self) -> str | None:
+        try:
+            shown: str = draw("notebook.embed", self.write)
+            return shown
+        except NotBuilt:
+            return None
 
     def report(self, path: Path) -> pathlib.Path:
         """Writes the page to look at, offline, and returns its path, which ends in ``.html``."""
@@ -163,26 +285,3 @@ class Paged(Found):
             raise ValueError(f"{page}: a page ends in .html")
         self.write(page)
         return page
-
-
-#: How a column is read for an attribute of these types; others are taken as they are.
-_TYPES: dict[str, Callable[[Any], Any]] = {
-    "int": lambda number: int(np.nan_to_num(number)),
-    "int | None": lambda number: None if np.isnan(number) else int(number),
-    "str | None": lambda word: word or None,
-}
-
-
-def typed(kind: Any, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of some values that a class has attributes for, by their names, as the types that it declares for them."""
-    types = {name: getattr(type_, "__forward_arg__", type_) for name, type_ in kind.__annotations__.items()}
-    return {name: _TYPES.get(types[name], lambda value: value)(values[name]) for name in types if name in values}
-
-
-@functools.lru_cache
-def columns(kind: str, table: str) -> dict[str, str]:
-    """The types of the columns of a table of a kind, by name."""
-    found: dict[str, str] = {}
-    while name := lib.hooke_measurement_column(kind.encode(), table.encode(), len(found), b"name"):
-        found[text(name)] = text(lib.hooke_measurement_column(kind.encode(), table.encode(), len(found), b"type"))
-    return found

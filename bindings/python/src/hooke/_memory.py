@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ._prototypes import DOUBLES, INTEGERS
-from ._status import BadValue
+from ._status import BadCall, BadValue
 from ._types import FloatArray, IntArray, Table
+
+C = TypeVar("C", bound="Closing")
 
 
 class Owner:
@@ -70,6 +72,28 @@ class Handle(Owner):
     def __del__(self) -> None:
         if hasattr(self, "_users"):
             self._release()
+
+
+class Closing(Owner):
+    """Has a `_handle`, which `close` releases; later use of it is a BadCall."""
+
+    def close(self) -> None:
+        """Releases the memory and the files that this object holds; arrays obtained from it stay valid. A second call
+        does nothing."""
+        self.__dict__.pop("_handle", None)
+
+    def __enter__(self: C) -> C:
+        """The object itself, which is closed at the end of the block."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Closes the object."""
+        self.close()
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "_handle":
+            raise BadCall(f"this {type(self).__name__} is closed")
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
 
 def view(

@@ -9,8 +9,8 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
-from ._problem import Problem
 from ._types import FloatArray, IntArray
+from .problems import Problem
 
 _DOUBLE = np.dtype(np.float64)
 
@@ -147,20 +147,14 @@ class Queries(Problem):
     def derived(self) -> list[Derived]:
         """Numbers that parts derived from their density, damping ratios and bending stiffness."""
 
-        def word(number: int, what: bytes) -> str | None:
-            found = lib.hooke_system_derived_text(self._handle, number, what)
-            return None if found is None else text(found)
+        def value(number: int, what: str) -> Any:
+            if what == "value":
+                return lib.hooke_system_derived_value(self._handle, number)
+            word = lib.hooke_system_derived_text(self._handle, number, what.encode())
+            return None if word is None else text(word)
 
-        return [
-            Derived(
-                word(k, b"part") or "",
-                word(k, b"family"),
-                word(k, b"name") or "",
-                lib.hooke_system_derived_value(self._handle, k),
-                word(k, b"unit") or "",
-            )
-            for k in range(lib.hooke_system_count(self._handle, b"derived"))
-        ]
+        count = lib.hooke_system_count(self._handle, b"derived")
+        return [Derived(*(value(number, what) for what in Derived._fields)) for number in range(count)]
 
     @property
     def masses(self) -> FloatArray:

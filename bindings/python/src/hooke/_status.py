@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import re
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, Callable
 
 #: Outcomes of a run: they are results, not exceptions.
@@ -98,6 +100,23 @@ class Stopped(Error):
 _KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Internal, Stopped)
 FAILURES = {kind.status: kind for kind in _KINDS}
 _MISSING: dict[int, type[Error]] = {-2: MissingInput, -4: MissingFile}  # where the message of the library says so
+
+
+_KEY = re.compile(r"[a-z_]+(\[\d+\])*(\.[a-z_]+(\[\d+\])*)*: ")
+
+
+@contextlib.contextmanager
+def placed(place: str) -> Iterator[None]:
+    """A context in which failures name their place: "stiffness: ..." becomes "cloth.stiffness: ..."."""
+    try:
+        yield
+    except Error as error:
+        message = str(error)
+        if not message.startswith((f"{place}: ", f"{place}.")):
+            message = f"{place}{'.' if _KEY.match(message) else ': '}{message}"
+        failure = type(error)(message)
+        failure.status = error.status
+        raise failure from None
 
 
 class _Pending(threading.local):

@@ -13,8 +13,6 @@ Path = Union[str, os.PathLike[str]]
 Numbers = npt.ArrayLike
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
-BoolArray = npt.NDArray[np.bool_]
-StrArray = npt.NDArray[np.str_]
 ComplexArray = npt.NDArray[np.complex128]
 #: Structured rows, or numbers of more than one kind.
 Table = npt.NDArray[Any]

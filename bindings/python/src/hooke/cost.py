@@ -4,60 +4,22 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
+from ._look import WorkProgress
 from ._measurement import Found, Measurement
-from ._notebook import lined, named
-from ._progress import WorkProgress
-from .options import Options
 from .results import Runnable, measured
-from .scene import Scene
 from .state import State
-from .system import System
 
 
-class Cost(Found):
+class Cost(Found, kind="cost"):
     """The cost of a scene, as a whole and by ingredients.
 
-    `rows` is a structured array with one row an ingredient: name (of the group, else the kind), kind ("springs",
-    "bending", "altitude", "damping", "drag", "callback", "gravity"), group and springs (its number and size, NaN if
-    it is not a group); nanoseconds that it adds to a step, with their resolution, 0 below the resolution;
-    memory_bytes; step_limit_without [s], the largest stable step of the scene without it, infinite where nothing
-    limits it.
-
-    `method` is the timed method: that of the run, or symplectic Euler if that chooses its own steps; `step` [s] its
-    step; `nanoseconds` of a whole step, `resolution` [ns] of the rows, `memory_bytes` of system, state and
-    integrator, `step_limit` [s] of the whole scene (NaN without LAPACK); `dropped_springs` have neither stiffness nor
-    damping, and `idle_particles` are pinned without any force: both cost nothing. `outcome` is "finished" or
-    "stopped".
+    `rows` is a structured array with one row an ingredient, whose column "ingredient" is called "name" here; `outcome` is
+    "finished" or "stopped".
     """
 
-    method: str
-    step: float
-    nanoseconds: float
-    resolution: float
-    memory_bytes: float
-    step_limit: float
-    dropped_springs: int
-    idle_particles: int
-
-    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
-        super().__init__(found, scene, system, status)
+    def _read(self, found: Measurement) -> None:
         self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
 
-    def __getitem__(self, name: str) -> np.void:
-        """The first row of that name."""
-        return named(self.rows, "name", name)
-
-    def __str__(self) -> str:
-        whole = ("nothing", self.nanoseconds, self.memory_bytes, self.step_limit)
-        fields = ["name", "nanoseconds", "memory_bytes", "step_limit_without"]
-        known = self.rows[~np.isnan(self.rows["memory_bytes"])]
-        heads = (f"{self.method}, without", "ns a step", "bytes", "stable to [s]")
-        lines = lined(heads, [whole, *known[fields].tolist()])
-        if len(known) < len(self.rows):
-            lines.append(f"and {len(self.rows) - len(known)} more, not looked at")
-        return "\n".join(lines)
 
     def __repr__(self) -> str:
         return f"Cost({self.outcome}, {self.method}, {len(self.rows)} ingredients)"
@@ -67,19 +29,15 @@ def cost(
     problem: Runnable,
     state: State | None = None,
     *,
-    predict: bool = False,
-    budget: float | None = None,
-    groups: int | None = None,
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Cost:
     """Measures the cost of each ingredient of a scene (or the path of one) or of a system: compares it with the same
     scene without the ingredient, at `state` (at the start, if None).
 
-    ``predict=True`` skips the timing; after `budget` [s] (2 by default) no further ingredient is measured. Of many
-    groups the `groups` largest are measured (64 by default); the numbers of the others stay NaN. ``progress(fraction,
-    what)`` receives progress and stops the work by returning a non-zero number. The keywords `options` are those of a
-    run.
+    The keywords `options` are those of ``hooke.describe("cost")``, and those of a run: ``predict=True`` skips the timing;
+    after `budget` [s] (2 by default) no further ingredient is measured. Of many groups the `groups` largest are measured
+    (64 by default); the numbers of the others stay NaN. ``progress(fraction, what)`` receives progress and stops the work
+    by returning a non-zero number.
     """
-    chosen = Options.for_cost().set(predict=predict, budget=budget, groups=groups)
-    return Cost(*measured("cost", problem, options, chosen, progress, lambda _: state))
+    return Cost(*measured("cost", problem, options, progress, lambda _: state))

@@ -5,22 +5,19 @@ from __future__ import annotations
 import contextlib
 import os
 import warnings
-from collections.abc import Iterator
 from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
 
 from . import _callback
-from ._closing import Closing
 from ._library import lib
-from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
-from ._progress import WorkProgress
+from ._look import WorkProgress
+from ._memory import Closing, Handle, double_pointer, doubles, index_pointer, indices, text
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from ._types import FloatArray
-from .first_order import FirstOrder
 from .options import Options
-from .second_order import SecondOrder
+from .problems import FirstOrder, SecondOrder
 from .state import State
 from .system import System
 from .why import Why
@@ -238,9 +235,22 @@ class Integrator(Closing):
         self.outcome, self.message = _SOLVER_FAILED, str(failure)
         failure.integrator = self
 
-    def _whole(self, function: Any, state: State, *watchers: Any) -> str:
-        with self._watched(state, *watchers), self._warned():
-            outcome = self._outcome(function(self._handle, state._handle))
+    def _whole(self, function: Any, state: State, on_frame: Any, on_step: Any, on_checkpoint: Any) -> str:
+        if self._running:
+            raise BadCall(_RUNNING)
+        stride, step_observer = on_step or (1, None)
+        watched: list[tuple[Any, Observer | None, list[int]]] = [
+            (lib.hooke_integrator_on_frame, on_frame, []),
+            (lib.hooke_integrator_on_step, step_observer, [stride]),
+            (lib.hooke_integrator_on_checkpoint, on_checkpoint, []),
+        ]
+        with contextlib.ExitStack() as during:
+            for attach, observer, how in watched:
+                during.enter_context(_callback.attached(attach, self._handle, _observer(observer, state), *how))
+            with contextlib.suppress(NotBuilt, Unsuited):
+                during.enter_context(_callback.attached(lib.hooke_integrator_on_warning, self._handle, WARNING(_warn)))
+            during.enter_context(_callback.interruptible(self._handle))
+            outcome = self._outcome(self._call(function, (state._handle,)))
         sentence = text(lib.hooke_integrator_text(self._handle, b"zero_passages"))
         if sentence and outcome not in ("diverged", "step-limit"):
             warnings.warn(sentence, PassageWarning, _callback.outside() - 1)
@@ -250,47 +260,6 @@ class Integrator(Closing):
         self.outcome = code
         self.message = text(lib.hooke_last_error()) if code else ""
         return OUTCOMES.get(code, f"outcome {code}")
-
-    @contextlib.contextmanager
-    def _watched(
-        self, state: State, on_frame: Observer | None, on_step: Any, on_checkpoint: Observer | None
-    ) -> Iterator[None]:
-        if self._running:
-            raise BadCall(_RUNNING)
-        stride, step_observer = on_step or (1, None)
-        watched: list[tuple[Any, list[int], Observer | None]] = [
-            (lib.hooke_integrator_on_frame, [], on_frame),
-            (lib.hooke_integrator_on_step, [stride], step_observer),
-            (lib.hooke_integrator_on_checkpoint, [], on_checkpoint),
-        ]
-        callbacks = [_observer(observer, state) for _, _, observer in watched]  # live until the run is over
-        self._running = True
-        try:
-            for (attach, how, _), callback in zip(watched, callbacks):
-                attach(self._handle, *how, callback, None)
-            with _callback.interruptible(self._handle):
-                yield
-        finally:
-            self._running = False
-            for attach, how, _ in watched:
-                attach(self._handle, *(1 for _ in how), OBSERVER(), None)
-
-    @contextlib.contextmanager
-    def _warned(self) -> Iterator[None]:
-        def warn(_kind: bytes, sentence: bytes, *_: Any) -> int:
-            return _callback.guarded(warnings.warn, text(sentence), StepWarning, _callback.outside())
-
-        callback = WARNING(warn)  # lives until the run is over
-        with contextlib.suppress(NotBuilt, Unsuited):
-            lib.hooke_integrator_on_warning(self._handle, callback, None)
-        try:
-            yield
-        except SolverFailed as failure:
-            self._failed(failure)
-            raise
-        finally:
-            with contextlib.suppress(NotBuilt, Unsuited):
-                lib.hooke_integrator_on_warning(self._handle, WARNING(), None)
 
     @property
     def frame_count(self) -> int:
@@ -331,3 +300,7 @@ def _observer(function: Observer | None, state: State) -> Any:
         return _callback.guarded(function, step, state)
 
     return OBSERVER(observer)
+
+
+def _warn(_kind: bytes, sentence: bytes, *_: Any) -> int:
+    return _callback.guarded(warnings.warn, text(sentence), StepWarning, _callback.outside())

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any, NamedTuple, Union
+from typing import Any, Union
 
 import numpy as np
 
 from ._library import lib
-from ._measurement import Measurement, Paged
-from ._notebook import draw, lined, named
-from ._progress import WorkProgress
-from ._record import opened
+from ._look import WorkProgress, draw
+from ._measurement import Measurement, Paged, Record
 from ._types import ComplexArray, FloatArray, Path
-from .options import Options, joined
+from .files import opened
 from .results import Runnable, measured
-from .scene import Scene
 from .state import State
 from .system import System
 from .why import Blame
@@ -24,48 +21,20 @@ from .why import Blame
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file with its last frame or the given one.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
 
-_COLUMNS = {
-    "bound": "safe bound [s]",
-    "predicted": "predicted [s]",
-    "measured": "measured [s]",
-    "ratio": "ratio",
-    "steps_run": "steps run",
-    "smallest": "smallest met [s]",
-    "smallest_time": "at time [s]",
-}
+class Participation(Record, table="limit.participation"):
+    """A particle of the limiting mode."""
 
 
-class Participation(NamedTuple):
-    """A particle of the limiting mode: its number, its share of the kinetic energy, its mass [kg]."""
-
-    particle: int
-    share: float
-    mass: float
+class Changes(Record, table="limit.changes"):
+    """A change of the limiting springs or particles. `kind` is "" if no small set is to blame, and the numbers are then
+    NaN."""
 
 
-class Changes(NamedTuple):
-    """A change of the limiting springs or particles, in a sentence. `kind` is "soften" or "heavier"; "" if no small
-    set is to blame, and the numbers are then NaN: the number of springs or particles to change, the factor by which,
-    their cost (a factor of the step), and the gain of the change, recomputed with the change made and by first-order
-    perturbation."""
-
-    kind: str
-    sentence: str
-    springs: float
-    particles: float
-    factor: float
-    cost: float
-    gain: float
-    gain_predicted: float
-
-
-class Limit(Paged):
+class Limit(Paged, kind="limit"):
     """The largest stable steps of a scene, linearised at its positions and at rest.
 
-    `rows` is a structured array with one row a method: method; bound (safe) [s], predicted [s], measured [s], ratio
-    (measured to predicted), steps_run (steps taken to measure), smallest [s] and smallest_time [s] (along a run);
-    exact, never_stable, by_eigenvalue (stable where ``step * modes`` is within one region), note. A step is infinite
-    where nothing limits it, 0 where none is stable, NaN where it does not apply.
+    `rows` is a structured array with one row a method. A step is infinite where nothing limits it, 0 where none is
+    stable, NaN where it does not apply.
 
     `modes` (k,) [1/s] are the known eigenvalues, complex, of conjugates the one with the positive imaginary part, the
     largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x = 0, of
@@ -74,30 +43,20 @@ class Limit(Paged):
     it, at most 100, and before them a force that has half of it; `participation` has the particles that move in it, both
     with the largest share first; `changes` is the gain of changing them, None if nothing is limited.
 
-    `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of
-    compressed springs whose sideways push was left out, `tipping` the number of rigid bodies that gravity or tensions
-    would tip over, which was left out, too, `time` [s] that of the state, `step` [s] the step of the
-    scene (NaN if it names none), `outcome` "finished", or the outcome of the run along which limits were found.
+    `outcome` is "finished", or the outcome of the run along which limits were found.
     """
 
-    time: float
-    step: float
     modes: ComplexArray
     frequency: FloatArray
     decay: FloatArray
     shape: FloatArray | None
-    frequency_max: float
-    rate_max: float
-    clamped: int
-    tipping: int
     blame: list[Blame]
     participation: list[Participation]
     changes: Changes | None
 
     _untitled = "limits of steps"
 
-    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
-        super().__init__(found, scene, system, status)
+    def _read(self, found: Measurement) -> None:
         modes = found.rows("modes")
         self.modes = modes["real"] + 1j * modes["imaginary"]
         self.frequency, self.decay = modes["frequency"], modes["decay"]
@@ -112,23 +71,18 @@ class Limit(Paged):
         """The methods in the order of the rows."""
         return [str(name) for name in self.rows["method"]]
 
-    def __getitem__(self, method: str) -> np.void:
-        """The row of a method."""
-        return named(self.rows, "method", method)
+    @staticmethod
+    def step_of_mode(method: str, frequency: Any, decay: Any) -> FloatArray:
+        """The largest step [s] at which a method is stable for x'' + 2 decay x' + frequency^2 x = 0, an array of the shape
+        of `frequency` [rad/s] and `decay` [1/s]: 0 if none is, infinite if nothing limits it, NaN if that is not known."""
+        number = np.vectorize(lambda *mode: lib.hooke_limit_of_mode(method.encode(), *mode), otypes=[float])
+        steps: FloatArray = number(frequency, decay)
+        return steps
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
         return draw("plot.limit", self, axes, **options)
 
-    def __str__(self) -> str:
-        shown = {name: head for name, head in _COLUMNS.items() if not np.isnan(self.rows[name]).all()}
-        rows = [(str(row["method"]), *(_step(name, row[name]) for name in shown)) for row in self.rows]
-        lines = lined(["method", *shown.values()], rows)
-        if self.blame:
-            lines.append(f"the most to blame: {self.blame[0]}, {100 * self.blame[0].share:.1f} %")
-        if self.changes is not None:
-            lines.append(self.changes.sentence)
-        return "\n".join(lines)
 
     def __repr__(self) -> str:
         return f"Limit({self.outcome}, {len(self.rows)} methods, {len(self.modes)} modes)"
@@ -139,11 +93,6 @@ def limit(
     at: Place | None = None,
     methods: str | Iterable[str] | None = None,
     *,
-    predict: bool = False,
-    along: bool = False,
-    nonlinear: bool = False,
-    accuracy: float | None = None,
-    budget: float | None = None,
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Limit:
@@ -152,15 +101,13 @@ def limit(
     at rest, and then measured by running the method, unless `predict` is True.
 
     `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that
-    and the number of a frame. ``along=True`` predicts at every frame of the run and returns the smallest limits and
-    their times; ``nonlinear=True`` measures on the scene itself. `accuracy` is relative, `budget` [s] the time of the
-    measuring. ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the
-    work by returning a non-zero number. The keywords `options` are those of a run.
+    and the number of a frame. The keywords `options` are those of ``hooke.describe("limit")``, and those of a run:
+    ``along=True`` predicts at every frame of the run and returns the smallest limits and their times;
+    ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress (``progress=True``
+    shows a bar, with tqdm) and stops the work by returning a non-zero number.
     """
-    chosen = Options.for_limit().set(
-        methods=joined(methods), predict=predict, nonlinear=nonlinear, along=along, accuracy=accuracy, budget=budget
-    )
-    return Limit(*measured("limit", problem, options, chosen, progress, lambda system: _state_at(system, at)))
+    options["methods"] = methods
+    return Limit(*measured("limit", problem, options, progress, lambda system: _state_at(system, at)))
 
 
 def _state_at(system: System, at: Place | None) -> State:
@@ -174,7 +121,3 @@ def _state_at(system: System, at: Place | None) -> State:
     elif at is not None:
         state.q = at
     return state
-
-
-def _step(name: str, value: float) -> str | float:
-    return "no step" if value == 0 and name not in ("steps_run", "smallest_time") else value

@@ -2,50 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from ._closing import Closing
 from ._library import lib
-from ._measurement import Measurement, Paged, typed
-from ._memory import Handle, double_pointer, rows
-from ._notebook import draw, lined, named
-from ._progress import WorkProgress
-from ._status import BadCall, plain
+from ._look import WorkProgress, draw
+from ._measurement import Measurement, Paged, Record
+from ._memory import Closing, Handle, double_pointer, rows
+from ._status import BadCall
 from ._types import FloatArray, Path, Table
 from .options import Options
 from .results import Runnable, measured
-from .scene import Scene
 from .system import System, write_scene
 
 
-class RunCost(NamedTuple):
-    """The cost of a run: particles and springs, the largest stable step [s] (infinite if nothing limits it), the step
-    [s] or the tolerances of the run, the error due to these [m] (a tenth of the wanted one), and the time of stepping
-    alone [s]. NaN where a number does not apply."""
-
-    particles: float
-    springs: float
-    step_limit: float
-    step: float
-    rtol: float
-    atol: float
-    steps: float
-    force_evaluations: float
-    wall_seconds: float
-    step_error: float
+class RunCost(Record, table="needs.full", without=("own_error", "moved")):
+    """The cost of a run; NaN where a number does not apply."""
 
 
-class Needs(Paged, Closing):
+class Needs(Paged, Closing, kind="needs"):
     """The needs of a scene for watched positions within `want` [m].
 
-    `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
-    change of the watched positions, the largest distance of any at any frame [m]; NaN if that run did not
-    end), needed (also True if unknown, as `note` says), left_out (also absent from the lean system), the fields of a
-    `RunCost`, unlimited (1: nothing limits the step), note. `full` is the cost of the full system with a step error
-    of a tenth of the wanted error, and `own_error` [m] the possible error of its finer run, which all variants are
-    compared with.
+    `rows` is a structured array with one row for everything that was left out in turn; its `needed` is True also where
+    it is unknown, as `note` says. `full` is the cost of the full system with a step error of a tenth of the wanted
+    error, and `own_error` [m] the possible error of its finer run, which all variants are compared with.
 
     `lean_cost` is the cost of the lean system's recommended run, and `lean_error` [m] a bound on its error against
     the full system, including `own_error`. `cheapest` is the cost of the full system's own run within the wanted
@@ -54,52 +35,25 @@ class Needs(Paged, Closing):
     None and NaN if there are none. `lean_note` names parts that are rigid bodies in the lean system, with its steps and
     those of the full one, and groups of parts that it has spring by spring.
 
-    `moved` [m] is the motion of the watched particles from their start; `note` says if nothing moves, or less than
-    the wanted error; both notes are "" otherwise.
-
-    `parts` is a structured array with one row a part, after ``refine=True``: part, cells (along its first axis;
-    cells_second, cells_third), change and change_fine [m] (between once and twice, twice and four times that
-    resolution), order, error [m] (the remaining error at the present resolution), wanted (cells for the wanted error;
-    wanted_second, wanted_third), factor, note.
-
-    Changes are those up to `judged_until` [s]: beyond, differences grow so fast that no time step keeps its error
-    small. `outcome` is "finished", or "stopped" if the progress function asked for it.
+    `moved` [m] is the motion of the watched particles from their start; both notes are "" where there is nothing to
+    say. `parts` is a structured array with one row a part, after ``refine=True``: how it changes with its resolution.
+    `outcome` is "finished", or "stopped" if the progress function asked for it.
     """
 
-    want: float
-    method: str
-    duration: float
-    judged_until: float
-    runs: int
     parts: Table
     full: RunCost
-    own_error: float
-    moved: float
-    note: str
     lean_cost: RunCost | None
-    lean_error: float = np.nan
-    lean_note: str = ""
     cheapest: RunCost | None
-    cheapest_error: float = np.nan
-    times_less: float = np.nan
-    other_method: str | None = None
-    other_seconds: float = np.nan
 
-    def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int):
-        super().__init__(measurement, scene, system, status)
-        self.rows, self.parts = _plain_needed(self.rows), measurement.rows("parts")
-        full, lean, cheapest = (measurement.record(table) or {} for table in ("full", "lean", "cheapest"))
-        own = {name: full[name] for name in ("own_error", "moved")}
-        less = {name: lean[name] for name in ("times_less", "other_method", "other_seconds") if lean}
-        errors = {f"{name}_error": run["error"] for name, run in (("lean", lean), ("cheapest", cheapest)) if run}
-        vars(self).update(typed(Needs, {**own, **less, **errors, "lean_note": lean.get("note", "")}))
-        self.full, self.lean_cost, self.cheapest = (
-            measurement.one(RunCost, table) for table in ("full", "lean", "cheapest")
-        )
-
-    def __getitem__(self, without: str) -> np.void:
-        """The row of the ingredient left out."""
-        return named(self.rows, "without", without)
+    def _read(self, found: Measurement) -> None:
+        self.rows, self.parts = _plain_needed(self.rows), found.rows("parts")
+        self.full = found.each(RunCost, "full")[0]
+        self.lean_cost, self.cheapest = (found.one(RunCost, table) for table in ("lean", "cheapest"))
+        self.own_error, self.moved = (found.number("full", 0, name) for name in ("own_error", "moved"))
+        self.times_less, self.other_seconds = (found.number("lean", 0, name) for name in ("times_less", "other_seconds"))
+        self.other_method = found.text("lean", 0, "other_method") or None
+        self.lean_error, self.cheapest_error = (found.number(table, 0, "error") for table in ("lean", "cheapest"))
+        self.lean_note = found.text("lean", 0, "note")
 
     @property
     def left_out(self) -> list[str]:
@@ -146,22 +100,6 @@ class Needs(Paged, Closing):
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
         return draw("plot.needs", self, ax, **options)
 
-    def __str__(self) -> str:
-        if self.parts.size:
-            return "\n".join(lined(_PARTS_HEAD, [_part(part) for part in self.parts]))
-        fields, whole = ["without", "error", "wall_seconds", "step_limit"], (self.full.wall_seconds, self.full.step_limit)
-        rows = [(*row, "needed" if needed else "-") for row, needed in zip(self.rows[fields].tolist(), self.rows["needed"])]
-        heads = ("without", "change [m]", "wall time [s]", "largest step [s]", "")
-        lines = lined(heads, [("nothing (the full scene)", "", *whole, ""), *rows])
-        if self.lean_cost is not None and self.cheapest is not None:
-            left_out = plain(", ".join(self.left_out)) or "nothing"
-            lines.append(
-                f"left out together: {left_out}; error at most {self.lean_error:.3g} m, wall time "
-                f"{self.lean_cost.wall_seconds:.3g} s where the full scene takes {self.cheapest.wall_seconds:.3g} s "
-                "within what is wanted"
-            )
-        lines += [words for words in (self.lean_note, self.note) if words]
-        return "\n".join(lines)
 
     def __repr__(self) -> str:
         if self.parts.size:
@@ -174,7 +112,6 @@ def needs(
     want: float,
     watch: Any = None,
     *,
-    refine: bool = False,
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Needs:
@@ -182,17 +119,15 @@ def needs(
     the watched positions and the savings; then leaves out together everything that is not needed for errors of at
     most `want` [m], and checks the lean system against the full one.
 
-    `watch` is the name of a part or of a group, or particle numbers; None: all free particles. ``refine=True`` does
-    the reverse: it runs each part at once, twice and four times its resolution, and finds the resolution for the
-    wanted error. ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops
-    the work by returning a non-zero number, with the results so far. The keywords `options` are those of a run:
-    duration [s], every [s], method, ...; steps and tolerances are found. ``found.write("page.html")`` makes a page
-    with diagrams.
+    `watch` is the name of a part or of a group, or particle numbers; None: all free particles. The keywords `options`
+    are those of ``hooke.describe("needs")``, and those of a run: duration [s], every [s], method, ...; steps and
+    tolerances are found. ``refine=True`` does the reverse: it runs each part at once, twice and four times its
+    resolution, and finds the resolution for the wanted error. ``progress(fraction, what)`` receives progress
+    (``progress=True`` shows a bar, with tqdm) and stops the work by returning a non-zero number, with the results so
+    far. ``found.write("page.html")`` makes a page with diagrams.
     """
-    if watch is not None and not isinstance(watch, str):
-        watch = ",".join(str(int(particle)) for particle in np.ravel(watch))
-    chosen = Options.for_needs().set(want=want, watch=watch, refine=refine)
-    return Needs(*measured("needs", problem, options, chosen, progress))
+    watch = watch if watch is None or isinstance(watch, str) else np.ravel(watch)
+    return Needs(*measured("needs", problem, {**options, "want": want, "watch": watch}, progress))
 
 
 def _plain_needed(table: Table) -> Table:
@@ -201,16 +136,3 @@ def _plain_needed(table: Table) -> Table:
     made = table.astype([(name, bool if name == "needed" else table.dtype[name]) for name in names])
     made.flags.writeable = False
     return made
-
-
-_PARTS_HEAD = ("part", "cells", "N to 2N [m]", "2N to 4N [m]", "order", "left [m]", "wanted", "")
-
-
-def _cells(part: np.void, what: str) -> str:
-    counts = [part[what + axis] for axis in ("", "_second", "_third")]
-    return " x ".join(f"{count:.0f}" for count in counts if not np.isnan(count)) or "-"
-
-
-def _part(part: np.void) -> tuple[Any, ...]:
-    numbers = (part[name] for name in ("change", "change_fine", "order", "error"))
-    return (str(part["part"]), _cells(part, "cells"), *numbers, _cells(part, "wanted"), str(part["note"]))

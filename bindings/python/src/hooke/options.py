@@ -11,9 +11,8 @@ import numpy as np
 
 from ._library import lib
 from ._memory import Handle, Owner, address_of, double_pointer, doubles, plain, text, view
-from ._place import placed
 from ._prototypes import OPTIONS
-from ._status import BadCall, BadValue
+from ._status import BadCall, BadValue, placed
 from ._types import Table
 
 Value = Union[None, bool, int, float, str, Table, list[Any]]
@@ -52,13 +51,17 @@ class Row(NamedTuple):
     only: str
 
 
-def _of_table(what: str, doc: str) -> classmethod[Options, [], Options]:
+_LISTS = ("methods", "watch")  #: texts that are lists of words
+
+
+def _of_table(what: str) -> classmethod[Options, [], Options]:
     """A method of `Options` that makes those of one table."""
 
     def make(cls: type[Options]) -> Options:
         return cls._of(what)
 
-    make.__doc__, make.__name__, make.__qualname__ = doc, f"for_{what}", f"Options.for_{what}"
+    make.__doc__ = f"The options that ``hooke.describe(\"{what}\")`` lists."
+    make.__name__, make.__qualname__ = f"for_{what}", f"Options.for_{what}"
     return classmethod(make)
 
 
@@ -82,19 +85,15 @@ class Options(Owner, MutableMapping[str, Any]):
     def _of(cls, table: str) -> Options:
         return cls(Handle.made(OPTIONS, lib.hooke_options_destroy, None, lib.hooke_options_create, table.encode()))
 
-    for_run = _of_table("run", "Options of a run: method, step [s], duration [s], every [s], rtol, atol [m], ...")
-    for_study = _of_table("study", "Options of a study: methods, points, steps [s], tolerances, want [m], budget [s].")
-    for_limit = _of_table("limit", "Options of a limit: methods, predict, nonlinear, along, accuracy, budget [s].")
-    for_cost = _of_table("cost", "Options of a cost: predict, budget [s], groups.")
-    for_why = _of_table("why", "Options of an explanation: budget [s].")
-    for_needs = _of_table("needs", "Options of needs: want [m], watch, refine.")
-    for_springs = _of_table("springs", "Options of a group of springs: law, stiffness, damping, rest_length [m], ...")
-    for_altitude = _of_table(
-        "altitude", "Options of a group of altitude springs: stiffness [N], damping [N s], rest_scale, compression."
-    )
-    for_anchors = _of_table(
-        "anchors", "Options of a group of anchors: points [m], stiffness [N/m], damping [N s/m], rest_length [m]."
-    )
+    for_run = _of_table("run")
+    for_study = _of_table("study")
+    for_limit = _of_table("limit")
+    for_cost = _of_table("cost")
+    for_why = _of_table("why")
+    for_needs = _of_table("needs")
+    for_springs = _of_table("springs")
+    for_altitude = _of_table("altitude")
+    for_anchors = _of_table("anchors")
 
     @classmethod
     def for_scene(cls, what: str = "scene") -> Options:
@@ -145,6 +144,8 @@ class Options(Owner, MutableMapping[str, Any]):
                 "these are the options that an integrator runs with; make another integrator to change them"
             )
         key = name.encode()
+        if name in _LISTS and isinstance(value, Iterable) and not isinstance(value, str):
+            value = ",".join(map(str, value))
         if name in ("method", "methods") and isinstance(value, str):
             value = ",".join(_method_meant(name, word) for word in value.split(","))
         if value is None:
@@ -233,11 +234,6 @@ def describe(what: str) -> str:
 def option_name(keyword: str) -> str:
     """The option of a keyword: ``from_`` means ``from``, which Python reserves."""
     return keyword[:-1] if keyword.endswith("_") else keyword
-
-
-def joined(words: str | Iterable[str] | None) -> str | None:
-    """Words as one text, as options take them."""
-    return words if words is None or isinstance(words, str) else ",".join(words)
 
 
 def as_number(name: str, value: Any) -> float:

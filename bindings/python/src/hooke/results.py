@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import html
 import itertools
 import math
 import os
@@ -25,25 +24,21 @@ from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
-from . import _problem
 from ._callback import stop_value
 from ._library import lib
-from ._measurement import Measurement
-from ._notebook import embed
-from ._progress import WorkProgress, shown
+from ._look import WorkProgress, draw, shown
+from ._measurement import Claim, Measurement, Record, said
 from ._prototypes import TRAJECTORY
-from ._record import numbers, opened, run_options
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
-from .estimate import Estimate, Length, RunError
-from .first_order import FirstOrder
+from .files import numbers, opened, run_options, view, write_companion
 from .integrator import Integrator, Observer
 from .options import Options
-from .scene import Scene, scene_text
-from .second_order import SecondOrder
+from .problems import FirstOrder, SecondOrder
+from .problems import Problem as Base
+from .scene import Scene
 from .state import State
 from .system import Force, System, system_of
-from .view import view, write_companion
 from .why import Why
 
 #: Problems that are no scene: a system, or a first- or second-order problem.
@@ -52,6 +47,9 @@ Problem = Union[System, FirstOrder, SecondOrder]
 Runnable = Union[Path, Scene, Problem]
 #: progress(fraction, state): called at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
+#: A length: a number [m], or text with a unit, such as "1mm".
+Length = Union[float, str]
+_CHOSEN = ("step", "rtol", "atol", "atol_velocity")
 _STOPPED = 1
 
 
@@ -64,6 +62,10 @@ class Frames(NamedTuple):
     v: FloatArray | None
 
 
+class RunError(Record, table="estimate.estimate", without=("seconds", "memory_bytes", "reversal"), none=("by",)):
+    """The error of a run; a number that is not known is NaN. `met` is None if that is unknown or no error was wanted."""
+
+
 @dataclass(frozen=True)
 class Result:
     """The result of a run.
@@ -71,7 +73,8 @@ class Result:
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
     the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
     returned by the callback that stopped the run, `output` the file that was written. `integrator` is kept if the run
-    blew up, for `hooke.why`. `error` is the error of the run, if that was requested.
+    blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and `claims` what is
+    said of it, which ``print(result)`` shows.
     """
 
     status: str
@@ -87,6 +90,7 @@ class Result:
     output: Path | None = None
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
     error: RunError | None = None
+    claims: tuple[Claim, ...] = ()
 
     @property
     def diagnosis(self) -> str:
@@ -102,6 +106,9 @@ class Result:
         except BadValue as missing:
             raise AttributeError(str(missing)) from None
 
+    def __str__(self) -> str:
+        return said(self.claims) or repr(self)
+
     def __repr__(self) -> str:
         return (
             f"Result({self.status}, {self.options['method']}, t={self.state.t!r}, "
@@ -109,8 +116,8 @@ class Result:
         )
 
     def _repr_html_(self) -> str | None:
-        words = f"<p>{html.escape(self.diagnosis)}</p>" if self.diagnosis else ""
-        return (words + (embed(lambda page: view(self, page), 720) if self.output is not None else "")) or None
+        words: str = draw("notebook.paragraphs", self.diagnosis or said(self.claims))
+        return (words + (draw("notebook.embed", lambda page: view(self, page)) if self.output is not None else "")) or None
 
 
 def run(
@@ -162,7 +169,7 @@ class _Once:
     on_frame: Observer | None
     on_step: tuple[int, Observer] | None
 
-    def run(self, options: Options, state: State, estimate: Estimate | None = None) -> Result:
+    def run(self, options: Options, state: State, estimate: Measurement | None = None) -> Result:
         integrator = Integrator(self.problem, options)
         integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
@@ -170,8 +177,8 @@ class _Once:
         if recorder is not None:
             watchers.append(recorder)
         if estimate is not None:
-            estimate.begin(integrator, state)
-            watchers.append(estimate.see)
+            lib.hooke_estimate_begin(estimate.handle, integrator._handle, state._handle)
+            watchers.append(_seen_by(estimate))
         with shown(self.progress, fills=False) as tell:  # a run may end early
             if tell is not None:
                 last, numbers = max(integrator.frame_count - 1, 1), itertools.count()
@@ -180,31 +187,50 @@ class _Once:
         result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None)
         if estimate is None:
             return result
-        error = estimate.measure(state)
+        estimate.run(None, state)
         if self.output is not None and status == "finished":
-            estimate.write(self.output)
-        return replace(result, error=error)
+            lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
+        return replace(result, error=estimate.one(RunError, "estimate"), claims=tuple(estimate.each(Claim, "claims")))
 
     def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
         if self.output is None:
             return integrator.run(state, on_frame=_all(watchers), on_step=self.on_step)
-        path = os.fsencode(self.output)
-        file = _create_file(path, self.scene, integrator)
+        path, file, system = os.fsencode(self.output), TRAJECTORY(), system_of(self.problem, "output")
+        text = None if self.scene is None else self.scene.text.encode()
+        lib.hooke_trajectory_create(path, system._handle, integrator._handle, text, ctypes.byref(file))
         return _run_to_file(path, file, integrator.run, integrator, state, watchers, self.on_step)
 
 
 def _run_to_want(
     once: _Once, system: System, options: Options, given: dict[str, Any], want: Length | None
 ) -> Result:
-    """Runs; with a wanted error, repeats until it is met or nothing finer is known to help."""
-    estimate = Estimate(system, want)
+    """Runs; with a wanted error, picks a method and its step or tolerance, keeping a method that is among those `given`,
+    and repeats until the error is met or nothing finer is known to help."""
+    chosen = Options._of("estimate").set(want=want.strip() if isinstance(want, str) else want, callbacks=True)
+    estimate = Measurement.create("estimate", system, None, chosen)
     if want is not None:
-        estimate.pick(options, given)
+        named = [name for name in _CHOSEN if given.get(name) is not None]
+        if named:
+            raise BadValue(f"want picks the step or the tolerance; leave out {' and '.join(named)}, or want")
+        method = given.get("method")
+        with estimate.listening(None):
+            lib.hooke_estimate_pick(estimate.handle, None if method is None else method.encode(), options._handle)
     while True:
         result = once.run(options, system.state(), estimate)
         met = result.error is None or result.error.met
-        if want is None or result.status != "finished" or met or not estimate.refine(options):
+        if want is None or result.status != "finished" or met:
             return result
+        try:
+            lib.hooke_estimate_refine(estimate.handle, options._handle)
+        except Unsuited:
+            return result
+
+
+def _seen_by(estimate: Measurement) -> Observer:
+    def see(step: int, state: State) -> None:
+        lib.hooke_estimate_see(step, state._handle, estimate.handle.pointer)
+
+    return see
 
 
 def resume(
@@ -306,11 +332,13 @@ def resolve(
 
 
 def measured(
-    kind: str, problem: Runnable, run: dict[str, Any], chosen: Options, progress: Any, at: Any = None, force: Force | None = None
+    kind: str, problem: Runnable, given: dict[str, Any], progress: Any, at: Any = None, force: Force | None = None
 ) -> tuple[Measurement, Scene | None, System, int]:
-    """A measurement of a kind, done `at` a state of a system, with its scene, its system and the status. `run` are options of
-    its runs, which may be in several threads."""
-    scene, found, options = resolve(problem, force, run)
+    """A measurement of a kind, done `at` a state of a system, with its scene, its system and the status. The keywords
+    `given` are options of the kind, or of its runs, which may be in several threads."""
+    chosen = Options._of(kind)
+    chosen.set(**{name: given.pop(name) for name in list(given) if name in chosen})
+    scene, found, options = resolve(problem, force, given)
     system, threads = system_of(found, kind), options["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
@@ -327,12 +355,6 @@ def _all(watchers: list[Observer]) -> Observer:
         return None
 
     return watch
-
-
-def _create_file(path: bytes, scene: Scene | None, integrator: Integrator) -> Any:
-    system, pointer = system_of(integrator._problem, "output"), TRAJECTORY()
-    lib.hooke_trajectory_create(path, system._handle, integrator._handle, scene_text(scene), ctypes.byref(pointer))
-    return pointer
 
 
 def _run_to_file(
@@ -381,26 +403,21 @@ def _keep_place(keep: Callable[[int, State], None], state: State) -> None:
 class _Recorder:
     def __init__(self, frame_count: int, state: State):
         self._count = 0
-        self._t = np.empty(frame_count)
-        q, v = _arrays(state)
-        self._q = np.empty((frame_count, *q.shape), q.dtype)
-        self._v = None if v is None else np.empty((frame_count, *v.shape))
+        self._kept = [np.empty((frame_count, *array.shape), array.dtype) for array in _arrays(state)]
 
     def __call__(self, step: int, state: State) -> None:
-        q, v = _arrays(state)
-        self._t[self._count] = state.t
-        self._q[self._count] = q
-        if self._v is not None:
-            self._v[self._count] = v
+        for kept, array in zip(self._kept, _arrays(state)):
+            kept[self._count] = array
         self._count += 1
 
     def frames(self) -> Frames:
-        end = self._count
-        return Frames(self._t[:end], self._q[:end], None if self._v is None else self._v[:end])
+        t, q, *v = (kept[: self._count] for kept in self._kept)
+        return Frames(t, q, v[0] if v else None)
 
 
-def _arrays(state: State) -> tuple[Table, Table | None]:
-    return (state.x, None) if state._v is None else (state.q, state.v)
+def _arrays(state: State) -> list[Table]:
+    """Time, positions and velocities, or time and the unknowns of a first-order problem."""
+    return [np.asarray(state.t), *([state.x] if state._v is None else [state.q, state.v])]
 
 
-_problem.Problem._run_by = run
+Base._run_by = run

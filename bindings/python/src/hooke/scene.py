@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, Callable
 
 import numpy as np
 
 from ._library import lib
 from ._memory import Handle, doubles, indices, rows, text
-from ._place import placed
-from ._problem import Problem
 from ._prototypes import SCENE
-from ._status import BadCall, BadValue
-from ._types import IntArray, Numbers, Particle, Path
+from ._status import BadCall, BadValue, placed
+from ._types import IntArray, Numbers, Path
 from .options import Options, option_name
 from .parts import Parts
+from .problems import Problem
 from .system import System, read_mesh, write_scene
 
 
@@ -129,23 +128,6 @@ class Scene(Parts, Problem):
         self._changed()["particles"] = piece
         return self
 
-    def bodies(
-        self,
-        name: str | None = None,
-        *,
-        particles: Particle | Sequence[Particle] | IntArray | None = None,
-        part: str | None = None,
-        project: bool = False,
-    ) -> Scene:
-        """Makes existing `particles` (m,), or all of a `part`, one rigid body. Initial velocities have to be those of a
-        rigid motion, or with `project` become those of the nearest one. Returns the scene."""
-        with placed(f"bodies[{self._count('bodies')}]"):
-            if (particles is None) == (part is None):
-                raise BadValue("particles: allowed: particles, or the name of a part")
-            if part is not None:
-                particles = list(self._in_part(part, "part"))
-        return self._group("bodies", "particles", {"name": name, "particles": particles, "project": project or None})
-
     def run_defaults(self, **options: Any) -> Scene:
         """Sets default options of runs of the scene: method, step [s], duration [s], every [s], ..., as
         ``hooke.describe("run")`` lists them. Returns the scene."""
@@ -157,8 +139,12 @@ class Scene(Parts, Problem):
 
     def _group(self, kind: str, what: str, given: dict[str, Any]) -> Scene:
         """Adds a group to the system, and to the document as it was given; its particles are its key `what`."""
-        keys, name = _keys(given, "name", what), given.get("name")
+        keys, name, part = _keys(given, "name", "part", what), given.get("name"), given.get("part")
         with placed(f"{kind}[{self._count(kind)}]"):
+            if "part" in given:
+                if (given[what] is None) == (part is None):
+                    raise BadValue(f"{what}: allowed: {what}, or the name of a part")
+                given[what] = given[what] if part is None else list(self._in_part(part, "part"))
             numbers = self._numbers(given[what], what)
             numbers = numbers.reshape(-1) if what == "particles" else numbers
             self._system._add(kind, name, what, numbers, keys)
@@ -270,11 +256,6 @@ class Scene(Parts, Problem):
 def limits_of(memory: float | None, outside: bool) -> Handle:
     """Options of hooke_scene_load()."""
     return Options.for_scene("limits").set(memory=memory, outside=outside)._handle
-
-
-def scene_text(scene: Scene | None) -> bytes | None:
-    """The text stored in files of a run; None if there is no scene."""
-    return None if scene is None else scene.text.encode()
 
 
 def _require_rest(piece: dict[str, Any]) -> None:

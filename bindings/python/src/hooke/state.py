@@ -37,18 +37,9 @@ class State:
             self._v = view(address_of(velocity), shape, handle)
 
     @classmethod
-    def _of_system(cls, system: Handle) -> State:
-        return cls(Handle.made(STATE, lib.hooke_state_destroy, system, lib.hooke_state_create, system))
-
-    @classmethod
-    def _of_size(cls, size: int, dtype: Any = float) -> State:
-        create = lib.hooke_state_create_first_order
-        return cls(Handle.made(STATE, lib.hooke_state_destroy, None, create, size), dtype)
-
-    @classmethod
-    def _of_coordinates(cls, size: int) -> State:
-        create = lib.hooke_state_create_second_order
-        return cls(Handle.made(STATE, lib.hooke_state_destroy, None, create, size), in_rows=False)
+    def _made(cls, system: Handle | None, create: Any, given: Any, **kind: Any) -> State:
+        """What a function of the library makes of a system or a size."""
+        return cls(Handle.made(STATE, lib.hooke_state_destroy, system, create, given), **kind)
 
     @classmethod
     def _of_particles(cls, count: int) -> State:
@@ -57,7 +48,7 @@ class State:
         place, mass = double_pointer(np.zeros((count, 3))), double_pointer(np.ones(1))
         lib.hooke_system_add_particles(system, count, place, None, 1, mass, None)
         lib.hooke_system_commit(system)
-        return cls._of_system(system)
+        return cls._made(system, lib.hooke_state_create, system)
 
     @property
     def t(self) -> float:
@@ -108,7 +99,7 @@ class State:
         return self.copy()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self.t, self._x.copy(), None if self._v is None else self._v.copy())
+        return restored, (self.t, self._x.copy(), None if self._v is None else self._v.copy())
 
     def assign(self, other: State) -> None:
         """Copies time, positions and velocities from a state of the same size."""
@@ -126,14 +117,14 @@ class State:
 def _alike(x: Table, v: FloatArray | None, system: Handle | None = None) -> State:
     """A state for such arrays, of a system or of none."""
     if v is None:
-        return State._of_size(x.view(float).size, x.dtype)
+        return State._made(None, lib.hooke_state_create_first_order, x.view(float).size, dtype=x.dtype)
     if v.ndim == 1:
-        return State._of_coordinates(v.size)
-    return State._of_particles(len(v)) if system is None else State._of_system(system)
+        return State._made(None, lib.hooke_state_create_second_order, v.size, in_rows=False)
+    return State._of_particles(len(v)) if system is None else State._made(system, lib.hooke_state_create, system)
 
 
-def _restored(t: float, x: Table, v: FloatArray | None) -> State:
-    """A state that was pickled."""
+def restored(t: float, x: Table, v: FloatArray | None) -> State:
+    """A state with these values, of no system."""
     state = _alike(x, v)
     state.t, state.x = t, x
     if v is not None:

@@ -7,46 +7,26 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._closing import Closing
 from ._library import lib
-from ._measurement import Measurement, Paged
-from ._notebook import draw, of_methods
-from ._progress import WorkProgress
-from ._types import BoolArray, FloatArray, Path, StrArray
-from .options import Options, joined
+from ._look import WorkProgress, draw
+from ._measurement import Measurement, Paged, Record
+from ._memory import Closing
+from ._types import FloatArray, Path
 from .results import Runnable, measured
-from .scene import Scene
-from .system import Force, System
+from .system import Force
 
 
-class Reference(NamedTuple):
-    """The reference of the errors: the two integrators that made it, which share only the force; their largest
-    distance [m], the floor of all errors; the time until which they agree [s], up to which errors are judged; and a
-    bound on the growth of a small displacement of the start, true with `growth_probability`, both NaN if unknown.
-    `growth_seen` is the largest growth of `displacements` displacements. `energy_agreement` [J] is the floor of
-    energy drift. `ended` says why it was not refined further: "agreed", "time" (the budget), "rounding", or "parted"
-    (which ends a first look)."""
+class Reference(Record, table="study.reference"):
+    """The reference of the errors, made by two integrators."""
 
-    methods: tuple[str, str]
-    agreement: float
-    trusted_until: float
-    growth: float
-    growth_probability: float
-    growth_seen: float
-    displacements: int
-    energy_agreement: float
-    ended: str
+    @property
+    def methods(self) -> tuple[str, str]:
+        """The two integrators, which share only the force."""
+        return self.method, self.check
 
 
-class Order(NamedTuple):
-    """The observed order of a fixed-step method, its 95 % interval, the theoretical order, and reasons for a
-    difference."""
-
-    order: float
-    low: float
-    high: float
-    theory: float
-    note: str
+class Order(Record, table="study.orders"):
+    """The observed order of a fixed-step method."""
 
 
 class Series(NamedTuple):
@@ -57,54 +37,18 @@ class Series(NamedTuple):
     energy_drift: FloatArray
 
 
-class Margin(NamedTuple):
-    """The margin of a recommendation: its error, minus and plus the agreement of the reference [m]; its step over the
-    largest stable one at the start (NaN: none, or unknown); and the error where stiffness is 10 % more or less, or
-    where all particles start with a tenth of the largest speed more or less along (1, 1, 1), and whether that still
-    meets the wanted error. NaN, and None, if unknown."""
-
-    error_low: float
-    error_high: float
-    limit_share: float
-    error_stiffness: float
-    holds_stiffness: bool | None
-    error_start: float
-    holds_start: bool | None
+class Margin(Record, table="study.margin"):
+    """The margin of a recommendation. NaN, and None, if unknown."""
 
 
-class Statistic(NamedTuple):
-    """Statistics of one quantity over an ensemble of displaced runs by one method, or by that of the reference: its
-    step [s] or rtol, the number of runs with the quantity (`members`) and of those that did not finish (`failed`),
-    the mean of the runs, their standard deviation (`spread`), and `bias`: the difference from the reference's mean in
-    standard errors (none is visible below 2 in size; NaN for the reference)."""
-
-    step: float
-    rtol: float
-    members: float
-    failed: float
-    mean: float
-    spread: float
-    bias: float
+class Statistic(Record, table="study.statistics"):
+    """Statistics of one quantity over an ensemble of displaced runs by one method, or by that of the reference, whose
+    `bias` is NaN."""
 
 
-class Recommendation(NamedTuple):
+class Recommendation(Record, table="study.recommendation", also=("margin",)):
     """The cheapest run that was seen to meet `want` [m], `until` [s]; if `met` is False, the closest one, and `note`
-    says why. `wall_seconds` is the least of several runs, `wall_median` their median. Numbers that do not apply are
-    NaN."""
-
-    met: bool
-    want: float
-    method: str
-    step: float
-    rtol: float
-    atol: float
-    error: float
-    until: float
-    wall_seconds: float
-    wall_median: float
-    force_evaluations: float
-    note: str
-    margin: Margin
+    says why. Numbers that do not apply are NaN. `margin` is its `Margin`."""
 
     @property
     def options(self) -> dict[str, Any]:
@@ -117,18 +61,13 @@ class Recommendation(NamedTuple):
         return options
 
 
-class Study(Paged, Closing):
+class Study(Paged, Closing, kind="study"):
     """A finished study: one row a method and step or tolerance, the coarsest first.
 
-    Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped", "failed"), step
-    [s], rtol, atol [m], error (largest root mean square over the free particles [m]), error_max (largest distance of one
-    [m]), error_final [m], energy_drift [J], force_evaluations, steps, linear_iterations, wall_seconds (the least of
-    `repeats` runs) and wall_median [s]; near_floor (the error is within ten times the agreement of the reference),
-    near_energy_floor (likewise for energy_drift), timed_alone. NaN where a number does not apply. `rows` holds them all as one
-    structured array.
+    Each column of `rows` is an array with one entry a row, NaN where a number does not apply: ``study.error`` (k,).
 
-    `outcome` is "finished", or "stopped" if the progress function asked for it; `budget_spent` says that rows are
-    missing for lack of time. `orders` has an `Order` for each fixed-step method.
+    `outcome` is "finished", or "stopped" if the progress function asked for it. `orders` has an `Order` for each
+    fixed-step method.
 
     `watched` has for each watched quantity an array of its errors, one a row, in its unit; `agreement` is the
     accuracy of the reference in it. `statistics`, empty unless an ensemble was requested and the reference is not
@@ -136,51 +75,27 @@ class Study(Paged, Closing):
     for "reference" and for each method.
     """
 
-    budget_spent: bool
-    duration: float
     reference: Reference
     orders: dict[str, Order]
     watched: dict[str, FloatArray]
     agreement: dict[str, float]
     statistics: dict[str, dict[str, Statistic]]
+    _progress: Any = None
 
-    method: StrArray
-    status: StrArray
-    step: FloatArray
-    rtol: FloatArray
-    atol: FloatArray
-    error: FloatArray
-    error_max: FloatArray
-    error_final: FloatArray
-    energy_drift: FloatArray
-    force_evaluations: FloatArray
-    steps: FloatArray
-    linear_iterations: FloatArray
-    wall_seconds: FloatArray
-    wall_median: FloatArray
-    repeats: FloatArray
-    near_floor: BoolArray
-    near_energy_floor: BoolArray
-    timed_alone: BoolArray
-
-    def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int, progress: Any):
-        super().__init__(measurement, scene, system, status)
-        self._progress = progress
+    def _read(self, found: Measurement) -> None:
         vars(self).update((name, self.rows[name]) for name in self.rows.dtype.names or ())
-        both = tuple(measurement.text("reference", 0, name) for name in ("method", "check"))
-        self.reference = measurement.one(Reference, "reference", methods=both)
+        self.reference = found.each(Reference, "reference")[0]
         self.orders = {
-            method: order
-            for method, order in zip(measurement.rows("orders")["method"].tolist(), measurement.each(Order, "orders"))
-            if method in self.method and not lib.hooke_method_is_adaptive(method.encode())
+            order.method: order
+            for order in found.each(Order, "orders")
+            if order.method in self.method and not lib.hooke_method_is_adaptive(order.method.encode())
         }
-        watched, errors = measurement.rows("watched"), measurement.rows("watched_errors")
+        watched, errors = found.rows("watched"), found.rows("watched_errors")
         self.watched = {str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]}
         self.agreement = dict(watched[["quantity", "agreement"]].tolist())
         self.statistics = {}
-        found = measurement.rows("statistics")[["quantity", "method"]].tolist()
-        for (quantity, method), statistic in zip(found, measurement.each(Statistic, "statistics")):
-            self.statistics.setdefault(quantity, {})[method] = statistic
+        for statistic in found.each(Statistic, "statistics"):
+            self.statistics.setdefault(statistic.quantity, {})[statistic.method] = statistic
 
     @property
     def methods(self) -> list[str]:
@@ -191,8 +106,7 @@ class Study(Paged, Closing):
     def recommendation(self) -> Recommendation | None:
         """The latest recommendation; None if there was no `want`."""
         margin = self._handle.one(Margin, "margin")
-        found: Recommendation | None = self._handle.one(Recommendation, "recommendation", margin=margin)
-        return found
+        return self._handle.one(Recommendation, "recommendation", margin=margin)
 
     def recommend(self, want: float) -> Recommendation:
         """Recommends the cheapest run found whose error_max is at most `want` [m], as ``hooke.run(want=...)`` picks
@@ -221,8 +135,6 @@ class Study(Paged, Closing):
         """Draws error against cost and error against step; see `hooke.plot.study`."""
         return draw("plot.study", self, axes, **options)
 
-    def __str__(self) -> str:
-        return of_methods(self.rows, "step", "rtol", "error", "force_evaluations", "wall_seconds")
 
     def __repr__(self) -> str:
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"
@@ -232,15 +144,6 @@ def study(
     problem: Runnable,
     methods: str | Iterable[str] | None = None,
     *,
-    want: float | None = None,
-    budget: float | None = None,
-    points: int | None = None,
-    steps: Any = None,
-    tolerances: Any = None,
-    watch: str | Iterable[str] | None = None,
-    ensemble: int | None = None,
-    seed: int | None = None,
-    once: bool = False,
     output: Path | None = None,
     force: Force | None = None,
     progress: WorkProgress | bool | None = None,
@@ -249,29 +152,17 @@ def study(
     """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None) over a
     ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the `Study`.
 
-    `points` rows a method; `steps` [s] and `tolerances` are ladders of your own, from coarse to fine. `want` [m]
-    requests a recommendation, `budget` [s] limits the time. `watch` names quantities whose errors are reported, too:
+    The keywords `options` are those of ``hooke.describe("study")``: ladders of your own (`steps` [s], `tolerances`, from
+    coarse to fine), `want` [m], which requests a recommendation, a `budget` [s], an `ensemble`, ...; and those of a run:
+    duration [s], every [s], threads, ... `watch` names quantities whose errors are reported, too:
     "57.y" (a particle), "part:0.y", "group:3.length", ".strain" or ".tension" (a spring), "energy", "kinetic",
-    "potential", "period:57.y". `ensemble` is the number of starts displaced by noise from `seed`; their means and
-    spreads are reported if the motion is too chaotic to be judged. `once` is what `compare` asks for. `output` is a file
-    to write (see `Study.write`), `force` is the callback force of these runs, ``progress(fraction, what)`` receives
-    progress (``progress=True`` shows a bar, with tqdm) and stops the study by returning a non-zero number. The keywords
-    `options` are those of a run: duration [s], every [s], threads, ... ``hooke study --report FILE.html`` makes a page
-    with diagrams of the same study.
+    "potential", "period:57.y". `output` is a file to write (see `Study.write`), `force` is the callback force of these
+    runs, ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the study by
+    returning a non-zero number. ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
     """
-    chosen = Options.for_study().set(
-        methods=joined(methods),
-        want=want,
-        budget=budget,
-        points=points,
-        steps=steps,
-        tolerances=tolerances,
-        watch=joined(watch),
-        ensemble=ensemble,
-        seed=seed,
-        once=once,
-    )
-    made = Study(*measured("study", problem, options, chosen, progress, force=force), progress)
+    options["methods"] = methods
+    made = Study(*measured("study", problem, options, progress, force=force))
+    made._progress = progress
     if output is not None:
         made.write(output)
     return made

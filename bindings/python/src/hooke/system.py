@@ -11,12 +11,12 @@ import numpy as np
 from . import _callback
 from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
-from ._problem import Problem
-from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
+from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
 from ._status import BadValue
 from ._types import FloatArray, IntArray
 from .options import Options
+from .problems import Problem
 from .state import State
 
 #: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.
@@ -42,33 +42,29 @@ class System(Queries):
         handle = Handle.made(SYSTEM, lib.hooke_system_destroy, None, lib.hooke_system_create)
         self._adopt(handle, lambda: lib.hooke_system_commit(handle))
 
-    @classmethod
-    def _of_scene(cls, scene: Handle) -> System:
-        system = cls.__new__(cls)
-        handle = Handle(lib.hooke_scene_system(scene), None, scene)
-        system._adopt(handle, lambda: lib.hooke_scene_commit(scene))
-        return system
-
-    @classmethod
-    def _committed_by(cls, handle: Handle, callbacks: list[Any]) -> System:
-        """A system that the library made and owns, with the callbacks of another."""
-        system = cls.__new__(cls)
-        system._adopt(handle, lambda: None)
-        system._callbacks = callbacks
-        return system
-
-    def _with_force(self, force: Force) -> System:
-        """The same system with this callback force, as long as the result is in use."""
-        callback, create = _callback.force_callback(force), lib.hooke_system_with_force
-        given = self._committed(), callback, FORCE_PRODUCT(), None
-        handle = Handle.made(SYSTEM, lib.hooke_system_destroy, self._handle, create, *given)
-        return System._committed_by(handle, [*self._callbacks, callback])
-
-    def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
+    def _adopt(self, handle: Handle, commit: Callable[[], Any], callbacks: Any = ()) -> System:
         self._handle = handle
         self._commit = commit
         self._final = False  # whether it is known to be committed
-        self._callbacks: list[Any] = []  # the library calls them as long as the system is in use
+        self._callbacks: list[Any] = [*callbacks]  # the library calls them as long as the system is in use
+        return self
+
+    @classmethod
+    def _of_scene(cls, scene: Handle) -> System:
+        handle = Handle(lib.hooke_scene_system(scene), None, scene)
+        return cls.__new__(cls)._adopt(handle, lambda: lib.hooke_scene_commit(scene))
+
+    @classmethod
+    def _committed_by(cls, handle: Handle, callbacks: list[Any]) -> System:
+        """A system that the library made, with the callbacks of another."""
+        return cls.__new__(cls)._adopt(handle, lambda: None, callbacks)
+
+    def _with_force(self, force: Force) -> System:
+        """The same system with this callback force, as long as the result is in use."""
+        callback, create = _callback.on_arrays(FORCE, force, 2), lib.hooke_system_with_force
+        given = self._committed(), callback, FORCE_PRODUCT(), None
+        handle = Handle.made(SYSTEM, lib.hooke_system_destroy, self._handle, create, *given)
+        return System._committed_by(handle, [*self._callbacks, callback])
 
     # building
 
@@ -181,8 +177,7 @@ class System(Queries):
         """Gives the system a force of your own in all its runs: ``force(t, q, v, force)`` adds newtons to its last
         argument, ``product(t, q, v, dq, dv, out)`` the product with its derivative to `out`; without it difference
         quotients replace it."""
-        derivative = _callback.product_callback(product) if product else FORCE_PRODUCT()
-        callbacks = _callback.force_callback(force), derivative
+        callbacks = _callback.on_arrays(FORCE, force, 2), _callback.on_arrays(FORCE_PRODUCT, product, 4)
         lib.hooke_system_set_force(self._handle, *callbacks, None)
         self._callbacks.extend(callbacks)
 
@@ -202,7 +197,7 @@ class System(Queries):
 
     def drive_callback(self, particles: Any, drive: Drive) -> None:
         """Moves particles as ``drive(t, q, v)`` writes, which must depend on t alone."""
-        callback = _callback.drive_callback(drive)
+        callback = _callback.on_arrays(DRIVE, drive, 0)
         lib.hooke_system_drive_callback(self._handle, *_numbered(particles), callback, None)
         self._callbacks.append(callback)
 
@@ -217,7 +212,7 @@ class System(Queries):
 
     def state(self) -> State:
         """The initial state: t = 0, positions and velocities as added."""
-        return State._of_system(self._committed())
+        return State._made(self._handle, lib.hooke_state_create, self._committed())
 
     def save(self, path: str | os.PathLike[str], title: str = "", **options: Any) -> None:
         """Writes the system as a scene file, with `options` of a run: parts and groups of springs by their options,

@@ -10,26 +10,27 @@ from typing import TYPE_CHECKING, Any, Callable, NamedTuple, TypeVar, overload
 
 import numpy as np
 
-from ._closing import Closing
 from ._library import lib
-from ._memory import text
-from ._notebook import draw, embed
-from ._record import numbers, opened, run_options
+from ._look import draw
+from ._memory import Closing, text
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
-from .estimate import RunError
+from .files import numbers, opened, run_options, view
 from .options import Options
-from .results import Frames
+from .results import Frames, RunError
 from .scene import Scene
 from .state import State
 from .system import System
-from .view import view
 
 if TYPE_CHECKING:
-    from ._pictures import FuncAnimation
+    from .plot._pictures import FuncAnimation
 
 
 K = TypeVar("K")
+#: The numbers of an error in their order in a file.
+_ERROR = (
+    "estimate", "rms", "known_until", "energy_rise", "wanted", "met", "heat_excess", "last_piece", "last_from",
+)
 
 
 class Frame(NamedTuple):
@@ -120,11 +121,11 @@ class Trajectory(Closing):
     def error(self) -> RunError | None:
         """The error of the run, as estimated after it; None if it was not estimated."""
         by, reason = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_reason"))
-        if not (by or reason) or len(self._numbers("error")) != len(RunError._fields) - 2:
+        if not (by or reason) or len(self._numbers("error")) != len(_ERROR):
             return None  # not estimated, or by an earlier version, which knew parts alone
-        estimate, rms, known_until, rise, wanted, met, excess, piece, piece_from = self._numbers("error").tolist()
-        reached = None if math.isnan(met) else met == 1.0
-        return RunError(estimate, rms, known_until, by or None, wanted, reached, rise, excess, piece, piece_from, reason)
+        found = dict(zip(_ERROR, self._numbers("error").tolist()))
+        met = None if math.isnan(found["met"]) else found["met"] == 1.0
+        return RunError(**{**found, "met": met, "by": by, "reason": reason})
 
     @property
     def options(self) -> Options:
@@ -241,7 +242,8 @@ class Trajectory(Closing):
         return f"Trajectory({self.path!r}, {self._count} frames)"
 
     def _repr_html_(self) -> str:
-        return embed(lambda page: view(self.path, page), 720)
+        shown: str = draw("notebook.embed", lambda page: view(self.path, page))
+        return shown
 
     def close(self) -> None:
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""

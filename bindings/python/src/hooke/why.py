@@ -6,14 +6,12 @@ import math
 from typing import Any, NamedTuple
 
 from ._library import lib
-from ._measurement import Measurement, typed
+from ._look import WorkProgress
+from ._measurement import Measurement, Paged
 from ._memory import Handle, text
-from ._notebook import embed
-from ._problem import Problem
-from ._progress import WorkProgress
-from ._status import NotBuilt, Stopped, plain
-from ._types import Path
+from ._status import Stopped, plain
 from .options import Options
+from .problems import Problem
 
 
 class Blame(NamedTuple):
@@ -49,63 +47,37 @@ class Advice(NamedTuple):
     options: dict[str, Any]
 
 
-class Why:
-    """The diagnosis of a run that ended early.
+class Why(Paged, kind="why", rows="advice"):
+    """The diagnosis of a run that ended early; NaN where a number does not apply, None for `particle`.
 
-    `cause` is "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed",
-    "overflow", "model-gains-energy" or "unknown"; `sentence` states the cause with place and time. `time` [s] is that
-    of the last step within all bounds, `noticed` [s] when the run came to notice, `step` [s] and `limit` [s] the step
-    and the largest stable one, `particle` the one concerned (None if none is); NaN where a number does not apply.
-    `blame` has the limiting springs, the largest share first, `advice` the suggestions, the best first. `left_out`
-    lists the checks that did not fit the time or memory.
+    `blame` has the limiting springs, the largest share first, `advice` the suggestions, the best first. A page takes the
+    steps around the trouble again, so that callbacks are called again.
     """
 
-    cause: str
     sentence: str
-    method: str
-    left_out: str
-    time: float
-    noticed: float
-    step: float
-    limit: float
     particle: int | None
+
+    _untitled = "a run that blew up"
 
     def __init__(
         self, run: Handle, problem: Problem, title: str, budget: float | None, progress: WorkProgress | bool | None
     ):
         chosen = Options.for_why().set(budget=budget)
-        self._problem = problem  # its callbacks are called by the library
-        self._title = title
-        self._found = found = Measurement.made(run, lib.hooke_why_create, run, chosen._handle)
+        found = Measurement.made(run, lib.hooke_why_create, run, chosen._handle)
         if found.run(progress):
             raise Stopped(text(lib.hooke_last_error()))
-        vars(self).update(typed(Why, found.record("why") or {}))
+        super().__init__(found, None, problem, 0)
+        self._untitled = title or self._untitled
+
+    def _read(self, found: Measurement) -> None:
+        particle = found.number("why", 0, "particle")
+        self.particle = None if math.isnan(particle) else int(particle)
         self.blame = Blame.read(found)
         self.advice = [_advice(found, row) for row in range(found.count("advice"))]
-
-    def write(self, path: Path, title: str | None = None) -> None:
-        """Writes what was found by the ending of `path`: .html, the page of ``hooke why --report`` with `title` over it
-        (that of the scene, if None), for which the steps around the trouble are taken again, so that callbacks are
-        called again; .json or .h5, the tables."""
-        self._found.write(path, title=title or self._title or "a run that blew up")
-
-    def report(self, path: Path) -> Path:
-        """Writes the page to look at, offline, to a path that ends in ``.html``, and returns the path."""
-        self.write(path)
-        return path
-
-    def _repr_html_(self) -> str | None:
-        try:
-            return embed(self.write, 720)
-        except NotBuilt:
-            return None
 
     def __repr__(self) -> str:
         return f"Why({self.cause}, t={self.time!r}, {self.method})"
 
-    def __str__(self) -> str:
-        sentences = [self.sentence, *([self.left_out] if self.left_out else [])]
-        return "\n".join([*sentences, *(f"- {one.change} {one.options or ''}".rstrip() for one in self.advice)])
 
 
 def _whole(number: float) -> int:

@@ -69,21 +69,14 @@ const STEPS = new Set(["bound", "predicted", "measured", "smallest"]);
 
 function stepCell(row, what) {
   const value = row[what], isStep = STEPS.has(what);
-  const text = value === "none" ? "none" : isStep && value === 0 ? "no step"
-    : what === "steps_run" ? whole(value) : words(value, 6);
-  return element("td", text, { title: typeof value === "number" ? String(value) : "" });
+  return exact(value, value === "none" ? "none" : isStep && value === 0 ? "no step"
+    : what === "steps_run" ? whole(value) : words(value, 6));
 }
 
 function writeRows() {
   const columns = COLUMNS.filter(([what]) => data.rows.some((row) => row[what] !== null));
-  const body = element("tbody");
-  for (const row of data.rows) {
-    const line = element("tr");
-    line.append(methodCell(row.method), ...columns.map(([what]) => stepCell(row, what)),
-      element("td", row.note, { className: "word note" }));
-    body.append(line);
-  }
-  document.getElementById("rows").append(headOf([["", "method", "", "word"], ...columns, ["", "", "", "word"]]), body);
+  writeTable("rows", data.rows, [METHOD, ...columns.map(([what, name, unit]) => [name, unit, (row) => stepCell(row, what)]),
+    ["", "", (row) => row.note, "word note"]]);
 }
 
 function writeAbout() {

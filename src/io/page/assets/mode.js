@@ -141,22 +141,12 @@ const describeBlame = (one) =>
   [`spring ${one.number}, between particles ${one.first} and ${one.second}`, `${groupOf(one)}, ${percent(one.share)}`];
 
 function writeBlame() {
-  const body = element("tbody"), most = blames.slice(0, MOST_BLAMED);
-  for (const one of most) {
-    const line = element("tr"), name = element("td", undefined, { className: "word" });
-    const swatch = element("span", undefined, { className: "swatch" });
-    swatch.style.background = shareColour(one.share);
-    name.append(swatch, `spring ${one.number}`);
-    line.append(name, element("td", `${one.first} and ${one.second}`), element("td", one.group, { className: "word" }),
-      element("td", percent(one.share), { title: String(one.share) }));
-    body.append(line);
-  }
-  if (most.length === 0) return;
-  if (blames.length > most.length) {
-    const line = element("tr");
-    line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
-    body.append(line);
-  }
-  document.getElementById("blame").append(headOf([["", "to blame", "", "word"], ["", "between particles"],
-    ["", "group", "", "word"], ["", "share of the mode"]]), body);
+  writeTable("blame", blames.slice(0, MOST_BLAMED), [
+    ["to blame", "", (one) => swatched(`spring ${one.number}`, shareColour(one.share)), "word"],
+    ["between particles", "", (one) => `${one.first} and ${one.second}`], ["group", "", (one) => one.group, "word"],
+    ["share of the mode", "", (one) => exact(one.share, percent(one.share))]]);
+  if (blames.length <= MOST_BLAMED) return;
+  const line = element("tr");
+  line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
+  document.querySelector("#blame tbody").append(line);
 }

@@ -17,17 +17,8 @@ const COUNTS = new Set(["steps", "force_evaluations", "springs", "particles"]);
 
 function numberCell(row, what) {
   const value = what === "per_step" ? perStep(row) : row[what] ?? null;
-  const cell = element("td", value === "none" ? "none" : COUNTS.has(what) ? whole(value) : words(value, 4));
-  if (typeof value === "number") cell.title = String(value);
+  const cell = exact(value, value === "none" ? "none" : COUNTS.has(what) ? whole(value) : words(value, 4));
   if (what === "error" && value !== null && value <= want) cell.className = "enough";
-  return cell;
-}
-
-function nameCell(name, colour) {
-  const cell = element("td", undefined, { className: "word" }), swatch = element("span", undefined,
-    { className: "swatch" });
-  swatch.style.background = colour;
-  cell.append(swatch, name);
   return cell;
 }
 
@@ -38,28 +29,17 @@ function writeRows() {
     ...(lean ? [["all that is left out (the lean scene)", LEAN, lean, "within what is wanted"],
       ["nothing, within what is wanted", FULL, lean.full, "within what is wanted"]] : [])];
   const columns = COLUMNS.filter(([what]) => lines.some(([, , row]) => what === "per_step" || (row[what] ?? null) !== null));
-  const body = element("tbody");
-  for (const [name, colour, row, says] of lines) {
-    const line = element("tr");
-    line.append(nameCell(name, colour), ...columns.map(([what]) => numberCell(row, what)),
-      element("td", says, { className: "word note" }));
-    body.append(line);
-  }
-  document.getElementById("rows").append(headOf([["", "without", "", "word"], ...columns, ["", "", "", "word"]]), body);
+  writeTable("rows", lines, [["without", "", ([name, colour]) => swatched(name, colour), "word"],
+    ...columns.map(([what, name, unit]) => [name, unit, ([, , row]) => numberCell(row, what)]),
+    ["", "", ([, , , says]) => says, "word note"]]);
 }
 
 function writeParts() {
-  const body = element("tbody");
-  const exact = (value) => element("td", words(value, 4), { title: value === null ? "" : String(value) });
-  for (const part of data.parts) {
-    const line = element("tr");
-    line.append(element("td", part.part, { className: "word" }), element("td", cellsOf(part, "cells")),
-      ...["change", "change_fine", "order", "error"].map((what) => exact(part[what])),
-      element("td", cellsOf(part, "wanted")), element("td", part.note, { className: "word note" }));
-    body.append(line);
-  }
-  document.getElementById("parts").append(headOf([["", "part", "", "word"], ["", "cells N"], ["", "N to 2N", "[m]"],
-    ["", "2N to 4N", "[m]"], ["", "order"], ["", "left", "[m]"], ["", "the want", "asks for"], ["", "", "", "word"]]), body);
+  writeTable("parts", data.parts, [["part", "", (part) => part.part, "word"],
+    ["cells N", "", (part) => cellsOf(part, "cells")], ["N to 2N", "[m]", (part) => exact(part.change)],
+    ["2N to 4N", "[m]", (part) => exact(part.change_fine)], ["order", "", (part) => exact(part.order)],
+    ["left", "[m]", (part) => exact(part.error)], ["the want", "asks for", (part) => cellsOf(part, "wanted")],
+    ["", "", (part) => part.note, "word note"]]);
 }
 
 function writePictured() {

@@ -174,24 +174,41 @@ function writeLead(kind, lead) {
   if (data.command && claims.length > 0) box.append(element("pre", data.command));
 }
 
-function headOf(columns) {
-  const row = element("tr");
-  for (const [, name, unit, kind] of columns) {
-    const cell = element("th", name, { className: kind || "" });
-    if (unit) cell.append(element("br"), element("small", unit));
-    row.append(cell);
-  }
-  const head = element("thead");
-  head.append(row);
-  return head;
-}
-
-function methodCell(method) {
+/* A name beside its colour. */
+function swatched(name, colour) {
   const cell = element("td", undefined, { className: "word" });
   const swatch = element("span", undefined, { className: "swatch" });
-  swatch.style.background = colourOf(method);
-  cell.append(swatch, method);
+  swatch.style.background = colour;
+  cell.append(swatch, name);
   return cell;
+}
+
+const exact = (value, text = words(value, 4)) =>
+  element("td", text, { title: typeof value === "number" ? String(value) : "" });
+
+/* Columns have a name, a unit, what makes a text or a cell of a row, and a class. The lines of a method begin
+ * with one of the class "first". */
+const METHOD = ["method", "", ({ method }) => swatched(method, colourOf(method)), "word"];
+const begins = (row, before) => (before && before.method !== row.method ? "first" : "");
+
+function writeTable(id, rows, columns, classOf = () => "") {
+  if (rows.length === 0) return;
+  const line = (className, cells) => {
+    const row = element("tr", undefined, { className });
+    row.append(...cells);
+    return row;
+  };
+  const head = element("thead"), body = element("tbody");
+  head.append(line("", columns.map(([name, unit, , className = ""]) => {
+    const cell = element("th", name, { className });
+    if (unit) cell.append(element("br"), element("small", unit));
+    return cell;
+  })));
+  body.append(...rows.map((row, k) => line(classOf(row, rows[k - 1]), columns.map(([, , say, className = ""]) => {
+    const said = say(row);
+    return said instanceof Node ? said : element("td", said, { className });
+  }))));
+  document.getElementById(id).append(head, body);
 }
 
 function writeMachine() {

@@ -11,17 +11,18 @@ function writeHead() {
 
 /* ---- tables ---- */
 
-const COLUMNS = [["setting", "step [s]", "or rtol"], ["error", "error", "[m]"],
+const COLUMNS = [["error", "error", "[m]"],
   ["error_final", "at the end", "[m]"], ["error_max", "farthest", "[m]"], ["energy_drift", "energy drift", "[J]"],
   ["force_evaluations", "force", "evaluations"], ["steps", "steps", ""], ["linear_iterations", "solver", "iterations"],
   ["wall_seconds", "wall time", "[s]"], ["wall_median", "median", "[s]"], ["repeats", "repeats", ""]];
 const COUNTS = new Set(["force_evaluations", "steps", "linear_iterations", "repeats"]);
 
+const settingOf = (row) => exact(row.step ?? row.rtol, (row.step === null ? "rtol " : "") + words(row.step ?? row.rtol, 4));
+const SETTING = ["step [s]", "or rtol", settingOf];
+const classOf = (row, before) => `${row.status} ${begins(row, before)}`;
+
 function numberCell(row, what) {
-  const value = what === "setting" ? row.step ?? row.rtol : row[what];
-  const name = what === "setting" && row.step === null ? "rtol " : "";
-  const cell = element("td", COUNTS.has(what) ? whole(value) : name + words(value, 4));
-  if (value !== null) cell.title = String(value);
+  const value = row[what], cell = exact(value, COUNTS.has(what) ? whole(value) : words(value, 4));
   if (what === "error" && row.near_floor && value !== null) cell.textContent += " \u25cb";
   if (what === "energy_drift" && row.near_energy_floor && value !== null) cell.textContent += " \u25cb";
   if (what === "wall_seconds" && row.timed_alone === false) cell.textContent += " +";
@@ -30,32 +31,18 @@ function numberCell(row, what) {
 }
 
 function writeRows() {
-  const columns = COLUMNS.filter(([what]) =>
-    what !== "linear_iterations" || study.rows.some((row) => row[what] > 0));
-  const body = element("tbody");
-  study.rows.forEach((row, k) => {
-    const line = element("tr", undefined, { className: row.status });
-    if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
-    line.append(methodCell(row.method), ...columns.map(([what]) => numberCell(row, what)),
-      element("td", row.status, { className: "word" }));
-    body.append(line);
-  });
-  document.getElementById("rows").append(
-    headOf([["", "method", "", "word"], ...columns, ["", "status", "", "word"]]), body);
+  const columns = COLUMNS.filter(([what]) => what !== "linear_iterations" || study.rows.some((row) => row[what] > 0));
+  writeTable("rows", study.rows, [METHOD, SETTING,
+    ...columns.map(([what, name, unit]) => [name, unit, (row) => numberCell(row, what)]),
+    ["status", "", (row) => row.status, "word"]], classOf);
 }
 
 function writeOrders() {
-  const body = element("tbody");
-  for (const [method, order] of Object.entries(study.orders)) {
-    const line = element("tr");
-    const range = order.low === null ? "\u2013" : `${order.low.toFixed(2)} to ${order.high.toFixed(2)}`;
-    line.append(methodCell(method), element("td", order.order === null ? "\u2013" : order.order.toFixed(2)),
-      element("td", range), element("td", words(order.theory)), element("td", order.note, { className: "word note" }));
-    body.append(line);
-  }
-  if (body.children.length === 0) return;
-  document.getElementById("orders").append(headOf([["", "method", "", "word"], ["", "observed order"],
-    ["", "95 % interval"], ["", "theory"], ["", "", "", "word"]]), body);
+  const fixed = (value) => (value === null ? "\u2013" : value.toFixed(2));
+  writeTable("orders", Object.entries(study.orders).map(([method, order]) => ({ method, ...order })), [METHOD,
+    ["observed order", "", ({ order }) => fixed(order)],
+    ["95 % interval", "", ({ low, high }) => (low === null ? "\u2013" : `${fixed(low)} to ${fixed(high)}`)],
+    ["theory", "", ({ theory }) => words(theory)], ["", "", ({ note }) => note, "word note"]]);
 }
 
 /* ---- watched quantities ---- */
@@ -63,30 +50,20 @@ function writeOrders() {
 const inUnit = (item) => (item.unit ? `[${item.unit}]` : "");
 
 function errorCell(value, agreement) {
-  const cell = element("td", words(value, 4));
-  if (value === null) return cell;
-  cell.title = String(value);
-  if (value <= 10 * agreement) cell.textContent += " \u25cb";
+  const cell = exact(value);
+  if (value !== null && value <= 10 * agreement) cell.textContent += " \u25cb";
   return cell;
 }
 
 function writeWatched() {
-  const watched = study.reference.watched || [];
+  const watched = study.reference.watched || [], agreement = { method: "agreement", status: "" };
   document.getElementById("watched-section").hidden = watched.length === 0;
   if (watched.length === 0) return;
-  const body = element("tbody"), first = element("tr");
-  first.append(element("td", "agreement", { className: "word" }), element("td", ""),
-    ...watched.map((item) => element("td", words(item.agreement, 4))));
-  body.append(first);
-  study.rows.forEach((row, k) => {
-    const line = element("tr", undefined, { className: row.status });
-    if (k > 0 && row.method !== study.rows[k - 1].method) line.classList.add("first");
-    line.append(methodCell(row.method), numberCell(row, "setting"),
-      ...watched.map((item, q) => errorCell(row.watched[q].error, item.agreement)));
-    body.append(line);
-  });
-  document.getElementById("watched").append(headOf([["", "method", "", "word"], ["", "step [s]", "or rtol"],
-    ...watched.map((item) => ["", item.quantity, inUnit(item)])]), body);
+  const other = (say, before) => (row) => (row === agreement ? before : say(row));
+  writeTable("watched", [agreement, ...study.rows], [["method", "", other(METHOD[2], agreement.method), "word"],
+    ["step [s]", "or rtol", other(settingOf, "")], ...watched.map((item, q) => [item.quantity, inUnit(item),
+      other((row) => errorCell(row.watched[q].error, item.agreement), words(item.agreement, 4))])],
+  (row, before) => (before === agreement ? row.status : classOf(row, before)));
 }
 
 /* ---- statistics ---- */
@@ -103,20 +80,14 @@ function writeStatistics() {
   const found = study.statistics;
   document.getElementById("statistics-section").hidden = !found;
   if (!found) return;
-  const body = element("tbody");
-  for (const { quantity, reference, methods: others } of found.quantities) {
-    [reference, ...Object.values(others)].forEach((source, k) => {
-      const line = element("tr");
-      if (k === 0) line.classList.add("first");
-      line.append(element("td", k === 0 ? `${quantity} ${inUnit(source)}` : "", { className: "word" }),
-        source.method === "reference" ? element("td", source.method, { className: "word" }) : methodCell(source.method),
-        numberCell(source, "setting"), element("td", whole(source.members)), element("td", words(source.mean, 4)),
-        element("td", words(source.spread, 4)), element("td", biasWords(source), { className: "word note" }));
-      body.append(line);
-    });
-  }
-  document.getElementById("statistics").append(headOf([["", "quantity", "", "word"], ["", "method", "", "word"],
-    ["", "step [s]", "or rtol"], ["", "runs"], ["", "mean"], ["", "spread"], ["", "bias", "", "word"]]), body);
+  const isReference = (source) => source.method === "reference";
+  const sources = found.quantities.flatMap(({ reference, methods: others }) => [reference, ...Object.values(others)]);
+  writeTable("statistics", sources, [
+    ["quantity", "", (one) => (isReference(one) ? `${one.quantity} ${inUnit(one)}` : ""), "word"],
+    ["method", "", (one) => (isReference(one) ? one.method : METHOD[2](one)), "word"], SETTING,
+    ["runs", "", (one) => whole(one.members)], ["mean", "", (one) => words(one.mean, 4)],
+    ["spread", "", (one) => words(one.spread, 4)], ["bias", "", biasWords, "word note"]],
+  (one) => (isReference(one) ? "first" : ""));
 }
 
 /* ---- facts ---- */

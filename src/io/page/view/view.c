@@ -206,7 +206,7 @@ static int32_t check_built(void) {
 }
 
 static int32_t check_record(const struct hk_view *view) {
-  if (!hk_record_is_run(view->record)) {
+  if (!view->record->is_run) {
     return refuse(view,
                   "holds several runs, and a view shows one; write the one to look at with 'hooke run -o'");
   }

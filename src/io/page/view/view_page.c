@@ -74,7 +74,7 @@ static void add_numbers(struct hk_text *data, const char *key, int64_t count, co
 static void add_counts(struct hk_text *data, const struct hk_view *view) {
   for (int k = 1; k < hk_view_tables->column_count; k++) { /* without "bytes", which is not known yet */
     const struct hk_column *column = &hk_view_tables->columns[k];
-    hk_text_number(data, column->name, hk_table_number(hk_view_tables, column, view, 0));
+    hk_text_number(data, column->name, hk_table_value(hk_view_tables, column, view, 0).number);
   }
   hk_text_number(data, "loose_there", (double)view->loose_there);
   hk_text_number(data, "loose_stride", (double)view->loose_stride);

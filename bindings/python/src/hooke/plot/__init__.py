@@ -8,15 +8,9 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from ._library import lib
+from .. import BadValue, Limit, Needs, Result, Study, Trajectory
+from .._types import FloatArray, Path, Table
 from ._pictures import Line3DCollection
-from ._status import BadValue, plain
-from ._types import FloatArray, Path, Table
-from .limit import Limit
-from .needs import Needs
-from .results import Result
-from .study import Study
-from .trajectory import Trajectory
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -134,13 +128,13 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
     angle = np.linspace(0, np.pi / 2, 181)
     for number, row in enumerate(found.rows):
         style = {"color": f"C{number % 10}", "label": row["method"], "linewidth": 1.5}
-        if not np.isfinite(_edge_of(row["method"], np.ones(1), np.full(1, 0.5))).all():
+        if not np.isfinite(found.step_of_mode(row["method"], 1.0, 0.5)):
             continue
         if row["by_eigenvalue"]:
-            edge = _edge_of(row["method"], np.ones(angle.size), np.sin(angle))
+            edge = found.step_of_mode(row["method"], 1.0, np.sin(angle))
             z = edge * (-np.sin(angle) + 1j * np.cos(angle))
             plane.plot(*_parts(np.concatenate([z, z[::-1].conj()])), **style)
-        edge = np.minimum(_edge_of(row["method"], np.cos(angle), np.sin(angle)), 100)
+        edge = np.minimum(found.step_of_mode(row["method"], np.cos(angle), np.sin(angle)), 100)
         reach.plot(edge * np.cos(angle), edge * np.sin(angle), **style)
     dots = {"linestyle": "", "marker": "o", "markersize": 4, "color": "0.1", "label": "modes"}
     plane.plot(*_parts(step * np.concatenate([found.modes, found.modes.conj()])), **dots)
@@ -178,11 +172,6 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     ax.set_yticks(place, list(rows["without"]))
     ax.legend(fontsize="small")
     return ax
-
-
-def _edge_of(method: str, frequency: FloatArray, decay: FloatArray) -> FloatArray:
-    name = method.encode()
-    return np.array([lib.hooke_limit_of_mode(name, *pair) for pair in zip(frequency, decay)])
 
 
 def _parts(z: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -242,7 +231,7 @@ def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | 
         position = file[f"particles/{run}/position"]
         written = np.flatnonzero(~np.isnan(position["time"][:]))
         if not -written.size <= frame < written.size:
-            raise IndexError(f"frame {frame}: {plain(str(source))} has {written.size} frames of {run!r}")
+            raise IndexError(f"frame {frame}: {os.fspath(source)!r} has {written.size} frames of {run!r}")
         number = written[frame]
         return position["value"][number], file["connectivity/springs"][:], float(position["time"][number])
 

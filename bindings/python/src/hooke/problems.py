@@ -1,25 +1,78 @@
-"""Any second-order problem q'' = W f(t, q, v) of generalized coordinates."""
+"""What can be run: the base of scenes and systems, first-order problems x' = phi(t, x), for the study of time stepping
+itself, and second-order problems q'' = W f(t, q, v) of generalized coordinates."""
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional
+from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._memory import Handle, double_pointer, doubles, plain
-from ._problem import Problem
-from ._prototypes import FORCE_PRODUCT, INTEGRATOR
+from ._memory import Handle, Owner, double_pointer, doubles, plain
+from ._prototypes import FORCE, FORCE_PRODUCT, INTEGRATOR, RATE
 from ._status import BadValue
-from ._types import FloatArray
+from ._types import FloatArray, Table
 from .options import Options
-from .state import State
+from .state import State, restored
 
+if TYPE_CHECKING:
+    from .results import Result
+
+#: rate(t, x, rate): writes x' into its last argument, arrays (size,).
+Rate = Callable[[float, Table, Table], Optional[int]]
 #: f(t, q, v, force): adds to its last argument, which is zero; arrays (size,).
 CoordinateForce = Callable[[float, FloatArray, FloatArray, FloatArray], Optional[int]]
 #: derivative(t, q, v, dq, dv, out): adds (df/dq) dq + (df/dv) dv to its last argument, which is zero.
 CoordinateProduct = Callable[[float, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray], Optional[int]]
+
+
+class Problem(Owner):
+    """A problem that `hooke.run` takes."""
+
+    _what: str  #: what it is, for messages
+    #: hooke.run, which is above all problems and so sets this itself.
+    _run_by: Callable[..., Result]
+
+    def run(self, **options: Any) -> Result:
+        """Runs it; see `hooke.run`."""
+        return Problem._run_by(self, **options)
+
+
+class FirstOrder(Problem):
+    """x' = phi(t, x) from `x0` (size,), real or complex; ``phi(t, x, rate)`` writes the rate into its last argument::
+
+        def decay(t, x, rate):
+            rate[:] = -2 * x
+
+        hooke.FirstOrder(decay, [1.0]).run(method="forward-euler", step=0.1, duration=1.0)
+
+    Arrays that are kept stay as they are at the end of their call. phi returns None or 0 to go on, any other integer to stop.
+    """
+
+    _what = "a first-order problem"
+
+    def __init__(self, phi: Rate, x0: Any):
+        x0 = np.atleast_1d(plain(x0, "x0"))
+        if x0.ndim != 1 or x0.size == 0 or x0.dtype.kind not in "iufc":
+            raise BadValue(f"x0: one row of at least one number is needed, this is {x0!r}")
+        self._x0 = x0.astype(complex if x0.dtype.kind == "c" else float)
+        self._size = self._x0.view(float).size
+        shape = self._x0.shape
+        self._rate = _callback.on_arrays(RATE, phi, 1, lambda _: shape, self._x0.dtype)
+        self._callbacks = [self._rate]
+
+    def state(self) -> State:
+        """The initial state: t = 0, x = x0."""
+        return restored(0.0, self._x0, None)
+
+    def _integrator(self, options: Options) -> Handle:
+        given = self._size, self._rate, None, options._handle
+        create = lib.hooke_integrator_create_first_order
+        return Handle.made(INTEGRATOR, lib.hooke_integrator_destroy, None, create, *given)
+
+    def __repr__(self) -> str:
+        return f"FirstOrder({self._x0.size} unknowns)"
 
 
 class SecondOrder(Problem):
@@ -55,15 +108,13 @@ class SecondOrder(Problem):
         masses = np.atleast_1d(plain(inverse_mass, "inverse_mass"))
         self._inverse_mass = doubles(masses, "inverse_mass", (1,), shape)
         self._size = self._q.size
-        self._force = _callback.force_callback(f, ())
-        self._derivative = _callback.product_callback(derivative, ()) if derivative else FORCE_PRODUCT()
+        self._force = _callback.on_arrays(FORCE, f, 2, lambda n: (n,))
+        self._derivative = _callback.on_arrays(FORCE_PRODUCT, derivative, 4, lambda n: (n,))
         self._callbacks = [self._force, self._derivative]
 
     def state(self) -> State:
         """The initial state: t = 0, q and v (size,) as given."""
-        state = State._of_coordinates(self._size)
-        state.q, state.v = self._q, self._v
-        return state
+        return restored(0.0, self._q, self._v)
 
     def _integrator(self, options: Options) -> Handle:
         masses = self._inverse_mass.size, double_pointer(self._inverse_mass)

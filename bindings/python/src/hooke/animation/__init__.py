@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ._pictures import FuncAnimation, Line3DCollection, LinearSegmentedColormap, writers
-from ._status import BadValue, NotBuilt
-from ._types import FloatArray, Path
-from .plot import axis_order, fit, new_space
-from .trajectory import Trajectory
+from .. import BadValue, NotBuilt, Trajectory
+from .._types import FloatArray, Path
+from ..plot import axis_order, fit, new_space
+from ..plot._pictures import FuncAnimation, Line3DCollection, LinearSegmentedColormap, writers
 
 _SHORTEST, _LONGEST = 4.0, 10.0
 _COLOURS = ["tab:blue", "0.35", "tab:red"]  # dark in the middle, to be visible on white

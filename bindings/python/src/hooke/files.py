@@ -1,0 +1,163 @@
+"""Trajectory files, as the library reads them: their numbers, pages of them for a browser, ParaView, and whether they
+reproduce from their scenes."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import pathlib
+import warnings
+from collections.abc import Sequence
+from typing import Any, Protocol, Union
+
+import numpy as np
+
+from ._library import lib
+from ._look import WorkProgress
+from ._measurement import Measurement, Record
+from ._memory import Handle, double_pointer
+from ._prototypes import RECORD
+from ._status import BadValue
+from ._types import FloatArray, Path
+from .options import Options
+from .scene import limits_of
+
+
+def opened(path: Path) -> Handle:
+    """A file, which closes with its last user."""
+    return Handle.made(RECORD, lib.hooke_record_close, None, lib.hooke_record_open, os.fsencode(path))
+
+
+def run_options(record: Handle) -> Options:
+    """The options of its run, with defaults filled in."""
+    return Options(Handle(lib.hooke_record_options(record), None, record), read_only=True)
+
+
+def numbers(record: Handle, what: str) -> FloatArray:
+    """A whole array of the file (rows,), or (rows, columns) if it has several columns."""
+    rows, columns, name = ctypes.c_int64(), ctypes.c_int64(), what.encode()
+    lib.hooke_record_size(record, name, ctypes.byref(rows), ctypes.byref(columns))
+    found = np.empty((rows.value, columns.value))
+    lib.hooke_record_numbers(record, name, double_pointer(found))
+    return found[:, 0] if columns.value == 1 else found
+
+
+class Written(Protocol):
+    """What has the file that it was written to in its `output`: the `Result` of a run."""
+
+    @property
+    def output(self) -> Path | None:
+        """The file; None if there is none."""
+
+
+Source = Union[Path, Written]
+
+
+def view(
+    trajectory: Source | Sequence[Source],
+    output: Path | None = None,
+    *,
+    title: str | None = None,
+    **options: Any,
+) -> pathlib.Path:
+    """Writes a trajectory as one HTML page that plays it, to open in a browser, offline, and returns its path.
+
+    `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a
+    run; `output` the page, by default the file's name with ``.html``; `title` is its heading (by default the
+    scene's). Several trajectories play on one page, `output`, side by side or over one another, at the same time and
+    seen from the same angle. Keywords: the maximum number of `frames`, of those `beyond` divergence and of `springs`,
+    and the maximum `size` of the page [MB]; the page states what is omitted.
+    """
+    if isinstance(trajectory, str) or not isinstance(trajectory, Sequence):
+        trajectory = [trajectory]
+    sources = [_file_of(one) for one in trajectory]
+    if output is None and len(sources) != 1:
+        raise BadValue("output: is required for several trajectories")
+    page = pathlib.Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")
+    views = [_view(source, title, options) for source in sources]
+    for other in views[1:]:
+        lib.hooke_view_add(views[0].handle, other.handle)
+    lib.hooke_measurement_write(views[0].handle, os.fsencode(page))
+    return page
+
+
+def write_xdmf(trajectory: Source, output: Path | None = None) -> pathlib.Path:
+    """Writes the companion file for ParaView of a trajectory, and returns its path: by default beside the trajectory,
+    with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a killed run this
+    writes it for the existing frames."""
+    source = _file_of(trajectory)
+    lib.hooke_record_write_xdmf(opened(source), None if output is None else os.fsencode(output))
+    if output is not None:
+        return pathlib.Path(os.fspath(output))
+    known = source.suffix in (".h5", ".hdf5", ".h5md")
+    return source.with_suffix(".xdmf") if known else source.with_name(source.name + ".xdmf")
+
+
+def write_companion(path: bytes) -> None:
+    """The same at the end of a run, for which a name that ParaView cannot read is no failure."""
+    try:
+        write_xdmf(os.fsdecode(path))
+    except BadValue as trouble:
+        warnings.warn(f"no .xdmf is written: {trouble}", stacklevel=4)
+
+
+def _file_of(trajectory: Source) -> pathlib.Path:
+    if isinstance(trajectory, (str, os.PathLike)):
+        return pathlib.Path(os.fspath(trajectory))
+    output = getattr(trajectory, "output", None)
+    if output is None:
+        raise BadValue("trajectory: this run was not written to a file; run it with output=...")
+    return pathlib.Path(os.fspath(output))
+
+
+def _view(source: pathlib.Path, title: str | None, options: dict[str, Any]) -> Measurement:
+    record, chosen = opened(source), Options._of("view").set(**options)
+    made = Measurement.made(record, lib.hooke_view_create, record, chosen._handle)
+    made.label(title=title)
+    return made
+
+
+class Verification(Record, table="verify.verify"):
+    """The result of verifying a trajectory; true if it reproduces from its scene. Machines and versions are those that
+    made the file, and those here."""
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """The texts by name."""
+        return {name: value for name, value in self._asdict().items() if isinstance(value, str)}
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The numbers by name: ``found.numbers["error_estimate"]`` [m]."""
+        return {name: value for name, value in self._asdict().items() if not isinstance(value, str)}
+
+    def __bool__(self) -> bool:
+        return self.verdict in ("agrees", "within-tolerance")
+
+    def __repr__(self) -> str:
+        return f"Verification({self.verdict}, balance {self.balance}, {self.difference or 'no difference'})"
+
+
+def verify(
+    path: Path,
+    *,
+    memory: float | None = None,
+    outside: bool = False,
+    progress: WorkProgress | bool | None = None,
+    **options: Any,
+) -> Verification:
+    """Repeats a slice of a trajectory from the contents of its file and compares it with its frames to the bit;
+    compares every frame with its check value, computes the energy balance and estimates the error.
+
+    Keywords: `slice` (from, to) [s], `all`, `budget` [s] of work if neither is given, `bits` for the bits alone;
+    `memory` and `outside` as in `Scene.load`; ``progress(share, what)`` receives progress, True for a bar. A file
+    that does not reproduce is a result, not an error.
+    """
+    given, limits = Options._of("verify").set(**options), limits_of(memory, outside)
+    measurement = Measurement.made(None, lib.hooke_verify_create, os.fsencode(path), given._handle, limits)
+    try:
+        measurement.run(progress)
+    except BadValue:
+        if measurement.text("verify", 0, "verdict") != "disagrees":
+            raise
+    return measurement.each(Verification, "verify")[0]

@@ -1,0 +1,201 @@
+/* Trajectories: frames and the outcome of a run as bytes in its file. */
+#include "io/trajectory/trajectory.h"
+
+#include "core/handle.h"
+#include "core/keep_errno.h"
+#include "core/memory.h"
+#include "core/os/os_file.h"
+#include "core/status.h"
+#include "io/checkpoint/checkpoint_file.h"
+#include "io/file/inputs.h"
+#include "io/scene/scene.h"
+#include "model/state.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Below this size a frame is cheaper to write than to pass to a thread. */
+static const int64_t LEAST_BYTES = 65536;
+
+hooke_trajectory *hk_trajectory_new(void) {
+  hooke_trajectory *trajectory = hk_handle_new("hooke_trajectory", sizeof *trajectory);
+  if (trajectory == NULL) return NULL;
+  trajectory->file = HOOKE_NO_ATOMIC_FILE;
+  trajectory->beyond = -1;
+  return trajectory;
+}
+
+void hk_trajectory_release(hooke_trajectory *trajectory) {
+  hk_atomic_file_release(&trajectory->file);
+  hk_handle_free(trajectory);
+}
+
+int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
+                                const hooke_integrator *integrator, const char *scene_text,
+                                hooke_trajectory **trajectory) {
+  *trajectory = NULL;
+  if (!hooke_system_is_committed(system)) {
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
+  }
+  if (hooke_integrator_count(integrator, "frames") < 1) {
+    return hk_fail(HOOKE_BAD_VALUE, "duration",
+                   "is missing: a trajectory needs to know how many frames come");
+  }
+  hooke_trajectory *made = hk_trajectory_new();
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  char *whole = NULL;
+  int32_t status = hk_inputs_refuse(system, path);
+  if (status == HOOKE_OK)
+    status = hk_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
+  if (status == HOOKE_OK)
+    status = hk_trajectory_make(path, system, integrator, whole ? whole : scene_text, made);
+  hk_free(whole);
+  if (status == HOOKE_OK)
+    *trajectory = made;
+  else
+    hk_trajectory_release(made);
+  return status;
+}
+
+static int32_t refuse_bad(const hooke_trajectory *trajectory) {
+  return hk_fail(HOOKE_IO_FAILED, NULL, "%s", trajectory->failure);
+}
+
+/* Marks the file bad. */
+static int32_t fail(hooke_trajectory *trajectory, const char *what, int error) {
+  const int32_t status = hk_file_fail(trajectory->file.path, what, error);
+  snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
+  return status;
+}
+
+static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error) {
+  char what[64];
+  snprintf(what, sizeof what, "write frame %lld", (long long)frame);
+  return fail(trajectory, what, error);
+}
+
+int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
+  HOOKE_KEEP_ERRNO;
+  struct hk_frame_file *frames = &trajectory->frames;
+  const int32_t own = hk_atomic_file_require_own(&trajectory->file);
+  if (own != HOOKE_OK) return own;
+  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  const int32_t fits = hk_state_check(state, 3 * frames->particle_count, 1);
+  if (fits != HOOKE_OK) return fits;
+  if (trajectory->taken == frames->frame_count) {
+    return hk_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
+                   (long long)frames->frame_count);
+  }
+  const int error = trajectory->thread ? hk_frame_thread_write(trajectory->thread, step, state)
+                                       : hk_frame_write(frames, frames->written, step, state);
+  /* errno of the thread's previous frame */
+  if (error) return fail_frame(trajectory, trajectory->taken - (trajectory->thread != NULL), error);
+  trajectory->taken++;
+  frames->written += trajectory->thread == NULL;
+  return HOOKE_OK;
+}
+
+int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
+  const struct hk_frame_file *frames = &trajectory->frames;
+  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  if (trajectory->thread || 48 * frames->particle_count < LEAST_BYTES) return HOOKE_OK;
+  trajectory->thread = hk_frame_thread_create(frames, frames->written);
+  return trajectory->thread
+             ? HOOKE_OK
+             : hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a frame and a thread to write it");
+}
+
+/* Waits for the queued frame. */
+static void end_thread(hooke_trajectory *trajectory) {
+  if (trajectory->thread == NULL) return;
+  const int error = hk_frame_thread_end(trajectory->thread, &trajectory->frames.written);
+  trajectory->thread = NULL;
+  if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, trajectory->frames.written, error);
+}
+
+const char *hooke_trajectory_text(const hooke_trajectory *trajectory, const char *what) {
+  if (strcmp(what, "run") == 0) return trajectory->run;
+  return strcmp(what, "origin") == 0 ? trajectory->origin : NULL;
+}
+
+int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
+  HOOKE_KEEP_ERRNO;
+  const int32_t own = hk_atomic_file_require_own(&trajectory->file);
+  if (own != HOOKE_OK) return own;
+  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  const int error = trajectory->thread ? hk_frame_thread_wait(trajectory->thread) : 0;
+  if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
+  /* a second sync does not report data that a failed one lost */
+  return hk_os_sync(trajectory->file.descriptor) == 0 ? HOOKE_OK
+                                                      : fail(trajectory, "bring the data to the disk", errno);
+}
+
+int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory) {
+  HOOKE_KEEP_ERRNO;
+  if (trajectory->beyond >= 0) return HOOKE_OK;
+  const int32_t own = hk_atomic_file_require_own(&trajectory->file);
+  if (own != HOOKE_OK) return own;
+  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  const int error =
+      hk_outcome_write(trajectory->file.descriptor, trajectory->at, HOOKE_PART_BEYOND, &trajectory->taken);
+  if (error) return fail(trajectory, "mark the frames after divergence", error);
+  trajectory->beyond = trajectory->taken;
+  return HOOKE_OK;
+}
+
+/* ---- closing ---- */
+
+/* Marks what is known of the run once it is over. Its check value covers all that it refers to. */
+static int mark(const hooke_trajectory *trajectory, int64_t frames, int32_t outcome) {
+  const int descriptor = trajectory->file.descriptor;
+  const uint32_t check =
+      hk_outcome_check(trajectory->description, hk_outcome_word(outcome), trajectory->beyond, frames);
+  const int error = hk_outcome_write(descriptor, trajectory->at, HOOKE_PART_BEYOND, &trajectory->beyond);
+  return error ? error : hk_outcome_write(descriptor, trajectory->at, HOOKE_PART_CHECK, &check);
+}
+
+/* A file with more room is made again with exactly the written frames, and takes its name at the end. */
+static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
+  const int64_t written = trajectory->frames.written, there = trajectory->there;
+  const int64_t frames = written > there ? written : there;
+  if (trajectory->failure[0]) {
+    /* the message goes to anybody who can open the file, as well */
+    hk_outcome_write_status(trajectory->file.descriptor, trajectory->at, HOOKE_IO_FAILED);
+    return refuse_bad(trajectory);
+  }
+  int32_t status =
+      frames < trajectory->frames.frame_count ? hk_trajectory_remake(trajectory, frames, frames) : HOOKE_OK;
+  if (status != HOOKE_OK) return status;
+  /* a run that was gone on with marks its own, and has another error */
+  int error = mark(trajectory, frames, outcome);
+  if (error) return fail(trajectory, "mark the frames after divergence", error);
+  /* the outcome is written after all that it refers to is on the disk */
+  const int32_t synced = hooke_trajectory_sync(trajectory);
+  error = hk_outcome_write_status(trajectory->file.descriptor, trajectory->at,
+                                  synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
+  if (synced != HOOKE_OK) return refuse_bad(trajectory);
+  if (error) return hk_file_fail(trajectory->file.path, "write the outcome", error);
+  if (trajectory->file.temporary) status = hk_atomic_file_commit(&trajectory->file, NULL);
+  return status == HOOKE_OK ? hk_atomic_file_finish(&trajectory->file) : status;
+}
+
+static void drop_checkpoint(const char *path) {
+  char *checkpoint = NULL;
+  if (hk_file_beside(path, HOOKE_CHECKPOINT_ENDING, &checkpoint) == HOOKE_OK)
+    hk_checkpoint_remove(checkpoint);
+  hk_free(checkpoint);
+}
+
+int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
+  if (trajectory == NULL) return HOOKE_OK;
+  HOOKE_KEEP_ERRNO;
+  int32_t status = hk_atomic_file_require_own(&trajectory->file);
+  if (status == HOOKE_OK) { /* a forked process has no such thread, and leaves the file alone */
+    end_thread(trajectory);
+    status = finish(trajectory, outcome);
+  }
+  if (status == HOOKE_OK && outcome == HOOKE_OK) drop_checkpoint(trajectory->file.path);
+  hk_trajectory_release(trajectory);
+  return status;
+}
