@@ -11,10 +11,11 @@
 #include <string.h>
 
 static const struct hk_option_row check_rows[] = {
-    HOOKE_OPTION("process", HOOKE_OPTION_COUNTED(2, 2), NULL,
-                 "memory of the process with the scene in it, and its largest so far; without, that of the "
-                 "scene alone counts",
-                 .unit = "B", .high = 9e15, .example = "2e7,3e7"),
+    HOOKE_OPTION(
+        "process", HOOKE_OPTION_COUNTED(2, 2), NULL,
+        "bytes of the process with the scene in it, and the most that it had so far; without, those of "
+        "the scene alone count",
+        .high = 9e15, .example = "2e7,3e7"),
 };
 
 static const struct hk_option_table check_table = {"check", HOOKE_OPTION_ROWS(check_rows)};
