@@ -39,11 +39,10 @@ int cli_output_file_check_report(const struct cli_arguments *arguments, const ch
 }
 
 int cli_output_file_write_report(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                                 hooke_measurement *measurement, const char *command, int code) {
+                                 hooke_measurement *measurement, int code) {
   const char *report = cli_arguments_text(arguments, "report");
   if (!report) return code;
   int32_t status = hooke_measurement_label(measurement, "title", cli_setup_title(arguments, setup));
-  if (status == HOOKE_OK) status = hooke_measurement_label(measurement, "command", command);
   if (status == HOOKE_OK) status = hooke_measurement_write(measurement, report);
   if (status == HOOKE_OK) return code;
   cli_report_words(arguments, "%s", hooke_last_error());

@@ -11,9 +11,9 @@ int cli_output_file_check(const struct cli_arguments *arguments, const char *fla
 /* The same for --report, which also needs the drawing library in this build; NULL is allowed. */
 int cli_output_file_check_report(const struct cli_arguments *arguments, const char *report);
 
-/* Writes the page of --report, if it was given, with the title of the scene and a command (NULL: none).
+/* Writes the page of --report, if it was given, with the title of the scene.
  * Returns `code`, or that of a page that could not be written. */
 int cli_output_file_write_report(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                                 hooke_measurement *measurement, const char *command, int code);
+                                 hooke_measurement *measurement, int code);
 
 #endif

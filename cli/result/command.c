@@ -90,8 +90,9 @@ static int32_t collect(const hooke_options *changes, struct cli_setting *setting
   return count;
 }
 
-int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_measurement *why, int64_t place,
-                           char **command) {
+/* Command of the run with the changes of advice `place`; NULL if the scene has to change. HOOKE_NO_MEMORY */
+static int32_t make_command(const struct cli_arguments *arguments, const hooke_measurement *why,
+                            int64_t place, char **command) {
   struct cli_setting settings[MOST_SETTINGS];
   char text[MOST_SETTINGS][HOOKE_NUMBER_SIZE];
   hooke_options *changes = NULL;
@@ -106,14 +107,22 @@ int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_me
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
-int32_t cli_advice_print(const struct cli_arguments *arguments, const hooke_measurement *why) {
+int32_t cli_advice_label(const struct cli_arguments *arguments, hooke_measurement *why) {
+  static const char *const labels[] = {"command", "command 1", "command 2", "command 3"};
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++) {
+  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice") && status == HOOKE_OK; k++) {
     char *command;
-    if (cli_advice_command(arguments, why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
-    cli_say("%s %s\n", k == 0 ? "what to do:" : "or:", hooke_measurement_text(why, "advice", k, "change"));
-    if (command) printf("  %s\n", command);
+    status = make_command(arguments, why, k, &command);
+    if (status == HOOKE_OK) status = hooke_measurement_label(why, labels[k], command);
     free(command);
   }
   return status;
+}
+
+void cli_advice_print(const hooke_measurement *why) {
+  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++) {
+    const char *command = hooke_measurement_text(why, "advice", k, "command");
+    cli_say("%s %s\n", k == 0 ? "what to do:" : "or:", hooke_measurement_text(why, "advice", k, "change"));
+    if (command) printf("  %s\n", command);
+  }
 }

@@ -21,13 +21,11 @@ void cli_command_print(FILE *file, const struct cli_arguments *arguments, const 
 int32_t cli_command_make(const struct cli_arguments *arguments, const struct cli_setting *settings,
                          char **command);
 
-/* Command of the run with the changes of advice `place`; NULL if the scene has to change. The caller frees
- * it. HOOKE_NO_MEMORY, with NULL. */
-int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_measurement *why, int64_t place,
-                           char **command);
+/* Labels a diagnosis with the command of each advice, the column "command"; none where the scene has to
+ * change. HOOKE_NO_MEMORY */
+int32_t cli_advice_label(const struct cli_arguments *arguments, hooke_measurement *why);
 
-/* Prints all suggestions, each with a line of words and a command. HOOKE_NO_MEMORY if one of those is
- * missing. */
-int32_t cli_advice_print(const struct cli_arguments *arguments, const hooke_measurement *why);
+/* Prints all suggestions, each with a line of words and its command. */
+void cli_advice_print(const hooke_measurement *why);
 
 #endif

@@ -1,49 +1,21 @@
 #include "blow_up.h"
 
+#include "claims.h"
 #include "command.h"
 #include "report.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char report_name[] = "why.html";
 
 /* ---- what happened ---- */
 
-/* Length of the first clause of a sentence: the rest is for 'hooke why'. */
-static int first_clause(const char *sentence) {
-  static const char *const ends[] = {"; ", ", so motion grows"};
-  size_t length = strlen(sentence);
-  for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
-    const char *end = strstr(sentence, ends[k]);
-    if (end && (size_t)(end - sentence) < length) length = (size_t)(end - sentence);
-  }
-  return (int)length;
-}
-
-/* The limit where the sentence of the cause is about something else. */
-static void add_limit(const struct cli_run *run, char *text, size_t size) {
-  const double limit = hooke_measurement_number(run->why, "why", 0, "limit");
-  const char *cause = hooke_measurement_text(run->why, "why", 0, "cause");
-  char number[HOOKE_NUMBER_SIZE];
-  if (limit > 0.0 && !isinf(limit) && strcmp(cause, "step-above-limit") != 0)
-    snprintf(text, size, "; the largest stable step is %s s", cli_format_rounded(limit, number));
-}
-
-/* Sentences of a diagnosis begin with what the run did, to which the time is added. */
+/* The claim of the cause; of a message its first clause, since the rest suggests what to try. */
 static void tell_what(const struct cli_run *run) {
-  const char *sentence = run->message, *rest = strstr(sentence, ": ");
-  char number[HOOKE_NUMBER_SIZE], limit[80] = "";
-  if (!run->why || !rest) {
-    cli_report_words(run->arguments, "%.*s", first_clause(sentence), sentence);
-    return;
-  }
-  add_limit(run, limit, sizeof limit);
-  cli_report_words(run->arguments, "%.*s after t = %s s%.*s%s", (int)(rest - sentence), sentence,
-                   cli_format_rounded(hooke_measurement_number(run->why, "why", 0, "time"), number),
-                   first_clause(rest), rest, limit);
+  const char *what = run->why ? cli_claim(run->why, "cause") : run->message, *end = strstr(what, "; ");
+  cli_report_words(run->arguments, "%.*s", !run->why && end ? (int)(end - what) : (int)strlen(what), what);
 }
 
 /* ---- what to try ---- */
@@ -57,18 +29,15 @@ static void tell_suggestion(const char *message) {
 }
 
 static void tell_try(const struct cli_run *run) {
-  char *command = NULL;
   if (!run->why) {
     tell_suggestion(run->message);
     return;
   }
   const char *change = hooke_measurement_text(run->why, "advice", 0, "change");
-  if (cli_advice_command(run->arguments, run->why, 0, &command) != HOOKE_OK)
-    (void)cli_report_missing_words(run->arguments);
+  const char *command = hooke_measurement_text(run->why, "advice", 0, "command");
   fprintf(stderr, "try: %s%s", command ? command : "", command ? "  # " : "");
   cli_print_text(stderr, change ? change : "another model: no run that was tried got any further");
   fputc('\n', stderr);
-  free(command);
 }
 
 /* ---- where to see more ---- */

@@ -1,4 +1,5 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
+#include "claims.h"
 #include "methods.h"
 #include "output_file.h"
 #include "limiting.h"
@@ -9,13 +10,12 @@
 #include "watch.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 110, INDENT = 12 };
+enum { INDENT = 12 };
 
 struct limit {
   const struct cli_arguments *arguments;
@@ -68,95 +68,55 @@ static int check_needs(const struct limit *l) {
   return HOOKE_EXIT_DONE;
 }
 
-static int print_json(const struct limit *l) {
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_measured(&json, NULL, l->limit, NULL, 0);
-  return cli_json_end(&json) == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(l->arguments);
-}
-
 /* ---- words ---- */
 
 static double number_of(const struct limit *l, const char *what) {
   return cli_number(l->limit, "limit", what);
 }
 
-static const char *row_text(const struct limit *l, int64_t row, const char *what) {
-  return hooke_measurement_text(l->limit, "rows", row, what);
-}
-
-static const struct column {
-  struct cli_column is;
-  int32_t along; /* 1: along a run only; -1: at one state only */
-} columns[] = {{{"bound", "safe bound", "[s]", 12, "%.6g", "none", "no step", 0}, 0},
-               {{"predicted", "predicted", "[s]", 12, "%.6g", "none", "no step", 0}, 0},
-               {{"measured", "measured", "[s]", 12, "%.6g", "none", "no step", 0}, -1},
-               {{"ratio", "measured /", "predicted", 10, "%.6g", "none", "no step", 0}, -1},
-               {{"steps_run", "steps", "run", 10, "%.0f", "none", NULL, 0}, -1},
-               {{"smallest", "smallest", "met [s]", 12, "%.6g", "none", "no step", 0}, 1},
-               {{"smallest_time", "at time", "[s]", 10, "%.6g", "none", NULL, 0}, 1}};
+static const struct cli_column columns[] = {
+    {"bound", "safe bound", "[s]", 12, "%.6g", "none", "no step", 0},
+    {"predicted", "predicted", "[s]", 12, "%.6g", "none", "no step", 0},
+    {"measured", "measured", "[s]", 12, "%.6g", "none", "no step", 0},
+    {"ratio", "measured /", "predicted", 10, "%.6g", "none", "no step", 0},
+    {"steps_run", "steps", "run", 10, "%.0f", "none", NULL, 0},
+    {"smallest", "smallest", "met [s]", 12, "%.6g", "none", "no step", 0},
+    {"smallest_time", "at time", "[s]", 10, "%.6g", "none", NULL, 0}};
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
-static int32_t is_shown(const struct limit *l, int k) {
-  const int32_t measured = hooke_options_number(l->arguments->more, "predict") == 0.0;
-  return columns[k].along == 0 || (columns[k].along > 0 ? l->along : !l->along && measured);
-}
-
-static int32_t print_table(const struct limit *l) {
+/* The columns in which anything is known. */
+static void print_table(const hooke_measurement *limit) {
   struct cli_column shown[COLUMN_COUNT + 1] = {{.what = NULL}};
   const struct cli_rows rows = {
-      .source = l->limit, .count = hooke_measurement_row_count(l->limit, "rows"), .columns = shown};
-  const int32_t width = cli_rows_method_width(&rows);
+      .source = limit, .count = hooke_measurement_row_count(limit, "rows"), .columns = shown};
   int32_t count = 0;
   for (int k = 0; k < COLUMN_COUNT; k++) {
-    if (is_shown(l, k)) shown[count++] = columns[k].is;
+    int32_t known = 0;
+    for (int64_t row = 0; row < rows.count; row++)
+      known |= !isnan(hooke_measurement_number(limit, "rows", row, columns[k].what));
+    if (known) shown[count++] = columns[k];
   }
-  cli_rows_print(&rows, width);
-  return width;
-}
-
-static void print_notes(const struct limit *l, int32_t width) {
-  int32_t any = 0;
-  for (int64_t row = 0; row < hooke_measurement_row_count(l->limit, "rows"); row++) {
-    const char *note = row_text(l, row, "note");
-    if (!note[0]) continue;
-    if (!any) printf("\n");
-    any = 1;
-    cli_print_padded(stdout, width + 2, row_text(l, row, "method"));
-    cli_print_wrapped(stdout, width + 2, width + 2, WIDTH, note);
-  }
-}
-
-static void print_limiting(const hooke_measurement *limit) {
-  const char *sentence = cli_text(limit, "changes", "sentence");
-  if (hooke_measurement_row_count(limit, "blame") > 0) printf("\n");
-  cli_limiting_print(limit);
-  if (sentence) cli_print_fact(INDENT, WIDTH, "changes", "%s", sentence);
+  cli_rows_print(&rows, cli_rows_method_width(&rows));
 }
 
 static void print_words(const struct limit *l) {
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, at t = %s s\n", cli_setup_title(l->arguments, &l->setup),
           cli_format_rounded(number_of(l, "time"), text));
-  printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", number_of(l, "frequency_max"),
+  cli_claims_print(l->arguments, l->limit, INDENT, NULL);
+  printf("\nfastest motion %.6g rad/s, fastest damping %.6g 1/s\n\n", number_of(l, "frequency_max"),
          number_of(l, "rate_max"));
-  const double clamped = number_of(l, "clamped");
-  if (clamped > 0.0) {
-    printf("%.0f %s compressed: what pushes %s sideways is growth by physics, and left out\n", clamped,
-           clamped == 1.0 ? "spring is" : "springs are", clamped == 1.0 ? "its ends" : "their ends");
-  }
-  const double tipping = number_of(l, "tipping");
-  if (tipping > 0.0)
-    printf("%.0f rigid %s tipped over by gravity or tensions: that is growth by physics, and left out\n",
-           tipping, tipping == 1.0 ? "body is" : "bodies are");
-  printf("\n");
-  print_notes(l, print_table(l));
-  print_limiting(l->limit);
+  print_table(l->limit);
+  if (hooke_measurement_row_count(l->limit, "blame") > 0) printf("\n");
+  cli_limiting_print(l->limit);
 }
 
 static int tell(const struct limit *l) {
-  const int code = l->arguments->json ? print_json(l) : HOOKE_EXIT_DONE;
-  if (!l->arguments->json) print_words(l);
+  int code = HOOKE_EXIT_DONE;
+  if (!l->arguments->json)
+    print_words(l);
+  else if (cli_claims_print_json(l->arguments, "scene", l->limit) != HOOKE_OK)
+    code = cli_report_missing_words(l->arguments);
   cli_print_flush();
   if (l->outcome == HOOKE_STOPPED) {
     cli_report_words(l->arguments, "interrupted; kept: what was found so far");
@@ -183,7 +143,7 @@ static int do_limit(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&l);
     if (!isnan(number_of(&l, "frequency_max")))
-      code = cli_output_file_write_report(arguments, &l.setup, l.limit, NULL, code);
+      code = cli_output_file_write_report(arguments, &l.setup, l.limit, code);
   }
   hooke_measurement_destroy(l.limit);
   cli_setup_destroy(&l.setup);

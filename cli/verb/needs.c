@@ -66,8 +66,7 @@ static int tell(struct cli_needs_results *results, int32_t outcome) {
     code = cli_report_missing_words(results->arguments);
   if (!results->arguments->json) cli_needs_results_print(results);
   cli_print_flush();
-  code = cli_output_file_write_report(results->arguments, &results->setup, results->needs, results->command,
-                                      code);
+  code = cli_output_file_write_report(results->arguments, &results->setup, results->needs, code);
   if (outcome != HOOKE_STOPPED) return code;
   cli_report_words(results->arguments, "interrupted; kept: what is known so far");
   return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;

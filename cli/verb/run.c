@@ -1,5 +1,6 @@
 /* hooke run: integrates a scene and reports the result. */
 #include "blow_up.h"
+#include "command.h"
 #include "fit.h"
 #include "os.h"
 #include "output_file.h"
@@ -130,8 +131,9 @@ static int32_t write_companion(struct cli_run *run) {
 }
 
 static int32_t ask_why(struct cli_run *run) {
-  const int32_t status = hooke_why_create(run->integrator, NULL, &run->why);
-  return status == HOOKE_OK ? cli_watch_run(run->arguments, run->why, NULL) : status;
+  int32_t status = hooke_why_create(run->integrator, NULL, &run->why);
+  if (status == HOOKE_OK) status = cli_watch_run(run->arguments, run->why, NULL);
+  return status == HOOKE_OK ? cli_advice_label(run->arguments, run->why) : status;
 }
 
 /* The outcome is the same without an explanation. */

@@ -137,7 +137,7 @@ static int do_study(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&results, output);
     if (hooke_measurement_row_count(results.study, "rows") > 0)
-      code = cli_output_file_write_report(arguments, &results.setup, results.study, results.command, code);
+      code = cli_output_file_write_report(arguments, &results.setup, results.study, code);
   }
   free(results.command);
   hooke_measurement_destroy(results.study);

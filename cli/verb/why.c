@@ -1,19 +1,19 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
+#include "claims.h"
 #include "command.h"
 #include "fit.h"
 #include "limiting.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
+#include "rows.h"
 #include "setup.h"
 #include "watch.h"
 
-#include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { LABEL = 12, WIDTH = 100 };
+enum { LABEL = 12 };
 
 struct why {
   const struct cli_arguments *arguments;
@@ -93,109 +93,85 @@ static int32_t read_output(struct why *why) {
 
 /* ---- results ---- */
 
-/* For a run that did not diverge: its method and the time that it reached. */
-static void print_nothing(struct cli_json *json, const struct why *why) {
+/* For a run that did not blow up: a document of nothing but its method and the time that it reached. */
+static int32_t print_nothing(const struct why *why) {
   const char *name;
-  for (int64_t k = 0; (name = hooke_measurement_column("why", "why", k, "name")); k++) {
-    if (strcmp(name, "time") == 0)
-      cli_json_number(json, name, why->time);
-    else
-      cli_json_text(json, name,
-                    strcmp(name, "method") == 0 ? hooke_options_text(why->setup.options, name) : NULL);
-  }
-}
-
-/* HOOKE_NO_MEMORY if something is missing. */
-static int32_t print_advice(struct cli_json *json, const struct why *why) {
-  int32_t status = HOOKE_OK;
-  cli_json_open(json, "advice", '[');
-  for (int64_t k = 0; why->why && k < hooke_measurement_row_count(why->why, "advice"); k++) {
-    char *command;
-    if (cli_advice_command(why->arguments, why->why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
-    cli_json_open(json, NULL, '{');
-    cli_json_measured(json, NULL, why->why, "advice", k);
-    cli_json_text(json, "command", command);
-    cli_json_close(json);
-    free(command);
-  }
-  cli_json_close(json);
-  return status;
-}
-
-/* HOOKE_NO_MEMORY if something is missing. */
-static int32_t print_json(const struct why *why) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
-  if (why->why) {
-    cli_json_measured(&json, NULL, why->why, "why", 0);
-    cli_json_measured(&json, "blame", why->why, "blame", -1);
-  } else {
-    print_nothing(&json, why);
-    cli_json_open(&json, "blame", '[');
+  cli_json_text(&json, "scene", why->arguments->scene);
+  for (int64_t k = 0; (name = hooke_measurement_column("why", "why", k, "name")); k++) {
+    if (strcmp(name, "time") == 0)
+      cli_json_number(&json, name, why->time);
+    else
+      cli_json_text(&json, name,
+                    strcmp(name, "method") == 0 ? hooke_options_text(why->setup.options, name) : NULL);
+  }
+  for (int64_t k = 1; (name = hooke_measurement_table("why", k, "name")); k++) {
+    cli_json_open(&json, name, '[');
     cli_json_close(&json);
   }
-  const int32_t status = print_advice(&json, why), rest = cli_json_end(&json);
-  return status == HOOKE_OK ? rest : status;
+  return cli_json_end(&json);
 }
 
 static void print_number(const char *label, double value, const char *unit) {
   char text[HOOKE_NUMBER_SIZE];
   if (isnan(value)) return;
-  if (isinf(value))
-    printf("%-12snone\n", label);
-  else
-    printf("%-12s%s %s\n", label, cli_format_rounded(value, text), unit);
+  printf("%-*s%s%s%s\n", LABEL, label, isinf(value) ? "none" : cli_format_rounded(value, text),
+         unit[0] && !isinf(value) ? " " : "", isinf(value) ? "" : unit);
 }
 
-static double number_of(const hooke_measurement *found, const char *what) {
-  return hooke_measurement_number(found, "why", 0, what);
+static void print_margin(const struct why *why) {
+  const double step = hooke_options_number(why->setup.options, "step");
+  printf("the run did not blow up\n");
+  cli_say("%-*s%s\n", LABEL, "status", why->status);
+  print_number("time", why->time, "s");
+  if (!(step > 0.0 && isfinite(why->bound) && why->bound > 0.0)) return;
+  print_number("step", step, "s");
+  print_number("safe bound", why->bound, "s");
+  printf("%-*s%.3g %% of the safe bound there\n", LABEL, "margin", 100.0 * step / why->bound);
 }
 
-static const char *text_of(const hooke_measurement *found, const char *what) {
-  return hooke_measurement_text(found, "why", 0, what);
-}
-
-/* HOOKE_NO_MEMORY if a command is missing. */
-static int32_t print_words(const struct why *why) {
+static void print_words(const struct why *why) {
+  static const char *const facts[][3] = {{"step", "step", "s"},
+                                         {"limit", "limit", "s"},
+                                         {"well until", "time", "s"},
+                                         {"noticed", "noticed", "s"},
+                                         {"particle", "particle", ""}};
   const hooke_measurement *found = why->why;
-  char text[HOOKE_NUMBER_SIZE];
-  if (!found) {
-    cli_say("the run did not blow up: it is '%s' at t = %s s\n", why->status,
-            cli_format_rounded(why->time, text));
-    const double step = hooke_options_number(why->setup.options, "step");
-    if (step > 0.0 && isfinite(why->bound) && why->bound > 0.0)
-      printf("its step of %.6g s is %.3g %% of the limit, %.6g "
-             "s, up to which it was certain to be stable there\n",
-             step, 100.0 * step / why->bound, why->bound);
-    return HOOKE_OK;
-  }
-  cli_say("%-12s%s\n", "cause", text_of(found, "cause"));
-  cli_print_fact(LABEL, WIDTH, "what", "%s", text_of(found, "sentence"));
-  cli_say("%-12s%s\n", "method", text_of(found, "method"));
-  print_number("step", number_of(found, "step"), "s");
-  print_number("limit", number_of(found, "limit"), "s");
-  print_number("well until", number_of(found, "time"), "s");
-  print_number("noticed", number_of(found, "noticed"), "s");
-  if (!isnan(number_of(found, "particle"))) printf("%-12s%.0f\n", "particle", number_of(found, "particle"));
+  cli_claims_print(why->arguments, found, LABEL, NULL);
+  cli_say("%-*s%s\n", LABEL, "kind", cli_text(found, "why", "cause"));
+  cli_say("%-*s%s\n", LABEL, "method", cli_text(found, "why", "method"));
+  for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++)
+    print_number(facts[k][0], cli_number(found, "why", facts[k][1]), facts[k][2]);
   cli_limiting_print(found);
-  if (text_of(found, "left_out")) cli_print_fact(LABEL, WIDTH, "left out", "%s", text_of(found, "left_out"));
   printf("\n");
-  return cli_advice_print(why->arguments, found);
+  cli_advice_print(found);
+}
+
+/* HOOKE_NO_MEMORY if something is missing. */
+static int32_t tell(const struct why *why) {
+  int32_t status = HOOKE_OK;
+  if (why->why) status = cli_advice_label(why->arguments, why->why);
+  if (why->arguments->json && !why->why) return print_nothing(why);
+  if (why->arguments->json) {
+    const int32_t rest = cli_claims_print_json(why->arguments, "scene", why->why);
+    return status == HOOKE_OK ? rest : status;
+  }
+  if (why->why)
+    print_words(why);
+  else
+    print_margin(why);
+  return status;
 }
 
 /* The exit code so far, or that of a page that could not be written. */
 static int write_report(const struct why *why, int code) {
-  char *command = NULL;
   if (!cli_arguments_text(why->arguments, "report") || code != HOOKE_EXIT_DONE) return code;
   if (!why->why) {
     cli_report_words(why->arguments, "no page is written, since the run did not blow up");
     return code;
   }
-  const int32_t status = cli_advice_command(why->arguments, why->why, 0, &command);
-  if (status != HOOKE_OK) return cli_report_status(why->arguments, status);
-  code = cli_output_file_write_report(why->arguments, &why->setup, why->why, command, code);
-  free(command);
-  return code;
+  return cli_output_file_write_report(why->arguments, &why->setup, why->why, code);
 }
 
 static int find_out(struct why *why) {
@@ -215,7 +191,7 @@ static int find_out(struct why *why) {
   if (why->code != HOOKE_EXIT_DONE) return why->code;
   if (status == HOOKE_STOPPED) return cli_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  status = arguments->json ? print_json(why) : print_words(why);
+  status = tell(why);
   cli_print_flush();
   return write_report(why, status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments));
 }

@@ -80,8 +80,9 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
 /* ---- files ---- */
 
 /* Sets a text that files show, copied: "title" is the heading of a page, "command" the command line of the
- * recommendation on it, "scene" the text of the scene in HDF5, "output" the file of a lean scene. `text` NULL
- * removes it. HOOKE_BAD_VALUE for another word, HOOKE_NO_MEMORY. */
+ * recommendation or of the first advice, "command 1" to "command 3" those of the next, "scene" the text of
+ * the scene in HDF5, "output" the file of a lean scene. `text` NULL removes it. HOOKE_BAD_VALUE for another
+ * word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 
 /* JSON on one line, with every digit: the document of all tables, as in a .json file (`table` NULL), a table

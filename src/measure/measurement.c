@@ -78,7 +78,8 @@ const char *hooke_measurement_kind(const hooke_measurement *m) {
 }
 
 int32_t hooke_measurement_label(hooke_measurement *m, const char *what, const char *text) {
-  static const char *const names[HOOKE_LABELS] = {"title", "command", "scene", "output"};
+  static const char *const names[HOOKE_LABELS] = {"title",     "scene",     "output",   "command",
+                                                  "command 1", "command 2", "command 3"};
   for (int k = 0; k < HOOKE_LABELS; k++) {
     if (strcmp(what, names[k]) != 0) continue;
     char *copy = text ? hk_copy_text(text) : NULL;
@@ -87,8 +88,8 @@ int32_t hooke_measurement_label(hooke_measurement *m, const char *what, const ch
     m->label[k] = copy;
     return HOOKE_OK;
   }
-  return hk_fail(HOOKE_BAD_VALUE, "what", "\"%s\" is not allowed; title, command, scene and output are",
-                 what);
+  return hk_fail(HOOKE_BAD_VALUE, "what",
+                 "\"%s\" is not allowed; title, scene, output, command and command 1 to 3 are", what);
 }
 
 /* ---- running ---- */

@@ -8,7 +8,14 @@
 #include "hooke/measurement.h"
 #include "measure/claims.h"
 
-enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABEL_OUTPUT, HOOKE_LABELS };
+/* COMMAND begins as many as a diagnosis has advice. */
+enum hk_label {
+  HOOKE_LABEL_TITLE,
+  HOOKE_LABEL_SCENE,
+  HOOKE_LABEL_OUTPUT,
+  HOOKE_LABEL_COMMAND,
+  HOOKE_LABELS = HOOKE_LABEL_COMMAND + 4
+};
 
 struct hk_measurement_kind {
   const char *name;

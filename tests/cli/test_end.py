@@ -67,7 +67,7 @@ def test_errors_are_judged_to_the_end(hooke, write, tmp_path):
     for row in [study["rows"][0], compared["rows"][0]]:
         assert row["step"] == 2e-3 and row["error_final"] == pytest.approx(off, rel=1e-3)
     words = hooke("study", write(scene), "--methods", "verlet", "--steps", "2e-3,1e-3").out
-    assert "trusted until   0.5 s, the whole run\n" in words
+    assert "errors are known over the whole run, 0.5 s\n" in words
 
 
 def test_needs_are_judged_to_the_end(hooke, write):

@@ -114,6 +114,34 @@ def test_words(hooke, write):
     assert "spring 0, between particles 0 and 1, group edges" in answer.out
 
 
+def claims_of(answer):
+    return {claim["key"]: claim for claim in answer.json["claims"]}
+
+
+def test_claims(hooke, write):
+    """The same words in words and in JSON; of a state, never of the run; what was asked for and not found is unknown."""
+    scene = write(STIFF_PAIR)
+    answer = hooke("limit", scene, "--methods", "symplectic-euler,backward-euler", "--json")
+    claims, row = claims_of(answer), answer.json["rows"][0]
+    assert answer.json["scene"] == scene and {claim["of"] for claim in claims.values()} == {"part"}
+    assert claims["limit"]["text"] == (f"at t = 0 s, symplectic-euler is stable up to {row['predicted']:.6g} s, by runs up to "
+                                       f"{row['measured']:.6g} s")
+    assert claims["changes"]["text"] == f"at t = 0 s, {answer.json['changes']['sentence']}"
+    assert claims["note"]["text"] == f"backward-euler at t = 0 s: {answer.json['rows'][1]['note']}"
+    assert list(claims)[0] == "limit" and claims["limit"]["by"] == "eigenvalues and runs"
+    words = " ".join(hooke("limit", scene, "--methods", "symplectic-euler,backward-euler", "--predict").out.split())
+    assert claims["limit"]["text"].split(", by runs")[0] in words and claims["changes"]["text"] in words
+    late = hooke("limit", scene, "--methods", "symplectic-euler", "--budget", "1e-9", "--json")
+    note = claims_of(late)["note"]
+    assert late.json["rows"][0]["measured"] is None and (note["of"], "budget ended" in note["text"]) == ("unknown", True)
+    never = claims_of(hooke("limit", scene, "--methods", "forward-euler", "--predict", "--json"))["limit"]
+    assert never["text"] == "at t = 0 s, forward-euler is stable at no step"
+    along = hooke("limit", write(SIX_PARTICLES), "--along", "--methods", "verlet", "--json")
+    row, claim = along.json["rows"][0], along.json["claims"][0]
+    assert (claim["key"], claim["of"]) == ("along", "part")
+    assert f"verlet is {row['smallest']:.6g} s, at t = {row['smallest_time']:.6g} s" in claim["text"]
+
+
 def test_usage(hooke, write):
     scene = write(SIX_PARTICLES)
     assert hooke("limit").code == 2

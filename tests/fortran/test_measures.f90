@@ -84,7 +84,8 @@ contains
     call limit%create("limit", system, options=options)
     call expect(.not. associated(limit%series("limit", 1, "shape")), "no mode before it was found")
     call expect(hooke_measurement_table("limit", 2, "name") == "rows" .and. &
-      hooke_measurement_table("limit", 7, "name") == "", "tables")
+      hooke_measurement_table("limit", 7, "name") == "claims" .and. &
+      hooke_measurement_table("limit", 8, "name") == "", "tables")
     call expect(hooke_measurement_column("limit", "rows", 3, "name") == "predicted" .and. &
       hooke_measurement_column("limit", "rows", 3, "unit") == "s", "columns")
     call limit%on_progress(progress)

@@ -52,9 +52,35 @@ static hooke_system *row(int32_t pin_first) {
   return system;
 }
 
+static void check_text(const char *found, const char *expected) {
+  if (found == NULL || strcmp(found, expected) != 0)
+    check_failed("\"%s\" instead of \"%s\"", found ? found : "(null)", expected);
+}
+
+static const char *claim(const hooke_measurement *why, int64_t row, const char *column) {
+  return hooke_measurement_text(why, "claims", row, column);
+}
+
+/* The sentence in two claims, the cause and how it went on, and after them one for what is not known. */
+static void check_claims(const hooke_measurement *why, const char *of) {
+  const char *left_out = hooke_measurement_text(why, "why", 0, "left_out");
+  const int64_t course = hooke_measurement_find(why, "claims", "key", "course"), count = course < 0 ? 1 : 2;
+  char both[2048];
+  check_text(claim(why, 0, "key"), "cause");
+  check_text(claim(why, 0, "of"), of);
+  assert_true(course < 0 || course == 1);
+  if (course == 1) check_text(claim(why, 1, "of"), "part");
+  snprintf(both, sizeof both, course < 0 ? "%s" : "%s; %s", claim(why, 0, "text"), claim(why, 1, "text"));
+  check_text(hooke_measurement_text(why, "why", 0, "sentence"), both);
+  assert_int_equal(hooke_measurement_row_count(why, "claims"), count + (left_out != NULL));
+  if (left_out) check_text(claim(why, count, "text"), left_out);
+  if (left_out) check_text(claim(why, count, "of"), "unknown");
+}
+
 static hooke_measurement *explain(hooke_integrator *integrator) {
   hooke_measurement *why = NULL;
   check_ok(explain_run(integrator, &why));
+  check_claims(why, "part");
   return why;
 }
 
@@ -74,11 +100,6 @@ static int32_t explain_within(const hooke_integrator *integrator, double budget,
   hooke_measurement_destroy(*why);
   *why = NULL;
   return status;
-}
-
-static void check_text(const char *found, const char *expected) {
-  if (found == NULL || strcmp(found, expected) != 0)
-    check_failed("\"%s\" instead of \"%s\"", found ? found : "(null)", expected);
 }
 
 /* The run with advice `place` finishes. */
@@ -301,7 +322,8 @@ TEST(test_solvers_that_give_up) {
     check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
     owned_measurement *why = explain(integrator);
     check_text(hooke_measurement_text(why, "why", 0, "cause"), "solver-failed");
-    assert_non_null(strstr(hooke_measurement_text(why, "why", 0, "sentence"), "the solver gave up: "));
+    assert_non_null(
+        strstr(hooke_measurement_text(why, "why", 0, "sentence"), "the solver gave up after t = "));
     check_between(hooke_measurement_number(why, "why", 0, "time"), 1.6, 1.8);
     /* only to see how it gets there */
     assert_int_equal(hooke_measurement_row_count(why, "advice"), 1);
@@ -486,6 +508,7 @@ TEST(test_no_time) {
   owned_measurement *why = NULL;
   check_ok(explain_within(integrator, 1e-9, NULL, NULL, &why));
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "unknown");
+  check_claims(why, "unknown");
   if (strstr(hooke_measurement_text(why, "why", 0, "left_out"), "time was short") == NULL)
     check_failed("%s", hooke_measurement_text(why, "why", 0, "left_out"));
   assert_true(isnan(hooke_measurement_number(why, "why", 0, "limit")));

@@ -38,7 +38,7 @@ def test_a_result_that_diverged(oscillator, quiet):
     assert "step" in why.advice[0].options
     again = hooke.run(oscillator, **{**TOO_LARGE, **why.advice[0].options})
     assert again.status == "finished"
-    assert why.sentence in str(why) and why.advice[0].change in str(why)
+    assert str(why).replace("\n", "; ") == why.sentence and [claim.key for claim in why.claims] == ["cause", "course"]
 
 
 def test_frames_after_divergence(oscillator, quiet, tmp_path):
@@ -93,7 +93,7 @@ def test_a_solver_that_failed():
     with pytest.raises(hooke.SolverFailed) as caught:
         hooke.run(system, **options)
     why = hooke.why(caught.value)
-    assert why.cause == "solver-failed" and str(caught.value) in why.sentence
+    assert why.cause == "solver-failed" and str(caught.value).partition("; ")[0] in why.sentence
     assert caught.value.diagnosis == why.sentence
     assert hooke.why(system, **options).sentence == why.sentence
     assert math.isinf(why.limit)

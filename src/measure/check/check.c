@@ -164,10 +164,8 @@ static int32_t count_method(const struct hk_check *check, const hooke_state *sta
   return status;
 }
 
-/* The pages of libhdf5 and its buffers, and a queued frame, as measured on cloths. */
-static int64_t count_output(const struct hk_check *check) {
-  return 4800000 + 150 * check->system->particle_count;
-}
+/* Of output: the pages of libhdf5 and its buffers, and a queued frame, as measured on cloths [bytes]. */
+enum { OUTPUT = 4800000, OUTPUT_OF_PARTICLE = 150 };
 
 /* Leaves out a method that cannot run. */
 static int32_t find_memory(struct hk_check *check, hooke_state *state) {
@@ -183,7 +181,7 @@ static int32_t find_memory(struct hk_check *check, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   const int64_t running = (process ? (int64_t)process[0] : model) + of_method + kept;
   check->most = process && process[1] > (double)running ? (int64_t)process[1] : running;
-  check->written = check->most + count_output(check);
+  check->written = check->most + OUTPUT + OUTPUT_OF_PARTICLE * check->system->particle_count;
   if (of_factor > 0) check->factor = running + of_factor > check->most ? running + of_factor : check->most;
   check->counted = model + of_method;
   return HOOKE_OK;

@@ -301,6 +301,7 @@ const struct hk_measurement_kind hk_limit_kind = {
     .options = &limit_table,
     .takes_state = 1,
     .tables = hk_limit_tables,
+    .claim = hk_limit_claim,
     .create = create,
     .run = run,
     .destroy = destroy,

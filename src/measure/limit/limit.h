@@ -78,6 +78,10 @@ extern const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS];
   .lists = {{"spring", "first", "second"}}
 
 extern const struct hk_table hk_limit_tables[];
+
+/* What it says of its results (limit_claims.c). */
+void hk_limit_claim(const hooke_measurement *measurement, struct hk_claims *claims);
+
 extern const struct hk_measurement_kind hk_limit_kind;
 
 #endif

@@ -143,7 +143,7 @@ static int32_t check(const hooke_integrator *run) {
 }
 
 static int32_t create(hooke_measurement *m) {
-  (void)m;
+  ((struct hk_why *)m->object)->measurement = m;
   if (HOOKE_HAVE_LAPACK) return HOOKE_OK;
   return hk_fail(HOOKE_NOT_BUILT, NULL, "explanations need LAPACK, which this build is without");
 }
@@ -261,6 +261,7 @@ const struct hk_measurement_kind hk_why_kind = {
     .options = &why_table,
     .made_by = "hooke_why_create()",
     .tables = hk_why_tables,
+    .claim = hk_why_claim,
     .create = create,
     .run = run,
     .destroy = destroy,

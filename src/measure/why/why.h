@@ -18,6 +18,7 @@ struct hk_why_advice {
 };
 
 struct hk_why {
+  const hooke_measurement *measurement;
   const hooke_system *system;
   const hooke_integrator *integrator; /* whose run ended early */
   hooke_integrator *own;              /* that one, where states were kept; NULL: it is the caller's */
@@ -25,6 +26,7 @@ struct hk_why {
   struct hk_why_start start;          /* to take the steps again from, for a page */
   const char *cause;                  /* NULL: not found yet */
   char sentence[1024], method[32], left_out[640];
+  int32_t cause_length; /* part of the sentence that tells the cause; the rest is how it went on */
   double time, noticed, step, limit, particle;
   struct hk_limiting_list limiting;
   int64_t advice_count;
@@ -126,6 +128,9 @@ int32_t hk_inquiry_judge(struct hk_inquiry *inquiry);
 
 /* Finds changes of the run and tries them. */
 int32_t hk_inquiry_advise(struct hk_inquiry *inquiry);
+
+/* What it says of its results (why_cause.c). */
+void hk_why_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
 extern const struct hk_table hk_why_tables[];
 extern const struct hk_measurement_kind hk_why_kind;

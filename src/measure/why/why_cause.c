@@ -12,9 +12,11 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double COLLAPSED = 1e-3; /* of the rest length */
 
+/* Composes the cause: what the run did after its last good state, and why. */
 static void say(struct hk_inquiry *inquiry, const char *cause, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
@@ -26,29 +28,30 @@ static void say(struct hk_inquiry *inquiry, const char *cause, const char *forma
                                                      : "the run ran out of steps";
   va_list args;
   why->cause = cause;
-  int used = snprintf(why->sentence, sizeof why->sentence, "%s: ", how);
+  int used = hk_print(why->sentence, sizeof why->sentence, "%s after t = %.6g s: ", how, why->time);
   va_start(args, format);
   hk_print_list(why->sentence + used, sizeof why->sentence - (size_t)used, format, args);
   va_end(args);
   hk_utf8_make_plain(why->sentence);
+  why->cause_length = (int32_t)strlen(why->sentence);
 }
 
-/* Time of the failure: that of the failed step, or the time it was noticed if the repeated steps did not
- * fail. */
-static const char *show(const struct hk_inquiry *inquiry, char text[160]) {
-  const double t = inquiry->reproduced && inquiry->run->outcome == HOOKE_DIVERGED ? inquiry->bad_time
-                                                                                  : inquiry->why->noticed;
-  if (inquiry->run->outcome == HOOKE_DIVERGED && inquiry->bad_particle < 0) {
-    hk_print(text, 160, "it was noticed at t = %.6g s", t);
-  } else if (inquiry->run->outcome == HOOKE_DIVERGED) {
-    hk_print(text, 160, "at t = %.6g s particle %lld is the fastest and %s", t,
-             (long long)inquiry->bad_particle,
-             isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
-                                         : "numbers are no longer finite");
-  } else {
-    hk_print(text, 160, "at t = %.6g s it ended", t);
-  }
-  return text;
+/* Adds the failure itself, at the time of the failed step, or at the time it was noticed if the repeated
+ * steps did not fail. */
+static void tell_failure(struct hk_inquiry *inquiry) {
+  const int32_t diverged = inquiry->run->outcome == HOOKE_DIVERGED;
+  const double t = inquiry->reproduced && diverged ? inquiry->bad_time : inquiry->why->noticed;
+  char *text = inquiry->why->sentence;
+  const size_t size = sizeof inquiry->why->sentence;
+  if (diverged && inquiry->bad_particle < 0)
+    hk_append(text, size, "; it was noticed at t = %.6g s", t);
+  else if (diverged)
+    hk_append(text, size, "; at t = %.6g s particle %lld is the fastest and %s", t,
+              (long long)inquiry->bad_particle,
+              isfinite(inquiry->bad_size) ? "the energy is beyond 100 times what the scene had"
+                                          : "numbers are no longer finite");
+  else if (t > inquiry->why->time)
+    hk_append(text, size, "; at t = %.6g s it ended", t);
 }
 
 /* ---- causes ---- */
@@ -113,29 +116,29 @@ static void name_limiting(const struct hk_inquiry *inquiry, char text[2 * HOOKE_
 static int32_t judge_violation(struct hk_inquiry *inquiry) {
   const struct hk_violation *violation = &inquiry->violation;
   const char *method = inquiry->run->method->name;
-  char where[2 * HOOKE_NAMING_SIZE], end[160];
+  char where[2 * HOOKE_NAMING_SIZE];
   inquiry->why->limit = violation->limit;
   const int32_t status = hk_inquiry_find_limiting(inquiry);
   inquiry->why->particle = violation->particle >= 0 ? (double)violation->particle : NAN;
   name_limiting(inquiry, where);
-  show(inquiry, end);
   if (violation->at_most == 0.0) {
     inquiry->why->limit = 0.0;
     say(inquiry, "never-stable",
         "%s is stable at no step for this scene: motion without damping grows by it at any step, slowly at a "
-        "small one; here, with steps of %.6g s, most of all in %s; %s",
-        method, inquiry->why->step, where, end);
+        "small one, and here the step is %.6g s",
+        method, inquiry->why->step);
   } else if (isnan(violation->limit)) {
     say(inquiry, "step-above-limit",
-        "the step %.6g s is above the largest stable one of %s at t = %.6g s, which is between %.6g and %.6g "
-        "s, so motion grows in every step, most of all in %s; %s",
-        inquiry->why->step, method, violation->time, violation->bound, violation->at_most, where, end);
+        "the step %.6g s is above the largest stable one of %s at t = %.6g s, which is between %.6g and %.6g s",
+        inquiry->why->step, method, violation->time, violation->bound, violation->at_most);
   } else {
     say(inquiry, "step-above-limit",
-        "the step %.6g s is above %.6g s, the largest stable one of %s at "
-        "t = %.6g s, so motion grows in every step, most of all in %s; %s",
-        inquiry->why->step, violation->limit, method, violation->time, where, end);
+        "the step %.6g s is above %.6g s, the largest stable one of %s at t = %.6g s", inquiry->why->step,
+        violation->limit, method, violation->time);
   }
+  hk_append(inquiry->why->sentence, sizeof inquiry->why->sentence,
+            "; motion grows in every step, most of all in %s", where);
+  hk_utf8_make_plain(inquiry->why->sentence);
   return status;
 }
 
@@ -167,28 +170,29 @@ static struct steepest find_steepest(const hooke_system *system) {
 static void judge_overflow(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   const struct steepest steepest = find_steepest(system);
-  char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "";
+  char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "", limit[64] = "";
   if (steepest.force && steepest.force->kind & HOOKE_LOOPED)
     hk_limiting_add(inquiry->system, steepest.number, NAN, &inquiry->why->limiting);
   if (inquiry->violation.found) inquiry->why->limit = inquiry->violation.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step)) hk_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
+  if (inquiry->why->limit > 0.0)
+    hk_print(limit, sizeof limit, ", where %.6g s is the largest stable one", inquiry->why->limit);
   if (steepest.force)
     hk_print(what, sizeof what, ": the steepest is %s, %.6g N/m on %.6g kg",
              hk_naming_words(system, steepest.force, steepest.number, where), steepest.stiffness,
              system->inertia[steepest.particle]);
-  say(inquiry, "overflow",
-      "numbers leave the range of double precision within a few steps after t = %.6g s%s%s",
-      inquiry->why->time, what, step);
+  say(inquiry, "overflow", "numbers leave the range of double precision within a few steps%s%s%s", what, step,
+      limit);
 }
 
 static void judge_collapse(struct hk_inquiry *inquiry, int64_t spring, const char *what) {
-  char where[HOOKE_NAMING_SIZE], end[160];
+  char where[HOOKE_NAMING_SIZE];
   hk_limiting_add(inquiry->system, spring, 1.0, &inquiry->why->limiting);
   hk_naming_words(inquiry->system, &hk_force_springs, spring, where);
   say(inquiry, "collapsed-spring",
-      "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",
-      where, what, show(inquiry, end));
+      "%s %s, where a spring loses its direction and its force turns round from one step to the next", where,
+      what);
 }
 
 /* ---- squares ---- */
@@ -295,7 +299,8 @@ static int32_t judge_solver(struct hk_inquiry *inquiry) {
     judge_collapse(inquiry, shortest, "is pressed to no length");
   } else {
     inquiry->why->limit = INFINITY;
-    say(inquiry, "solver-failed", "%s", inquiry->run->message);
+    const char *message = inquiry->run->message, *rest = strstr(message, "; "); /* what to try */
+    say(inquiry, "solver-failed", "%.*s", (int)(rest ? rest - message : (ptrdiff_t)strlen(message)), message);
   }
   return HOOKE_OK;
 }
@@ -317,38 +322,34 @@ static int grew_before(const struct hk_inquiry *inquiry) {
   return inquiry->violation.found && inquiry->violation.time < inquiry->bad_time - 3.5 * h;
 }
 
-static int32_t judge_gain(struct hk_inquiry *inquiry) {
-  char end[160];
+static void judge_gain(struct hk_inquiry *inquiry) {
   say(inquiry, "model-gains-energy",
-      "the model gains energy by itself, with %s as well; altitude springs do so wherever "
-      "another altitude of a tetrahedron comes to be the shortest, far from rest; %s",
-      inquiry->run->method->adaptive ? "far tighter tolerances" : "16 times smaller steps",
-      show(inquiry, end));
-  return HOOKE_OK;
+      "the model gains energy by itself, with %s as well; altitude springs do so wherever another altitude of a "
+      "tetrahedron comes to be the shortest, far from rest",
+      inquiry->run->method->adaptive ? "far tighter tolerances" : "16 times smaller steps");
 }
 
 /* There was no time or memory for the check. */
 static void judge_unknown(struct hk_inquiry *inquiry) {
   const struct hk_violation *violation = &inquiry->violation;
-  char end[160];
-  show(inquiry, end);
-  if (isnan(violation->bound)) {
-    say(inquiry, "unknown", "why is not known: the steps that led to it were not all looked at; %s", end);
-  } else {
+  if (isnan(violation->bound))
+    say(inquiry, "unknown", "why is not known: the steps that led to it were not all looked at");
+  else
     say(inquiry, "unknown",
-        "the step %.6g s is above %.6g s, up to which %s is certain to be "
-        "stable, but whether it is above the limit itself is not known; %s",
-        inquiry->why->step, violation->bound, inquiry->run->method->name, end);
-  }
+        "the step %.6g s is above %.6g s, up to which %s is certain to be stable, but whether it is above the "
+        "limit itself is not known",
+        inquiry->why->step, violation->bound, inquiry->run->method->name);
 }
 
 static int32_t judge_divergence(struct hk_inquiry *inquiry) {
-  char end[160], what[120];
+  char what[120];
   int32_t gains = 0;
   if (judge_start(inquiry)) return HOOKE_OK;
   const int32_t status = hk_inquiry_gains(inquiry, &gains);
-  if (status != HOOKE_OK || gains) return gains ? judge_gain(inquiry) : status;
-  if (inquiry->sudden && !grew_before(inquiry)) {
+  if (status != HOOKE_OK) return status;
+  if (gains) {
+    judge_gain(inquiry);
+  } else if (inquiry->sudden && !grew_before(inquiry)) {
     judge_overflow(inquiry);
   } else if (inquiry->violation.found) {
     return judge_violation(inquiry);
@@ -365,13 +366,13 @@ static int32_t judge_divergence(struct hk_inquiry *inquiry) {
   } else if (inquiry->run->method->adaptive) {
     say(inquiry, "solver-failed",
         "no spring collapsed and no callback failed, but the tolerances (rtol "
-        "%.3g) let errors grow until they were larger than the motion%s; %s",
-        hooke_options_number(inquiry->run->options, "rtol"), altitude_words(inquiry), show(inquiry, end));
+        "%.3g) let errors grow until they were larger than the motion%s",
+        hooke_options_number(inquiry->run->options, "rtol"), altitude_words(inquiry));
   } else {
     say(inquiry, "step-above-limit",
         "the step %.6g s is too large for how quickly this motion changes%s; no step was seen above "
-        "the limit of the motion frozen at one moment, no spring collapsed and no callback failed; %s",
-        inquiry->why->step, altitude_words(inquiry), show(inquiry, end));
+        "the limit of the motion frozen at one moment, no spring collapsed and no callback failed",
+        inquiry->why->step, altitude_words(inquiry));
   }
   return HOOKE_OK;
 }
@@ -396,6 +397,21 @@ int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {
     judge_bad_value(inquiry);
   else
     status = inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
+  tell_failure(inquiry);
   tell_coincident(inquiry);
   return status;
+}
+
+/* ---- claims ---- */
+
+void hk_why_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
+  static const char by[] = "the last steps of the run";
+  const struct hk_why *why = measurement->object;
+  if (why->cause == NULL) return;
+  const int32_t known = strcmp(why->cause, "unknown") != 0;
+  hk_claim(claims, "cause", known ? HOOKE_OF_PART : HOOKE_OF_UNKNOWN, by, "%.*s", (int)why->cause_length,
+           why->sentence);
+  if (why->sentence[why->cause_length])
+    hk_claim(claims, "course", HOOKE_OF_PART, by, "%s", why->sentence + why->cause_length + strlen("; "));
+  if (why->left_out[0]) hk_claim(claims, "left-out", HOOKE_OF_UNKNOWN, by, "%s", why->left_out);
 }

@@ -9,9 +9,9 @@
 HOOKE_READER(const char *, left_out, struct hk_why, it->left_out[0] ? it->left_out : NULL)
 HOOKE_COUNTER(count_causes, struct hk_why, it->cause != NULL)
 
-/* ---- limiting springs ---- */
-
 /* ---- advice ---- */
+
+HOOKE_READER(const char *, command, struct hk_why, it->measurement->label[HOOKE_LABEL_COMMAND + row])
 
 /* ---- the tables ---- */
 
@@ -43,5 +43,6 @@ const struct hk_table hk_why_tables[] = {
          HOOKE_COLUMN(struct hk_why_advice, change, TEXT, "", "the change in words"),
          HOOKE_COLUMN(struct hk_why_advice, option, TEXT, "",
                       "run option that is the point of it; empty where the scene is to be changed"),
-         HOOKE_COLUMN(struct hk_why_advice, value, TEXT, "", "its new value"))},
+         HOOKE_COLUMN(struct hk_why_advice, value, TEXT, "", "its new value"),
+         HOOKE_COLUMN_BY(command, TEXT, "", "its command line, where the caller gave one as a label"))},
     {.name = NULL}};

@@ -5,8 +5,6 @@ for (const row of data.rows) row.unlimited.forEach((name) => { row[name] = "none
 const modes = Object.fromEntries(["real", "imaginary", "frequency", "decay"]
   .map((name) => [name, data.modes.map((mode) => mode[name])]));
 const modeCount = data.modes.length;
-const rowOf = (method) => data.rows.find((row) => row.method === method);
-const pale = (colour) => colour + "1a";
 
 /* ---- stability ---- */
 
@@ -23,16 +21,7 @@ function findSteps() {
 }
 const steps = findSteps();
 
-const pairs = (flat) => Array.from({ length: flat.length / 2 }, (_, k) => ({ x: flat[2 * k], y: flat[2 * k + 1] }));
-
-function region(method, points) {
-  return { label: method, role: "region", data: points, borderColor: colourOf(method),
-    backgroundColor: pale(colourOf(method)), borderWidth: 2, fill: "shape", pointRadius: 0, pointHitRadius: 0,
-    pointStyle: "line", order: 3 };
-}
-
 const mirrored = (points) => [...points, ...[...points].reverse().map(({ x, y }) => ({ x, y: -y }))];
-const fromOrigin = (points) => [{ x: 0, y: 0 }, ...points, { x: 0, y: 0 }];
 
 /* Points of modes, with crosses at the edge for those outside. */
 function pointsOf(list) {
@@ -69,7 +58,7 @@ function drawPlane(h) {
   }
   const regions = data.rows.filter((row) => row.region)
     .map((row) => region(row.method, mirrored(pairs(row.region))));
-  const chart = drawEqual("plane", [...regions, ...pointsOf(list)], ["real part of h \u03bb", "imaginary part of h \u03bb"],
+  const chart = drawEqual("plane", [...regions, ...pointsOf(list)], [`real part of h \u03bb, h = ${words(h, 6)} s`, "imaginary part of h \u03bb"],
     { left: -3.6, right: 0.6, bottom: -3.1, top: 3.1 }, describeMode, place);
   chart.canvas.dataset.regions = regions.length;
 }
@@ -83,7 +72,7 @@ function drawReach(h) {
     borderColor: "#6b7680", backgroundColor: "#6b7680", borderWidth: 1.5, borderDash: [7, 4], pointRadius: 0,
     pointHitRadius: 0, pointStyle: "line", order: 2 };
   const chart = drawEqual("reach", [...regions, critical, ...pointsOf(list)],
-    ["h \u03c9, step times frequency", "h d, step times damping"],
+    [`h \u03c9, step times frequency, h = ${words(h, 6)} s`, "h d, step times damping"],
     { left: -0.1, right: 3.2, bottom: -0.1, top: 3.2 }, describeMode, place);
   chart.canvas.dataset.regions = regions.length;
 }
@@ -103,7 +92,7 @@ function drawStability(key) {
   const says = [["stable", "stable by"], ["limit", "just at the limit of"], ["open", "not decided for"],
     ["grows", "blows up by"]]
     .filter(([verdict]) => named(verdict) !== "").map(([verdict, text]) => `${text} ${named(verdict)}`);
-  document.getElementById("stepped").textContent = `With h = ${words(step, 6)} s: ${says.join("; ")}.`;
+  document.getElementById("stepped").textContent = `With that step: ${says.join("; ")}.`;
   drawPlane(step);
   drawReach(step);
 }

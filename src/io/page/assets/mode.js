@@ -130,6 +130,22 @@ function look(what, key) {
   if (looking.view !== null) drawPicture();
 }
 
+function startPicture() {
+  if (moving && movers.length < particles.length)
+    choice("zoom", [["all", ["whole scene"]], ["mode", ["where it moves"]]], "all", (key) => look("zoom", key));
+  choice("view", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), firstView(), (key) => look("view", key));
+}
+
+/* ---- regions of stability ---- */
+
+const pairs = (flat) => Array.from({ length: flat.length / 2 }, (_, k) => ({ x: flat[2 * k], y: flat[2 * k + 1] }));
+const fromOrigin = (points) => [{ x: 0, y: 0 }, ...points, { x: 0, y: 0 }];
+
+function region(label, points, colour = colourOf(label)) {
+  return { label, role: "region", data: points, borderColor: colour, backgroundColor: `${colour}1a`, borderWidth: 2,
+    fill: "shape", pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 3 };
+}
+
 /* ---- the table ---- */
 
 const MOST_BLAMED = 12;
@@ -149,4 +165,17 @@ function writeBlame() {
   const line = element("tr");
   line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
   document.querySelector("#blame tbody").append(line);
+}
+
+/* What of the scene is drawn, as facts. */
+function writePicture() {
+  const known = (count) => (picture.particles ? whole(count) : "");
+  fact("about", "particles", known(picture.particles));
+  fact("about", "springs", known(picture.springs));
+  fact("about", "springs drawn", known(listed.length));
+  fact("about", "springs left out", known(picture.springs - listed.length));
+  fact("about", "particles drawn that move", known(movers.length));
+  const shares = new Map();
+  for (const one of blames) shares.set(groupOf(one), (shares.get(groupOf(one)) || 0) + one.share);
+  for (const [group, share] of shares) if (share > 0.001) fact("about", `mode in ${group}`, percent(share));
 }

@@ -171,7 +171,7 @@ function writeLead(kind, lead) {
     line.dataset.key = claim.key;
     box.append(line);
   }
-  if (data.command && claims.length > 0) box.append(element("pre", data.command));
+  if (data.command && !data.advice && claims.length > 0) box.append(element("pre", data.command));
 }
 
 /* A name beside its colour. */

@@ -229,14 +229,12 @@ function drawEnergy({ at, predicted }) {
 /* ---- the mode and the region ---- */
 
 function drawReach(looks) {
-  const reach = data.rows[0].reach, pairs = Array.from({ length: reach.length / 2 }, (_, k) => ({ x: reach[2 * k], y: reach[2 * k + 1] }));
   const points = looks.map((look) => ({ x: data.step * look.frequency, y: data.step * look.decay, look }));
   const far = (name) => Math.max(...points.map((point) => point[name]));
-  const region = { label: `${data.method} is stable within`, data: [{ x: 0, y: 0 }, ...pairs, { x: 0, y: 0 }], borderColor: "#00875f",
-    backgroundColor: "#00875f22", borderWidth: 2, fill: "shape", pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 3 };
   const path = { label: "the mode that limits, over time", data: points, borderColor: RED, backgroundColor: RED, borderWidth: 1.5,
     pointRadius: points.map(({ look }) => (data.mode && look.time === data.mode.time ? 6 : 3)), pointStyle: "circle", order: 1 };
-  drawEqual("reach", [region, path], ["h \u03c9, step times frequency", "h d, step times damping"],
+  const within = region(`${data.method} is stable within`, fromOrigin(pairs(data.rows[0].reach)), "#00875f");
+  drawEqual("reach", [within, path], ["h \u03c9, step times frequency", "h d, step times damping"],
     { left: -0.1, right: Math.max(3, 1.15 * far("x")), bottom: -0.1, top: Math.max(1.2, 1.15 * far("y")) },
     (item) => (item.raw.look ? [`t = ${words(item.raw.look.time, 5)} s`, `${words(item.raw.look.frequency, 4)} rad/s, damping ` +
       `${words(item.raw.look.decay, 4)} 1/s`, `each step multiplies it by ${words(item.raw.look.growth, 4)}`] : ""));
