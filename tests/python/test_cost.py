@@ -94,3 +94,12 @@ def test_options_and_wrong_problems():
         hooke.cost(build_oscillator(), budget=0)
     with pytest.raises(hooke.BadValue, match="does not fit"):
         hooke.cost(build_oscillator(), build_six_particles().state())
+
+
+def test_a_check_tells_without_a_run():
+    system = build_oscillator()
+    found = hooke.check(system, method="verlet", step=10, duration=20)
+    assert (found.particles, found.springs) == (system.particle_count, system.spring_count) and found.memory_bytes > 0
+    assert found["verlet"]["seconds"] == system.step_bound("verlet", system.state().q) and len(found.rows) == len(hooke.methods())
+    first = found.claims[0]
+    assert (first.key, first.of) == ("above-limit", "whole") and str(found).startswith("the step of the run, 10 s, is above ")
