@@ -81,20 +81,11 @@ const char *cli_setup_title(const struct cli_arguments *arguments, const struct 
   return title && title[0] ? title : arguments->scene;
 }
 
-int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]) {
+int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                      const char *method) {
   const int duration = hooke_options_number_count(setup->options, "duration") == 0;
   const int step = method && hooke_method_is_adaptive(method) == 0 &&
                    hooke_options_number_count(setup->options, "step") == 0;
-  snprintf(text, HOOKE_DOC_SIZE, "%s%s%s%s%s: the scene's run names none; give %s in seconds, such as%s%s",
-           duration ? "no duration" : "", duration && step ? " and " : "", step ? "no step, which " : "",
-           step ? method : "", step ? " takes" : "", duration && step ? "them" : "one",
-           duration ? " --duration 1" : "", step ? " --step 1e-3" : "");
-  return duration || step;
-}
-
-int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                      const char *method) {
-  char text[HOOKE_DOC_SIZE];
   if (method && hooke_method_is_adaptive(method) < 0) { /* a value given as an option was refused before */
     return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
                       "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
@@ -105,8 +96,12 @@ int cli_setup_require(const struct cli_arguments *arguments, const struct cli_se
                       "%s is not in this build of hooke; 'hooke --version' says what it was built with",
                       method);
   }
-  if (!cli_setup_missing(setup, method, text)) return HOOKE_EXIT_DONE;
-  return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", text);
+  if (!duration && !step) return HOOKE_EXIT_DONE;
+  return cli_report(
+      arguments, HOOKE_EXIT_USAGE, "%s%s%s%s%s: the scene's run names none; give %s in seconds, such as%s%s",
+      duration ? "no duration" : "", duration && step ? " and " : "", step ? "no step, which " : "",
+      step ? method : "", step ? " takes" : "", duration && step ? "them" : "one",
+      duration ? " --duration 1" : "", step ? " --step 1e-3" : "");
 }
 
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {

@@ -29,10 +29,6 @@ const char *cli_setup_title(const struct cli_arguments *arguments, const struct 
 int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
                          const char *output);
 
-/* Whether a run by `method` (NULL: by one of variable step) lacks a duration or a step, and which, in words.
- */
-int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]);
-
 /* Report what a run by `method` lacks: a duration, a step, the method itself in this build; the first
  * function checks the duration only. */
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup);

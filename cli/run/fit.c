@@ -16,7 +16,7 @@ struct fit {
   const struct cli_arguments *arguments;
   hooke_options *options;
   double step, every, duration; /* NaN: not given */
-  char *doubt;
+  int32_t may_lack;             /* 1: no step is no failure */
 };
 
 static int is_whole(double quotient) {
@@ -50,14 +50,12 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
 /* ---- without a given step ---- */
 
 static int refuse(const struct fit *fit, const char *method, double safe) {
-  char doubt[HOOKE_DOC_SIZE], where[80] = "here at no step";
+  char where[80] = "here at no step";
+  if (fit->may_lack) return HOOKE_EXIT_DONE;
   if (safe > 0.0) snprintf(where, sizeof where, "up to %.6g s alone, which would mean over 1e8 steps", safe);
-  snprintf(doubt, sizeof doubt,
-           "no step: %s is certain to be stable %s; give one with --step, or take another method", method,
-           where);
-  if (!fit->doubt) return cli_report(fit->arguments, HOOKE_EXIT_USAGE, "%s", doubt);
-  strcpy(fit->doubt, doubt);
-  return HOOKE_EXIT_DONE;
+  return cli_report(fit->arguments, HOOKE_EXIT_USAGE,
+                    "no step: %s is certain to be stable %s; give one with --step, or take another method",
+                    method, where);
 }
 
 static int choose_step(struct fit *fit, const hooke_system *system, const double *q, const char *method) {
@@ -88,14 +86,14 @@ static int move_times(struct fit *fit) {
   return code;
 }
 
-int cli_fit_run(const struct cli_arguments *arguments, struct cli_setup *setup, char *doubt) {
+int cli_fit_run(const struct cli_arguments *arguments, struct cli_setup *setup, int32_t may_lack) {
   const char *method = hooke_options_text(setup->options, "method");
   struct fit fit = {.arguments = arguments,
                     .options = setup->options,
                     .step = hooke_options_number(setup->options, "step"),
                     .every = hooke_options_number(setup->options, "every"),
                     .duration = hooke_options_number(setup->options, "duration"),
-                    .doubt = doubt};
+                    .may_lack = may_lack};
   if (cli_arguments_text(arguments, "strict") || isnan(fit.duration)) return HOOKE_EXIT_DONE;
   if (hooke_method_is_adaptive(method) != 0) return HOOKE_EXIT_DONE;
   if (isnan(fit.step)) {

@@ -1,11 +1,12 @@
 /* hooke check: validates a scene and reports its size, memory and step limits, without running it. */
-#include "cost_sheet.h"
-#include "derived.h"
+#include "claims.h"
 #include "fit.h"
-#include "peak.h"
+#include "os.h"
 #include "print.h"
 #include "report.h"
+#include "rows.h"
 #include "setup.h"
+#include "watch.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -13,169 +14,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { INDENT = 13, WIDTH = 110, LEAST_WIDTH = 16 };
+
 struct check {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_measurement *cost; /* NULL: not requested */
-  double *bound;           /* bound on the step of each method at the initial state [s]; NaN if unknown */
-  struct cli_foretold memory;
-  char warnings[HOOKE_WARNINGS_SIZE];
+  hooke_measurement *found, *cost; /* cost: NULL if not requested */
 };
 
-static double bound_of(const struct check *check, const char *method) {
-  for (int64_t k = 0; k < hooke_method_count(); k++)
-    if (strcmp(method, hooke_method_name(k)) == 0) return check->bound[k];
-  return NAN;
-}
-
-/* HOOKE_NO_MEMORY */
-static int32_t find_bounds(struct check *check) {
-  check->bound = malloc((size_t)hooke_method_count() * sizeof *check->bound);
-  if (check->bound == NULL) return HOOKE_NO_MEMORY;
-  return hooke_step_bound(check->setup.system, NULL, hooke_state_position(check->setup.state), check->bound);
-}
-
-/* ---- warnings ---- */
-
-static void warn_of_method(struct check *check) {
-  const char *method = hooke_options_text(check->setup.options, "method");
-  char limit[HOOKE_NUMBER_SIZE], taken[HOOKE_NUMBER_SIZE];
-  if (!hooke_method_is_built(method)) {
-    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
-               "%s, the method of the run, is not in this build of hooke\n", method);
-    return;
-  }
-  double bound = bound_of(check, method);
-  double step = hooke_options_number(check->setup.options, "step");
-  if (bound == 0.0) {
-    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
-               "%s, the method of the run, is stable at no step: the scene has motion without damping, which "
-               "it makes grow at any step\n",
-               method);
-  } else if (step > bound) {
-    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
-               "the step of the run, %s s, is above %s s, up to which %s is certain to be stable\n",
-               cli_format_rounded(step, taken), cli_format_rounded(bound, limit), method);
-  }
-}
-
-static void warn_of_coincident_springs(struct check *check) {
-  int64_t count =
-      hooke_system_coincident_springs(check->setup.system, hooke_state_position(check->setup.state));
-  if (count == 0) return;
-  cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
-             "%" PRId64 " %s with both ends at the same place although the rest length is not zero: without "
-             "a direction, and so without a force\n",
-             count, count == 1 ? "spring starts" : "springs start");
-}
-
-/* Marks the particles of all members of a force, or (NULL) of a rigid body, which may be free as a whole. */
-static int32_t mark(const hooke_system *system, const char *force, int64_t body, char *held) {
-  const int64_t count = force ? hooke_member_particles(force) * hooke_system_count(system, force)
-                              : hooke_system_body_particles(system, body, NULL);
-  int64_t *named = malloc((size_t)(count + 1) * sizeof *named);
-  int32_t status = named ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (named && force) status = hooke_system_members(system, force, named, NULL, NULL, NULL);
-  if (named && !force) hooke_system_body_particles(system, body, named);
-  for (int64_t i = 0; status == HOOKE_OK && i < count; i++)
-    held[named[i]] = 1;
-  free(named);
-  return status;
-}
-
-/* Counts particles that no spring of any kind, no bending and no body holds. */
-static int32_t warn_of_loose_particles(struct check *check) {
-  const hooke_system *system = check->setup.system;
-  const int64_t particles = hooke_system_particle_count(system);
-  int64_t count = 0, first = 0;
-  char *held = calloc((size_t)particles + 1, 1);
-  int32_t status = held ? HOOKE_OK : HOOKE_NO_MEMORY;
-  for (int64_t k = 0; status == HOOKE_OK && hooke_system_force_name(system, k); k++) {
-    const char *force = hooke_system_force_name(system, k);
-    if (hooke_member_particles(force) > 0) status = mark(system, force, -1, held);
-  }
-  for (int64_t k = 0; status == HOOKE_OK && k < hooke_system_count(system, "bodies"); k++)
-    status = mark(system, NULL, k, held);
-  for (int64_t i = particles - 1; status == HOOKE_OK && i >= 0; i--) {
-    if (held[i]) continue;
-    count++;
-    first = i;
-  }
-  if (count == 1)
-    cli_append(check->warnings, HOOKE_WARNINGS_SIZE, "particle %" PRId64 " has no spring\n", first);
-  if (count > 1) {
-    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
-               "%" PRId64 " particles have no spring, the first of them particle %" PRId64 "\n", count,
-               first);
-  }
-  free(held);
-  return status;
-}
-
 /* ---- the numbers ---- */
-
-/* The memory that grows with the number of springs, for each; and the rest, for each particle. */
-static double bytes_per_spring(const struct check *check) {
-  return (double)hooke_system_count(check->setup.system, "spring_memory") /
-         (double)hooke_system_count(check->setup.system, "springs");
-}
-
-static double bytes_per_particle(const struct check *check) {
-  return (double)(check->memory.counted - hooke_system_count(check->setup.system, "spring_memory")) /
-         (double)hooke_system_particle_count(check->setup.system);
-}
-
-static void print_memory(const struct check *check) {
-  const double most = 1e-6 * (double)check->memory.most;
-  printf("memory       %.3g MB at the peak of a run, %.3g MB with -o", most,
-         1e-6 * (double)check->memory.written);
-  if (check->memory.factor > 0)
-    printf("; %.3g MB more where its method finds that a factor of its equations pays",
-           1e-6 * (double)check->memory.factor - most);
-  if (hooke_system_particle_count(check->setup.system) > 0)
-    printf("; the model takes %.1f bytes a particle", bytes_per_particle(check));
-  if (hooke_system_count(check->setup.system, "springs") > 0)
-    printf(" and %.1f a spring", bytes_per_spring(check));
-  printf("\n");
-}
-
-static void print_json_memory(struct cli_json *json, const struct cli_foretold *memory) {
-  cli_json_count(json, "memory_bytes", memory->most);
-  cli_json_count(json, "memory_bytes_output", memory->written);
-  cli_json_count(json, "memory_bytes_factor", memory->factor > 0 ? memory->factor : -1);
-}
-
-/* HOOKE_NO_MEMORY if something is missing. */
-static int32_t print_json(struct check *check) {
-  const hooke_system *system = check->setup.system;
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_count(&json, "particles", hooke_system_particle_count(system));
-  cli_derived_json(&json, system);
-  cli_json_open(&json, "forces", '[');
-  for (int64_t i = 0; i < hooke_system_count(system, "forces"); i++) {
-    cli_json_text(&json, NULL, hooke_system_force_name(system, i));
-  }
-  cli_json_close(&json);
-  print_json_memory(&json, &check->memory);
-  cli_json_number(&json, "bytes_per_particle", bytes_per_particle(check));
-  cli_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
-  cli_json_open(&json, "step_limit", '{');
-  for (int64_t i = 0; i < hooke_method_count(); i++) {
-    cli_json_number(&json, hooke_method_name(i), check->bound[i]);
-  }
-  cli_json_close(&json);
-  cli_json_open(&json, "warnings", '[');
-  for (const char *line = strtok(check->warnings, "\n"); line; line = strtok(NULL, "\n"))
-    cli_json_text(&json, NULL, line);
-  cli_json_close(&json);
-  cli_json_count(&json, "bodies", hooke_system_count(system, "bodies"));
-  cli_json_count(&json, "inside_bodies", hooke_system_count(system, "inside_bodies"));
-  cli_json_count(&json, "dropped_springs", hooke_system_count(system, "dropped_springs"));
-  cli_json_count(&json, "idle_particles", hooke_system_count(system, "idle"));
-  if (check->cost) cli_json_measured(&json, "cost", check->cost, NULL, 0);
-  return cli_json_end(&json);
-}
 
 /* Stiffness and rest length of the softest and the stiffest of `count` springs. */
 static void print_stiffness(const double *stiffness, const double *length, int64_t count) {
@@ -191,22 +38,32 @@ static void print_stiffness(const double *stiffness, const double *length, int64
     printf(" to %.6g N/m at %.6g m (%.6g N)", stiffness[most], length[most], stiffness[most] * length[most]);
 }
 
-/* HOOKE_NO_MEMORY if the stiffnesses are missing. */
-static int32_t print_groups(const hooke_system *system) {
-  const int64_t count = hooke_system_count(system, "springs");
-  double *stiffness = malloc((size_t)(2 * count + 1) * sizeof *stiffness), *length = stiffness + count,
-         *at = stiffness;
-  int32_t status =
-      stiffness ? hooke_system_members(system, "springs", NULL, stiffness, NULL, length) : HOOKE_NO_MEMORY;
-  printf("springs      %" PRId64 "\n", count);
-  for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
-    const char *name = hooke_system_group_name(system, "springs", i);
-    const int64_t size = hooke_system_group_size(system, "springs", i);
-    cli_say("  %10" PRId64 " %s", size, name[0] ? name : "(no name)");
-    if (status == HOOKE_OK) print_stiffness(at, at + count, size);
+/* A line for each group of a force, with the stiffnesses and rest lengths of all its springs, unless NULL. */
+static void print_members(const hooke_measurement *found, const char *table, const char *members,
+                          const double *stiffness, const double *length) {
+  printf("%-12s %.0f\n", members, cli_number(found, "check", members));
+  for (int64_t row = 0; row < hooke_measurement_row_count(found, table); row++) {
+    const char *name = hooke_measurement_text(found, table, row, "name");
+    const int64_t count = (int64_t)hooke_measurement_number(found, table, row, members);
+    cli_say("  %10" PRId64 " %s", count, name[0] ? name : "(no name)");
+    if (stiffness) print_stiffness(stiffness, length, count);
     printf("\n");
-    at += status == HOOKE_OK ? size : 0;
+    if (stiffness) stiffness += count, length += count;
   }
+}
+
+/* HOOKE_NO_MEMORY if the stiffnesses are missing. */
+static int32_t print_groups(const struct check *check) {
+  const hooke_system *system = check->setup.system;
+  const int64_t count = hooke_system_count(system, "springs");
+  double *stiffness = malloc((size_t)(2 * count + 1) * sizeof *stiffness), *length = stiffness + count;
+  const int32_t status =
+      stiffness ? hooke_system_members(system, "springs", NULL, stiffness, NULL, length) : HOOKE_NO_MEMORY;
+  print_members(check->found, "groups", "springs", status == HOOKE_OK ? stiffness : NULL, length);
+  if (hooke_system_group_count(system, "bending") > 0)
+    print_members(check->found, "bending_groups", "triples", NULL, NULL);
+  if (hooke_system_group_count(system, "altitude") > 0)
+    print_members(check->found, "altitude_groups", "tetrahedra", NULL, NULL);
   free(stiffness);
   return status;
 }
@@ -224,37 +81,85 @@ static void print_bodies(const hooke_system *system) {
   }
 }
 
+static void print_derived(const hooke_measurement *found) {
+  const int64_t count = hooke_measurement_row_count(found, "derived");
+  if (count > 0) printf("derived from the options of parts:\n");
+  for (int64_t row = 0; row < count; row++) {
+    const char *family = hooke_measurement_text(found, "derived", row, "family"),
+               *unit = hooke_measurement_text(found, "derived", row, "unit");
+    cli_say("  %s%s%s: %s %.6g%s%s\n", hooke_measurement_text(found, "derived", row, "part"),
+            family ? "." : "", family ? family : "", hooke_measurement_text(found, "derived", row, "name"),
+            hooke_measurement_number(found, "derived", row, "value"), unit[0] ? " " : "", unit);
+  }
+}
+
 static void print_limits(const struct check *check) {
   const int overdamped = strcmp(hooke_system_dynamics(check->setup.system), "overdamped") == 0;
   char text[HOOKE_NUMBER_SIZE];
   printf("largest step certain to be stable, at the start:\n");
   for (int64_t i = 0; i < hooke_method_count(); i++) {
     const char *name = hooke_method_name(i);
-    const double bound = check->bound[i];
-    printf("  %-18s ", name);
-    if (!hooke_method_is_built(name)) {
-      printf("(not in this build)\n");
-    } else if (hooke_method_is_adaptive(name) != 0) {
-      printf("chooses its own\n");
-    } else if (isnan(bound)) {
-      printf("%s\n", overdamped ? "takes no overdamped scene" : "not known");
-    } else if (isinf(bound)) {
-      printf("any\n");
-    } else if (bound == 0.0) {
-      printf("none: stable at no step\n");
-    } else {
-      printf("%s s\n", cli_format_rounded(bound, text));
-    }
+    const double bound = hooke_measurement_number(check->found, "step_limit", i, "seconds");
+    const char *words = !hooke_method_is_built(name)          ? "(not in this build)"
+                        : hooke_method_is_adaptive(name) != 0 ? "chooses its own"
+                        : isnan(bound) ? overdamped ? "takes no overdamped scene" : "not known"
+                        : isinf(bound) ? "any"
+                        : bound == 0.0 ? "none: stable at no step"
+                                       : NULL;
+    printf("  %-18s %s%s\n", name, words ? words : cli_format_rounded(bound, text), words ? "" : " s");
   }
 }
 
+/* ---- the cost of each ingredient ---- */
+
+/* Measures at the initial state; failures are reported and returned as exit code, HOOKE_EXIT_INTERRUPTED with
+ * the rows so far. */
+static int find_cost(struct check *check) {
+  int32_t outcome;
+  const int code =
+      cli_watch_measure(check->arguments, "cost", &check->setup, check->setup.state, &check->cost, &outcome);
+  if (outcome != HOOKE_STOPPED) return code;
+  cli_report_words(check->arguments, "interrupted; kept: what was found so far");
+  return HOOKE_EXIT_INTERRUPTED;
+}
+
+/* A time below the resolution is printed as such. */
+static void print_time(double nanoseconds, double resolution) {
+  const double shown = nanoseconds < resolution ? resolution : nanoseconds;
+  char format[8];
+  snprintf(format, sizeof format, "%s%s", nanoseconds < resolution ? "<" : "",
+           shown < 100.0 ? "%.2g" : "%.0f");
+  cli_rows_print_as(12, shown, format, NULL, NULL);
+}
+
+/* A row of a table, with the number of its springs and its limit; nothing of one that was not looked at. */
+static void print_ingredient(const hooke_measurement *cost, const char *table, int64_t row, int width,
+                             const char *name, double springs, const char *limit) {
+  const double bytes = hooke_measurement_number(cost, table, row, "memory_bytes");
+  if (isnan(bytes)) return;
+  printf("  ");
+  cli_print_padded(stdout, width, name[0] ? name : "(no name)");
+  cli_rows_print_as(10, springs, "%.0f", NULL, NULL);
+  print_time(hooke_measurement_number(cost, table, row, "nanoseconds"),
+             strcmp(table, "rows") == 0 ? cli_number(cost, "cost", "resolution") : 0.0);
+  cli_rows_print_as(12, bytes, "%.0f", NULL, NULL);
+  cli_rows_print_as(14, hooke_measurement_number(cost, table, row, limit), "%.6g", "any", "no step");
+  printf("\n");
+}
+
 static void print_cost(const struct check *check) {
-  const hooke_options *options = check->setup.options;
-  const char *method = hooke_options_text(options, "method");
-  double steps = round(hooke_options_number(options, "duration") / hooke_options_number(options, "step"));
-  if (hooke_method_is_adaptive(method) != 0 || isnan(steps)) return;
-  printf("cost         %s: %.0f steps, %.3g spring-steps\n", method, steps,
-         steps * (double)hooke_system_count(check->setup.system, "springs"));
+  const hooke_measurement *cost = check->cost;
+  const int32_t width = cli_rows_width(cost, "rows", "ingredient", LEAST_WIDTH);
+  if (isnan(cli_number(cost, "cost", "step"))) return; /* interrupted early */
+  cli_claims_print(check->arguments, cost, INDENT, NULL);
+  printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
+  print_ingredient(cost, "cost", 0, width, "the whole scene", cli_number(check->found, "check", "springs"),
+                   "step_limit");
+  if (hooke_measurement_row_count(cost, "rows") > 0)
+    printf("  %-*s %38s %12s\n", width, "of this", "", "without it");
+  for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++)
+    print_ingredient(cost, "rows", row, width, hooke_measurement_text(cost, "rows", row, "ingredient"),
+                     hooke_measurement_number(cost, "rows", row, "springs"), "step_limit_without");
 }
 
 /* HOOKE_NO_MEMORY if something is missing. */
@@ -266,59 +171,69 @@ static int32_t print_words(struct check *check) {
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
          particles - hooke_system_count(system, "free"));
   print_bodies(system);
-  const int32_t status = print_groups(system);
-  cli_derived_words(system);
+  const int32_t status = print_groups(check);
+  print_derived(check->found);
   printf("forces       ");
   for (int64_t i = 0; i < hooke_system_count(system, "forces"); i++) {
     printf("%s%s", i ? ", " : "", hooke_system_force_name(system, i));
   }
   printf("%s\n", hooke_system_count(system, "forces") == 0 ? "none" : "");
-  print_memory(check);
-  print_cost(check);
+  const int64_t warnings = hooke_measurement_row_count(check->found, "warnings");
+  for (int64_t row = warnings; row < hooke_measurement_row_count(check->found, "claims"); row++)
+    cli_print_fact(INDENT, WIDTH, hooke_measurement_text(check->found, "claims", row, "key"), "%s",
+                   hooke_measurement_text(check->found, "claims", row, "text"));
   print_limits(check);
-  cli_cost_sheet_print_left_out(system);
-  if (check->cost) cli_cost_sheet_print(check->cost, system);
+  if (check->cost) print_cost(check);
   cli_print_flush();
-  cli_warnings_tell(check->arguments, check->warnings);
+  for (int64_t row = 0; row < warnings; row++)
+    cli_report_words(check->arguments, "warning: %s",
+                     hooke_measurement_text(check->found, "warnings", row, "text"));
   return status;
 }
 
-static int check_and_tell(struct check *check, struct cli_peak loaded) {
-  int code = cli_peak_of_run(check->arguments, &check->setup, loaded, &check->memory);
-  if (code != HOOKE_EXIT_DONE) return code;
-  int32_t status = find_bounds(check);
-  if (status == HOOKE_OK) warn_of_method(check);
-  warn_of_coincident_springs(check);
-  if (status == HOOKE_OK) status = warn_of_loose_particles(check);
+/* HOOKE_NO_MEMORY if something is missing. */
+static int32_t print_json(struct check *check) {
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_measured(&json, NULL, check->found, NULL, 0);
+  if (check->cost) cli_json_measured(&json, "cost", check->cost, NULL, 0);
+  return cli_json_end(&json);
+}
+
+/* Measures with the memory that the process has right after loading. */
+static int32_t find(struct check *check) {
+  int64_t now = 0, most = 0;
+  cli_os_memory(&now, &most);
+  hooke_options *options = NULL;
+  int32_t status = hooke_options_create("check", &options);
+  if (status == HOOKE_OK && now > 0) /* known */
+    status = hooke_options_set_numbers(options, "process", 2, (const double[]){(double)now, (double)most});
   if (status == HOOKE_OK)
-    status = hooke_system_warnings(check->setup.system, cli_warnings_hear, check->warnings);
-  if (status != HOOKE_OK) return cli_report(check->arguments, cli_exit_code(status), "out of memory");
-  if (cli_arguments_text(check->arguments, "cost"))
-    code = cli_cost_sheet_find(check->arguments, &check->setup, &check->cost);
+    status =
+        hooke_measurement_create("check", check->setup.system, check->setup.options, options, &check->found);
+  if (status == HOOKE_OK) status = hooke_measurement_run(check->found, check->setup.state);
+  hooke_options_destroy(options);
+  return status;
+}
+
+static int check_and_tell(struct check *check) {
+  int32_t status = find(check);
+  if (status != HOOKE_OK) return cli_report_status(check->arguments, status);
+  int code = HOOKE_EXIT_DONE;
+  if (cli_arguments_text(check->arguments, "cost")) code = find_cost(check);
   if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
   status = check->arguments->json ? print_json(check) : print_words(check);
   return status == HOOKE_OK ? code : cli_report(check->arguments, cli_exit_code(status), "out of memory");
 }
 
-/* As `run` does; a scene may leave all of it to the command line. */
-static int choose_times(struct check *check) {
-  const hooke_options *run = check->setup.options;
-  char doubt[HOOKE_DOC_SIZE] = "";
-  const int code = cli_fit_run(check->arguments, &check->setup, doubt);
-  const int some = hooke_options_is_set(run, "method") || hooke_options_is_set(run, "step");
-  const int refused = doubt[0] != '\0';
-  if (refused || (some && cli_setup_missing(&check->setup, hooke_options_text(run, "method"), doubt)))
-    cli_append(check->warnings, HOOKE_WARNINGS_SIZE, "%s\n", doubt);
-  return code;
-}
-
+/* Times are chosen as `run` does. */
 static int do_check(const struct cli_arguments *arguments) {
   struct check check = {.arguments = arguments};
   int code = cli_setup_load(arguments, &check.setup);
-  if (code == HOOKE_EXIT_DONE) code = choose_times(&check);
-  if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, cli_peak_look());
+  if (code == HOOKE_EXIT_DONE) code = cli_fit_run(arguments, &check.setup, 1);
+  if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check);
+  hooke_measurement_destroy(check.found);
   hooke_measurement_destroy(check.cost);
-  free(check.bound);
   cli_setup_destroy(&check.setup);
   return code;
 }

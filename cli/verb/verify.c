@@ -1,6 +1,8 @@
 /* hooke verify: checks that a slice of a result reproduces from its scene. */
+#include "claims.h"
 #include "print.h"
 #include "report.h"
+#include "rows.h"
 #include "setup.h"
 #include "watch.h"
 
@@ -8,11 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { KNOWN = 48 };
-
-static double number(const hooke_measurement *verify, const char *what) {
-  return hooke_measurement_number(verify, "verify", 0, what);
-}
+enum { INDENT = 14 };
 
 static const char *text(const hooke_measurement *verify, const char *what) {
   const char *found = hooke_measurement_text(verify, "verify", 0, what);
@@ -39,64 +37,20 @@ static void print_makers(const hooke_measurement *verify, const char *head, cons
   printf("\n");
 }
 
-/* "0.0015 J", or that nobody knows. */
-static const char *known(const hooke_measurement *verify, const char *what, const char *unit, int digits,
-                         char text[KNOWN]) {
-  const double value = number(verify, what);
-  snprintf(text, KNOWN, "%.*g %s", digits, value, unit);
-  if (isnan(value)) snprintf(text, KNOWN, "an unknown amount");
-  return text;
-}
-
 static void print_step(const hooke_measurement *verify) {
   cli_say("%-13s %s", "method", text(verify, "method"));
-  if (isnan(number(verify, "step"))) {
-    printf(", rtol %g, atol %g m\n", number(verify, "rtol"), number(verify, "atol"));
+  if (isnan(cli_number(verify, "verify", "step"))) {
+    printf(", rtol %g, atol %g m\n", cli_number(verify, "verify", "rtol"),
+           cli_number(verify, "verify", "atol"));
     return;
   }
-  printf(", step %g s", number(verify, "step"));
-  if (isinf(number(verify, "step_limit")))
+  printf(", step %g s", cli_number(verify, "verify", "step"));
+  if (isinf(cli_number(verify, "verify", "step_limit")))
     printf(", which nothing limits");
-  else if (!isnan(number(verify, "step_share")))
-    printf(", %.3g %% of the longest stable one, %.4g s", 100.0 * number(verify, "step_share"),
-           number(verify, "step_limit"));
+  else if (!isnan(cli_number(verify, "verify", "step_share")))
+    printf(", %.3g %% of the longest stable one, %.4g s", 100.0 * cli_number(verify, "verify", "step_share"),
+           cli_number(verify, "verify", "step_limit"));
   printf("\n");
-}
-
-static void print_balance(const hooke_measurement *verify) {
-  char one[KNOWN], two[KNOWN], three[KNOWN];
-  if (strcmp(text(verify, "balance"), "not-checked") == 0) return;
-  cli_say("%-13s %s: work in %s = change %s + heat %s\n", "energy", text(verify, "balance"),
-          known(verify, "work", "J", 6, one), known(verify, "energy_change", "J", 6, two),
-          known(verify, "heat", "J", 6, three));
-  printf("%-13s up to %s are left over, %s at the end with half the step%s; bound %s\n", "",
-         known(verify, "residual", "J", 3, one), known(verify, "residual_refined", "J", 3, two),
-         isnan(number(verify, "step")) ? " (tolerances a hundredth)" : "",
-         known(verify, "residual_bound", "J", 3, three));
-  printf("%-13s about %s in a coordinate, over the slice\n", "error",
-         known(verify, "error_estimate", "m", 2, one));
-}
-
-/* What of the run was taken again, which ends at the first fault. */
-static void print_slice(const hooke_measurement *verify) {
-  char one[KNOWN], two[KNOWN];
-  if (isnan(number(verify, "steps"))) {
-    printf("%-13s nothing: the file does not hold as it is\n", "run again");
-    return;
-  }
-  printf("%-13s frames 0 and %.0f to %.0f, %s to %s, %.0f steps\n", "run again",
-         number(verify, "frame_first"), number(verify, "frame_last"),
-         known(verify, "time_first", "s", 6, one), known(verify, "time_last", "s", 6, two),
-         number(verify, "steps"));
-}
-
-static void print_parts(const hooke_measurement *verify) {
-  static const char *const words[][2] = {
-      {"checked", "scene, options, masses, springs, outcome and error by their check values"},
-      {"not-covered",
-       "not covered: the file is older than check values of scene, options, masses and springs"}};
-  for (size_t k = 0; k < sizeof words / sizeof words[0]; k++)
-    if (strcmp(text(verify, "parts"), words[k][0]) == 0) printf("%-13s %s\n", "the rest", words[k][1]);
 }
 
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *verify) {
@@ -106,21 +60,11 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
   print_makers(verify, "verified by", "_here");
   print_step(verify);
   printf("%-13s %.0f of %.0f by their check values; %08lx is that of the scene\n", "frames",
-         number(verify, "frames_checked"), number(verify, "frames"),
-         (unsigned long)number(verify, "check_scene"));
-  print_parts(verify);
-  print_slice(verify);
-  print_balance(verify);
-  cli_say("%-13s %s%s\n", "verdict", text(verify, "verdict"),
-          strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
-}
-
-static int32_t print_json(const struct cli_arguments *arguments, hooke_measurement *verify) {
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_text(&json, "file", arguments->scene);
-  cli_json_measured(&json, NULL, verify, NULL, 0);
-  return cli_json_end(&json);
+         cli_number(verify, "verify", "frames_checked"), cli_number(verify, "verify", "frames"),
+         (unsigned long)cli_number(verify, "verify", "check_scene"));
+  if (strcmp(text(verify, "parts"), "checked") == 0)
+    printf("%-13s scene, options, masses, springs, outcome and error by their check values\n", "the rest");
+  cli_claims_print(arguments, verify, INDENT, NULL);
 }
 
 /* ---- the verb ---- */
@@ -136,7 +80,8 @@ static int do_verify(const struct cli_arguments *arguments) {
   const char *verdict = hooke_measurement_text(verify, "verify", 0, "verdict");
   int code = cli_exit_code(status);
   if (verdict && arguments->json) { /* with the message */
-    if (print_json(arguments, verify) != HOOKE_OK) code = cli_report_missing_words(arguments);
+    if (cli_claims_print_json(arguments, "file", verify) != HOOKE_OK)
+      code = cli_report_missing_words(arguments);
   } else {
     if (status != HOOKE_OK) code = cli_report_status(arguments, status);
     if (verdict && status != HOOKE_STOPPED) print_words(arguments, verify);

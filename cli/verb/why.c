@@ -182,7 +182,7 @@ static int find_out(struct why *why) {
   if (why->record && !cli_arguments_has_run(arguments)) {
     status = read_output(why);
   } else {
-    int code = cli_fit_run(arguments, &why->setup, NULL);
+    int code = cli_fit_run(arguments, &why->setup, 0);
     if (code == HOOKE_EXIT_DONE)
       code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
     if (code != HOOKE_EXIT_DONE) return code;

@@ -6,12 +6,12 @@
  *   hooke_measurement_number(study, "rows", 0, "error");
  *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind: "study", "limit", "needs", "cost", "why", "verify", "estimate" (estimate.h)
- * or "view" (trajectory.h). Its options are made by hooke_options_create() with the name of the kind. Its
- * results are tables, with columns that have a name, a unit and a line of documentation. A table is "rows",
- * or a "record" of one row with the numbers of the whole. The record that is named like the kind describes
- * the measurement itself. hooke_measurement_table() lists kinds and tables, hooke_measurement_column() the
- * columns.
+ * A measurement is of one kind: "study", "limit", "needs", "cost", "check", "why", "verify", "estimate"
+ * (estimate.h) or "view" (trajectory.h). Its options are made by hooke_options_create() with the name of the
+ * kind. Its results are tables, with columns that have a name, a unit and a line of documentation. A table is
+ * "rows", or a "record" of one row with the numbers of the whole. The record that is named like the kind
+ * describes the measurement itself. hooke_measurement_table() lists kinds and tables,
+ * hooke_measurement_column() the columns.
  *
  * A measurement belongs to one thread at a time. */
 #ifndef HOOKE_MEASUREMENT_H
@@ -40,8 +40,8 @@ HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measuremen
 HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
                                              void *ctx);
 
-/* Measures. A limit and a cost are taken at `state` (NULL: the initial one) and may be taken again; an
- * estimate needs the last state of the run; the other kinds begin at the initial state, run once, and
+/* Measures. A limit, a cost and a check are taken at `state` (NULL: the initial one) and may be taken again;
+ * an estimate needs the last state of the run; the other kinds begin at the initial state, run once, and
  * require NULL. HOOKE_STOPPED, if the progress callback or a callback of the system asked to stop, keeps
  * the results so far. HOOKE_BAD_VALUE for a state of another system or one that the kind does not accept,
  * and for a run without a duration; HOOKE_BAD_CALL for a second call; HOOKE_NO_MEMORY; and the failures of

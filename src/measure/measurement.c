@@ -122,11 +122,11 @@ int32_t hk_measurement_claim(hooke_measurement *m) {
 int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
   /* one that runs once has its results where only the memory for claims was short */
   const int32_t is_there = m->claims.status != HOOKE_OK && state == NULL && !m->kind->takes_state;
+  hk_claims_release(&m->claims);
   const int32_t outcome = is_there               ? m->outcome
                           : m->kind->takes_state ? run_at(m, state)
                                                  : m->kind->run(m, state);
-  if (outcome < 0) hk_claims_release(&m->claims);
-  if (outcome < 0) return outcome;
+  if (outcome < 0 && !is_there) return outcome; /* one with results all the same has composed what they say */
   m->has_run = 1;
   m->outcome = outcome;
   const int32_t status = hk_measurement_claim(m);

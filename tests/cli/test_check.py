@@ -14,11 +14,11 @@ from conftest import CLI, METHODS, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything
 
-KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "tetrahedra", "altitude_groups", "derived", "forces", "memory_bytes", "memory_bytes_output"]
-KEYS += ["memory_bytes_factor", "bytes_per_particle", "bytes_per_spring", "step_limit", "warnings", "bodies", "inside_bodies"]
-KEYS += ["dropped_springs", "idle_particles"]
+KEYS = ["particles", "free", "springs", "triples", "tetrahedra", "bodies", "inside_bodies", "dropped_springs", "idle_particles"]
+KEYS += ["memory_bytes", "memory_bytes_output", "memory_bytes_factor", "bytes_per_particle", "bytes_per_spring"]
+KEYS += ["groups", "bending_groups", "altitude_groups", "derived", "forces", "step_limit", "warnings", "claims"]
 COST_KEYS = ["method", "step", "nanoseconds", "resolution", "memory_bytes", "step_limit", "dropped_springs"]
-COST_KEYS += ["idle_particles", "rows"]
+COST_KEYS += ["idle_particles", "rows", "claims"]
 ROW_KEYS = ["ingredient", "kind", "group", "springs", "nanoseconds", "resolution", "memory_bytes", "step_limit_without"]
 
 
@@ -30,7 +30,8 @@ def test_json_has_exactly_the_keys(hooke, write):
     assert value["particles"] == 6 and value["springs"] == 7
     assert value["groups"] == [{"name": "edges", "springs": 7}]
     assert value["forces"] == ["springs", "gravity"]
-    assert list(value["step_limit"]) == METHODS
+    assert list(value["step_limit"]) == METHODS and value["free"] == 5
+    assert [(claim["key"], claim["of"]) for claim in value["claims"]] == [("memory", "whole"), ("cost", "whole")]
     assert list(hooke("check", write(SIX_PARTICLES), "--json", "--cost", "--predict").json) == [*KEYS, "cost"]
     # --predict skips the timing, so there is none
     assert list(hooke("check", write(SIX_PARTICLES), "--json", "--predict").json) == KEYS
@@ -243,6 +244,9 @@ def test_words_have_the_same_numbers(hooke, write):
     assert 1e6 * float(memory.group(1)) == pytest.approx(value["memory_bytes"], rel=0.1)
     assert f"{value['step_limit']['symplectic-euler']:.6g} s" in answer.out
     assert "warning: " + value["warnings"][0] in answer.err
+    assert value["claims"][0]["text"] == value["warnings"][0] and value["claims"][0]["key"] == "above-limit"
+    told = [claim["text"] for claim in value["claims"][1:] if claim["key"] != "memory"]
+    assert told and all(text in answer.out for text in told)
     assert "warning" not in answer.out
 
 
@@ -264,6 +268,9 @@ def test_costs_of_ingredients(hooke, write):
     assert springs["step_limit_without"] is None  # nothing else limits it
     assert 0 < cost["step_limit"] < damping["step_limit_without"]
     assert gravity["step_limit_without"] == cost["step_limit"]
+    told = {claim["key"]: claim for claim in cost["claims"]}
+    assert list(told) == ["cost", "limit"] and (told["cost"]["of"], told["cost"]["by"]) == ("whole", "clock")
+    assert told["limit"]["text"] == f"symplectic-euler is stable up to {cost['step_limit']:.6g} s, and without edges at any step"
 
 
 def test_the_first_limit_is_within_the_budget(hooke, write):
@@ -297,8 +304,8 @@ def test_costs_of_the_largest_groups(hooke, write):
     assert [row["ingredient"] for row in rows] == ["edges", "other", "damping", "gravity"]
     assert [row["memory_bytes"] is None for row in rows] == [False, True, False, False]
     words = hooke("check", file, "--cost", "--predict", "--groups", "1").out
-    assert "  edges " in words and "  other " not in words.split("cost of a step")[1]
-    assert "and 1 more that was not looked at" in words
+    assert "  edges " in words and "  other " not in words.split("a step of")[1]
+    assert "1 more ingredient was not looked at" in words
     assert "not looked at" not in hooke("check", file, "--cost", "--predict").out
     answer = hooke("check", file, "--groups", "-1")
     assert answer.code == 2 and "groups" in answer.err
@@ -315,7 +322,7 @@ def test_the_budget_holds_for_very_many_groups(hooke, write):
     looked_at = [sum(row["memory_bytes"] is not None for row in rows) for rows in few]
     assert looked_at[0] <= 1 and looked_at[0] <= looked_at[1] < count
     assert len(few[0]) == count and few[0][-1]["nanoseconds"] is None
-    assert re.search(r"and \d+ more that were not looked at", hooke(*words, "--budget", "1ms").out)
+    assert re.search(r"^left-out +\d+ more ingredients were not looked at", hooke(*words, "--budget", "1ms").out, re.M)
 
 
 def test_what_does_nothing_is_dropped_and_counted(hooke, write):
@@ -347,8 +354,10 @@ def test_a_step_that_does_not_fit_is_changed_as_by_run(hooke, write):
 def test_why_no_step_can_be_chosen_is_a_warning_of_check(hooke, write):
     scene = write(STIFF_PAIR, step=None, method="forward-euler")
     check, run = hooke("check", scene, "--json"), hooke("run", scene)
-    sentence = check.json["warnings"][0]
-    assert check.code == 0 and sentence.startswith("no step: forward-euler is certain to be stable here at no step")
+    lack, never = check.json["warnings"]
+    assert check.code == 0 and lack == "the run has no step, which forward-euler takes"
+    assert never.startswith("forward-euler, the method of the run, is stable at no step")
+    sentence = "no step: forward-euler is certain to be stable here at no step; give one with --step, or take another method"
     assert (run.code, run.err) == (2, f"hooke run: {sentence}\n")
 
 
@@ -373,9 +382,9 @@ def test_strings_are_escaped(hooke, write):
 @pytest.mark.parametrize(
     "run, lacks",
     [
-        ({"method": "verlet"}, ["no duration and no step, which verlet takes: the scene's run names none; give them in seconds, "
-                                "such as --duration 1 --step 1e-3"]),
-        ({"step": 1e-3}, ["no duration: the scene's run names none; give one in seconds, such as --duration 1"]),
+        ({"method": "verlet"}, ["the run has no duration and no step, which verlet takes: it is certain to be stable up to "
+                                "0.0266627 s"]),
+        ({"step": 1e-3}, ["the run has no duration"]),
         ({"method": "cvode-bdf", "duration": 1}, []),
         ({}, []),
     ],

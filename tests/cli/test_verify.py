@@ -94,6 +94,13 @@ def test_every_method_verifies(hooke, made, method):
     answer = hooke("verify", "out.h5", "--json")
     assert answer.code == 0, answer.err
     found = answer.json
+    claims = {claim["key"]: claim for claim in found["claims"]}
+    assert list(claims) == ["verdict", "energy", "error", "run-again"]
+    words = " ".join(hooke("verify", "out.h5", "--all").out.split())
+    assert "verdict agrees to the bit from 0 s to" in words and "energy the balance holds from 0 s to" in words
+    assert {claim["of"] for claim in claims.values()} == {"part" if found["frame_first"] else "whole"}
+    assert claims["verdict"]["text"] == f"agrees to the bit from {found['time_first']:g} s to {found['time_last']:g} s"
+    assert f"{found['error_estimate']:.2g} m" in claims["error"]["text"]
     assert (found["verdict"], found["difference"], found["balance"]) == ("agrees", "", "holds")
     assert found["method"] == method and len(found["run"]) == 32
     assert found["frames"] == found["frames_checked"] == 11 and found["frame_last"] == 10
@@ -149,6 +156,8 @@ def test_one_changed_bit_is_found(hooke, made, name, index, words, sealed):
         assert f"frame {index[0]}" in answer.err and "damaged" in answer.err
     answer = hooke("verify", "out.h5", "--json")
     assert answer.code == 3 and answer.json["verdict"] == "disagrees" and answer.json["difference"]
+    (verdict,) = (claim for claim in answer.json["claims"] if claim["key"] == "verdict")
+    assert (verdict["text"], verdict["of"]) == ("disagrees with its scene", "whole")
 
 
 def test_a_false_mass_is_found(hooke, made):
@@ -182,7 +191,7 @@ def test_what_is_not_known_is_said_in_words(hooke, made, method):
         changed(path, f"particles/all/{name}/value", index, lambda x: x + 1e-3, sealed)
         answer = hooke("verify", "out.h5", "--all")
         assert answer.code == 3 and "nan" not in answer.out and "inf" not in answer.out.split("verdict")[0]
-        again = next(line for line in answer.out.splitlines() if line.startswith("run again"))
+        again = next(line for line in answer.out.splitlines() if line.startswith("run-again"))
         assert ("nothing: the file does not hold" in again) == (not sealed or index[0] == 0), again
         path.write_bytes(whole)
     assert "nan" not in hooke("verify", "out.h5", "--bits").out

@@ -151,6 +151,18 @@ end:
   release(&m);
 }
 
+SCENARIO(check) {
+  struct made m = {.system = make_rope(a, 3)};
+  m.run = make_options(a, "run", "method=verlet step=1 duration=2 every=1");
+  m.measurement = make_measurement(a, "check", m.system, m.run, "");
+  if (m.measurement == NULL) goto end;
+  TRY(a, hooke_measurement_run(m.measurement, NULL));
+  TAKE(m.measurement, "warnings", "kind", "text");
+  attempt_number(a, hooke_measurement_number(m.measurement, "check", 0, "memory_bytes"));
+end:
+  release(&m);
+}
+
 const struct scenario measuring[] = {
     {"limit, predicted", limit, NULL, 1, "lapack", NULL},
     {"limit, measured", limit, "", 5, "lapack", NULL},
@@ -163,5 +175,6 @@ const struct scenario measuring[] = {
     {"compare", compare, NULL, 3, "sundials", NULL},
     {"cost", cost, NULL, 5, "lapack", NULL},
     {"cost, groups left out", cost, "", 5, "lapack", NULL},
+    {"check", check, NULL, 5, NULL, NULL},
     {NULL, NULL, NULL, 0, NULL, NULL},
 };

@@ -9,9 +9,9 @@
 
 /* ---- every table of options ---- */
 
-static const char *const tables[] = {"run",    "springs", "altitude", "rope",      "cloth",  "lattice",
-                                     "mesh",   "strand",  "scene",    "particles", "driven", "needs",
-                                     "verify", "study",   "limit",    "cost",      "why",    "view"};
+static const char *const tables[] = {"run",    "springs", "altitude",  "rope",   "cloth", "lattice", "mesh",
+                                     "strand", "scene",   "particles", "driven", "needs", "verify",  "study",
+                                     "limit",  "cost",    "why",       "view",   "check"};
 enum { TABLES = sizeof tables / sizeof tables[0] };
 
 /* ---- every function that takes options ---- */
@@ -109,6 +109,8 @@ TAKES(create_cost_of_run, hooke_measurement, hooke_measurement_create("cost", sy
       hooke_measurement_destroy)
 TAKES(create_cost, hooke_measurement, hooke_measurement_create("cost", system, NULL, o, &made),
       hooke_measurement_destroy)
+TAKES(create_check, hooke_measurement, hooke_measurement_create("check", system, NULL, o, &made),
+      hooke_measurement_destroy)
 TAKES(write_scene, hooke_scene, hooke_scene_of_system(system, NULL, o, "a", NULL, &made), hooke_scene_destroy)
 
 static int32_t with_run(hooke_options *o,
@@ -184,6 +186,7 @@ static const struct {
                  {"limit_create", "limit", create_limit},
                  {"cost_create run", "run", create_cost_of_run},
                  {"cost_create", "cost", create_cost},
+                 {"check_create", "check", create_check},
                  {"study_create run", NULL, create_study_of_run},
                  {"study_create", "study", create_study},
                  {"needs run", "run", create_needs_of_run},
@@ -218,7 +221,8 @@ TEST(test_other_options_are_refused) {
 /* NULL options are the defaults if the header says so; otherwise they are refused. */
 TEST(test_missing_options_are_refused) {
   static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",
-                                               "cost_create",      "study_create", "scene_of_system"};
+                                               "cost_create",      "study_create", "scene_of_system",
+                                               "check_create"};
   for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
     int may = 0;
     for (size_t k = 0; k < sizeof may_be_missing / sizeof may_be_missing[0]; k++)

@@ -44,7 +44,8 @@ def test_the_largest_groups_are_looked_at():
     system.add_springs("two", [[0, 1], [1, 2]], stiffness=5)
     found = hooke.cost(system, predict=True, groups=1)
     assert np.isnan(found.rows["memory_bytes"]).tolist() == [True, False]
-    assert "and 1 more, not looked at" in str(found) and "one" not in str(found)
+    assert "1 more ingredient was not looked at" in str(found) and "without one" not in str(found)
+    assert [(claim.key, claim.of) for claim in found.claims] == [("cost", "whole"), ("limit", "whole"), ("left-out", "unknown")]
 
 
 def test_a_callback_is_an_ingredient():
@@ -93,3 +94,12 @@ def test_options_and_wrong_problems():
         hooke.cost(build_oscillator(), budget=0)
     with pytest.raises(hooke.BadValue, match="does not fit"):
         hooke.cost(build_oscillator(), build_six_particles().state())
+
+
+def test_a_check_tells_without_a_run():
+    system = build_oscillator()
+    found = hooke.check(system, method="verlet", step=10, duration=20)
+    assert (found.particles, found.springs) == (system.particle_count, system.spring_count) and found.memory_bytes > 0
+    assert found["verlet"]["seconds"] == system.step_bound("verlet", system.state().q) and len(found.rows) == len(hooke.methods())
+    first = found.claims[0]
+    assert (first.key, first.of) == ("above-limit", "whole") and str(found).startswith("the step of the run, 10 s, is above ")

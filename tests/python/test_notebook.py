@@ -91,7 +91,7 @@ def test_a_diverged_run_says_why(scene, strange_path, tmp_path):
 @pytest.mark.skipif(not FACTS["sundials"] or not FACTS["lapack"], reason="this build measures less")
 def test_others_show_their_rows(scene, tmp_path):
     cost = hooke.cost(scene, predict=True)
-    for result in (cost, *results(scene)):
+    for result in (cost, hooke.check(scene), *results(scene)):
         shown = Found._repr_html_(result)
         assert set(re.findall(r"<(\w+)", shown)) <= {"p", "div", "table", "tr", "th", "td"}
         assert [html.unescape(line) for line in re.findall("<p>([^<]*)</p>", shown)] == str(result).splitlines()
@@ -106,7 +106,7 @@ def test_others_show_their_rows(scene, tmp_path):
 
 def test_every_kind_of_result_is_tried():
     shown = {name for name, kind in vars(hooke).items() if isinstance(kind, type) and hasattr(kind, "_repr_html_")}
-    assert shown == {"Study", "Limit", "Needs", "Why", "Result", "Trajectory", "Cost"}
+    assert shown == {"Study", "Limit", "Needs", "Why", "Result", "Trajectory", "Cost", "Check"}
 
 
 def test_rows_become_a_data_frame(scene):

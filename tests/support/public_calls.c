@@ -198,7 +198,7 @@ static void add_integrators(struct pool *pool, const hooke_system *system, hooke
 
 static void add_measurements(struct pool *pool, const hooke_system *system,
                              const hooke_integrator *integrator, const hooke_state *state) {
-  static const char *const kinds[] = {"limit", "cost", "needs", "study"};
+  static const char *const kinds[] = {"limit", "cost", "needs", "study", "check"};
   hooke_options *run = run_options((struct run){.step = 0.1, .duration = 0.5}),
                 *wanted = options_of("needs", "want", "0.1");
   hooke_measurement *made = NULL;

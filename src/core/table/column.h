@@ -66,6 +66,7 @@ struct hk_table {
   const char *inside; /* table in whose rows it stands, each with those of its inner indices; NULL: in none */
   const char *key;    /* its name there; NULL: `name` */
   const char *by;     /* column by whose texts its rows are an object; NULL: they are an array */
+  const char *value;  /* column whose value alone is a row; NULL: a row is an object of all */
   const char *lists[HOOKE_LISTS][HOOKE_LIST_SIZE]; /* arrays of a row: the name, and its columns */
   const struct hk_column *columns;
   int32_t column_count;

@@ -119,6 +119,16 @@ static void add_object(struct hk_text *text, const hooke_measurement *m, const s
   hk_text_close(text, '}');
 }
 
+/* A row of a table, as an object or a value. */
+static void add_member(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
+                       int64_t row, const char *key) {
+  const struct hk_column *value = table->value ? hk_table_find(table, table->value) : NULL;
+  if (value)
+    add_value(text, key, value->type, value_of(m, table, value, row));
+  else
+    add_object(text, m, table, row, key);
+}
+
 static const char *text_of(const hooke_measurement *m, const struct hk_table *table, int64_t row,
                            const char *column) {
   return hk_measured_value(m, table, hk_table_find(table, column), row).text;
@@ -164,8 +174,8 @@ static void add_table(struct hk_text *text, const hooke_measurement *m, const ch
   if (table->record) return;
   hk_text_open(text, key, by ? '{' : '[');
   for (int64_t row = first; row < first + count; row++)
-    if (!by || is_there(m, table, row))
-      add_object(text, m, table, row, by ? text_of(m, table, row, by) : NULL);
+    if (!by || table->value || is_there(m, table, row))
+      add_member(text, m, table, row, by ? text_of(m, table, row, by) : NULL);
   hk_text_close(text, by ? '}' : ']');
 }
 

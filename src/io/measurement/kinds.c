@@ -3,6 +3,7 @@
 #include "io/measurement/measurement_file.h"
 #include "io/page/view/view.h"
 #include "io/verify/verify.h"
+#include "measure/check/check.h"
 #include "measure/cost/cost.h"
 #include "measure/estimate/estimate.h"
 #include "measure/limit/limit.h"
@@ -13,8 +14,8 @@
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
-    &hk_study_kind,  &hk_limit_kind,    &hk_needs_kind, &hk_cost_kind, &hk_why_kind,
-    &hk_verify_kind, &hk_estimate_kind, &hk_view_kind,  NULL,
+    &hk_study_kind,  &hk_limit_kind,    &hk_needs_kind, &hk_cost_kind,  &hk_why_kind,
+    &hk_verify_kind, &hk_estimate_kind, &hk_view_kind,  &hk_check_kind, NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };
 

@@ -287,13 +287,14 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   verify->verdict = status == HOOKE_STOPPED ? "stopped" : status == HOOKE_BAD_VALUE ? "disagrees" : NULL;
   m->has_run = verify->verdict != NULL;
   m->outcome = status;
-  return status;
+  return hk_measurement_claim(m) == HOOKE_OK ? status : HOOKE_NO_MEMORY;
 }
 
 const struct hk_measurement_kind hk_verify_kind = {.name = "verify",
                                                    .options = &table,
                                                    .made_by = "hooke_verify_create()",
                                                    .tables = hk_verify_tables,
+                                                   .claim = hk_verify_claim,
                                                    .create = create,
                                                    .run = run,
                                                    .destroy = destroy};

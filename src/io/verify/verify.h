@@ -53,6 +53,9 @@ void hk_verify_pass_release(struct hk_verify_pass *pass);
 /* Compares frame 0 with the initial state of the scene. */
 int32_t hk_verify_first(struct hk_verify *verify);
 
+/* Says if the file agrees with its scene, and how far. */
+void hk_verify_claim(const hooke_measurement *measurement, struct hk_claims *claims);
+
 extern const struct hk_table hk_verify_tables[];
 
 extern const struct hk_measurement_kind hk_verify_kind;

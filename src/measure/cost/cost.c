@@ -286,6 +286,7 @@ const struct hk_measurement_kind hk_cost_kind = {
     .options = &cost_table,
     .takes_state = 1,
     .tables = hk_cost_tables,
+    .claim = hk_cost_claim,
     .create = create,
     .run = run,
     .destroy = destroy,

@@ -31,6 +31,9 @@ struct hk_cost {
 /* Name of its group, otherwise its kind. */
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
 
+/* Says what a step takes, and what limits it. */
+void hk_cost_claim(const hooke_measurement *measurement, struct hk_claims *claims);
+
 /* ---- cost_time.c ---- */
 
 /* An integrator with a state, and the time of a step in its shortest blocks [ns]. */

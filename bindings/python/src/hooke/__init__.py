@@ -11,9 +11,10 @@
 A scene is built (`Scene`, `System`) or read from a file (`Scene.load`) or from text (`Scene.parse`). `run` integrates
 it, `open` reads the output of a run, `compare` compares several methods with a tight reference, `study` measures
 error against cost and recommends, `limit` finds the largest stable steps, `cost` measures the cost of each
-ingredient, `needs` finds the ingredients that a scene can do without, `why` explains a run that blew up, `view`
-writes a page that plays a trajectory, `verify` checks that one reproduces from its scene, `Integrator` is for time
-loops of your own. Units are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
+ingredient, `check` tells what a scene is without running it, `needs` finds the ingredients that a scene can do
+without, `why` explains a run that blew up, `view` writes a page that plays a trajectory, `verify` checks that one
+reproduces from its scene, `Integrator` is for time loops of your own. Units are SI, positions and velocities are
+NumPy arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ except ModuleNotFoundError as missing:
 
 from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
-from .cost import Cost, cost
+from .cost import Check, Cost, check, cost
 from .files import Verification, verify, view, write_xdmf
 from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
@@ -53,6 +54,7 @@ __all__ = [
     "BadValue",
     "Blocks",
     "BodyMotion",
+    "Check",
     "Cost",
     "Derived",
     "Energy",
@@ -90,6 +92,7 @@ __all__ = [
     "Why",
     "animation",
     "build_facts",
+    "check",
     "compare",
     "cost",
     "describe",

@@ -1,4 +1,5 @@
-"""Costs: time, memory and stable step of each ingredient of one scene on this machine."""
+"""Costs: time, memory and stable step of each ingredient of one scene on this machine; and what can be told of a scene
+without running it."""
 
 from __future__ import annotations
 
@@ -40,3 +41,18 @@ def cost(
     by returning a non-zero number.
     """
     return Cost(*measured("cost", problem, options, progress, lambda _: state))
+
+
+class Check(Found, kind="check", rows="step_limit"):
+    """What can be told of a scene without running it; `claims` begin with its warnings. `rows` is a structured array with one
+    row a method."""
+
+    def __repr__(self) -> str:
+        return f"Check({self.particles} particles, {self.springs} springs)"
+
+
+def check(problem: Runnable, state: State | None = None, **options: Any) -> Check:
+    """Checks a scene (or the path of one) or a system at `state` (at the start, if None): what it has, the step up to which
+    each method is certain to be stable, the memory of a run, and what is seldom meant in it. The keywords `options` are
+    those of ``hooke.describe("check")``, and those of a run."""
+    return Check(*measured("check", problem, options, None, lambda _: state))
