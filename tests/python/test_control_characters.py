@@ -55,7 +55,7 @@ def test_warnings_and_reasons(scene):
 def test_printed_results(scene):
     check(str(hooke.needs(scene, 0.1, duration=0.1)), "group", "rope")
     check(str(hooke.needs(scene, 0.1, duration=0.1, refine=True)), "rope")
-    check(str(hooke.cost(scene, method="verlet", predict=True)), "group")
+    check(str(hooke.cost(scene, method="verlet", predict=True)), "rope")
     assert hooke.needs(scene, 0.1, duration=0.1).rows["without"][0] in ("group" + EVIL, "rope" + EVIL + ".stretch")
 
 
