@@ -1,5 +1,4 @@
 /* The page of a limit: its contents as JSON. */
-#include "core/memory.h"
 #include "core/status.h"
 #include "io/page/picture.h"
 #include "io/page/report.h"
@@ -12,7 +11,6 @@ enum { QUARTER = 180 };
 /* If nothing limits, a curve ends well outside of its diagram. */
 static const double FAR = 100.0;
 static const double RIGHT_ANGLE = 1.5707963267948966;
-static const double MOVE_SCALE = 1e4; /* digits of displacements relative to the largest */
 
 /* ---- regions ---- */
 
@@ -82,45 +80,29 @@ static void choose(struct hk_picture *p, const struct hk_limit *limit) {
 }
 
 /* At the analysed positions. */
-static void add_drawn(struct hk_text *data, struct hk_picture *p, const struct hk_limit *limit) {
-  hk_text_open(data, "picture", '{');
-  hk_text_number(data, "springs", (double)p->spring_count);
-  hk_text_number(data, "particles", (double)hooke_system_particle_count(p->system));
-  hk_picture_add_springs(data, p);
-  int64_t *list = hk_picture_list(p);
-  if (list) {
-    hk_picture_add_particles(data, p, list);
-    hk_picture_add_vectors(data, "position", limit->q, list, p->shown_count,
-                           hk_picture_scale(limit->q, list, p->shown_count));
-    hk_picture_add_vectors(data, "move", hk_limit_limiting_row(limit) ? limit->shape : NULL, list,
-                           p->shown_count, MOVE_SCALE);
-  } else {
-    data->status = HOOKE_NO_MEMORY;
-  }
-  hk_free(list);
-  hk_text_close(data, '}');
-}
-
-static void add_picture(struct hk_text *data, const struct hk_limit *limit) {
+static int32_t add_picture(struct hk_text *data, const struct hk_limit *limit) {
   struct hk_picture p;
   const int32_t status = hk_picture_create(limit->system, &p);
   if (status == HOOKE_OK) {
+    const double *move = hk_limit_limiting_row(limit) ? limit->shape : NULL;
     choose(&p, limit);
-    add_drawn(data, &p, limit);
+    hk_text_open(data, "picture", '{');
+    hk_picture_add(data, &p);
+    hk_picture_add_vectors(data, "position", limit->q, p.list, p.shown_count);
+    hk_picture_add_vectors(data, "move", move, p.list, p.shown_count);
+    hk_text_close(data, '}');
   }
-  if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
   hk_picture_release(&p);
+  return status;
 }
 
-void hk_limit_page_add(struct hk_text *data, const hooke_measurement *m) {
+int32_t hk_limit_page_add(struct hk_text *data, const hooke_measurement *m) {
   const struct hk_table *rows = hk_measurement_table(m->kind, "rows");
-  if (isnan(hooke_measurement_number(m, "limit", 0, "frequency_max"))) {
-    data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report before the limits were found");
-    return;
-  }
+  if (isnan(hooke_measurement_number(m, "limit", 0, "frequency_max")))
+    return hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report before the limits were found");
   hk_text_open(data, "rows", '[');
   for (int64_t row = 0; row < hk_measured_rows(m, rows); row++)
     add_row(data, m, rows, row);
   hk_text_close(data, ']');
-  add_picture(data, m->object);
+  return add_picture(data, m->object);
 }

@@ -57,7 +57,7 @@ static const struct page {
   const char *kind;
   const char *more; /* a file of scripts that it shares with another; NULL: none */
   const char *own;  /* the table that it adds by itself; NULL: none */
-  void (*add)(struct hk_text *data, const hooke_measurement *measurement);
+  int32_t (*add)(struct hk_text *data, const hooke_measurement *measurement);
 } pages[] = {
     {"study", NULL, NULL, hk_study_page_add},
     {"limit", "mode.js", "rows", hk_limit_page_add},
@@ -80,10 +80,11 @@ static int32_t add_data(struct hk_text *page, const struct report *report) {
   if (m->label[HOOKE_LABEL_COMMAND]) hk_text_word(&data, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_report_add_facts(&data);
   hk_measurement_add_all(&data, m, report->page->own);
-  report->page->add(&data, m);
+  int32_t status = report->page->add(&data, m);
   hk_text_close(&data, '}');
-  if (data.status == HOOKE_OK) hk_text_add(page, data.bytes, data.length);
-  const int32_t status = data.status != HOOKE_OK ? data.status : page->status;
+  if (status == HOOKE_OK) status = data.status;
+  if (status == HOOKE_OK) hk_text_add(page, data.bytes, data.length);
+  if (status == HOOKE_OK) status = page->status;
   hk_text_release(&data);
   return status;
 }

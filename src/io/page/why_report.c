@@ -21,7 +21,6 @@ static const double ENERGY_WORK = 3e8, ADVISED_WORK = 2e9;
 static const double WIDEST = 1e5, GROWN = 1e4;
 /* Counted work at eigenvalues [s], of so many particles. */
 static const double LOOK_WORK = 3.0, MOST_LOOKED_AT = 2e4;
-static const double MOVE_SCALE = 1e4;
 
 struct frames {
   struct hk_text *data;
@@ -30,7 +29,6 @@ struct frames {
   double h, t0;
   int64_t last; /* step within all bounds */
   struct hk_picture picture;
-  int64_t *list;
   double extent; /* of the first frame */
   int64_t shown, after;
 
@@ -194,34 +192,22 @@ static void add_limits(const struct frames *f) {
 
 /* ---- frames ---- */
 
-static int32_t choose_springs(struct frames *f) {
+static int32_t add_picture(struct frames *f) {
   int32_t status = hk_picture_create(f->system, &f->picture);
-  for (int64_t k = 0; k < f->why->limiting.count && status == HOOKE_OK; k++) {
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < f->why->limiting.count; k++) {
     if (f->why->limiting.row[k].spring >= 0) hk_picture_take(&f->picture, f->why->limiting.row[k].spring);
   }
-  if (status != HOOKE_OK) return status;
-  const int32_t any = hk_picture_take_families(&f->picture, HOOKE_FILM_SPRINGS);
+  if (!hk_picture_take_families(&f->picture, HOOKE_FILM_SPRINGS)) hk_picture_show_evenly(&f->picture);
   hk_text_open(f->data, "picture", '{');
-  hk_text_number(f->data, "springs", (double)f->picture.spring_count);
-  hk_text_number(f->data, "particles", (double)hooke_system_particle_count(f->system));
-  hk_picture_add_springs(f->data, &f->picture);
+  hk_picture_add(f->data, &f->picture);
   hk_view_add_bodies(f->data, f->system);
-  if (!any) hk_picture_show_evenly(&f->picture);
-  f->list = hk_picture_list(&f->picture);
-  return f->list ? HOOKE_OK : HOOKE_NO_MEMORY;
+  hk_text_close(f->data, '}');
+  return HOOKE_OK;
 }
 
-static double extent_of(const struct frames *f, const double *q) {
-  double extent = 0.0;
-  for (int axis = 0; axis < 3; axis++) {
-    double low = INFINITY, high = -INFINITY;
-    for (int64_t k = 0; k < f->picture.shown_count; k++) {
-      low = fmin(low, q[3 * f->list[k] + axis]);
-      high = fmax(high, q[3 * f->list[k] + axis]);
-    }
-    extent = fmax(extent, high - low);
-  }
-  return extent;
+static void add_listed(const struct frames *f, const char *key, const double *vectors) {
+  hk_picture_add_vectors(f->data, key, vectors, f->picture.list, f->picture.shown_count);
 }
 
 static void add_frame(struct frames *f, const hooke_state *state) {
@@ -229,8 +215,7 @@ static void add_frame(struct frames *f, const hooke_state *state) {
   hk_text_open(f->data, NULL, '{');
   hk_text_number(f->data, "time", hooke_state_time(state));
   hk_text_number(f->data, "energy", energy_of(f->system, state));
-  hk_picture_add_vectors(f->data, "position", q, f->list, f->picture.shown_count,
-                         hk_picture_scale(q, f->list, f->picture.shown_count));
+  add_listed(f, "position", q);
   hk_text_close(f->data, '}');
 }
 
@@ -238,7 +223,8 @@ static void add_frame(struct frames *f, const hooke_state *state) {
 static int32_t see_frame(int64_t k, const hooke_state *state, void *ctx) {
   struct frames *f = ctx;
   const int64_t step = llround((hooke_state_time(state) - f->t0) / f->h);
-  const double extent = extent_of(f, hooke_state_position((hooke_state *)state));
+  const double extent =
+      hk_picture_extent(hooke_state_position((hooke_state *)state), f->picture.list, f->picture.shown_count);
   if (k == 0) f->extent = extent;
   f->after += step > f->last;
   if (f->after > LEAST_AFTER && f->extent > 0.0 && extent > WIDEST * f->extent) return 1;
@@ -305,9 +291,8 @@ static void add_mode(const struct frames *f) {
   hk_text_open(f->data, "mode", '{');
   hk_text_number(f->data, "time", f->mode_time);
   hk_text_number(f->data, "growth", f->mode_growth);
-  hk_picture_add_vectors(f->data, "position", f->mode_q, f->list, f->picture.shown_count,
-                         hk_picture_scale(f->mode_q, f->list, f->picture.shown_count));
-  hk_picture_add_vectors(f->data, "move", f->shape, f->list, f->picture.shown_count, MOVE_SCALE);
+  add_listed(f, "position", f->mode_q);
+  add_listed(f, "move", f->shape);
   hk_text_close(f->data, '}');
 }
 
@@ -322,11 +307,9 @@ static int32_t add(struct frames *f, const hooke_options *run) {
     time[k] = time_of(f, f->last + (k - before) * stride);
   hk_text_number(f->data, "stride", (double)stride);
   hk_text_number(f->data, "last", (double)before);
-  if (status == HOOKE_OK) status = choose_springs(f);
+  status = add_picture(f);
   if (status == HOOKE_OK) status = begin_limits(f, run);
   if (status != HOOKE_OK) return status;
-  hk_picture_add_particles(f->data, &f->picture, f->list);
-  hk_text_close(f->data, '}');
   hk_text_open(f->data, "frames", '[');
   status = hk_why_walk(f->system, &f->why->start, run, before + AFTER + 1, time, see_frame, f);
   hk_text_close(f->data, ']');
@@ -339,35 +322,29 @@ static int32_t add(struct frames *f, const hooke_options *run) {
 /* Adds, where steps can be taken again, "energy" (of every step around the trouble), "picture" (springs, and
  * the mode that grows), "frames" (steps to play), "advised" (the same by the first advice with a fixed step)
  * and "limits" (of the method, along the way). */
-static void add_frames(struct hk_text *data, const struct hk_why *why, const hooke_options *run) {
+static int32_t add_frames(struct hk_text *data, const struct hk_why *why, const hooke_options *run) {
   struct frames *f = hk_new(1, sizeof *f);
-  if (f == NULL) {
-    data->status = HOOKE_NO_MEMORY;
-    return;
-  }
+  if (f == NULL) return HOOKE_NO_MEMORY;
   *f = (struct frames){
       .data = data, .why = why, .h = why->step, .t0 = why->start.standing.t0, .system = why->system};
   f->last = llround((why->time - f->t0) / f->h);
   const int32_t status = add(f, run);
-  if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
   hk_picture_release(&f->picture);
-  hk_free(f->list);
   hk_free(f->shape);
   hooke_measurement_destroy(f->limit);
   hk_free(f);
+  return status;
 }
 
-void hk_why_page_add(struct hk_text *data, const hooke_measurement *m) {
+int32_t hk_why_page_add(struct hk_text *data, const hooke_measurement *m) {
   const struct hk_why *why = m->object;
-  if (why->cause == NULL) {
-    data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report: no explanation was found");
-    return;
-  }
+  if (why->cause == NULL)
+    return hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report: no explanation was found");
   hk_text_open(data, "rows", '[');
   hk_text_open(data, NULL, '{');
   hk_text_word(data, "method", why->method);
   hk_limit_page_add_reach(data, why->system, why->method);
   hk_text_close(data, '}');
   hk_text_close(data, ']');
-  if (why->start.state && !isnan(why->step)) add_frames(data, why, m->run);
+  return why->start.state && !isnan(why->step) ? add_frames(data, why, m->run) : HOOKE_OK;
 }
