@@ -12,7 +12,10 @@ static int32_t fill(const char *from, hk_form_part add, void *ctx, struct hk_tex
     char name[64];
     hk_text_add(page, from, mark - from);
     snprintf(name, sizeof name, "%.*s", (int)strcspn(mark + 2, "}"), mark + 2);
-    status = add(name, page, ctx);
+    if (strchr(name, '.'))
+      status = hk_data_folder_read(name, page);
+    else if (add)
+      status = add(name, page, ctx);
     from = mark + strcspn(mark, "}");
     from += strspn(from, "}");
   }

@@ -72,20 +72,15 @@ struct report {
   const hooke_measurement *m;
 };
 
-static int32_t add_data(struct hk_text *page, const struct report *report) {
+static int32_t add_data(struct hk_text *data, const struct report *report) {
   const hooke_measurement *m = report->m;
-  struct hk_text data = {.bytes = NULL};
-  hk_text_open(&data, NULL, '{');
-  hk_text_word(&data, "scene", m->label[HOOKE_LABEL_TITLE]);
-  if (m->label[HOOKE_LABEL_COMMAND]) hk_text_word(&data, "command", m->label[HOOKE_LABEL_COMMAND]);
-  hk_report_add_facts(&data);
-  hk_measurement_add_all(&data, m, report->page->own);
-  int32_t status = report->page->add(&data, m);
-  hk_text_close(&data, '}');
-  if (status == HOOKE_OK) status = data.status;
-  if (status == HOOKE_OK) hk_text_add(page, data.bytes, data.length);
-  if (status == HOOKE_OK) status = page->status;
-  hk_text_release(&data);
+  hk_text_open(data, NULL, '{');
+  hk_text_word(data, "scene", m->label[HOOKE_LABEL_TITLE]);
+  if (m->label[HOOKE_LABEL_COMMAND]) hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
+  hk_report_add_facts(data);
+  hk_measurement_add_all(data, m, report->page->own);
+  const int32_t status = report->page->add(data, m);
+  hk_text_close(data, '}');
   return status;
 }
 
@@ -96,16 +91,14 @@ static int32_t add_own(struct hk_text *page, const struct report *report, const 
   return hk_data_folder_read(name, page);
 }
 
-/* Fills {{name}} in the form: a part of the report, or a file that all reports share. */
+/* Fills {{name}} in the form. */
 static int32_t add_part(const char *name, struct hk_text *page, void *ctx) {
   const struct report *report = ctx;
   if (strcmp(name, "data") == 0) return add_data(page, report);
   if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
-  if (strcmp(name, "more") == 0)
-    return report->page->more ? hk_data_folder_read(report->page->more, page) : HOOKE_OK;
   if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
   if (strcmp(name, "tables") == 0) return add_own(page, report, "_tables.js");
-  return hk_data_folder_read(name, page);
+  return report->page->more ? hk_data_folder_read(report->page->more, page) : HOOKE_OK;
 }
 
 static int32_t write(const struct page *found, const hooke_measurement *m, const char *path) {

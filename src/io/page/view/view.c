@@ -7,11 +7,10 @@
 #include "io/hdf5/array_h5.h"
 #include "io/page/base64.h"
 #include "io/trajectory/record.h"
-#include "io/file/data_folder.h"
+#include "io/page/form.h"
 #include "model/vector3.h"
 
 #include <math.h>
-#include <stddef.h>
 
 static const struct hk_option_row rows[] = {
     HOOKE_OPTION("frames", HOOKE_OPTION_WHOLE(2, 1e6), NULL,
@@ -135,14 +134,8 @@ static int32_t choose_springs(struct hk_view *view) {
 
 /* Size of the page without its frames, including words. */
 static int32_t measure_page(const struct hk_view *view, double *bytes) {
-  static const char *const parts[] = {"view.html",    "view.css",       "view.js",       "view_data.js",
-                                      "view_run.js",  "view_scene.js",  "view_chart.js", "view_over.js",
-                                      "view_pick.js", "view_save.js",   "surface.js",    "view_surface.js",
-                                      "three.js",     "three_orbit.js", "chart.js"};
   struct hk_text text = {.bytes = NULL};
-  int32_t status = HOOKE_OK;
-  for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)
-    status = hk_data_folder_read(parts[k], &text);
+  const int32_t status = hk_form_fill("view.html", NULL, NULL, &text);
   *bytes = (double)(text.length + hk_base64_length(16 * view->springs + view->particles)) + 20e3;
   hk_text_release(&text);
   return status;
@@ -197,6 +190,35 @@ static int32_t choose(struct hk_view *view) {
 
 /* ---- a view ---- */
 
+static double time_of(const struct hk_view *view, int64_t frame) {
+  return isfinite(view->time[frame]) ? view->time[frame] : (double)NAN;
+}
+
+HOOKE_READER(double, time_first, struct hk_view, time_of(it, 0))
+HOOKE_READER(double, time_last, struct hk_view, time_of(it, it->frame[it->frames - 1]))
+
+static const struct hk_table tables[] = {
+    {.name = "view",
+     .doc = "what the page shows of the trajectory",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(struct hk_view, bytes, COUNT, "", "length of the page, once it is written"),
+         HOOKE_COLUMN(struct hk_view, frames, COUNT, "", "frames shown"),
+         HOOKE_COLUMN(struct hk_view, frames_there, COUNT, "", "frames of the trajectory"),
+         HOOKE_COLUMN(struct hk_view, frame_stride, COUNT, "", "k, where every k-th frame is shown"),
+         HOOKE_COLUMN(struct hk_view, springs, COUNT, "", "springs shown"),
+         HOOKE_COLUMN(struct hk_view, springs_there, COUNT, "", "springs of the trajectory"),
+         HOOKE_COLUMN(struct hk_view, spring_stride, COUNT, "", "k, where every k-th spring is shown"),
+         HOOKE_COLUMN(struct hk_view, particles, COUNT, "", "particles shown"),
+         HOOKE_COLUMN(struct hk_view, particles_there, COUNT, "", "particles of the trajectory"),
+         HOOKE_COLUMN(struct hk_view, damaged, COUNT, "", "damaged frames, which are skipped"),
+         HOOKE_COLUMN_BY(time_first, NUMBER, "s", "time of the first frame"),
+         HOOKE_COLUMN_BY(time_last, NUMBER, "s", "time of the last frame shown"),
+         HOOKE_COLUMN(struct hk_view, strain, NUMBER, "", "strain at the ends of the scale of colours"),
+         HOOKE_COLUMN(struct hk_view, strain_low, NUMBER, "", "lowest strain"),
+         HOOKE_COLUMN(struct hk_view, strain_high, NUMBER, "", "highest strain"))},
+    {.name = NULL}};
+
 static int32_t check_built(void) {
   if (hooke_build_fact("threejs")[0] && hooke_build_fact("chartjs")[0]) return HOOKE_OK;
   return hk_fail(
@@ -238,6 +260,7 @@ static void destroy(void *object) {
   hk_free(view->particle);
   hk_free(view->mark);
   hk_free(view->frame);
+  hk_free(view->box);
   hk_free(view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     hk_free(view->energy[k]);
@@ -257,7 +280,7 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
 const struct hk_measurement_kind hk_view_kind = {.name = "view",
                                                  .options = &view_options,
                                                  .made_by = "hooke_view_create()",
-                                                 .tables = hk_view_tables,
+                                                 .tables = tables,
                                                  .create = create,
                                                  .run = run,
                                                  .write = hk_view_write,

@@ -3,8 +3,7 @@
  *   view.c           selection
  *   view_frames.c    a frame as bytes
  *   view_page.c      the page
- *   views.c          several pages as one
- *   view_tables.c    the numbers of a view */
+ *   views.c          several pages as one */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
@@ -19,7 +18,11 @@ extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... 
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
 
 extern const struct hk_measurement_kind hk_view_kind;
-extern const struct hk_table hk_view_tables[]; /* one, of one row: the numbers of a view */
+
+/* Coordinates that map to 0 and 65535, for the three axes. */
+struct hk_view_box {
+  double low[3], high[3];
+};
 
 /* The object of a measurement of kind "view". */
 struct hk_view {
@@ -36,6 +39,7 @@ struct hk_view {
   int64_t *particle;                          /* of each, its number */
   uint8_t *mark;                              /* of each, HOOKE_VIEW_... */
   int64_t *frame;                             /* of each, its number: the last one is always among them */
+  struct hk_view_box *box;                    /* of each, around its particles */
   int64_t damaged;                            /* frames that were to be shown and are not whole */
   double *energy[HOOKE_VIEW_ENERGIES], *time; /* [frames there] */
   double strain;                              /* the largest that has a colour of its own */
@@ -51,21 +55,16 @@ int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t fr
 
 /* ---- frames as bytes ---- */
 
-/* Coordinates that map to 0 and 65535, for the three axes. */
-struct hk_view_box {
-  double low[3], high[3];
-};
-
 int64_t hk_view_frame_bytes(const struct hk_view *view);
 
 uint32_t hk_view_float(double value); /* its bits as a float */
 
-/* Coordinates of the particles as 16-bit little-endian numbers, x y z in turn, then the elongation of each
- * spring [m] as the upper half of a float. */
-int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
+/* Of the frames shown, that of index `at`: coordinates of the particles as 16-bit little-endian numbers, x y
+ * z in turn, then the elongation of each spring [m] as the upper half of a float. */
+int32_t hk_view_pack(const struct hk_view *view, int64_t at, uint8_t *bytes);
 
-/* Finds `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none is
- * whole. */
+/* Finds `box`, `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none
+ * is whole. */
 int32_t hk_view_find_strain(struct hk_view *view);
 
 /* ---- the page ---- */

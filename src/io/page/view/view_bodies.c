@@ -64,17 +64,13 @@ static void add_groups(struct hk_text *data, const hooke_system *system) {
 
 void hk_view_add_floats(struct hk_text *data, const char *key, const struct hk_view *view,
                         const double *all) {
-  struct hk_text text = {.bytes = NULL};
   uint8_t *bytes = hk_new(4 * view->springs, 1);
   for (int64_t k = 0; k < 4 * view->springs && bytes; k++)
     bytes[k] = (uint8_t)(hk_view_float(all[view->spring[k / 4]]) >> 8 * (k % 4) & 255);
-  if (bytes) hk_base64_add(&text, bytes, 4 * view->springs);
-  hk_text_add(&text, "", 1); /* ends it */
-  if (bytes == NULL || text.status != HOOKE_OK)
-    data->status = HOOKE_NO_MEMORY;
-  else
-    hk_text_word(data, key, text.bytes);
-  hk_text_release(&text);
+  if (bytes == NULL) data->status = HOOKE_NO_MEMORY;
+  hk_text_open(data, key, '"');
+  hk_base64_add(data, bytes, bytes ? 4 * view->springs : 0);
+  hk_text_close(data, '"');
   hk_free(bytes);
 }
 

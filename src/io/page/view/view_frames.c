@@ -101,15 +101,6 @@ static double largest_of_most(struct hk_view *view, const double *q, double *siz
   return quantile(sizes, count, SPRING_SHARE);
 }
 
-static double extent_of(const struct hk_view *view, const double *q) {
-  struct hk_view_box box;
-  double extent = 0.0;
-  find_box(view, q, &box);
-  for (int axis = 0; axis < 3; axis++)
-    extent = fmax(extent, box.high[axis] - box.low[axis]);
-  return extent;
-}
-
 static int blew_up(const struct hk_view *view) {
   const char *status = hooke_record_text(view->record, "status");
   return strcmp(status, "finished") != 0 && strcmp(status, "stopped") != 0 && strcmp(status, "running") != 0;
@@ -122,7 +113,12 @@ struct strains {
 };
 
 static void take_frame(struct hk_view *view, const double *q, int64_t k, int64_t frame, struct strains *s) {
-  const double most = largest_of_most(view, q, s->sizes), extent = extent_of(view, q);
+  const struct hk_view_box *box = &view->box[k];
+  const double most = largest_of_most(view, q, s->sizes);
+  double extent = 0.0;
+  find_box(view, q, &view->box[k]);
+  for (int axis = 0; axis < 3; axis++)
+    extent = fmax(extent, box->high[axis] - box->low[axis]);
   if (k == 0 && extent > 0.0 && blew_up(view)) s->widest = WIDENED * extent;
   if (k == 0 || (extent <= s->widest && frame < view->good_frames)) s->largest[s->count++] = most;
 }
@@ -153,7 +149,8 @@ int32_t hk_view_find_strain(struct hk_view *view) {
   struct strains s = {.widest = INFINITY};
   s.sizes = hk_new(LOOKED_AT + 1, sizeof *s.sizes);
   s.largest = hk_new(view->frames, sizeof *s.largest);
-  int32_t status = s.sizes && s.largest ? HOOKE_OK : HOOKE_NO_MEMORY;
+  view->box = hk_new(view->frames, sizeof *view->box);
+  int32_t status = s.sizes && s.largest && view->box ? HOOKE_OK : HOOKE_NO_MEMORY;
   view->strain_low = view->strain_high = NAN; /* which fmin() and fmax() pass over */
   if (status == HOOKE_OK) status = look_at_frames(view, &s);
   if (status == HOOKE_OK) {
@@ -196,11 +193,11 @@ static uint32_t upper_half(double value) {
   return isnan(value) ? word >> 16 : (word + 0x7fff + (word >> 16 & 1)) >> 16;
 }
 
-int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box) {
+int32_t hk_view_pack(const struct hk_view *view, int64_t at, uint8_t *bytes) {
+  const struct hk_view_box *box = &view->box[at];
   double *q = NULL;
-  const int32_t status = hk_view_read(view, position, frame, view->particles_there, 3, &q);
+  const int32_t status = hk_view_read(view, position, view->frame[at], view->particles_there, 3, &q);
   if (status != HOOKE_OK) return status;
-  find_box(view, q, box);
   for (int64_t k = 0; k < 3 * view->particles; k++)
     bytes = put(bytes, place_in(q[3 * view->particle[k / 3] + k % 3], box->low[k % 3], box->high[k % 3]));
   for (int64_t k = 0; k < view->springs; k++)
