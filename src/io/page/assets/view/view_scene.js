@@ -171,8 +171,7 @@ class Picture extends Run {
   }
 
   thin(stride) {
-    super.thin(stride);
-    for (const run of this.others) run.thin(stride);
+    for (const run of this.runs) run.stride = stride;
   }
 
   /* Where a box is drawn. One much wider than what was seen, as after a blow-up, is made smaller, until all of it is seen. */
