@@ -37,12 +37,8 @@ struct frames {
 
   hooke_measurement *limit;
   struct hk_budget budget;
-  /* 3n: NULL before a mode was found; positions and time then, and its growth in a step */
-  double *shape, *mode_q, mode_time, mode_growth;
-  int32_t is_above, looks;
-  struct {
-    double time, limit, frequency, decay, growth;
-  } look[LOOKS + 1];
+  struct hk_text limits, mode; /* JSON, beside the frames: limits along the way, and the mode to draw */
+  int32_t looks;
 };
 
 /* ---- energies ---- */
@@ -116,10 +112,12 @@ static int32_t begin_limits(struct frames *f, const hooke_options *run) {
   return status;
 }
 
-/* Frequency and damping of the mode that limits, and whether it is the one to draw: the first above the
- * limit. */
-static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
-                         int64_t step) {
+struct mode {
+  double frequency, decay, growth; /* growth: in a step */
+};
+
+static int32_t find_mode(const struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
+                         struct mode *found) {
   const struct hk_stability *stability = hk_method_stability_in(row->method, f->system);
   struct hk_growing g;
   struct hk_rigid rigid;
@@ -131,28 +129,28 @@ static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const s
   hk_rigid_release(&rigid);
   status = hk_growing_create(f->system, row->mode, NULL, &g);
   if (status != HOOKE_OK) return status;
-  const int inertial = !f->system->overdamped;
   const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0) + geometric);
-  const double frequency = inertial ? sqrt(stiffness) : 0.0;
-  const double decay = inertial ? 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0) : stiffness;
-  const double growth = inertial ? hk_mode_growth(stability, f->h, frequency, decay)
-                                 : hk_relaxation_growth(stability, f->h, stiffness);
+  *found = (struct mode){0.0, stiffness, hk_relaxation_growth(stability, f->h, stiffness)};
+  if (!f->system->overdamped) {
+    found->frequency = sqrt(stiffness);
+    found->decay = 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0);
+    found->growth = hk_mode_growth(stability, f->h, found->frequency, found->decay);
+  }
   hk_growing_release(&g);
-  f->look[f->looks].frequency = frequency;
-  f->look[f->looks].decay = decay;
-  f->look[f->looks].growth = growth;
-  const int above = row->predicted < f->h;
-  if (f->is_above || (!above && step != f->last)) return HOOKE_OK;
-  const size_t bytes = 3 * (size_t)hooke_system_particle_count(f->system) * sizeof(double);
-  if (f->shape == NULL) f->shape = hk_new(6 * hooke_system_particle_count(f->system), sizeof(double));
-  if (f->shape == NULL) return HOOKE_NO_MEMORY;
-  f->mode_q = f->shape + 3 * hooke_system_particle_count(f->system);
-  memcpy(f->shape, limit->shape, bytes);
-  memcpy(f->mode_q, limit->q, bytes);
-  f->mode_time = limit->time;
-  f->mode_growth = growth;
-  f->is_above = above;
   return HOOKE_OK;
+}
+
+static void add_listed(struct hk_text *data, const char *key, const double *vectors,
+                       const struct hk_picture *picture) {
+  hk_picture_add_vectors(data, key, vectors, picture->list, picture->shown_count);
+}
+
+/* The mode that grows, at the positions where it was found: the first above the limit, or else the last. */
+static void add_mode(struct frames *f, const struct hk_limit *limit, double growth) {
+  hk_text_number(&f->mode, "time", limit->time);
+  hk_text_number(&f->mode, "growth", growth);
+  add_listed(&f->mode, "position", limit->q, &f->picture);
+  add_listed(&f->mode, "move", limit->shape, &f->picture);
 }
 
 static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
@@ -165,29 +163,23 @@ static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
   if (status != HOOKE_OK)
     return status == HOOKE_NO_MEMORY ? status : HOOKE_OK; /* then it is not known there */
   const struct hk_limit_row *row = hk_limit_limiting_row(limit);
-  f->look[f->looks].time = hooke_state_time(state);
-  f->look[f->looks].limit = limit->row[0].predicted;
-  f->look[f->looks].frequency = f->look[f->looks].decay = f->look[f->looks].growth = NAN;
-  if (row) status = take_mode(f, limit, row, step);
+  struct mode mode = {NAN, NAN, NAN};
+  if (row) status = find_mode(f, limit, row, &mode);
+  if (status != HOOKE_OK) return status;
   f->looks++;
-  return status;
-}
-
-static void add_limits(const struct frames *f) {
-  hk_text_open(f->data, "limits", '[');
-  for (int32_t k = 0; k < f->looks; k++) {
-    hk_text_open(f->data, NULL, '{');
-    hk_text_number(f->data, "time", f->look[k].time);
-    if (isinf(f->look[k].limit))
-      hk_text_word(f->data, "limit", "none");
-    else
-      hk_text_number(f->data, "limit", f->look[k].limit);
-    hk_text_number(f->data, "frequency", f->look[k].frequency);
-    hk_text_number(f->data, "decay", f->look[k].decay);
-    hk_text_number(f->data, "growth", f->look[k].growth);
-    hk_text_close(f->data, '}');
-  }
-  hk_text_close(f->data, ']');
+  hk_text_open(&f->limits, NULL, '{');
+  hk_text_number(&f->limits, "time", hooke_state_time(state));
+  if (isinf(limit->row[0].predicted))
+    hk_text_word(&f->limits, "limit", "none");
+  else
+    hk_text_number(&f->limits, "limit", limit->row[0].predicted);
+  hk_text_number(&f->limits, "frequency", mode.frequency);
+  hk_text_number(&f->limits, "decay", mode.decay);
+  hk_text_number(&f->limits, "growth", mode.growth);
+  hk_text_close(&f->limits, '}');
+  if (row && f->mode.length == 0 && (row->predicted < f->h || step == f->last))
+    add_mode(f, limit, mode.growth);
+  return f->limits.status != HOOKE_OK ? f->limits.status : f->mode.status;
 }
 
 /* ---- frames ---- */
@@ -206,16 +198,12 @@ static int32_t add_picture(struct frames *f) {
   return HOOKE_OK;
 }
 
-static void add_listed(const struct frames *f, const char *key, const double *vectors) {
-  hk_picture_add_vectors(f->data, key, vectors, f->picture.list, f->picture.shown_count);
-}
-
 static void add_frame(struct frames *f, const hooke_state *state) {
   const double *q = hooke_state_position((hooke_state *)state);
   hk_text_open(f->data, NULL, '{');
   hk_text_number(f->data, "time", hooke_state_time(state));
   hk_text_number(f->data, "energy", energy_of(f->system, state));
-  add_listed(f, "position", q);
+  add_listed(f->data, "position", q, &f->picture);
   hk_text_close(f->data, '}');
 }
 
@@ -285,17 +273,6 @@ static int32_t add_advised(struct frames *f, const hooke_options *run, const dou
 
 /* ---- all of it ---- */
 
-/* The mode that grows, at the positions where it was found. */
-static void add_mode(const struct frames *f) {
-  if (f->shape == NULL) return;
-  hk_text_open(f->data, "mode", '{');
-  hk_text_number(f->data, "time", f->mode_time);
-  hk_text_number(f->data, "growth", f->mode_growth);
-  add_listed(f, "position", f->mode_q);
-  add_listed(f, "move", f->shape);
-  hk_text_close(f->data, '}');
-}
-
 static int32_t add(struct frames *f, const hooke_options *run) {
   double time[BEFORE + AFTER + 1];
   int32_t status = find_energies(f, run);
@@ -314,8 +291,13 @@ static int32_t add(struct frames *f, const hooke_options *run) {
   status = hk_why_walk(f->system, &f->why->start, run, before + AFTER + 1, time, see_frame, f);
   hk_text_close(f->data, ']');
   if (status == HOOKE_OK) status = add_advised(f, run, time);
-  add_limits(f);
-  add_mode(f);
+  hk_text_open(f->data, "limits", '[');
+  if (f->looks > 0) hk_text_add(f->data, f->limits.bytes, f->limits.length);
+  hk_text_close(f->data, ']');
+  if (f->mode.length == 0) return status;
+  hk_text_open(f->data, "mode", '{');
+  hk_text_add(f->data, f->mode.bytes, f->mode.length);
+  hk_text_close(f->data, '}');
   return status;
 }
 
@@ -330,7 +312,8 @@ static int32_t add_frames(struct hk_text *data, const struct hk_why *why, const 
   f->last = llround((why->time - f->t0) / f->h);
   const int32_t status = add(f, run);
   hk_picture_release(&f->picture);
-  hk_free(f->shape);
+  hk_text_release(&f->limits);
+  hk_text_release(&f->mode);
   hooke_measurement_destroy(f->limit);
   hk_free(f);
   return status;

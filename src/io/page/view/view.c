@@ -4,13 +4,13 @@
 #include "core/memory.h"
 #include "core/table/option.h"
 #include "core/status.h"
-#include "io/hdf5/array_h5.h"
 #include "io/page/base64.h"
 #include "io/trajectory/record.h"
 #include "io/page/form.h"
 #include "model/vector3.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static const struct hk_option_row rows[] = {
     HOOKE_OPTION("frames", HOOKE_OPTION_WHOLE(2, 1e6), NULL,
@@ -34,11 +34,8 @@ static int32_t refuse(const struct hk_view *view, const char *what) {
 
 /* The springs of the file, with existing ends. */
 static int32_t read_ends(struct hk_view *view, double **ends) {
-  int64_t wide = 0;
-  int32_t status = hk_array_read(hk_record_path(view->record), "/connectivity/springs", 0, 0, ends,
-                                 &view->springs_there, &wide);
-  if (status == HOOKE_OK && view->springs_there > 0 && wide != 2)
-    status = refuse(view, "dataset /connectivity/springs has not two ends in a row");
+  view->springs_there = -1;
+  int32_t status = hk_view_read(view, "/connectivity/springs", -1, &view->springs_there, 2, ends);
   for (int64_t k = 0; k < 2 * view->springs_there && status == HOOKE_OK; k++) {
     if (!((*ends)[k] >= 0.0) || (*ends)[k] >= (double)view->particles_there)
       status = refuse(view, "dataset /connectivity/springs names a particle that is not there");
@@ -46,32 +43,22 @@ static int32_t read_ends(struct hk_view *view, double **ends) {
   return status;
 }
 
-static int32_t read_species(struct hk_view *view, double **species) {
-  int64_t wide = 0;
-  const int32_t status = hk_array_read(hk_record_path(view->record), "/particles/all/species", 0, 0, species,
-                                       &view->particles_there, &wide);
-  return status == HOOKE_OK && wide != 1 ? refuse(view, "dataset /particles/all/species is no column")
-                                         : status;
-}
-
-static int32_t read_columns(struct hk_view *view) {
-  static const char *const names[HOOKE_VIEW_ENERGIES] = {"/observables/kinetic_energy/value",
-                                                         "/observables/potential_energy/value",
-                                                         "/observables/total_energy/value"};
-  view->frames_there = hooke_record_count(view->record, "frames");
-  view->good_frames = hooke_record_count(view->record, "good_frames");
-  int32_t status = hk_view_read(view, "/particles/all/position/time", -1, view->frames_there, 1, &view->time);
-  for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++)
-    status = hk_view_read(view, names[k], -1, view->frames_there, 1, &view->energy[k]);
+static int32_t read_energies(struct hk_view *view) {
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++) {
+    char name[64];
+    snprintf(name, sizeof name, "/observables/%s_energy/value", hk_view_energy[k]);
+    status = hk_view_read(view, name, -1, &view->frames_there, 1, &view->energy[k]);
+  }
   return status;
 }
 
 /* Old files without rest lengths get those of their first frame. */
 static int32_t read_rest_lengths(struct hk_view *view, const double *ends) {
-  int32_t status = hk_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
+  int32_t status = hk_view_read(view, "/hooke/rest_length", -1, &view->springs_there, 1, &view->rest_length);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   double *q = NULL;
-  status = hk_view_read(view, "/particles/all/position/value", 0, view->particles_there, 3, &q);
+  status = hk_view_read(view, "/particles/all/position/value", 0, &view->particles_there, 3, &q);
   view->rest_length = hk_new(view->springs_there, sizeof(double));
   if (status == HOOKE_OK && view->rest_length == NULL) status = HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->springs_there && status == HOOKE_OK; k++) {
@@ -176,9 +163,12 @@ static int32_t choose_frames(struct hk_view *view) {
 
 static int32_t choose(struct hk_view *view) {
   double *ends = NULL, *species = NULL;
-  int32_t status = read_species(view, &species);
+  view->particles_there = -1;
+  view->frames_there = hooke_record_count(view->record, "frames");
+  view->good_frames = hooke_record_count(view->record, "good_frames");
+  int32_t status = hk_view_read(view, "/particles/all/species", -1, &view->particles_there, 1, &species);
   if (status == HOOKE_OK) status = read_ends(view, &ends);
-  if (status == HOOKE_OK) status = read_columns(view);
+  if (status == HOOKE_OK) status = read_energies(view);
   if (status == HOOKE_OK) status = read_rest_lengths(view, ends);
   if (status == HOOKE_OK) status = choose_springs(view);
   if (status == HOOKE_OK) status = choose_particles(view, ends, species);
@@ -191,7 +181,8 @@ static int32_t choose(struct hk_view *view) {
 /* ---- a view ---- */
 
 static double time_of(const struct hk_view *view, int64_t frame) {
-  return isfinite(view->time[frame]) ? view->time[frame] : (double)NAN;
+  const double time = view->record->time[frame];
+  return isfinite(time) ? time : (double)NAN;
 }
 
 HOOKE_READER(double, time_first, struct hk_view, time_of(it, 0))
@@ -261,7 +252,6 @@ static void destroy(void *object) {
   hk_free(view->mark);
   hk_free(view->frame);
   hk_free(view->box);
-  hk_free(view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     hk_free(view->energy[k]);
   hk_free(view);

@@ -33,24 +33,25 @@ struct hk_view {
   double *rest_length; /* [springs of the file]; of the first frame if the file has none */
   int32_t by_first_frame;
   int64_t spring_stride, loose_stride, frame_stride;
-  int64_t springs, particles, frames;         /* number shown */
-  int64_t *spring;                            /* of each, its number */
-  int64_t *end;                               /* 2 springs: indices into `particle` */
-  int64_t *particle;                          /* of each, its number */
-  uint8_t *mark;                              /* of each, HOOKE_VIEW_... */
-  int64_t *frame;                             /* of each, its number: the last one is always among them */
-  struct hk_view_box *box;                    /* of each, around its particles */
-  int64_t damaged;                            /* frames that were to be shown and are not whole */
-  double *energy[HOOKE_VIEW_ENERGIES], *time; /* [frames there] */
-  double strain;                              /* the largest that has a colour of its own */
-  double strain_low, strain_high;             /* that were met */
-  double bytes;                               /* of the page, once it is written; NaN */
+  int64_t springs, particles, frames;  /* number shown */
+  int64_t *spring;                     /* of each, its number */
+  int64_t *end;                        /* 2 springs: indices into `particle` */
+  int64_t *particle;                   /* of each, its number */
+  uint8_t *mark;                       /* of each, HOOKE_VIEW_... */
+  int64_t *frame;                      /* of each, its number: the last one is always among them */
+  struct hk_view_box *box;             /* of each, around its particles */
+  int64_t damaged;                     /* frames that were to be shown and are not whole */
+  double *energy[HOOKE_VIEW_ENERGIES]; /* [frames there] */
+  double strain;                       /* the largest that has a colour of its own */
+  double strain_low, strain_high;      /* that were met */
+  double bytes;                        /* of the page, once it is written; NaN */
   const hooke_measurement *beside[HOOKE_VIEW_MOST_BESIDE];
   int32_t beside_count;
 };
 
-/* A column of numbers, or `columns` of them, from the file; the caller frees it. */
-int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t rows,
+/* A column of numbers, or `columns` of them, from the file, with at least so many rows, or all that there are
+ * if that is negative, and then set; the caller frees it. */
+int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t *rows,
                      int64_t columns, double **values);
 
 /* ---- frames as bytes ---- */
@@ -61,7 +62,7 @@ uint32_t hk_view_float(double value); /* its bits as a float */
 
 /* Of the frames shown, that of index `at`: coordinates of the particles as 16-bit little-endian numbers, x y
  * z in turn, then the elongation of each spring [m] as the upper half of a float. */
-int32_t hk_view_pack(const struct hk_view *view, int64_t at, uint8_t *bytes);
+int32_t hk_view_pack(struct hk_view *view, int64_t at, uint8_t *bytes);
 
 /* Finds `box`, `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none
  * is whole. */

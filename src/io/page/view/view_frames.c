@@ -20,13 +20,16 @@ static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
 
-int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t count,
+int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t *rows,
                      int64_t columns, double **values) {
   int64_t there, wide;
   const char *path = hk_record_path(view->record);
   const int32_t status = hk_array_read(path, dataset, frame, frame >= 0, values, &there, &wide);
   if (status != HOOKE_OK) return status;
-  if ((count < 0 || there >= count) && wide == columns) return HOOKE_OK;
+  if (there >= *rows && (wide == columns || there == 0)) {
+    if (*rows < 0) *rows = there;
+    return HOOKE_OK;
+  }
   hk_free(*values);
   *values = NULL;
   return hk_fail(HOOKE_BAD_VALUE, NULL,
@@ -128,7 +131,7 @@ static int32_t look_at_frames(struct hk_view *view, struct strains *s) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < view->frames && status == HOOKE_OK; k++) {
     double *q = NULL;
-    status = hk_view_read(view, position, view->frame[k], view->particles_there, 3, &q);
+    status = hk_view_read(view, position, view->frame[k], &view->particles_there, 3, &q);
     if (status == HOOKE_OK) {
       take_frame(view, q, whole, view->frame[k], s);
       view->frame[whole++] = view->frame[k];
@@ -193,10 +196,10 @@ static uint32_t upper_half(double value) {
   return isnan(value) ? word >> 16 : (word + 0x7fff + (word >> 16 & 1)) >> 16;
 }
 
-int32_t hk_view_pack(const struct hk_view *view, int64_t at, uint8_t *bytes) {
+int32_t hk_view_pack(struct hk_view *view, int64_t at, uint8_t *bytes) {
   const struct hk_view_box *box = &view->box[at];
   double *q = NULL;
-  const int32_t status = hk_view_read(view, position, view->frame[at], view->particles_there, 3, &q);
+  const int32_t status = hk_view_read(view, position, view->frame[at], &view->particles_there, 3, &q);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < 3 * view->particles; k++)
     bytes = put(bytes, place_in(q[3 * view->particle[k / 3] + k % 3], box->low[k % 3], box->high[k % 3]));

@@ -68,7 +68,8 @@ static void add_counts(struct hk_text *data, const struct hk_view *view) {
   hk_text_number(data, "loose_there", (double)view->loose_there);
   hk_text_number(data, "loose_stride", (double)view->loose_stride);
   hk_text_number(data, "good_frames", (double)view->good_frames);
-  hk_text_number(data, "time_good", view->good_frames > 0 ? view->time[view->good_frames - 1] : (double)NAN);
+  hk_text_number(data, "time_good",
+                 view->good_frames > 0 ? view->record->time[view->good_frames - 1] : (double)NAN);
   hk_text_flag(data, "by_first_frame", view->by_first_frame);
   add_numbers(data, "frame", view->frames, view->frame);
   if (view->particles < view->particles_there) add_numbers(data, "particle", view->particles, view->particle);
@@ -103,7 +104,7 @@ static int32_t add_data(struct hk_text *data, const hooke_measurement *m) {
   hk_measurement_add_row(data, m, "view", 0);
   add_counts(data, view);
   hk_view_add_floats(data, "rest_length", view, view->rest_length);
-  add_column(data, view, "time", view->time);
+  add_column(data, view, "time", view->record->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     add_column(data, view, hk_view_energy[k], view->energy[k]);
   add_boxes(data, view);
@@ -129,7 +130,7 @@ static int32_t add_fixed(struct hk_text *text, const struct hk_view *view) {
 }
 
 /* Frames have equal lengths, so that the page can access one by its number. */
-static int32_t add_frames(struct hk_text *text, const struct hk_view *view) {
+static int32_t add_frames(struct hk_text *text, struct hk_view *view) {
   const int64_t count = hk_view_frame_bytes(view);
   uint8_t *bytes = hk_new(count, 1);
   int32_t status = bytes ? HOOKE_OK : HOOKE_NO_MEMORY;
