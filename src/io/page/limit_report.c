@@ -14,31 +14,22 @@ static const double RIGHT_ANGLE = 1.5707963267948966;
 
 /* ---- regions ---- */
 
-static void add_point(struct hk_text *data, double x, double y) {
-  hk_text_number(data, NULL, x);
-  hk_text_number(data, NULL, y);
-}
-
-/* The boundary of the region of h lambda, above the real axis, from the imaginary one to the left. */
-static void add_region(struct hk_text *data, const hooke_system *system, const char *method) {
-  hk_text_open(data, "region", '[');
+/* The boundary of what is stable, as x, y in turn, from a motion without damping to one without frequency. By
+ * `lambda` the region of h lambda above the real axis, from the imaginary one to the left. */
+static void add_boundary(struct hk_text *data, const char *key, const hooke_system *system,
+                         const char *method, int by_lambda) {
+  hk_text_open(data, key, '[');
   for (int k = 0; k <= QUARTER; k++) {
-    const double damping = sin(RIGHT_ANGLE * k / QUARTER), swing = cos(RIGHT_ANGLE * k / QUARTER);
-    const double reach = hk_limit_of_mode_in(system, method, 1.0, damping);
-    add_point(data, -reach * damping, reach * swing);
+    const double decay = sin(RIGHT_ANGLE * k / QUARTER), swing = cos(RIGHT_ANGLE * k / QUARTER);
+    const double reach = fmin(FAR, hk_limit_of_mode_in(system, method, by_lambda ? 1.0 : swing, decay));
+    hk_text_number(data, NULL, reach * (by_lambda ? -decay : swing));
+    hk_text_number(data, NULL, reach * (by_lambda ? swing : decay));
   }
   hk_text_close(data, ']');
 }
 
 void hk_limit_page_add_reach(struct hk_text *data, const hooke_system *system, const char *method) {
-  if (!isfinite(hk_limit_of_mode_in(system, method, 1.0, 0.5))) return;
-  hk_text_open(data, "reach", '[');
-  for (int k = 0; k <= QUARTER; k++) {
-    const double decay = sin(RIGHT_ANGLE * k / QUARTER), frequency = cos(RIGHT_ANGLE * k / QUARTER);
-    const double reach = fmin(FAR, hk_limit_of_mode_in(system, method, frequency, decay));
-    add_point(data, reach * frequency, reach * decay);
-  }
-  hk_text_close(data, ']');
+  if (isfinite(hk_limit_of_mode_in(system, method, 1.0, 0.5))) add_boundary(data, "reach", system, method, 0);
 }
 
 /* ---- rows ---- */
@@ -63,7 +54,7 @@ static void add_row(struct hk_text *data, const hooke_measurement *m, const stru
   add_unlimited(data, m, table, row);
   hk_limit_page_add_reach(data, m->system, method);
   if (isfinite(alone) && hooke_measurement_number(m, table->name, row, "by_eigenvalue") == 1.0)
-    add_region(data, m->system, method);
+    add_boundary(data, "region", m->system, method, 1);
   hk_text_close(data, '}');
 }
 

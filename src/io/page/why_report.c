@@ -4,7 +4,7 @@
 #include "core/table/option.h"
 #include "io/page/picture.h"
 #include "io/page/report.h"
-#include "io/page/view/view_bodies.h"
+#include "io/page/view/view.h"
 #include "measure/limit/limit.h"
 #include "measure/spectrum/mode_growth.h"
 #include "measure/why/why.h"

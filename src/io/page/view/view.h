@@ -3,6 +3,7 @@
  *   view.c           selection
  *   view_frames.c    a frame as bytes
  *   view_page.c      the page
+ *   view_bodies.c    what its scene tells it
  *   views.c          several pages as one */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
@@ -60,6 +61,9 @@ int64_t hk_view_frame_bytes(const struct hk_view *view);
 
 uint32_t hk_view_float(double value); /* its bits as a float */
 
+/* Numbers of the springs shown, picked from those of all, as floats in base64. */
+void hk_view_add_floats(struct hk_text *data, const char *key, const struct hk_view *view, const double *all);
+
 /* Of the frames shown, that of index `at`: coordinates of the particles as 16-bit little-endian numbers, x y
  * z in turn, then the elongation of each spring [m] as the upper half of a float. */
 int32_t hk_view_pack(struct hk_view *view, int64_t at, uint8_t *bytes);
@@ -69,6 +73,14 @@ int32_t hk_view_pack(struct hk_view *view, int64_t at, uint8_t *bytes);
 int32_t hk_view_find_strain(struct hk_view *view);
 
 /* ---- the page ---- */
+
+/* Adds "bodies", what of a scene has a surface or is a line of particles: of each part kind, first particle,
+ * count, and "size" (particles along each axis) of a grid or "triangle" (corners, from the first particle on)
+ * of a mesh. Failures go to the text's status. */
+void hk_view_add_bodies(struct hk_text *data, const hooke_system *system);
+/* Adds "groups" of springs: name and count of each, and whether it only pulls; and "stiffness": that of the
+ * springs shown [N/m]. */
+void hk_view_add_springs(struct hk_text *data, const struct hk_view *view, const hooke_system *system);
 
 /* Adds it, with the label "title" as its heading; adds that of all beside one another; writes the one or the
  * other. */

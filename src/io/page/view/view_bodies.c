@@ -1,4 +1,5 @@
-#include "io/page/view/view_bodies.h"
+/* Bodies and groups of springs of a scene, for pages. */
+#include "io/page/view/view.h"
 
 #include "core/memory.h"
 #include "io/page/base64.h"
@@ -74,19 +75,13 @@ void hk_view_add_floats(struct hk_text *data, const char *key, const struct hk_v
   hk_free(bytes);
 }
 
-static int32_t add_stiffness(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
+void hk_view_add_springs(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
+  add_groups(data, system);
+  if (hooke_system_count(system, "springs") != view->springs_there) return;
   double *stiffness = hk_new(view->springs_there, sizeof *stiffness);
   int32_t status = stiffness ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = hooke_system_members(system, "springs", NULL, stiffness, NULL, NULL);
   if (status == HOOKE_OK) hk_view_add_floats(data, "stiffness", view, stiffness);
-  hk_free(stiffness);
-  return status;
-}
-
-void hk_view_bodies_add(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
-  hk_view_add_bodies(data, system);
-  add_groups(data, system);
-  if (hooke_system_count(system, "springs") != view->springs_there) return;
-  const int32_t status = add_stiffness(data, view, system);
   if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
+  hk_free(stiffness);
 }

@@ -1,6 +1,5 @@
 /* Trajectories as pages: the page. */
 #include "io/page/view/view.h"
-#include "io/page/view/view_bodies.h"
 
 #include "core/memory.h"
 #include "core/os/os_file.h"
@@ -29,7 +28,8 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, char *co
   if (status == HOOKE_NO_MEMORY || status == HOOKE_IO_FAILED) data->status = status;
   if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->fall;
-    hk_view_bodies_add(data, view, hooke_scene_system(scene));
+    hk_view_add_bodies(data, hooke_scene_system(scene));
+    hk_view_add_springs(data, view, hooke_scene_system(scene));
     if (title == NULL && hooke_scene_text(scene, "title")[0]) title = hooke_scene_text(scene, "title");
   }
   if (slash) name = slash + 1;
