@@ -308,10 +308,10 @@ class Run {
   }
 
   fillSurface(values) {
-    const { position, normal, strain } = this.surface.geometry.attributes;
+    const { position, strain } = this.surface.geometry.attributes;
     position.array.set(this.place);
-    fillNormals(normal.array, this.place, this.triangles);
-    position.needsUpdate = normal.needsUpdate = true;
+    position.needsUpdate = true;
+    this.surface.geometry.computeVertexNormals();
     if (this.uniforms.tinted.value === 0) return;
     strain.array.set(this.meanStrains(values).map((value) => value / 255));
     strain.needsUpdate = true;
