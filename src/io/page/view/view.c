@@ -101,7 +101,7 @@ static int32_t choose_particles(struct hk_view *view, const double *ends, const 
     view->particle[view->particles++] = k;
   }
   for (int64_t k = 0; k < 2 * view->springs && status == HOOKE_OK; k++)
-    view->end[k] = slot[(int64_t)ends[2 * view->spring[k / 2] + k % 2]];
+    view->end[k] = slot[(int64_t)ends[2 * (k / 2) * view->spring_stride + k % 2]];
   hk_free(slot);
   hk_free(tied);
   return status;
@@ -111,12 +111,8 @@ static int32_t choose_springs(struct hk_view *view) {
   const int64_t most = (int64_t)hooke_options_number(view->options, "springs");
   view->spring_stride = stride_for(view->springs_there, most);
   view->springs = (view->springs_there + view->spring_stride - 1) / view->spring_stride;
-  view->spring = hk_new(view->springs, sizeof *view->spring);
   view->end = hk_new(2 * view->springs, sizeof *view->end);
-  if (!view->spring || !view->end) return HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < view->springs; k++)
-    view->spring[k] = k * view->spring_stride;
-  return HOOKE_OK;
+  return view->end ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 /* Size of the page without its frames, including words. */
@@ -246,7 +242,6 @@ static void destroy(void *object) {
   struct hk_view *view = object;
   if (view == NULL) return;
   hk_free(view->rest_length);
-  hk_free(view->spring);
   hk_free(view->end);
   hk_free(view->particle);
   hk_free(view->mark);

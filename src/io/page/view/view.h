@@ -35,7 +35,6 @@ struct hk_view {
   int32_t by_first_frame;
   int64_t spring_stride, loose_stride, frame_stride;
   int64_t springs, particles, frames;  /* number shown */
-  int64_t *spring;                     /* of each, its number */
   int64_t *end;                        /* 2 springs: indices into `particle` */
   int64_t *particle;                   /* of each, its number */
   uint8_t *mark;                       /* of each, HOOKE_VIEW_... */

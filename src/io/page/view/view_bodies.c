@@ -67,7 +67,7 @@ void hk_view_add_floats(struct hk_text *data, const char *key, const struct hk_v
                         const double *all) {
   uint8_t *bytes = hk_new(4 * view->springs, 1);
   for (int64_t k = 0; k < 4 * view->springs && bytes; k++)
-    bytes[k] = (uint8_t)(hk_view_float(all[view->spring[k / 4]]) >> 8 * (k % 4) & 255);
+    bytes[k] = (uint8_t)(hk_view_float(all[k / 4 * view->spring_stride]) >> 8 * (k % 4) & 255);
   if (bytes == NULL) data->status = HOOKE_NO_MEMORY;
   hk_text_open(data, key, '"');
   hk_base64_add(data, bytes, bytes ? 4 * view->springs : 0);

@@ -44,12 +44,12 @@ int64_t hk_view_frame_bytes(const struct hk_view *view) {
 static double elongation_of(const struct hk_view *view, const double *q, int64_t k) {
   const double *a = q + 3 * view->particle[view->end[2 * k]];
   const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
-  return hk_distance3(a, b) - view->rest_length[view->spring[k]];
+  return hk_distance3(a, b) - view->rest_length[k * view->spring_stride];
 }
 
 /* NaN if it has no rest length. */
 static double strain_of(const struct hk_view *view, const double *q, int64_t k) {
-  const double rest = view->rest_length[view->spring[k]];
+  const double rest = view->rest_length[k * view->spring_stride];
   return rest > 0.0 ? elongation_of(view, q, k) / rest : (double)NAN;
 }
 

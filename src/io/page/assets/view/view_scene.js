@@ -57,7 +57,7 @@ class Picture extends Run {
   /* What is flat is looked at from its front, all else from a corner and above. */
   directionOf(box, frames) {
     const extent = [0, 1, 2].map((axis) => box[axis + 3] - box[axis]);
-    const [side, front] = [[1, 2], [2, 0], [0, 1]][this.up].map((axis, k, both) => (this.up === 1 ? both[1 - k] : axis));
+    const [side, front] = [[1, 2], [0, 2], [0, 1]][this.up];
     const towards = new THREE.Vector3();
     const thin = [front, side].find((axis) => extent[axis] <= 0.02 * this.radius);
     if (thin !== undefined) return towards.setComponent(thin, thin === front || this.up !== 1 ? 1 : -1);
@@ -193,7 +193,7 @@ class Picture extends Run {
   draw() {
     this.resize();
     const distance = this.camera.position.distanceTo(this.controls.target);
-    const deep = Math.max(...[0, 1, 2].map((axis) => this.home[axis + 3] - this.home[axis])) / this.radius;
+    const deep = widthOf(this.home) / this.radius;
     for (const run of this.runs) run.uniforms.reach.value.set(distance - 0.25 * deep, distance + 1.6 * deep);
     this.renderer.render(this.scene, this.camera);
   }
