@@ -1,6 +1,5 @@
 /* Pages of trajectories and companions for ParaView: selection, packing, refusals. */
 #include "check.h"
-#include "io/page/base64.h"
 #include "io/page/view/view.h"
 #include "run.h"
 #include "small.h"

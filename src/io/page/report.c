@@ -6,7 +6,6 @@
 #include "core/status.h"
 #include "io/page/form.h"
 #include "io/file/atomic_file.h"
-#include "io/file/data_folder.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,6 @@
 #include "core/memory.h"
 #include "core/table/option.h"
 #include "core/status.h"
-#include "io/page/base64.h"
 #include "io/trajectory/record.h"
 #include "io/page/form.h"
 #include "model/vector3.h"

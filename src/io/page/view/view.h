@@ -1,10 +1,9 @@
 /* Contents of a page that plays a trajectory: springs, particles and frames, and the range of strains.
  *
  *   view.c           selection
- *   view_frames.c    a frame as bytes
- *   view_page.c      the page
- *   view_bodies.c    what its scene tells it
- *   views.c          several pages as one */
+ *   view_frames.c    a frame as bytes, and as text
+ *   view_page.c      the page, and several as one
+ *   view_bodies.c    what its scene tells it */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
@@ -71,6 +70,10 @@ int32_t hk_view_pack(struct hk_view *view, int64_t at, uint8_t *bytes);
  * is whole. */
 int32_t hk_view_find_strain(struct hk_view *view);
 
+/* Bytes as text (RFC 4648), and its length. */
+void hk_base64_add(struct hk_text *text, const uint8_t *bytes, int64_t count);
+int64_t hk_base64_length(int64_t bytes);
+
 /* ---- the page ---- */
 
 /* Adds "bodies", what of a scene has a surface or is a line of particles: of each part kind, first particle,
@@ -81,9 +84,7 @@ void hk_view_add_bodies(struct hk_text *data, const hooke_system *system);
  * springs shown [N/m]. */
 void hk_view_add_springs(struct hk_text *data, const struct hk_view *view, const hooke_system *system);
 
-/* Adds it, with the label "title" as its heading; adds that of all beside one another; writes the one or the
- * other. */
-int32_t hk_view_add_page(const hooke_measurement *measurement, struct hk_text *text);
+/* Writes it, with the label "title" as its heading, or that of all beside one another. */
 int32_t hk_view_write(const hooke_measurement *measurement, const char *path);
 
 #endif

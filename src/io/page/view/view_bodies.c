@@ -2,7 +2,6 @@
 #include "io/page/view/view.h"
 
 #include "core/memory.h"
-#include "io/page/base64.h"
 #include "model/force/force.h"
 #include "model/group.h"
 #include "model/part_record.h"
