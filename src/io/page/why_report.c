@@ -238,14 +238,13 @@ static int32_t is_within_reach(const struct frames *f, const hooke_options *run,
 /* The first advice that is another run with a fixed step, within the work; `advised` is NULL where there is
  * none. */
 static int32_t find_advice(const struct frames *f, const hooke_options *run, double until,
-                           hooke_options **advised, const char **change) {
+                           hooke_options **advised) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < f->why->advice_count && *advised == NULL && status == HOOKE_OK; k++) {
     const struct hk_why_advice *advice = &f->why->advice[k];
     if (advice->run == NULL || strcmp(advice->option, "duration") == 0) continue;
     status = hooke_options_copy(run, advised);
     if (status == HOOKE_OK) status = hk_options_set_from(*advised, advice->run);
-    *change = advice->change;
     if (status == HOOKE_OK && is_within_reach(f, *advised, until)) break;
     hooke_options_destroy(*advised);
     *advised = NULL;
@@ -255,11 +254,9 @@ static int32_t find_advice(const struct frames *f, const hooke_options *run, dou
 
 static int32_t add_advised(struct frames *f, const hooke_options *run, const double *time) {
   hooke_options *advised = NULL;
-  const char *change = NULL;
-  int32_t status = f->shown > 0 ? find_advice(f, run, time[f->shown - 1], &advised, &change) : HOOKE_OK;
+  int32_t status = f->shown > 0 ? find_advice(f, run, time[f->shown - 1], &advised) : HOOKE_OK;
   hk_text_open(f->data, "advised", '{');
   if (advised) {
-    hk_text_word(f->data, "change", change);
     hk_text_word(f->data, "method", hooke_options_text(advised, "method"));
     hk_text_number(f->data, "step", hooke_options_number(advised, "step"));
     hk_text_open(f->data, "frames", '[');
@@ -292,7 +289,7 @@ static int32_t add(struct frames *f, const hooke_options *run) {
   hk_text_close(f->data, ']');
   if (status == HOOKE_OK) status = add_advised(f, run, time);
   hk_text_open(f->data, "limits", '[');
-  if (f->looks > 0) hk_text_add(f->data, f->limits.bytes, f->limits.length);
+  if (f->limits.length > 0) hk_text_add(f->data, f->limits.bytes, f->limits.length);
   hk_text_close(f->data, ']');
   if (f->mode.length == 0) return status;
   hk_text_open(f->data, "mode", '{');

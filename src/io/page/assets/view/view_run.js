@@ -176,10 +176,9 @@ function frameNear(times, time) {
 class Run {
   constructor({ data, ends, marks, bytesOfFrame }, { centre, radius }) {
     Object.assign(this, { data, ends, marks, bytesOfFrame, centre, radius });
-    this.uniforms = { palette: { value: [] }, paper: { value: null }, plain: { value: null }, ink: { value: null },
-      driven: { value: null }, reach: { value: new THREE.Vector2() }, size: { value: new THREE.Vector2() }, width: { value: 1 },
-      scale: { value: 9 }, thickness: { value: 0 }, cloth: { value: null }, rope: { value: null }, tinted: { value: 0 },
-      tintedLines: { value: 1 }, night: { value: 0 }, opacity: { value: 1 } };
+    this.uniforms = Object.fromEntries(Object.entries({ palette: [], paper: null, plain: null, ink: null, driven: null, cloth: null, rope: null,
+      reach: new THREE.Vector2(), size: new THREE.Vector2(), width: 1, scale: 9, thickness: 0, tinted: 0, tintedLines: 1, night: 0, opacity: 1 })
+      .map(([name, value]) => [name, { value }]));
     const bodies = findBodies(data, marks.length);
     Object.assign(this, bodies, { lines: makeLines(ends.length / 2, this.uniforms) }, makePoints(marks, this.uniforms, bodies.inBody));
     this.objects = [this.lines, this.points];
