@@ -58,7 +58,7 @@ static void add_quoted(struct hk_text *text, const char *words) {
 
 static void begin(struct hk_text *text, const char *key) {
   const char last = text->length > 0 ? text->bytes[text->length - 1] : '{';
-  if (last != '{' && last != '[') hk_text_say(text, text->is_spaced ? ", " : ",");
+  if (!strchr("{[>", last)) hk_text_say(text, text->is_spaced ? ", " : ",");
   if (key == NULL) return;
   add_quoted(text, key);
   hk_text_say(text, text->is_spaced ? ": " : ":");

@@ -16,8 +16,8 @@ void hk_text_add(struct hk_text *text, const char *bytes, int64_t length);
 void hk_text_say(struct hk_text *text, const char *words);
 void hk_text_release(struct hk_text *text);
 
-/* JSON: `key` is NULL in an array. Non-finite numbers and NULL texts become null. Any text is safe inside a
- * <script> element. */
+/* JSON, from the start of a text or of an element of a page: `key` is NULL in an array. Non-finite numbers
+ * and NULL texts become null. Any text is safe inside a <script> element. */
 void hk_text_open(struct hk_text *text, const char *key, char bracket);
 void hk_text_close(struct hk_text *text, char bracket);
 void hk_text_number(struct hk_text *text, const char *key, double value);

@@ -1,5 +1,4 @@
 /* The page of a limit: its contents as JSON. */
-#include "core/memory.h"
 #include "core/status.h"
 #include "io/page/picture.h"
 #include "io/page/report.h"
@@ -12,35 +11,25 @@ enum { QUARTER = 180 };
 /* If nothing limits, a curve ends well outside of its diagram. */
 static const double FAR = 100.0;
 static const double RIGHT_ANGLE = 1.5707963267948966;
-static const double MOVE_SCALE = 1e4; /* digits of displacements relative to the largest */
 
 /* ---- regions ---- */
 
-static void add_point(struct hk_text *data, double x, double y) {
-  hk_text_number(data, NULL, x);
-  hk_text_number(data, NULL, y);
-}
-
-/* The boundary of the region of h lambda, above the real axis, from the imaginary one to the left. */
-static void add_region(struct hk_text *data, const hooke_system *system, const char *method) {
-  hk_text_open(data, "region", '[');
+/* The boundary of what is stable, as x, y in turn, from a motion without damping to one without frequency. By
+ * `lambda` the region of h lambda above the real axis, from the imaginary one to the left. */
+static void add_boundary(struct hk_text *data, const char *key, const hooke_system *system,
+                         const char *method, int by_lambda) {
+  hk_text_open(data, key, '[');
   for (int k = 0; k <= QUARTER; k++) {
-    const double damping = sin(RIGHT_ANGLE * k / QUARTER), swing = cos(RIGHT_ANGLE * k / QUARTER);
-    const double reach = hk_limit_of_mode_in(system, method, 1.0, damping);
-    add_point(data, -reach * damping, reach * swing);
+    const double decay = sin(RIGHT_ANGLE * k / QUARTER), swing = cos(RIGHT_ANGLE * k / QUARTER);
+    const double reach = fmin(FAR, hk_limit_of_mode_in(system, method, by_lambda ? 1.0 : swing, decay));
+    hk_text_number(data, NULL, reach * (by_lambda ? -decay : swing));
+    hk_text_number(data, NULL, reach * (by_lambda ? swing : decay));
   }
   hk_text_close(data, ']');
 }
 
 void hk_limit_page_add_reach(struct hk_text *data, const hooke_system *system, const char *method) {
-  if (!isfinite(hk_limit_of_mode_in(system, method, 1.0, 0.5))) return;
-  hk_text_open(data, "reach", '[');
-  for (int k = 0; k <= QUARTER; k++) {
-    const double decay = sin(RIGHT_ANGLE * k / QUARTER), frequency = cos(RIGHT_ANGLE * k / QUARTER);
-    const double reach = fmin(FAR, hk_limit_of_mode_in(system, method, frequency, decay));
-    add_point(data, reach * frequency, reach * decay);
-  }
-  hk_text_close(data, ']');
+  if (isfinite(hk_limit_of_mode_in(system, method, 1.0, 0.5))) add_boundary(data, "reach", system, method, 0);
 }
 
 /* ---- rows ---- */
@@ -65,7 +54,7 @@ static void add_row(struct hk_text *data, const hooke_measurement *m, const stru
   add_unlimited(data, m, table, row);
   hk_limit_page_add_reach(data, m->system, method);
   if (isfinite(alone) && hooke_measurement_number(m, table->name, row, "by_eigenvalue") == 1.0)
-    add_region(data, m->system, method);
+    add_boundary(data, "region", m->system, method, 1);
   hk_text_close(data, '}');
 }
 
@@ -82,45 +71,29 @@ static void choose(struct hk_picture *p, const struct hk_limit *limit) {
 }
 
 /* At the analysed positions. */
-static void add_drawn(struct hk_text *data, struct hk_picture *p, const struct hk_limit *limit) {
-  hk_text_open(data, "picture", '{');
-  hk_text_number(data, "springs", (double)p->spring_count);
-  hk_text_number(data, "particles", (double)hooke_system_particle_count(p->system));
-  hk_picture_add_springs(data, p);
-  int64_t *list = hk_picture_list(p);
-  if (list) {
-    hk_picture_add_particles(data, p, list);
-    hk_picture_add_vectors(data, "position", limit->q, list, p->shown_count,
-                           hk_picture_scale(limit->q, list, p->shown_count));
-    hk_picture_add_vectors(data, "move", hk_limit_limiting_row(limit) ? limit->shape : NULL, list,
-                           p->shown_count, MOVE_SCALE);
-  } else {
-    data->status = HOOKE_NO_MEMORY;
-  }
-  hk_free(list);
-  hk_text_close(data, '}');
-}
-
-static void add_picture(struct hk_text *data, const struct hk_limit *limit) {
+static int32_t add_picture(struct hk_text *data, const struct hk_limit *limit) {
   struct hk_picture p;
   const int32_t status = hk_picture_create(limit->system, &p);
   if (status == HOOKE_OK) {
+    const double *move = hk_limit_limiting_row(limit) ? limit->shape : NULL;
     choose(&p, limit);
-    add_drawn(data, &p, limit);
+    hk_text_open(data, "picture", '{');
+    hk_picture_add(data, &p);
+    hk_picture_add_vectors(data, "position", limit->q, p.list, p.shown_count);
+    hk_picture_add_vectors(data, "move", move, p.list, p.shown_count);
+    hk_text_close(data, '}');
   }
-  if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
   hk_picture_release(&p);
+  return status;
 }
 
-void hk_limit_page_add(struct hk_text *data, const hooke_measurement *m) {
+int32_t hk_limit_page_add(struct hk_text *data, const hooke_measurement *m) {
   const struct hk_table *rows = hk_measurement_table(m->kind, "rows");
-  if (isnan(hooke_measurement_number(m, "limit", 0, "frequency_max"))) {
-    data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report before the limits were found");
-    return;
-  }
+  if (isnan(hooke_measurement_number(m, "limit", 0, "frequency_max")))
+    return hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report before the limits were found");
   hk_text_open(data, "rows", '[');
   for (int64_t row = 0; row < hk_measured_rows(m, rows); row++)
     add_row(data, m, rows, row);
   hk_text_close(data, ']');
-  add_picture(data, m->object);
+  return add_picture(data, m->object);
 }

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static const double POSITION_DIGITS = 6.0; /* relative to the extent */
+static const double DIGITS = 6.0; /* relative to the extent */
 
 int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture) {
   *picture = (struct hk_picture){.system = system};
@@ -13,7 +13,9 @@ int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture
   picture->drawn = hk_new(picture->spring_count, 1);
   picture->shut = hk_new(picture->spring_count, 1);
   picture->slot = hk_new(hooke_system_particle_count(system), sizeof *picture->slot);
-  if (!picture->ends || !picture->drawn || !picture->shut || !picture->slot) return HOOKE_NO_MEMORY;
+  picture->list = hk_new(hooke_system_particle_count(system), sizeof *picture->list);
+  if (!picture->ends || !picture->drawn || !picture->shut || !picture->slot || !picture->list)
+    return HOOKE_NO_MEMORY;
   return hooke_system_members(system, "springs", picture->ends, NULL, NULL, NULL);
 }
 
@@ -22,6 +24,7 @@ void hk_picture_release(struct hk_picture *picture) {
   hk_free(picture->drawn);
   hk_free(picture->shut);
   hk_free(picture->slot);
+  hk_free(picture->list);
 }
 
 void hk_picture_take(struct hk_picture *picture, int64_t spring) {
@@ -60,15 +63,20 @@ void hk_picture_show_evenly(struct hk_picture *picture) {
 }
 
 void hk_picture_show(struct hk_picture *picture, int64_t particle) {
-  if (picture->slot[particle] == 0) picture->slot[particle] = ++picture->shown_count;
+  if (picture->slot[particle] > 0) return;
+  picture->list[picture->shown_count] = particle;
+  picture->slot[particle] = ++picture->shown_count;
 }
 
-void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture) {
+static void add_springs(struct hk_text *data, struct hk_picture *picture) {
+  int64_t open = 0;
   hk_text_open(data, "spring", '[');
   for (int64_t k = 0; k < picture->spring_count; k++) {
+    open += !picture->shut[k];
     if (picture->drawn[k]) hk_text_number(data, NULL, (double)k);
   }
   hk_text_close(data, ']');
+  hk_text_number(data, "springs", (double)open);
   hk_text_open(data, "ends", '[');
   for (int64_t k = 0; k < 2 * picture->spring_count; k++) {
     if (!picture->drawn[k / 2]) continue;
@@ -78,24 +86,17 @@ void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture) {
   hk_text_close(data, ']');
 }
 
-int64_t *hk_picture_list(const struct hk_picture *picture) {
-  const int64_t all = hooke_system_particle_count(picture->system);
-  int64_t *list = hk_new(picture->shown_count, sizeof *list);
-  for (int64_t k = 0; k < all && list; k++) {
-    if (picture->slot[k] > 0) list[picture->slot[k] - 1] = k;
-  }
-  return list;
-}
-
-void hk_picture_add_particles(struct hk_text *data, const struct hk_picture *picture, const int64_t *list) {
+void hk_picture_add(struct hk_text *data, struct hk_picture *picture) {
   const double *weight = hooke_system_inverse_mass(picture->system);
+  add_springs(data, picture);
+  hk_text_number(data, "particles", (double)hooke_system_particle_count(picture->system));
   hk_text_open(data, "particle", '[');
   for (int64_t k = 0; k < picture->shown_count; k++)
-    hk_text_number(data, NULL, (double)list[k]);
+    hk_text_number(data, NULL, (double)picture->list[k]);
   hk_text_close(data, ']');
   hk_text_open(data, "held", '[');
   for (int64_t k = 0; k < picture->shown_count; k++)
-    hk_text_number(data, NULL, weight[list[k]] == 0.0);
+    hk_text_number(data, NULL, weight[picture->list[k]] == 0.0);
   hk_text_close(data, ']');
 }
 
@@ -105,23 +106,29 @@ static void add_rounded(struct hk_text *data, double value, double scale) {
   hk_text_number(data, NULL, isfinite(rounded) ? rounded + 0.0 : value);
 }
 
-void hk_picture_add_vectors(struct hk_text *data, const char *key, const double *vectors, const int64_t *list,
-                            int64_t count, double scale) {
-  hk_text_open(data, key, '[');
-  for (int64_t k = 0; k < 3 * count && vectors; k++)
-    add_rounded(data, vectors[3 * list[k / 3] + k % 3], scale);
-  hk_text_close(data, ']');
+static double at(const double *vectors, const int64_t *list, int64_t k, int64_t axis) {
+  return vectors[3 * (list ? list[k] : k) + axis];
 }
 
-double hk_picture_scale(const double *position, const int64_t *list, int64_t count) {
+double hk_picture_extent(const double *vectors, const int64_t *list, int64_t count) {
   double extent = 0.0;
   for (int axis = 0; axis < 3; axis++) {
     double low = INFINITY, high = -INFINITY;
     for (int64_t k = 0; k < count; k++) {
-      low = fmin(low, position[3 * list[k] + axis]);
-      high = fmax(high, position[3 * list[k] + axis]);
+      low = fmin(low, at(vectors, list, k, axis));
+      high = fmax(high, at(vectors, list, k, axis));
     }
     extent = fmax(extent, high - low);
   }
-  return extent > 0.0 ? pow(10.0, POSITION_DIGITS - ceil(log10(extent))) : INFINITY;
+  return extent;
+}
+
+void hk_picture_add_vectors(struct hk_text *data, const char *key, const double *vectors, const int64_t *list,
+                            int64_t count) {
+  const double extent = vectors ? hk_picture_extent(vectors, list, count) : 0.0;
+  const double scale = extent > 0.0 ? pow(10.0, DIGITS - ceil(log10(extent))) : INFINITY;
+  hk_text_open(data, key, '[');
+  for (int64_t k = 0; k < 3 * count && vectors; k++)
+    add_rounded(data, at(vectors, list, k / 3, k % 3), scale);
+  hk_text_close(data, ']');
 }

@@ -15,7 +15,8 @@ struct hk_picture {
   char *drawn;         /* of each spring */
   char *shut;          /* by spring, 1: excluded; the caller's to mark */
   int64_t shown_count; /* listed particles */
-  int64_t *slot;       /* by particle: its index among them, from 1; 0: none */
+  int64_t *list;       /* of each, its number */
+  int64_t *slot;       /* by particle: its index in this list, from 1; 0: none */
 };
 
 /* An empty picture. Must be released also on failure. HOOKE_NO_MEMORY. */
@@ -32,18 +33,15 @@ void hk_picture_show_evenly(struct hk_picture *picture);
 /* Lists a particle, whether any of its springs are drawn or not. */
 void hk_picture_show(struct hk_picture *picture, int64_t particle);
 
-/* "spring" and "ends": numbers of the springs drawn, and the indices of their ends. */
-void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture);
-/* The listed particles, in the order of their indices; the caller frees it. NULL: no memory. */
-int64_t *hk_picture_list(const struct hk_picture *picture);
-/* "particle" and "held": the number of each in that list, and whether it is pinned or driven. */
-void hk_picture_add_particles(struct hk_text *data, const struct hk_picture *picture, const int64_t *list);
-
-/* Vectors as rows of x y z under `key`, those at the indices of a list, rounded to multiples of 1/scale; none
- * if NULL. */
+/* Adds "springs" and "particles": the counts that there are, without springs that are excluded; "spring" and
+ * "ends": numbers of the springs drawn, and indices of their ends, which are listed; "particle" and "held":
+ * the number of each in the list, and whether it is pinned or driven. */
+void hk_picture_add(struct hk_text *data, struct hk_picture *picture);
+/* Vectors as rows of x y z under `key`, those at the indices of a list (NULL: as they are), rounded to six
+ * digits of their extent; none if NULL. */
 void hk_picture_add_vectors(struct hk_text *data, const char *key, const double *vectors, const int64_t *list,
-                            int64_t count, double scale);
-/* A scale that keeps six digits of the extent of positions; infinity: no rounding. */
-double hk_picture_scale(const double *position, const int64_t *list, int64_t count);
+                            int64_t count);
+/* The largest along an axis. */
+double hk_picture_extent(const double *vectors, const int64_t *list, int64_t count);
 
 #endif

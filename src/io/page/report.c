@@ -6,7 +6,6 @@
 #include "core/status.h"
 #include "io/page/form.h"
 #include "io/file/atomic_file.h"
-#include "io/file/data_folder.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -57,7 +56,7 @@ static const struct page {
   const char *kind;
   const char *more; /* a file of scripts that it shares with another; NULL: none */
   const char *own;  /* the table that it adds by itself; NULL: none */
-  void (*add)(struct hk_text *data, const hooke_measurement *measurement);
+  int32_t (*add)(struct hk_text *data, const hooke_measurement *measurement);
 } pages[] = {
     {"study", NULL, NULL, hk_study_page_add},
     {"limit", "mode.js", "rows", hk_limit_page_add},
@@ -65,71 +64,51 @@ static const struct page {
     {"why", "mode.js", NULL, hk_why_page_add},
 };
 
-#if HOOKE_HAVE_CHARTJS
+static const struct page *find(const hooke_measurement *m) {
+  for (size_t k = 0; k < sizeof pages / sizeof pages[0]; k++)
+    if (strcmp(pages[k].kind, m->kind->name) == 0) return &pages[k];
+  return NULL;
+}
 
-struct report {
-  const struct page *page;
-  const hooke_measurement *m;
-};
-
-static int32_t add_data(struct hk_text *page, const struct report *report) {
-  const hooke_measurement *m = report->m;
-  struct hk_text data = {.bytes = NULL};
-  hk_text_open(&data, NULL, '{');
-  hk_text_word(&data, "scene", m->label[HOOKE_LABEL_TITLE]);
-  if (m->label[HOOKE_LABEL_COMMAND]) hk_text_word(&data, "command", m->label[HOOKE_LABEL_COMMAND]);
-  hk_report_add_facts(&data);
-  hk_measurement_add_all(&data, m, report->page->own);
-  report->page->add(&data, m);
-  hk_text_close(&data, '}');
-  if (data.status == HOOKE_OK) hk_text_add(page, data.bytes, data.length);
-  const int32_t status = data.status != HOOKE_OK ? data.status : page->status;
-  hk_text_release(&data);
+static int32_t add_data(struct hk_text *data, const hooke_measurement *m) {
+  hk_text_open(data, NULL, '{');
+  hk_text_word(data, "scene", m->label[HOOKE_LABEL_TITLE]);
+  if (m->label[HOOKE_LABEL_COMMAND]) hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
+  hk_report_add_facts(data);
+  hk_measurement_add_all(data, m, find(m)->own);
+  const int32_t status = find(m)->add(data, m);
+  hk_text_close(data, '}');
   return status;
 }
 
 /* A file with the name of the kind, and `ending`. */
-static int32_t add_own(struct hk_text *page, const struct report *report, const char *ending) {
+static int32_t add_own(struct hk_text *page, const hooke_measurement *m, const char *ending) {
   char name[64];
-  snprintf(name, sizeof name, "%s%s", report->page->kind, ending);
+  snprintf(name, sizeof name, "%s%s", m->kind->name, ending);
   return hk_data_folder_read(name, page);
 }
 
-/* Fills {{name}} in the form: a part of the report, or a file that all reports share. */
+/* Fills {{name}} in the form. */
 static int32_t add_part(const char *name, struct hk_text *page, void *ctx) {
-  const struct report *report = ctx;
-  if (strcmp(name, "data") == 0) return add_data(page, report);
-  if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
-  if (strcmp(name, "more") == 0)
-    return report->page->more ? hk_data_folder_read(report->page->more, page) : HOOKE_OK;
-  if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
-  if (strcmp(name, "tables") == 0) return add_own(page, report, "_tables.js");
-  return hk_data_folder_read(name, page);
+  const hooke_measurement *m = ctx;
+  const char *more = find(m)->more;
+  if (strcmp(name, "data") == 0) return add_data(page, m);
+  if (strcmp(name, "body") == 0) return add_own(page, m, ".html");
+  if (strcmp(name, "diagrams") == 0) return add_own(page, m, ".js");
+  if (strcmp(name, "tables") == 0) return add_own(page, m, "_tables.js");
+  return more ? hk_data_folder_read(more, page) : HOOKE_OK;
 }
 
-static int32_t write(const struct page *found, const hooke_measurement *m, const char *path) {
+int32_t hk_measurement_write_page(const hooke_measurement *m, const char *path) {
   struct hk_text page = {.bytes = NULL};
-  struct report report = {found, m};
-  int32_t status = hk_form_fill("page.html", add_part, &report, &page);
+  if (find(m) == NULL)
+    return hk_fail(HOOKE_BAD_VALUE, "path", "%s: there is no page for a %s", path, m->kind->name);
+  if (!hooke_build_fact("chartjs")[0])
+    return hk_fail(HOOKE_NOT_BUILT, NULL,
+                   "reports need Chart.js (on Debian: apt-get install libjs-chart.js, then configure again), "
+                   "and this build of the library is without it");
+  int32_t status = hk_form_fill("page.html", add_part, (void *)(uintptr_t)m, &page);
   if (status == HOOKE_OK) status = hk_file_write(path, page.bytes, page.length);
   hk_text_release(&page);
   return status;
-}
-
-#else
-
-static int32_t write(const struct page *found, const hooke_measurement *m, const char *path) {
-  (void)found, (void)m, (void)path;
-  return hk_fail(
-      HOOKE_NOT_BUILT, NULL,
-      "reports need Chart.js (on Debian: apt-get install libjs-chart.js, then configure again), and "
-      "this build of the library is without it");
-}
-
-#endif
-
-int32_t hk_measurement_write_page(const hooke_measurement *m, const char *path) {
-  for (size_t k = 0; k < sizeof pages / sizeof pages[0]; k++)
-    if (strcmp(pages[k].kind, m->kind->name) == 0) return write(&pages[k], m, path);
-  return hk_fail(HOOKE_BAD_VALUE, "path", "%s: there is no page for a %s", path, m->kind->name);
 }

@@ -5,10 +5,10 @@
 #include "io/measurement/measurement_file.h"
 
 /* Members of the JSON object of a page, beside the tables of the measurement. */
-void hk_needs_page_add(struct hk_text *data, const hooke_measurement *measurement);
-void hk_study_page_add(struct hk_text *data, const hooke_measurement *measurement);
-void hk_limit_page_add(struct hk_text *data, const hooke_measurement *measurement);
-void hk_why_page_add(struct hk_text *data, const hooke_measurement *measurement);
+int32_t hk_needs_page_add(struct hk_text *data, const hooke_measurement *measurement);
+int32_t hk_study_page_add(struct hk_text *data, const hooke_measurement *measurement);
+int32_t hk_limit_page_add(struct hk_text *data, const hooke_measurement *measurement);
+int32_t hk_why_page_add(struct hk_text *data, const hooke_measurement *measurement);
 /* Adds "reach": the edge of what is stable by h times frequency and h times decay, as x, y in turn, where a
  * method has one. */
 void hk_limit_page_add_reach(struct hk_text *data, const hooke_system *system, const char *method);

@@ -42,7 +42,7 @@ static void add_curve(struct hk_text *text, const hooke_measurement *m, int64_t 
 
 /* ---- the page ---- */
 
-void hk_study_page_add(struct hk_text *data, const hooke_measurement *m) {
+int32_t hk_study_page_add(struct hk_text *data, const hooke_measurement *m) {
   add_times(data, m);
   hk_text_open(data, "curves", '[');
   for (int64_t row = 0; row < hooke_measurement_row_count(m, "rows"); row++) {
@@ -52,4 +52,5 @@ void hk_study_page_add(struct hk_text *data, const hooke_measurement *m) {
     hk_text_close(data, '}');
   }
   hk_text_close(data, ']');
+  return HOOKE_OK;
 }

@@ -4,7 +4,7 @@
 #include "core/table/option.h"
 #include "io/page/picture.h"
 #include "io/page/report.h"
-#include "io/page/view/view_bodies.h"
+#include "io/page/view/view.h"
 #include "measure/limit/limit.h"
 #include "measure/spectrum/mode_growth.h"
 #include "measure/why/why.h"
@@ -21,7 +21,6 @@ static const double ENERGY_WORK = 3e8, ADVISED_WORK = 2e9;
 static const double WIDEST = 1e5, GROWN = 1e4;
 /* Counted work at eigenvalues [s], of so many particles. */
 static const double LOOK_WORK = 3.0, MOST_LOOKED_AT = 2e4;
-static const double MOVE_SCALE = 1e4;
 
 struct frames {
   struct hk_text *data;
@@ -30,7 +29,6 @@ struct frames {
   double h, t0;
   int64_t last; /* step within all bounds */
   struct hk_picture picture;
-  int64_t *list;
   double extent; /* of the first frame */
   int64_t shown, after;
 
@@ -39,12 +37,8 @@ struct frames {
 
   hooke_measurement *limit;
   struct hk_budget budget;
-  /* 3n: NULL before a mode was found; positions and time then, and its growth in a step */
-  double *shape, *mode_q, mode_time, mode_growth;
-  int32_t is_above, looks;
-  struct {
-    double time, limit, frequency, decay, growth;
-  } look[LOOKS + 1];
+  struct hk_text limits, mode; /* JSON, beside the frames: limits along the way, and the mode to draw */
+  int32_t looks;
 };
 
 /* ---- energies ---- */
@@ -118,10 +112,12 @@ static int32_t begin_limits(struct frames *f, const hooke_options *run) {
   return status;
 }
 
-/* Frequency and damping of the mode that limits, and whether it is the one to draw: the first above the
- * limit. */
-static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
-                         int64_t step) {
+struct mode {
+  double frequency, decay, growth; /* growth: in a step */
+};
+
+static int32_t find_mode(const struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
+                         struct mode *found) {
   const struct hk_stability *stability = hk_method_stability_in(row->method, f->system);
   struct hk_growing g;
   struct hk_rigid rigid;
@@ -133,28 +129,28 @@ static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const s
   hk_rigid_release(&rigid);
   status = hk_growing_create(f->system, row->mode, NULL, &g);
   if (status != HOOKE_OK) return status;
-  const int inertial = !f->system->overdamped;
   const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0) + geometric);
-  const double frequency = inertial ? sqrt(stiffness) : 0.0;
-  const double decay = inertial ? 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0) : stiffness;
-  const double growth = inertial ? hk_mode_growth(stability, f->h, frequency, decay)
-                                 : hk_relaxation_growth(stability, f->h, stiffness);
+  *found = (struct mode){0.0, stiffness, hk_relaxation_growth(stability, f->h, stiffness)};
+  if (!f->system->overdamped) {
+    found->frequency = sqrt(stiffness);
+    found->decay = 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0);
+    found->growth = hk_mode_growth(stability, f->h, found->frequency, found->decay);
+  }
   hk_growing_release(&g);
-  f->look[f->looks].frequency = frequency;
-  f->look[f->looks].decay = decay;
-  f->look[f->looks].growth = growth;
-  const int above = row->predicted < f->h;
-  if (f->is_above || (!above && step != f->last)) return HOOKE_OK;
-  const size_t bytes = 3 * (size_t)hooke_system_particle_count(f->system) * sizeof(double);
-  if (f->shape == NULL) f->shape = hk_new(6 * hooke_system_particle_count(f->system), sizeof(double));
-  if (f->shape == NULL) return HOOKE_NO_MEMORY;
-  f->mode_q = f->shape + 3 * hooke_system_particle_count(f->system);
-  memcpy(f->shape, limit->shape, bytes);
-  memcpy(f->mode_q, limit->q, bytes);
-  f->mode_time = limit->time;
-  f->mode_growth = growth;
-  f->is_above = above;
   return HOOKE_OK;
+}
+
+static void add_listed(struct hk_text *data, const char *key, const double *vectors,
+                       const struct hk_picture *picture) {
+  hk_picture_add_vectors(data, key, vectors, picture->list, picture->shown_count);
+}
+
+/* The mode that grows, at the positions where it was found: the first above the limit, or else the last. */
+static void add_mode(struct frames *f, const struct hk_limit *limit, double growth) {
+  hk_text_number(&f->mode, "time", limit->time);
+  hk_text_number(&f->mode, "growth", growth);
+  add_listed(&f->mode, "position", limit->q, &f->picture);
+  add_listed(&f->mode, "move", limit->shape, &f->picture);
 }
 
 static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
@@ -167,61 +163,39 @@ static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
   if (status != HOOKE_OK)
     return status == HOOKE_NO_MEMORY ? status : HOOKE_OK; /* then it is not known there */
   const struct hk_limit_row *row = hk_limit_limiting_row(limit);
-  f->look[f->looks].time = hooke_state_time(state);
-  f->look[f->looks].limit = limit->row[0].predicted;
-  f->look[f->looks].frequency = f->look[f->looks].decay = f->look[f->looks].growth = NAN;
-  if (row) status = take_mode(f, limit, row, step);
+  struct mode mode = {NAN, NAN, NAN};
+  if (row) status = find_mode(f, limit, row, &mode);
+  if (status != HOOKE_OK) return status;
   f->looks++;
-  return status;
-}
-
-static void add_limits(const struct frames *f) {
-  hk_text_open(f->data, "limits", '[');
-  for (int32_t k = 0; k < f->looks; k++) {
-    hk_text_open(f->data, NULL, '{');
-    hk_text_number(f->data, "time", f->look[k].time);
-    if (isinf(f->look[k].limit))
-      hk_text_word(f->data, "limit", "none");
-    else
-      hk_text_number(f->data, "limit", f->look[k].limit);
-    hk_text_number(f->data, "frequency", f->look[k].frequency);
-    hk_text_number(f->data, "decay", f->look[k].decay);
-    hk_text_number(f->data, "growth", f->look[k].growth);
-    hk_text_close(f->data, '}');
-  }
-  hk_text_close(f->data, ']');
+  hk_text_open(&f->limits, NULL, '{');
+  hk_text_number(&f->limits, "time", hooke_state_time(state));
+  if (isinf(limit->row[0].predicted))
+    hk_text_word(&f->limits, "limit", "none");
+  else
+    hk_text_number(&f->limits, "limit", limit->row[0].predicted);
+  hk_text_number(&f->limits, "frequency", mode.frequency);
+  hk_text_number(&f->limits, "decay", mode.decay);
+  hk_text_number(&f->limits, "growth", mode.growth);
+  hk_text_close(&f->limits, '}');
+  if (row && f->mode.length == 0 && (row->predicted < f->h || step == f->last))
+    add_mode(f, limit, mode.growth);
+  return f->limits.status != HOOKE_OK ? f->limits.status : f->mode.status;
 }
 
 /* ---- frames ---- */
 
-static int32_t choose_springs(struct frames *f) {
+static int32_t add_picture(struct frames *f) {
   int32_t status = hk_picture_create(f->system, &f->picture);
-  for (int64_t k = 0; k < f->why->limiting.count && status == HOOKE_OK; k++) {
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < f->why->limiting.count; k++) {
     if (f->why->limiting.row[k].spring >= 0) hk_picture_take(&f->picture, f->why->limiting.row[k].spring);
   }
-  if (status != HOOKE_OK) return status;
-  const int32_t any = hk_picture_take_families(&f->picture, HOOKE_FILM_SPRINGS);
+  if (!hk_picture_take_families(&f->picture, HOOKE_FILM_SPRINGS)) hk_picture_show_evenly(&f->picture);
   hk_text_open(f->data, "picture", '{');
-  hk_text_number(f->data, "springs", (double)f->picture.spring_count);
-  hk_text_number(f->data, "particles", (double)hooke_system_particle_count(f->system));
-  hk_picture_add_springs(f->data, &f->picture);
+  hk_picture_add(f->data, &f->picture);
   hk_view_add_bodies(f->data, f->system);
-  if (!any) hk_picture_show_evenly(&f->picture);
-  f->list = hk_picture_list(&f->picture);
-  return f->list ? HOOKE_OK : HOOKE_NO_MEMORY;
-}
-
-static double extent_of(const struct frames *f, const double *q) {
-  double extent = 0.0;
-  for (int axis = 0; axis < 3; axis++) {
-    double low = INFINITY, high = -INFINITY;
-    for (int64_t k = 0; k < f->picture.shown_count; k++) {
-      low = fmin(low, q[3 * f->list[k] + axis]);
-      high = fmax(high, q[3 * f->list[k] + axis]);
-    }
-    extent = fmax(extent, high - low);
-  }
-  return extent;
+  hk_text_close(f->data, '}');
+  return HOOKE_OK;
 }
 
 static void add_frame(struct frames *f, const hooke_state *state) {
@@ -229,8 +203,7 @@ static void add_frame(struct frames *f, const hooke_state *state) {
   hk_text_open(f->data, NULL, '{');
   hk_text_number(f->data, "time", hooke_state_time(state));
   hk_text_number(f->data, "energy", energy_of(f->system, state));
-  hk_picture_add_vectors(f->data, "position", q, f->list, f->picture.shown_count,
-                         hk_picture_scale(q, f->list, f->picture.shown_count));
+  add_listed(f->data, "position", q, &f->picture);
   hk_text_close(f->data, '}');
 }
 
@@ -238,7 +211,8 @@ static void add_frame(struct frames *f, const hooke_state *state) {
 static int32_t see_frame(int64_t k, const hooke_state *state, void *ctx) {
   struct frames *f = ctx;
   const int64_t step = llround((hooke_state_time(state) - f->t0) / f->h);
-  const double extent = extent_of(f, hooke_state_position((hooke_state *)state));
+  const double extent =
+      hk_picture_extent(hooke_state_position((hooke_state *)state), f->picture.list, f->picture.shown_count);
   if (k == 0) f->extent = extent;
   f->after += step > f->last;
   if (f->after > LEAST_AFTER && f->extent > 0.0 && extent > WIDEST * f->extent) return 1;
@@ -296,18 +270,6 @@ static int32_t add_advised(struct frames *f, const hooke_options *run, const dou
 
 /* ---- all of it ---- */
 
-/* The mode that grows, at the positions where it was found. */
-static void add_mode(const struct frames *f) {
-  if (f->shape == NULL) return;
-  hk_text_open(f->data, "mode", '{');
-  hk_text_number(f->data, "time", f->mode_time);
-  hk_text_number(f->data, "growth", f->mode_growth);
-  hk_picture_add_vectors(f->data, "position", f->mode_q, f->list, f->picture.shown_count,
-                         hk_picture_scale(f->mode_q, f->list, f->picture.shown_count));
-  hk_picture_add_vectors(f->data, "move", f->shape, f->list, f->picture.shown_count, MOVE_SCALE);
-  hk_text_close(f->data, '}');
-}
-
 static int32_t add(struct frames *f, const hooke_options *run) {
   double time[BEFORE + AFTER + 1];
   int32_t status = find_energies(f, run);
@@ -319,52 +281,50 @@ static int32_t add(struct frames *f, const hooke_options *run) {
     time[k] = time_of(f, f->last + (k - before) * stride);
   hk_text_number(f->data, "stride", (double)stride);
   hk_text_number(f->data, "last", (double)before);
-  if (status == HOOKE_OK) status = choose_springs(f);
+  status = add_picture(f);
   if (status == HOOKE_OK) status = begin_limits(f, run);
   if (status != HOOKE_OK) return status;
-  hk_picture_add_particles(f->data, &f->picture, f->list);
-  hk_text_close(f->data, '}');
   hk_text_open(f->data, "frames", '[');
   status = hk_why_walk(f->system, &f->why->start, run, before + AFTER + 1, time, see_frame, f);
   hk_text_close(f->data, ']');
   if (status == HOOKE_OK) status = add_advised(f, run, time);
-  add_limits(f);
-  add_mode(f);
+  hk_text_open(f->data, "limits", '[');
+  if (f->limits.length > 0) hk_text_add(f->data, f->limits.bytes, f->limits.length);
+  hk_text_close(f->data, ']');
+  if (f->mode.length == 0) return status;
+  hk_text_open(f->data, "mode", '{');
+  hk_text_add(f->data, f->mode.bytes, f->mode.length);
+  hk_text_close(f->data, '}');
   return status;
 }
 
 /* Adds, where steps can be taken again, "energy" (of every step around the trouble), "picture" (springs, and
  * the mode that grows), "frames" (steps to play), "advised" (the same by the first advice with a fixed step)
  * and "limits" (of the method, along the way). */
-static void add_frames(struct hk_text *data, const struct hk_why *why, const hooke_options *run) {
+static int32_t add_frames(struct hk_text *data, const struct hk_why *why, const hooke_options *run) {
   struct frames *f = hk_new(1, sizeof *f);
-  if (f == NULL) {
-    data->status = HOOKE_NO_MEMORY;
-    return;
-  }
+  if (f == NULL) return HOOKE_NO_MEMORY;
   *f = (struct frames){
       .data = data, .why = why, .h = why->step, .t0 = why->start.standing.t0, .system = why->system};
   f->last = llround((why->time - f->t0) / f->h);
   const int32_t status = add(f, run);
-  if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
   hk_picture_release(&f->picture);
-  hk_free(f->list);
-  hk_free(f->shape);
+  hk_text_release(&f->limits);
+  hk_text_release(&f->mode);
   hooke_measurement_destroy(f->limit);
   hk_free(f);
+  return status;
 }
 
-void hk_why_page_add(struct hk_text *data, const hooke_measurement *m) {
+int32_t hk_why_page_add(struct hk_text *data, const hooke_measurement *m) {
   const struct hk_why *why = m->object;
-  if (why->cause == NULL) {
-    data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report: no explanation was found");
-    return;
-  }
+  if (why->cause == NULL)
+    return hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report: no explanation was found");
   hk_text_open(data, "rows", '[');
   hk_text_open(data, NULL, '{');
   hk_text_word(data, "method", why->method);
   hk_limit_page_add_reach(data, why->system, why->method);
   hk_text_close(data, '}');
   hk_text_close(data, ']');
-  if (why->start.state && !isnan(why->step)) add_frames(data, why, m->run);
+  return why->start.state && !isnan(why->step) ? add_frames(data, why, m->run) : HOOKE_OK;
 }

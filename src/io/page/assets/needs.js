@@ -15,6 +15,10 @@ const kindOf = (row) => (row.needed === null ? "unknown" : row.needed ? "needed"
   : "kept");
 const perStep = (cost) => (cost.steps > 0 ? 1e9 * cost.wall_seconds / cost.steps : null);
 
+/* All that was run: what is left out, its kind, its costs. */
+const runs = [["nothing (the full scene)", "full", full], ...data.rows.map((row) => [row.without, kindOf(row), row]),
+  ...(lean ? [["all that is left out (the lean scene)", "lean", lean], ["nothing, within what is wanted", "full", lean.full]] : [])];
+
 /* ---- bars ---- */
 
 /* A line across at a given value. */
@@ -125,11 +129,8 @@ function costAxis(title, values) {
 
 function drawCosts(key) {
   const [, title, of, text] = MEASURES[key];
-  const list = [["nothing (the full scene)", "full", full],
-    ...data.rows.filter((row) => row.wall_seconds !== null).map((row) => [row.without, kindOf(row), row]),
-    ...(lean ? [["all that is left out (the lean scene)", "lean", lean],
-      ["nothing, within what is wanted", "full", lean.full]] : [])];
-  const bars = list.map(([label, kind, cost]) => ({ label, kind, value: of(cost) === "none" ? null : of(cost),
+  const timed = runs.filter(([, , cost]) => cost === full || cost.wall_seconds !== null);
+  const bars = timed.map(([label, kind, cost]) => ({ label, kind, value: of(cost) === "none" ? null : of(cost),
     text: text(of(cost)), lines: [`${words(cost.wall_seconds)} s in ${whole(cost.steps)} steps`,
       `${whole(cost.springs)} springs, ${whole(cost.particles)} particles`] }));
   const values = bars.map((bar) => bar.value).filter((value) => value > 0);

@@ -23,15 +23,11 @@ function numberCell(row, what) {
 }
 
 function writeRows() {
-  const lines = [["nothing (the full scene)", FULL, full, ""],
-    ...data.rows.map((row) => [row.without, KINDS[kindOf(row)][1], row,
-      [KINDS[kindOf(row)][0], row.note].filter(Boolean).join("; ")]),
-    ...(lean ? [["all that is left out (the lean scene)", LEAN, lean, "within what is wanted"],
-      ["nothing, within what is wanted", FULL, lean.full, "within what is wanted"]] : [])];
-  const columns = COLUMNS.filter(([what]) => lines.some(([, , row]) => what === "per_step" || (row[what] ?? null) !== null));
-  writeTable("rows", lines, [["without", "", ([name, colour]) => swatched(name, colour), "word"],
+  const note = (kind, row) => (KINDS[kind] ? [KINDS[kind][0], row.note].filter(Boolean).join("; ") : row === full ? "" : "within what is wanted");
+  const columns = COLUMNS.filter(([what]) => runs.some(([, , row]) => what === "per_step" || (row[what] ?? null) !== null));
+  writeTable("rows", runs, [["without", "", ([name, kind]) => swatched(name, COST_KINDS[kind][1]), "word"],
     ...columns.map(([what, name, unit]) => [name, unit, ([, , row]) => numberCell(row, what)]),
-    ["", "", ([, , , says]) => says, "word note"]]);
+    ["", "", ([, kind, row]) => note(kind, row), "word note"]]);
 }
 
 function writeParts() {

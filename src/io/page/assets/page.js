@@ -211,15 +211,9 @@ function writeTable(id, rows, columns, classOf = () => "") {
   document.getElementById(id).append(head, body);
 }
 
+const FACTS = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",
+  chartjs: "Chart.js", threejs: "three.js" };
+
 function writeMachine() {
-  const { machine, versions } = data;
-  fact("machine", "processor", machine.processor);
-  fact("machine", "cores", whole(machine.cores));
-  fact("machine", "system", machine.system);
-  fact("machine", "instructions", versions.instructions);
-  fact("machine", "hooke", versions.hooke);
-  const names = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",
-    chartjs: "Chart.js" };
-  for (const [key, name] of Object.entries(names)) fact("machine", name, versions[key]);
-  fact("machine", "licence", versions.licence);
+  for (const [key, value] of Object.entries({ ...data.machine, ...data.versions })) fact("machine", FACTS[key] || key, value);
 }

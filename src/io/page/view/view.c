@@ -4,14 +4,12 @@
 #include "core/memory.h"
 #include "core/table/option.h"
 #include "core/status.h"
-#include "io/hdf5/array_h5.h"
-#include "io/page/base64.h"
 #include "io/trajectory/record.h"
-#include "io/file/data_folder.h"
+#include "io/page/form.h"
 #include "model/vector3.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <stdio.h>
 
 static const struct hk_option_row rows[] = {
     HOOKE_OPTION("frames", HOOKE_OPTION_WHOLE(2, 1e6), NULL,
@@ -35,11 +33,8 @@ static int32_t refuse(const struct hk_view *view, const char *what) {
 
 /* The springs of the file, with existing ends. */
 static int32_t read_ends(struct hk_view *view, double **ends) {
-  int64_t wide = 0;
-  int32_t status = hk_array_read(hk_record_path(view->record), "/connectivity/springs", 0, 0, ends,
-                                 &view->springs_there, &wide);
-  if (status == HOOKE_OK && view->springs_there > 0 && wide != 2)
-    status = refuse(view, "dataset /connectivity/springs has not two ends in a row");
+  view->springs_there = -1;
+  int32_t status = hk_view_read(view, "/connectivity/springs", -1, &view->springs_there, 2, ends);
   for (int64_t k = 0; k < 2 * view->springs_there && status == HOOKE_OK; k++) {
     if (!((*ends)[k] >= 0.0) || (*ends)[k] >= (double)view->particles_there)
       status = refuse(view, "dataset /connectivity/springs names a particle that is not there");
@@ -47,32 +42,22 @@ static int32_t read_ends(struct hk_view *view, double **ends) {
   return status;
 }
 
-static int32_t read_species(struct hk_view *view, double **species) {
-  int64_t wide = 0;
-  const int32_t status = hk_array_read(hk_record_path(view->record), "/particles/all/species", 0, 0, species,
-                                       &view->particles_there, &wide);
-  return status == HOOKE_OK && wide != 1 ? refuse(view, "dataset /particles/all/species is no column")
-                                         : status;
-}
-
-static int32_t read_columns(struct hk_view *view) {
-  static const char *const names[HOOKE_VIEW_ENERGIES] = {"/observables/kinetic_energy/value",
-                                                         "/observables/potential_energy/value",
-                                                         "/observables/total_energy/value"};
-  view->frames_there = hooke_record_count(view->record, "frames");
-  view->good_frames = hooke_record_count(view->record, "good_frames");
-  int32_t status = hk_view_read(view, "/particles/all/position/time", -1, view->frames_there, 1, &view->time);
-  for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++)
-    status = hk_view_read(view, names[k], -1, view->frames_there, 1, &view->energy[k]);
+static int32_t read_energies(struct hk_view *view) {
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++) {
+    char name[64];
+    snprintf(name, sizeof name, "/observables/%s_energy/value", hk_view_energy[k]);
+    status = hk_view_read(view, name, -1, &view->frames_there, 1, &view->energy[k]);
+  }
   return status;
 }
 
 /* Old files without rest lengths get those of their first frame. */
 static int32_t read_rest_lengths(struct hk_view *view, const double *ends) {
-  int32_t status = hk_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
+  int32_t status = hk_view_read(view, "/hooke/rest_length", -1, &view->springs_there, 1, &view->rest_length);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   double *q = NULL;
-  status = hk_view_read(view, "/particles/all/position/value", 0, view->particles_there, 3, &q);
+  status = hk_view_read(view, "/particles/all/position/value", 0, &view->particles_there, 3, &q);
   view->rest_length = hk_new(view->springs_there, sizeof(double));
   if (status == HOOKE_OK && view->rest_length == NULL) status = HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->springs_there && status == HOOKE_OK; k++) {
@@ -115,7 +100,7 @@ static int32_t choose_particles(struct hk_view *view, const double *ends, const 
     view->particle[view->particles++] = k;
   }
   for (int64_t k = 0; k < 2 * view->springs && status == HOOKE_OK; k++)
-    view->end[k] = slot[(int64_t)ends[2 * view->spring[k / 2] + k % 2]];
+    view->end[k] = slot[(int64_t)ends[2 * (k / 2) * view->spring_stride + k % 2]];
   hk_free(slot);
   hk_free(tied);
   return status;
@@ -125,24 +110,14 @@ static int32_t choose_springs(struct hk_view *view) {
   const int64_t most = (int64_t)hooke_options_number(view->options, "springs");
   view->spring_stride = stride_for(view->springs_there, most);
   view->springs = (view->springs_there + view->spring_stride - 1) / view->spring_stride;
-  view->spring = hk_new(view->springs, sizeof *view->spring);
   view->end = hk_new(2 * view->springs, sizeof *view->end);
-  if (!view->spring || !view->end) return HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < view->springs; k++)
-    view->spring[k] = k * view->spring_stride;
-  return HOOKE_OK;
+  return view->end ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 /* Size of the page without its frames, including words. */
 static int32_t measure_page(const struct hk_view *view, double *bytes) {
-  static const char *const parts[] = {"view.html",    "view.css",       "view.js",       "view_data.js",
-                                      "view_run.js",  "view_scene.js",  "view_chart.js", "view_over.js",
-                                      "view_pick.js", "view_save.js",   "surface.js",    "view_surface.js",
-                                      "three.js",     "three_orbit.js", "chart.js"};
   struct hk_text text = {.bytes = NULL};
-  int32_t status = HOOKE_OK;
-  for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)
-    status = hk_data_folder_read(parts[k], &text);
+  const int32_t status = hk_form_fill("view.html", NULL, NULL, &text);
   *bytes = (double)(text.length + hk_base64_length(16 * view->springs + view->particles)) + 20e3;
   hk_text_release(&text);
   return status;
@@ -183,9 +158,12 @@ static int32_t choose_frames(struct hk_view *view) {
 
 static int32_t choose(struct hk_view *view) {
   double *ends = NULL, *species = NULL;
-  int32_t status = read_species(view, &species);
+  view->particles_there = -1;
+  view->frames_there = hooke_record_count(view->record, "frames");
+  view->good_frames = hooke_record_count(view->record, "good_frames");
+  int32_t status = hk_view_read(view, "/particles/all/species", -1, &view->particles_there, 1, &species);
   if (status == HOOKE_OK) status = read_ends(view, &ends);
-  if (status == HOOKE_OK) status = read_columns(view);
+  if (status == HOOKE_OK) status = read_energies(view);
   if (status == HOOKE_OK) status = read_rest_lengths(view, ends);
   if (status == HOOKE_OK) status = choose_springs(view);
   if (status == HOOKE_OK) status = choose_particles(view, ends, species);
@@ -196,6 +174,36 @@ static int32_t choose(struct hk_view *view) {
 }
 
 /* ---- a view ---- */
+
+static double time_of(const struct hk_view *view, int64_t frame) {
+  const double time = view->record->time[frame];
+  return isfinite(time) ? time : (double)NAN;
+}
+
+HOOKE_READER(double, time_first, struct hk_view, time_of(it, 0))
+HOOKE_READER(double, time_last, struct hk_view, time_of(it, it->frame[it->frames - 1]))
+
+static const struct hk_table tables[] = {
+    {.name = "view",
+     .doc = "what the page shows of the trajectory",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(struct hk_view, bytes, COUNT, "", "length of the page, once it is written"),
+         HOOKE_COLUMN(struct hk_view, frames, COUNT, "", "frames shown"),
+         HOOKE_COLUMN(struct hk_view, frames_there, COUNT, "", "frames of the trajectory"),
+         HOOKE_COLUMN(struct hk_view, frame_stride, COUNT, "", "k, where every k-th frame is shown"),
+         HOOKE_COLUMN(struct hk_view, springs, COUNT, "", "springs shown"),
+         HOOKE_COLUMN(struct hk_view, springs_there, COUNT, "", "springs of the trajectory"),
+         HOOKE_COLUMN(struct hk_view, spring_stride, COUNT, "", "k, where every k-th spring is shown"),
+         HOOKE_COLUMN(struct hk_view, particles, COUNT, "", "particles shown"),
+         HOOKE_COLUMN(struct hk_view, particles_there, COUNT, "", "particles of the trajectory"),
+         HOOKE_COLUMN(struct hk_view, damaged, COUNT, "", "damaged frames, which are skipped"),
+         HOOKE_COLUMN_BY(time_first, NUMBER, "s", "time of the first frame"),
+         HOOKE_COLUMN_BY(time_last, NUMBER, "s", "time of the last frame shown"),
+         HOOKE_COLUMN(struct hk_view, strain, NUMBER, "", "strain at the ends of the scale of colours"),
+         HOOKE_COLUMN(struct hk_view, strain_low, NUMBER, "", "lowest strain"),
+         HOOKE_COLUMN(struct hk_view, strain_high, NUMBER, "", "highest strain"))},
+    {.name = NULL}};
 
 static int32_t check_built(void) {
   if (hooke_build_fact("threejs")[0] && hooke_build_fact("chartjs")[0]) return HOOKE_OK;
@@ -233,12 +241,11 @@ static void destroy(void *object) {
   struct hk_view *view = object;
   if (view == NULL) return;
   hk_free(view->rest_length);
-  hk_free(view->spring);
   hk_free(view->end);
   hk_free(view->particle);
   hk_free(view->mark);
   hk_free(view->frame);
-  hk_free(view->time);
+  hk_free(view->box);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     hk_free(view->energy[k]);
   hk_free(view);
@@ -257,7 +264,7 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
 const struct hk_measurement_kind hk_view_kind = {.name = "view",
                                                  .options = &view_options,
                                                  .made_by = "hooke_view_create()",
-                                                 .tables = hk_view_tables,
+                                                 .tables = tables,
                                                  .create = create,
                                                  .run = run,
                                                  .write = hk_view_write,

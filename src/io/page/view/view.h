@@ -1,10 +1,9 @@
 /* Contents of a page that plays a trajectory: springs, particles and frames, and the range of strains.
  *
  *   view.c           selection
- *   view_frames.c    a frame as bytes
- *   view_page.c      the page
- *   views.c          several pages as one
- *   view_tables.c    the numbers of a view */
+ *   view_frames.c    a frame as bytes, and as text
+ *   view_page.c      the page, and several as one
+ *   view_bodies.c    what its scene tells it */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
@@ -19,7 +18,11 @@ extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... 
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
 
 extern const struct hk_measurement_kind hk_view_kind;
-extern const struct hk_table hk_view_tables[]; /* one, of one row: the numbers of a view */
+
+/* Coordinates that map to 0 and 65535, for the three axes. */
+struct hk_view_box {
+  double low[3], high[3];
+};
 
 /* The object of a measurement of kind "view". */
 struct hk_view {
@@ -30,49 +33,58 @@ struct hk_view {
   double *rest_length; /* [springs of the file]; of the first frame if the file has none */
   int32_t by_first_frame;
   int64_t spring_stride, loose_stride, frame_stride;
-  int64_t springs, particles, frames;         /* number shown */
-  int64_t *spring;                            /* of each, its number */
-  int64_t *end;                               /* 2 springs: indices into `particle` */
-  int64_t *particle;                          /* of each, its number */
-  uint8_t *mark;                              /* of each, HOOKE_VIEW_... */
-  int64_t *frame;                             /* of each, its number: the last one is always among them */
-  int64_t damaged;                            /* frames that were to be shown and are not whole */
-  double *energy[HOOKE_VIEW_ENERGIES], *time; /* [frames there] */
-  double strain;                              /* the largest that has a colour of its own */
-  double strain_low, strain_high;             /* that were met */
-  double bytes;                               /* of the page, once it is written; NaN */
+  int64_t springs, particles, frames;  /* number shown */
+  int64_t *end;                        /* 2 springs: indices into `particle` */
+  int64_t *particle;                   /* of each, its number */
+  uint8_t *mark;                       /* of each, HOOKE_VIEW_... */
+  int64_t *frame;                      /* of each, its number: the last one is always among them */
+  struct hk_view_box *box;             /* of each, around its particles */
+  int64_t damaged;                     /* frames that were to be shown and are not whole */
+  double *energy[HOOKE_VIEW_ENERGIES]; /* [frames there] */
+  double strain;                       /* the largest that has a colour of its own */
+  double strain_low, strain_high;      /* that were met */
+  double bytes;                        /* of the page, once it is written; NaN */
   const hooke_measurement *beside[HOOKE_VIEW_MOST_BESIDE];
   int32_t beside_count;
 };
 
-/* A column of numbers, or `columns` of them, from the file; the caller frees it. */
-int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t rows,
+/* A column of numbers, or `columns` of them, from the file, with at least so many rows, or all that there are
+ * if that is negative, and then set; the caller frees it. */
+int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t *rows,
                      int64_t columns, double **values);
 
 /* ---- frames as bytes ---- */
-
-/* Coordinates that map to 0 and 65535, for the three axes. */
-struct hk_view_box {
-  double low[3], high[3];
-};
 
 int64_t hk_view_frame_bytes(const struct hk_view *view);
 
 uint32_t hk_view_float(double value); /* its bits as a float */
 
-/* Coordinates of the particles as 16-bit little-endian numbers, x y z in turn, then the elongation of each
- * spring [m] as the upper half of a float. */
-int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
+/* Numbers of the springs shown, picked from those of all, as floats in base64. */
+void hk_view_add_floats(struct hk_text *data, const char *key, const struct hk_view *view, const double *all);
 
-/* Finds `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none is
- * whole. */
+/* Of the frames shown, that of index `at`: coordinates of the particles as 16-bit little-endian numbers, x y
+ * z in turn, then the elongation of each spring [m] as the upper half of a float. */
+int32_t hk_view_pack(struct hk_view *view, int64_t at, uint8_t *bytes);
+
+/* Finds `box`, `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none
+ * is whole. */
 int32_t hk_view_find_strain(struct hk_view *view);
+
+/* Bytes as text (RFC 4648), and its length. */
+void hk_base64_add(struct hk_text *text, const uint8_t *bytes, int64_t count);
+int64_t hk_base64_length(int64_t bytes);
 
 /* ---- the page ---- */
 
-/* Adds it, with the label "title" as its heading; adds that of all beside one another; writes the one or the
- * other. */
-int32_t hk_view_add_page(const hooke_measurement *measurement, struct hk_text *text);
+/* Adds "bodies", what of a scene has a surface or is a line of particles: of each part kind, first particle,
+ * count, and "size" (particles along each axis) of a grid or "triangle" (corners, from the first particle on)
+ * of a mesh. Failures go to the text's status. */
+void hk_view_add_bodies(struct hk_text *data, const hooke_system *system);
+/* Adds "groups" of springs: name and count of each, and whether it only pulls; and "stiffness": that of the
+ * springs shown [N/m]. */
+void hk_view_add_springs(struct hk_text *data, const struct hk_view *view, const hooke_system *system);
+
+/* Writes it, with the label "title" as its heading, or that of all beside one another. */
 int32_t hk_view_write(const hooke_measurement *measurement, const char *path);
 
 #endif

@@ -1,7 +1,7 @@
-#include "io/page/view/view_bodies.h"
+/* Bodies and groups of springs of a scene, for pages. */
+#include "io/page/view/view.h"
 
 #include "core/memory.h"
-#include "io/page/base64.h"
 #include "model/force/force.h"
 #include "model/group.h"
 #include "model/part_record.h"
@@ -64,33 +64,23 @@ static void add_groups(struct hk_text *data, const hooke_system *system) {
 
 void hk_view_add_floats(struct hk_text *data, const char *key, const struct hk_view *view,
                         const double *all) {
-  struct hk_text text = {.bytes = NULL};
   uint8_t *bytes = hk_new(4 * view->springs, 1);
   for (int64_t k = 0; k < 4 * view->springs && bytes; k++)
-    bytes[k] = (uint8_t)(hk_view_float(all[view->spring[k / 4]]) >> 8 * (k % 4) & 255);
-  if (bytes) hk_base64_add(&text, bytes, 4 * view->springs);
-  hk_text_add(&text, "", 1); /* ends it */
-  if (bytes == NULL || text.status != HOOKE_OK)
-    data->status = HOOKE_NO_MEMORY;
-  else
-    hk_text_word(data, key, text.bytes);
-  hk_text_release(&text);
+    bytes[k] = (uint8_t)(hk_view_float(all[k / 4 * view->spring_stride]) >> 8 * (k % 4) & 255);
+  if (bytes == NULL) data->status = HOOKE_NO_MEMORY;
+  hk_text_open(data, key, '"');
+  hk_base64_add(data, bytes, bytes ? 4 * view->springs : 0);
+  hk_text_close(data, '"');
   hk_free(bytes);
 }
 
-static int32_t add_stiffness(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
+void hk_view_add_springs(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
+  add_groups(data, system);
+  if (hooke_system_count(system, "springs") != view->springs_there) return;
   double *stiffness = hk_new(view->springs_there, sizeof *stiffness);
   int32_t status = stiffness ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = hooke_system_members(system, "springs", NULL, stiffness, NULL, NULL);
   if (status == HOOKE_OK) hk_view_add_floats(data, "stiffness", view, stiffness);
-  hk_free(stiffness);
-  return status;
-}
-
-void hk_view_bodies_add(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
-  hk_view_add_bodies(data, system);
-  add_groups(data, system);
-  if (hooke_system_count(system, "springs") != view->springs_there) return;
-  const int32_t status = add_stiffness(data, view, system);
   if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
+  hk_free(stiffness);
 }

@@ -20,13 +20,16 @@ static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
 
-int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t count,
+int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t *rows,
                      int64_t columns, double **values) {
   int64_t there, wide;
   const char *path = hk_record_path(view->record);
   const int32_t status = hk_array_read(path, dataset, frame, frame >= 0, values, &there, &wide);
   if (status != HOOKE_OK) return status;
-  if ((count < 0 || there >= count) && wide == columns) return HOOKE_OK;
+  if (there >= *rows && (wide == columns || there == 0)) {
+    if (*rows < 0) *rows = there;
+    return HOOKE_OK;
+  }
   hk_free(*values);
   *values = NULL;
   return hk_fail(HOOKE_BAD_VALUE, NULL,
@@ -41,12 +44,12 @@ int64_t hk_view_frame_bytes(const struct hk_view *view) {
 static double elongation_of(const struct hk_view *view, const double *q, int64_t k) {
   const double *a = q + 3 * view->particle[view->end[2 * k]];
   const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
-  return hk_distance3(a, b) - view->rest_length[view->spring[k]];
+  return hk_distance3(a, b) - view->rest_length[k * view->spring_stride];
 }
 
 /* NaN if it has no rest length. */
 static double strain_of(const struct hk_view *view, const double *q, int64_t k) {
-  const double rest = view->rest_length[view->spring[k]];
+  const double rest = view->rest_length[k * view->spring_stride];
   return rest > 0.0 ? elongation_of(view, q, k) / rest : (double)NAN;
 }
 
@@ -101,15 +104,6 @@ static double largest_of_most(struct hk_view *view, const double *q, double *siz
   return quantile(sizes, count, SPRING_SHARE);
 }
 
-static double extent_of(const struct hk_view *view, const double *q) {
-  struct hk_view_box box;
-  double extent = 0.0;
-  find_box(view, q, &box);
-  for (int axis = 0; axis < 3; axis++)
-    extent = fmax(extent, box.high[axis] - box.low[axis]);
-  return extent;
-}
-
 static int blew_up(const struct hk_view *view) {
   const char *status = hooke_record_text(view->record, "status");
   return strcmp(status, "finished") != 0 && strcmp(status, "stopped") != 0 && strcmp(status, "running") != 0;
@@ -122,7 +116,12 @@ struct strains {
 };
 
 static void take_frame(struct hk_view *view, const double *q, int64_t k, int64_t frame, struct strains *s) {
-  const double most = largest_of_most(view, q, s->sizes), extent = extent_of(view, q);
+  const struct hk_view_box *box = &view->box[k];
+  const double most = largest_of_most(view, q, s->sizes);
+  double extent = 0.0;
+  find_box(view, q, &view->box[k]);
+  for (int axis = 0; axis < 3; axis++)
+    extent = fmax(extent, box->high[axis] - box->low[axis]);
   if (k == 0 && extent > 0.0 && blew_up(view)) s->widest = WIDENED * extent;
   if (k == 0 || (extent <= s->widest && frame < view->good_frames)) s->largest[s->count++] = most;
 }
@@ -132,7 +131,7 @@ static int32_t look_at_frames(struct hk_view *view, struct strains *s) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < view->frames && status == HOOKE_OK; k++) {
     double *q = NULL;
-    status = hk_view_read(view, position, view->frame[k], view->particles_there, 3, &q);
+    status = hk_view_read(view, position, view->frame[k], &view->particles_there, 3, &q);
     if (status == HOOKE_OK) {
       take_frame(view, q, whole, view->frame[k], s);
       view->frame[whole++] = view->frame[k];
@@ -153,7 +152,8 @@ int32_t hk_view_find_strain(struct hk_view *view) {
   struct strains s = {.widest = INFINITY};
   s.sizes = hk_new(LOOKED_AT + 1, sizeof *s.sizes);
   s.largest = hk_new(view->frames, sizeof *s.largest);
-  int32_t status = s.sizes && s.largest ? HOOKE_OK : HOOKE_NO_MEMORY;
+  view->box = hk_new(view->frames, sizeof *view->box);
+  int32_t status = s.sizes && s.largest && view->box ? HOOKE_OK : HOOKE_NO_MEMORY;
   view->strain_low = view->strain_high = NAN; /* which fmin() and fmax() pass over */
   if (status == HOOKE_OK) status = look_at_frames(view, &s);
   if (status == HOOKE_OK) {
@@ -196,15 +196,41 @@ static uint32_t upper_half(double value) {
   return isnan(value) ? word >> 16 : (word + 0x7fff + (word >> 16 & 1)) >> 16;
 }
 
-int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box) {
+int32_t hk_view_pack(struct hk_view *view, int64_t at, uint8_t *bytes) {
+  const struct hk_view_box *box = &view->box[at];
   double *q = NULL;
-  const int32_t status = hk_view_read(view, position, frame, view->particles_there, 3, &q);
+  const int32_t status = hk_view_read(view, position, view->frame[at], &view->particles_there, 3, &q);
   if (status != HOOKE_OK) return status;
-  find_box(view, q, box);
   for (int64_t k = 0; k < 3 * view->particles; k++)
     bytes = put(bytes, place_in(q[3 * view->particle[k / 3] + k % 3], box->low[k % 3], box->high[k % 3]));
   for (int64_t k = 0; k < view->springs; k++)
     bytes = put(bytes, upper_half(elongation_of(view, q, k)));
   hk_free(q);
   return HOOKE_OK;
+}
+
+/* ---- bytes as text ---- */
+
+enum { TRIPLES = 1024 }; /* at a time */
+
+static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+int64_t hk_base64_length(int64_t bytes) {
+  return (bytes + 2) / 3 * 4;
+}
+
+/* Three bytes are four digits; missing bytes give no digits. */
+void hk_base64_add(struct hk_text *text, const uint8_t *bytes, int64_t count) {
+  char piece[4 * TRIPLES];
+  for (int64_t at = 0; at < count;) {
+    int64_t length = 0;
+    for (; at < count && length < (int64_t)sizeof piece; at += 3) {
+      uint32_t word = 0;
+      for (int k = 0; k < 3; k++)
+        word = word << 8 | (at + k < count ? bytes[at + k] : 0);
+      for (int k = 0; k < 4; k++)
+        piece[length++] = at + k <= count ? digits[word >> (18 - 6 * k) & 63] : '=';
+    }
+    hk_text_add(text, piece, length);
+  }
 }

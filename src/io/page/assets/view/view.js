@@ -76,17 +76,7 @@ function writeLegend(palette) {
   if (data.strain_low < -data.strain) beyond.push(`least ${percent(data.strain_low)}`);
   if (data.strain_high > data.strain) beyond.push(`largest ${percent(data.strain_high)}`);
   at("beyond").textContent = beyond.join(", ");
-  const shapes = { [MARK.pinned]: ["pinned", "M0,0H11V11H0Z", "var(--ink)"],
-    [MARK.driven]: ["driven", "M5.5,-1L12,5.5L5.5,12L-1,5.5Z", isDark() ? "#ff8fd0" : "#d6409f"] };
-  at("marks").replaceChildren(...Object.entries(shapes).filter(([mark]) => marks.includes(Number(mark))).map(([, shape]) => {
-    const item = element("li"), space = "http://www.w3.org/2000/svg";
-    const svg = document.createElementNS(space, "svg"), path = document.createElementNS(space, "path");
-    path.setAttribute("d", shape[1]);
-    path.setAttribute("fill", shape[2]);
-    svg.append(path);
-    item.append(svg, shape[0]);
-    return item;
-  }));
+  for (const name of ["pinned", "driven"]) at(name).hidden = !marks.includes(MARK[name]);
 }
 
 /* ---- axes ---- */
@@ -314,15 +304,13 @@ function relook() {
   at("tint").disabled = runs.length > 1;
   at("scale").hidden = data.springs === 0 || !tinted;
   if (!picture) return;
-  picture.setLook(at("look").value || "springs", tinted);
+  picture.setLook(picture.hasBodies ? at("look").value : "springs", tinted);
   show(shown);
 }
 
 function writeLooks() {
   const bodies = picture && picture.hasBodies;
   at("look-label").hidden = !bodies;
-  if (bodies) at("look").append(...[["surface", "surfaces"], ["springs", "springs"], ["both", "both"]].map(([value, text]) =>
-    element("option", text, { value })));
   at("tint").checked = !bodies;
   at("look").onchange = at("tint").onchange = relook;
   at("save").onchange = () => {

@@ -84,9 +84,9 @@ function bytesOf(text) {
 
 /* ---- drawn objects ---- */
 
-function attribute(kind, size, length, normalised = false) {
-  return new THREE.BufferAttribute(new kind(length), size, normalised).setUsage(THREE.DynamicDrawUsage);
-}
+const attribute = (kind, size, length, normalised = false) =>
+  new THREE.BufferAttribute(new kind(length), size, normalised).setUsage(THREE.DynamicDrawUsage);
+const numbersTo = (count) => Uint32Array.from({ length: count }, (_, k) => k);
 
 /* Lines as pairs of vertices, or as four that the shader moves apart. */
 function makeLines(count, uniforms, tubes = false) {
@@ -108,7 +108,27 @@ function makeLines(count, uniforms, tubes = false) {
     side: THREE.DoubleSide });
   const lines = thick ? new THREE.Mesh(geometry, material) : new THREE.LineSegments(geometry, material);
   lines.frustumCulled = false;
-  return { lines, thick };
+  return lines;
+}
+
+/* Every `stride`-th line of those in `order`; `tintOf` a line and its end. */
+function fillLines({ geometry }, place, ends, order, stride, tintOf) {
+  const { position, other, strain } = geometry.attributes, half = other ? 2 : 1; // vertices at an end
+  let at = 0;
+  for (let n = 0; n < order.length; n += stride) {
+    for (let end = 2 * order[n]; end < 2 * order[n] + 2; end++) {
+      const a = 3 * ends[end], b = 3 * ends[end ^ 1], tint = tintOf(order[n], ends[end]);
+      for (const last = at + half; at < last; at++) {
+        for (let axis = 0; axis < 3; axis++) {
+          position.array[3 * at + axis] = place[a + axis];
+          if (other) other.array[3 * at + axis] = place[b + axis];
+        }
+        strain.array[at] = tint;
+      }
+    }
+  }
+  geometry.setDrawRange(0, other ? 1.5 * at : at);
+  for (const filled of [position, other, strain]) if (filled) filled.needsUpdate = true;
 }
 
 function makePoints(marks, uniforms, inBody) {
@@ -156,12 +176,11 @@ function frameNear(times, time) {
 class Run {
   constructor({ data, ends, marks, bytesOfFrame }, { centre, radius }) {
     Object.assign(this, { data, ends, marks, bytesOfFrame, centre, radius });
-    this.uniforms = { palette: { value: [] }, paper: { value: null }, plain: { value: null }, ink: { value: null },
-      driven: { value: null }, reach: { value: new THREE.Vector2() }, size: { value: new THREE.Vector2() }, width: { value: 1 },
-      scale: { value: 9 }, thickness: { value: 0 }, cloth: { value: null }, rope: { value: null }, tinted: { value: 0 },
-      tintedLines: { value: 1 }, night: { value: 0 }, opacity: { value: 1 } };
+    this.uniforms = Object.fromEntries(Object.entries({ palette: [], paper: null, plain: null, ink: null, driven: null, cloth: null, rope: null,
+      reach: new THREE.Vector2(), size: new THREE.Vector2(), width: 1, scale: 9, thickness: 0, tinted: 0, tintedLines: 1, night: 0, opacity: 1 })
+      .map(([name, value]) => [name, { value }]));
     const bodies = findBodies(data, marks.length);
-    Object.assign(this, bodies, makeLines(ends.length / 2, this.uniforms), makePoints(marks, this.uniforms, bodies.inBody));
+    Object.assign(this, bodies, { lines: makeLines(ends.length / 2, this.uniforms) }, makePoints(marks, this.uniforms, bodies.inBody));
     this.objects = [this.lines, this.points];
     this.place = new Float32Array(3 * marks.length);
     this.makeBodies();
@@ -173,7 +192,7 @@ class Run {
   makeBodies() {
     const { data, ends, marks, triangles, segments, inBody } = this;
     this.hasBodies = triangles.length + segments.length > 0;
-    this.all = Uint32Array.from({ length: ends.length / 2 }, (_, k) => k);
+    this.all = numbersTo(ends.length / 2);
     this.outside = this.all.filter((k) => !(inBody[ends[2 * k]] && inBody[ends[2 * k + 1]]));
     this.order = this.all;
     if (triangles.length) {
@@ -186,7 +205,7 @@ class Run {
       let sum = 0;
       for (let k = 0; k < segments.length; k += 2) sum += length(k);
       const thickness = { value: Math.min(0.02, (0.22 * sum) / (segments.length / 2)) };
-      this.tubes = makeLines(segments.length / 2, { ...this.uniforms, thickness }, true).lines;
+      this.tubes = makeLines(segments.length / 2, { ...this.uniforms, thickness }, true);
       this.objects.push(this.tubes);
     }
     this.degree = new Float32Array(marks.length);
@@ -200,7 +219,6 @@ class Run {
     if (this.tubes) this.tubes.visible = bodies;
     this.order = bodies && look === "surface" ? this.outside : this.all;
     this.uniforms.tinted.value = this.uniforms.tintedLines.value = tinted ? 1 : 0;
-    this.setDrawn();
   }
 
   /* Its colour among other runs, through which they are seen. */
@@ -264,28 +282,12 @@ class Run {
     }
   }
 
-  thin(stride) {
-    if (stride === this.stride) return;
-    this.stride = stride;
-    this.setDrawn();
-  }
-
-  setDrawn() {
-    this.lines.geometry.setDrawRange(0, (this.thick ? 6 : 2) * this.drawnSprings());
-  }
-
-  drawnSprings() {
-    return Math.ceil(this.order.length / this.stride);
-  }
-
   show(frame, unit) {
     const bytes = this.bytesOfFrame(frame), { place } = this;
     this.unit = unit;
     this.placeAll(bytes, this.data.box[frame], unit);
-    const attributes = this.lines.geometry.attributes, strain = bytes.subarray(2 * place.length);
-    if (this.thick) this.fillThick(attributes, strain);
-    else this.fillThin(attributes, strain);
-    for (const name of ["position", "other", "strain"]) if (attributes[name]) attributes[name].needsUpdate = true;
+    const strain = bytes.subarray(2 * place.length);
+    fillLines(this.lines, place, this.ends, this.order, this.stride, (k) => strain[k]);
     const points = this.points.geometry.attributes.position;
     if (this.surface && this.surface.visible) this.fillSurface(strain);
     if (this.tubes && this.tubes.visible) this.fillTubes(strain);
@@ -305,53 +307,17 @@ class Run {
   }
 
   fillSurface(values) {
-    const { position, normal, strain } = this.surface.geometry.attributes;
+    const { position, strain } = this.surface.geometry.attributes;
     position.array.set(this.place);
-    fillNormals(normal.array, this.place, this.triangles);
-    position.needsUpdate = normal.needsUpdate = true;
+    position.needsUpdate = true;
+    this.surface.geometry.computeVertexNormals();
     if (this.uniforms.tinted.value === 0) return;
     strain.array.set(this.meanStrains(values).map((value) => value / 255));
     strain.needsUpdate = true;
   }
 
   fillTubes(values) {
-    const { position, other, strain } = this.tubes.geometry.attributes, mean = this.meanStrains(values);
-    const at = (k) => this.place.subarray(3 * k, 3 * k + 3);
-    for (let k = 0; k < this.segments.length; k += 2) {
-      const [a, b] = [this.segments[k], this.segments[k + 1]];
-      for (const [corner, here, there] of [[0, a, b], [1, a, b], [2, b, a], [3, b, a]]) {
-        position.array.set(at(here), 6 * k + 3 * corner);
-        other.array.set(at(there), 6 * k + 3 * corner);
-        strain.array[2 * k + corner] = mean[here];
-      }
-    }
-    position.needsUpdate = other.needsUpdate = strain.needsUpdate = true;
-  }
-
-  fillThin({ position, strain }, values) {
-    const { place, ends, stride, order } = this, to = position.array, tint = strain.array;
-    for (let n = 0, at = 0; n < order.length; n += stride, at += 6) {
-      const k = 2 * order[n], a = 3 * ends[k], b = 3 * ends[k + 1];
-      to[at] = place[a];
-      to[at + 1] = place[a + 1];
-      to[at + 2] = place[a + 2];
-      to[at + 3] = place[b];
-      to[at + 4] = place[b + 1];
-      to[at + 5] = place[b + 2];
-      tint[at / 3] = tint[at / 3 + 1] = values[k >> 1];
-    }
-  }
-
-  fillThick({ position, other, strain }, values) {
-    const { place, ends, stride, order } = this, here = position.array, there = other.array;
-    for (let n = 0, at = 0; n < order.length; n += stride, at += 12) {
-      const k = 2 * order[n];
-      for (let axis = 0; axis < 3; axis++) {
-        const a = place[3 * ends[k] + axis], b = place[3 * ends[k + 1] + axis], to = at + axis;
-        here[to] = here[to + 3] = there[to + 6] = there[to + 9] = a;
-        here[to + 6] = here[to + 9] = there[to] = there[to + 3] = b;
-      }
-      strain.array.fill(values[k >> 1], at / 3, at / 3 + 4);
-    }
+    const mean = this.meanStrains(values);
+    fillLines(this.tubes, this.place, this.segments, numbersTo(this.segments.length / 2), 1, (_, end) => mean[end]);
   }
 }

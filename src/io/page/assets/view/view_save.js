@@ -86,18 +86,15 @@ function colourBytes(values) {
 function modelOf() {
   const buffer = new Buffer(), { place, ends, unit: { radius, centre, target = [0, 0, 0] }, triangles } = picture, meshes = [];
   const position = place.map((value, k) => (value - target[k % 3]) * radius);
-  const strain = colourBytes(picture.meanStrains(picture.bytesOfFrame(shown).subarray(2 * place.length)));
+  const strains = picture.bytesOfFrame(shown).subarray(2 * place.length), strain = colourBytes(picture.meanStrains(strains));
   const corners = { POSITION: buffer.add(position, "VEC3", 3, PLAIN, true), COLOR_0: buffer.add(strain, "VEC3", 3, PLAIN) };
   if (ends.length) meshes.push({ name: "springs", primitives: [{ attributes: corners, mode: 1,
     indices: buffer.add(Uint32Array.from(ends), "SCALAR", 1, INDEX), material: 0 }] });
   else meshes.push({ name: "particles", primitives: [{ attributes: corners, mode: 0, material: 0 }] });
   if (triangles.length) {
-    const sum = new Float32Array(place.length), normal = new Float32Array(place.length);
-    fillNormals(sum, place, triangles);
-    for (let k = 0; k < sum.length; k += 3) {
-      const length = Math.hypot(sum[k], sum[k + 1], sum[k + 2]);
-      normal.set(length > 0 ? [sum[k] / length, sum[k + 1] / length, sum[k + 2] / length] : [0, 0, 1], k);
-    }
+    picture.fillSurface(strains);
+    const normal = picture.surface.geometry.attributes.normal.array.slice();
+    for (let k = 0; k < normal.length; k += 3) if (!normal[k] && !normal[k + 1] && !normal[k + 2]) normal[k + 2] = 1;
     meshes.push({ name: "surface", primitives: [{ attributes: { ...corners, NORMAL: buffer.add(normal, "VEC3", 3, PLAIN) },
       indices: buffer.add(triangles, "SCALAR", 1, INDEX), mode: 4, material: 1 }] });
   }

@@ -57,7 +57,7 @@ class Picture extends Run {
   /* What is flat is looked at from its front, all else from a corner and above. */
   directionOf(box, frames) {
     const extent = [0, 1, 2].map((axis) => box[axis + 3] - box[axis]);
-    const [side, front] = [[1, 2], [2, 0], [0, 1]][this.up].map((axis, k, both) => (this.up === 1 ? both[1 - k] : axis));
+    const [side, front] = [[1, 2], [0, 2], [0, 1]][this.up];
     const towards = new THREE.Vector3();
     const thin = [front, side].find((axis) => extent[axis] <= 0.02 * this.radius);
     if (thin !== undefined) return towards.setComponent(thin, thin === front || this.up !== 1 ? 1 : -1);
@@ -171,8 +171,7 @@ class Picture extends Run {
   }
 
   thin(stride) {
-    super.thin(stride);
-    for (const run of this.others) run.thin(stride);
+    for (const run of this.runs) run.stride = stride;
   }
 
   /* Where a box is drawn. One much wider than what was seen, as after a blow-up, is made smaller, until all of it is seen. */
@@ -194,7 +193,7 @@ class Picture extends Run {
   draw() {
     this.resize();
     const distance = this.camera.position.distanceTo(this.controls.target);
-    const deep = Math.max(...[0, 1, 2].map((axis) => this.home[axis + 3] - this.home[axis])) / this.radius;
+    const deep = widthOf(this.home) / this.radius;
     for (const run of this.runs) run.uniforms.reach.value.set(distance - 0.25 * deep, distance + 1.6 * deep);
     this.renderer.render(this.scene, this.camera);
   }

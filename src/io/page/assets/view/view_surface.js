@@ -37,19 +37,3 @@ function makeSurface(triangles, count, uniforms, shade) {
   surface.frustumCulled = false;
   return surface;
 }
-
-/* Normals of particles: the sum of those of their triangles, each as long as twice its area. */
-function fillNormals(normal, place, triangles) {
-  normal.fill(0);
-  for (let k = 0; k < triangles.length; k += 3) {
-    const a = 3 * triangles[k], b = 3 * triangles[k + 1], c = 3 * triangles[k + 2];
-    const ux = place[b] - place[a], uy = place[b + 1] - place[a + 1], uz = place[b + 2] - place[a + 2];
-    const vx = place[c] - place[a], vy = place[c + 1] - place[a + 1], vz = place[c + 2] - place[a + 2];
-    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    for (const corner of [a, b, c]) {
-      normal[corner] += x;
-      normal[corner + 1] += y;
-      normal[corner + 2] += z;
-    }
-  }
-}
