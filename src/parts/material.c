@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force/bending.h"
 
 #include <float.h>
 #include <math.h>
@@ -21,8 +20,8 @@ int32_t hk_part_is_given(const struct hk_part *part, const char *family, const c
   return hooke_options_is_set(part->options, dotted);
 }
 
-static int32_t derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
-                      double value) {
+int32_t hk_part_derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
+                       double value) {
   return hk_system_add_derived(part->system, part->name, family, name, unit, value);
 }
 
@@ -49,22 +48,18 @@ int32_t hk_part_check_masses(const struct hk_part *part) {
                  both ? "mass and density are both given" : "neither mass nor density is given");
 }
 
-static int is_edge(int64_t k, int64_t count) {
-  return k == 0 || k == count - 1;
-}
-
-/* The kinds of particles, by the number of edges that they are on. */
-static int32_t derive_masses(const struct hk_part *part, int64_t rows, int64_t columns) {
-  const int64_t within = columns - 2, down = rows - 2;
-  const int rope = rows == 1;
-  int32_t status = HOOKE_OK;
-  if (within > 0 && (rope || down > 0))
-    status = derive(part, NULL, "mass of an inner particle", "kg", part->inner_mass);
-  if (status == HOOKE_OK && rope) status = derive(part, NULL, "mass of an end", "kg", 0.5 * part->inner_mass);
-  if (status == HOOKE_OK && !rope && (within > 0 || down > 0))
-    status = derive(part, NULL, "mass of an edge particle", "kg", 0.5 * part->inner_mass);
-  if (status == HOOKE_OK && !rope)
-    status = derive(part, NULL, "mass of a corner", "kg", 0.25 * part->inner_mass);
+/* The kinds of particles, by the number of axes at one of whose ends they are. */
+static int32_t derive_masses(const struct hk_part *part, int32_t axes, const int64_t size[3]) {
+  static const char inner[] = "mass of an inner particle", corner[] = "mass of a corner";
+  static const char *const name[][4] = {
+      {inner, "mass of an end"},
+      {inner, "mass of an edge particle", corner},
+      {inner, "mass of a particle on a face", "mass of a particle on an edge", corner}};
+  int32_t outside = axes, status = HOOKE_OK;
+  for (int32_t a = 0; a < axes; a++)
+    outside -= size[a] > 2;
+  for (; outside <= axes && status == HOOKE_OK; outside++)
+    status = hk_part_derive(part, NULL, name[axes - 1][outside], "kg", ldexp(part->inner_mass, -outside));
   return status;
 }
 
@@ -72,32 +67,38 @@ double hk_part_total_mass(const struct hk_part *part) {
   return hooke_options_is_set(part->options, "mass") ? hooke_options_number(part->options, "mass") : 0.0;
 }
 
-int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, double piece, int64_t *mass_count,
-                       double **mass) {
+static void share_mass(double inner, int32_t axes, const int64_t size[3], int64_t count, double *mass) {
+  for (int64_t k = 0, at[3]; k < count; k++) {
+    int outside = 0;
+    hk_part_point(size, k, size, at);
+    for (int32_t a = 0; a < axes; a++)
+      outside += at[a] % (size[a] - 1) == 0;
+    mass[k] = ldexp(inner, -outside);
+  }
+}
+
+int32_t hk_part_masses(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
+                       int64_t *mass_count, double **mass) {
+  static const char *const unit[] = {"", "m", "m^2", "m^3"};
   const int32_t status = hk_part_check_masses(part);
   if (status != HOOKE_OK) return status;
   const int by_density = hooke_options_is_set(part->options, "density");
-  *mass_count = by_density ? rows * columns : 1;
+  *mass_count = by_density ? part->count : 1;
   *mass = hk_new(*mass_count, sizeof(double));
   if (*mass == NULL) return HOOKE_NO_MEMORY;
   if (!by_density) {
     part->inner_mass = **mass = hk_part_total_mass(part) / (double)part->count;
     return HOOKE_OK;
   }
-  const double inner = part->inner_mass = hooke_options_number(part->options, "density") * piece;
-  if (!isfinite(inner) || !isfinite(1.0 / (0.25 * inner))) {
+  part->inner_mass = hooke_options_number(part->options, "density") * piece;
+  if (!isfinite(part->inner_mass) || !isfinite(1.0 / ldexp(part->inner_mass, axes == 3 ? -3 : -2)))
     return hk_fail(HOOKE_BAD_VALUE, "density",
-                   "an inner particle stands for %g m%s and would have a mass of %g kg; allowed: finite and "
-                   "> 0, so let the ends and edges of the part lie apart",
-                   piece, rows == 1 ? "" : "^2", inner);
-  }
-  for (int64_t r = 0; r < rows; r++) {
-    for (int64_t c = 0; c < columns; c++) {
-      const double down = rows > 1 && is_edge(r, rows) ? 0.5 : 1.0;
-      (*mass)[r * columns + c] = (is_edge(c, columns) ? 0.5 : 1.0) * down * inner;
-    }
-  }
-  return derive_masses(part, rows, columns);
+                   "an inner particle stands for %g %s and would have a mass of %g kg; allowed: finite and "
+                   "> 0, so let the %s",
+                   piece, unit[axes], part->inner_mass,
+                   axes == 3 ? "edges of the part span a volume" : "ends and edges of the part lie apart");
+  share_mass(part->inner_mass, axes, size, part->count, *mass);
+  return derive_masses(part, axes, size);
 }
 
 /* ---- damping ---- */
@@ -137,93 +138,14 @@ int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, i
   static const char *const kappa[] = {DIRECTIONS("kappa")}, *const gamma[] = {DIRECTIONS("gamma")};
   const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
   int32_t status = HOOKE_OK;
-  for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK; s++) {
-    const int64_t springs = strip[s].rows * strip[s].columns;
-    const int told = s > 0 && strip[s].direction == strip[s - 1].direction; /* layers of a lattice */
-    if (springs == 0) continue;
-    if (!told)
-      status = derive(part, family, kappa[strip[s].direction], "N/m", group->number[HOOKE_KAPPA][first]);
-    if (!told && status == HOOKE_OK)
-      status = derive(part, family, gamma[strip[s].direction], "N s/m", group->number[HOOKE_GAMMA][first]);
-    first += springs;
+  for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK;
+       first += hk_part_springs(&strip[s++])) {
+    const int32_t along = strip[s].direction;
+    if (hk_part_springs(&strip[s]) == 0) continue;
+    status = hk_part_derive(part, family, kappa[along], "N/m", group->number[HOOKE_KAPPA][first]);
+    if (status == HOOKE_OK)
+      status = hk_part_derive(part, family, gamma[along], "N s/m", group->number[HOOKE_GAMMA][first]);
   }
-  return status;
-}
-
-/* ---- bending ---- */
-
-static int64_t triples_of(const struct hk_part_beams *beams) {
-  return beams->rows > 0 && beams->columns > 0 ? beams->rows * beams->columns : 0;
-}
-
-static void join(const struct hk_part *part, int64_t stride, const struct hk_part_beams *beams,
-                 int64_t *triple, double *coefficient) {
-  for (int64_t r = 0; r < beams->rows; r++) {
-    for (int64_t c = 0; c < beams->columns; c++) {
-      const int64_t at = part->first + r * stride + c;
-      for (int e = 0; e < 3; e++)
-        *triple++ = at + e * beams->step;
-      const int edge = beams->side_by_side == HOOKE_BEAMS_ROWS      ? is_edge(r, beams->rows)
-                       : beams->side_by_side == HOOKE_BEAMS_COLUMNS ? is_edge(c, beams->columns)
-                                                                    : 0;
-      *coefficient++ = edge ? 0.5 * beams->coefficient : beams->coefficient;
-    }
-  }
-}
-
-static int32_t derive_beams(const struct hk_part *part, const struct hk_part_beams *beams) {
-  static const char *const inner[] = {"c", "c along u", "c along v"};
-  static const char *const edge[] = {NULL, "c along u at an edge", "c along v at an edge"};
-  const int64_t lines = beams->side_by_side == HOOKE_BEAMS_ROWS ? beams->rows : beams->columns;
-  int32_t status = HOOKE_OK;
-  if (beams->side_by_side == HOOKE_BEAMS_ALONE || lines > 2)
-    status = derive(part, "bending", inner[beams->direction], "N/m", beams->coefficient);
-  if (status == HOOKE_OK && beams->side_by_side != HOOKE_BEAMS_ALONE)
-    status = derive(part, "bending", edge[beams->direction], "N/m", 0.5 * beams->coefficient);
-  return status;
-}
-
-static int32_t check_beams(const struct hk_part_beams *beams) {
-  if (beams->coefficient > 0.0 && beams->coefficient <= 1e300) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, "bending",
-                 "its triples would have a coefficient of %g N/m; allowed: > 0 up to 1e300, so let the "
-                 "ends and edges of the part lie apart",
-                 beams->coefficient);
-}
-
-static int32_t add_triples(const struct hk_part *part, int64_t stride, int32_t count,
-                           const struct hk_part_beams *beams, int64_t *triple, double *coefficient) {
-  int64_t done = 0;
-  int32_t status = HOOKE_OK;
-  for (int32_t k = 0; k < count && status == HOOKE_OK; k++) {
-    if (triples_of(&beams[k]) == 0) continue;
-    status = check_beams(&beams[k]);
-    if (status == HOOKE_OK) status = derive_beams(part, &beams[k]);
-    join(part, stride, &beams[k], triple + 3 * done, coefficient + done);
-    done += triples_of(&beams[k]);
-  }
-  char *name = hk_part_group_name(part, "bending");
-  if (name == NULL) return HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK)
-    status = hk_system_add_bending(part->system,
-                                   &(struct hk_addition){&hk_force_bending, name, done, triple, NULL, 1},
-                                   done, coefficient);
-  hk_free(name);
-  return status;
-}
-
-int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
-                            const struct hk_part_beams *beams) {
-  int64_t triples = 0;
-  for (int32_t k = 0; k < count; k++)
-    triples += triples_of(&beams[k]);
-  if (hooke_options_number(part->options, "bending") == 0.0 || triples == 0) return HOOKE_OK;
-  int64_t *triple = hk_new(3 * triples, sizeof(int64_t));
-  double *coefficient = hk_new(triples, sizeof(double));
-  int32_t status = HOOKE_NO_MEMORY;
-  if (triple && coefficient) status = add_triples(part, stride, count, beams, triple, coefficient);
-  hk_free(triple);
-  hk_free(coefficient);
   return status;
 }
 

@@ -9,12 +9,15 @@
 double hk_part_material(const struct hk_part *part, const char *family, const char *key);
 int32_t hk_part_is_given(const struct hk_part *part, const char *family, const char *key);
 
-/* Computes one mass, or `count`, for the `rows` x `columns` particles: an equal fraction of the option
- * `mass`, or the option `density` times the piece that each represents: `piece` [m or m^2], half of it at an
- * edge, a quarter at a corner; a rope (one row) has no edges but its ends. Sets the part's inner mass. The
- * caller frees `mass`. */
-int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, double piece, int64_t *mass_count,
-                       double **mass);
+/* Computes one mass, or that of each particle of a grid of `size`: an equal fraction of the option `mass`, or
+ * the option `density` times the piece that each represents: `piece` [m, m^2 or m^3, by the number of axes],
+ * halved for each axis at one of whose ends it is. Sets the part's inner mass. The caller frees `mass`. */
+int32_t hk_part_masses(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
+                       int64_t *mass_count, double **mass);
+
+/* Adds a number that follows from the part's options to the list that the system shows. */
+int32_t hk_part_derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
+                       double value);
 
 /* HOOKE_BAD_VALUE unless one of the options `mass` and `density` is given or, in an overdamped system,
  * none. */

@@ -6,9 +6,9 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "model/system.h"
+#include "model/vector3.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -61,38 +61,38 @@ const struct hk_option_table *hk_part_table(int64_t k) {
 
 static int32_t cells(const hooke_options *options, int64_t cells[3]) {
   const int32_t axes = (int32_t)hooke_options_number_count(options, "size");
+  if (axes == 0) cells[0] = (int64_t)hooke_options_number(options, "segments");
   for (int32_t a = 0; a < axes; a++)
     cells[a] = (int64_t)hooke_options_numbers(options, "size")[a] - 1;
-  return axes;
+  return axes > 0 ? axes : 1;
 }
 
-static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
+int32_t hk_part_set_cells(hooke_options *options, const int64_t cells[3]) {
   const int64_t axes = hooke_options_number_count(options, "size");
   double size[3];
+  if (axes == 0) return hooke_options_set_number(options, "segments", (double)cells[0]);
   for (int64_t a = 0; a < axes; a++)
     size[a] = (double)cells[a] + 1.0;
   return hooke_options_set_numbers(options, "size", axes, size);
 }
 
-const struct hk_part_grid hk_part_sized = {cells, set_cells};
+const struct hk_part_grid hk_part_sized = {cells, hk_part_set_cells};
 
-double hk_part_length(const double *vector) {
-  return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
+int64_t hk_part_named_end(const struct hk_part *part, const char *word, int64_t k) {
+  if (k > 0) return -1;
+  return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
 
 int32_t hk_part_check_edges(const double *edges, int32_t count) {
-  double unit[3][3] = {{0.0}}, normal[3], out = 0.0;
+  double unit[3][3] = {{0.0}}, normal[3];
   for (int e = 0; e < count; e++) {
-    const double length = hk_part_length(edges + 3 * e);
+    const double length = hk_length3(edges + 3 * e);
     if (!(length > 0.0 && isfinite(length))) return HOOKE_OK; /* left to the rest lengths */
     for (int i = 0; i < 3; i++)
       unit[e][i] = edges[3 * e + i] / length;
   }
-  for (int i = 0; i < 3; i++) {
-    normal[i] = unit[0][(i + 1) % 3] * unit[1][(i + 2) % 3] - unit[0][(i + 2) % 3] * unit[1][(i + 1) % 3];
-    out += normal[i] * unit[2][i];
-  }
-  if ((count == 3 ? fabs(out) : hk_part_length(normal)) > FLAT) return HOOKE_OK;
+  hk_cross3(unit[0], unit[1], normal);
+  if ((count == 3 ? fabs(hk_dot3(normal, unit[2])) : hk_length3(normal)) > FLAT) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, "edges", "the edges span no %s; allowed: vectors in different directions",
                  count == 3 ? "volume" : "area");
 }
@@ -101,14 +101,8 @@ double hk_part_if_family(const struct hk_part *part, const char *family, double 
   return hk_options_has_family(part->options, family) ? count : 0.0;
 }
 
-int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double **position,
-                              const char *format, ...) {
-  char what[128];
-  va_list args;
-  va_start(args, format);
-  hk_print_list(what, sizeof what, format, args);
-  va_end(args);
-
+int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, const char *what,
+                              double **position) {
   *position = NULL;
   const int32_t status = hk_system_check_size(part->system, more, what);
   if (status != HOOKE_OK) return status;
@@ -117,11 +111,11 @@ int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double 
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t columns, double piece,
+int32_t hk_part_add_particles(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
                               const double *position) {
   int64_t mass_count = 0;
   double *mass = NULL;
-  int32_t status = hk_part_masses(part, rows, columns, piece, &mass_count, &mass);
+  int32_t status = hk_part_masses(part, axes, size, piece, &mass_count, &mass);
   if (status == HOOKE_OK) {
     status =
         hooke_system_add_particles(part->system, part->count, position, NULL, mass_count, mass, &part->first);
@@ -130,16 +124,14 @@ int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t column
   return status;
 }
 
-static void join(const struct hk_part *part, int64_t stride, int32_t strip_count,
+static void join(const struct hk_part *part, const int64_t size[3], int32_t strip_count,
                  const struct hk_part_strip *strip, int64_t *ends, double *rest_length) {
-  for (int32_t s = 0; s < strip_count; s++) {
-    for (int64_t r = 0; r < strip[s].rows; r++) {
-      for (int64_t c = 0; c < strip[s].columns; c++) {
-        const int64_t at = part->first + r * stride + c;
-        *ends++ = at + strip[s].low;
-        *ends++ = at + strip[s].high;
-        *rest_length++ = strip[s].rest_length;
-      }
+  for (; strip_count-- > 0; strip++) {
+    for (int64_t k = 0, x[3]; k < hk_part_springs(strip); k++) {
+      const int64_t at = part->first + hk_part_point(strip->count, k, size, x);
+      *ends++ = at + strip->low;
+      *ends++ = at + strip->high;
+      *rest_length++ = strip->rest_length;
     }
   }
 }
@@ -219,13 +211,13 @@ int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t coun
   return status == HOOKE_OK ? status : hk_fail_within(status, "%s", family);
 }
 
-int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t stride, int32_t strip_count,
-                           const struct hk_part_strip *strip) {
+int32_t hk_part_add_family(struct hk_part *part, const char *family, const int64_t size[3],
+                           int32_t strip_count, const struct hk_part_strip *strip) {
   if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
   int32_t status = check_damping(part, family);
   int64_t count = 0;
   for (int32_t s = 0; s < strip_count && status == HOOKE_OK; s++) {
-    const int64_t springs = strip[s].rows * strip[s].columns;
+    const int64_t springs = hk_part_springs(&strip[s]);
     count += springs;
     if (springs > 0) status = check_rest_length(family, strip[s].rest_length);
   }
@@ -235,7 +227,7 @@ int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t str
   double *rest_length = hk_new(count, sizeof(double));
   status = HOOKE_NO_MEMORY;
   if (ends && rest_length) {
-    join(part, stride, strip_count, strip, ends, rest_length);
+    join(part, size, strip_count, strip, ends, rest_length);
     status = hk_part_add_pairs(part, family, count, ends, rest_length);
     if (status == HOOKE_OK && hk_part_is_given(part, family, "damping_ratio")) {
       status = hk_part_derive_springs(part, family, strip_count, strip);

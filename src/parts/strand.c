@@ -14,6 +14,7 @@
 #include "core/sine.h"
 #include "core/status.h"
 #include "model/force/altitude.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -69,14 +70,13 @@ static void find_axes(const double span[3], double length, double axis[3][3]) {
   }
   for (int a = 0; a < 3; a++)
     axis[0][a] /= sqrt(square);
-  for (int a = 0; a < 3; a++)
-    axis[1][a] = d[(a + 1) % 3] * axis[0][(a + 2) % 3] - d[(a + 2) % 3] * axis[0][(a + 1) % 3];
+  hk_cross3(d, axis[0], axis[1]);
 }
 
 static int32_t read(const hooke_options *options, struct strand *strand) {
   const double *from = hooke_options_numbers(options, "from"), *to = hooke_options_numbers(options, "to");
   const double span[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-  const double length = hk_part_length(span);
+  const double length = hk_length3(span);
   const int curl = hooke_options_is_set(options, "curl"), turns = hooke_options_is_set(options, "turns");
   if (curl != turns) {
     return hk_fail(HOOKE_BAD_VALUE, curl ? "curl" : "turns",
@@ -143,8 +143,9 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
                                      hk_part_if_family(part, "twist", n)},
              {&hk_force_altitude, hk_part_if_family(part, "altitude", n)}}};
   double *position;
-  int32_t status =
-      hk_part_new_positions(part, more, &position, "a strand of %lld segments", (long long)strand->segments);
+  char what[64];
+  snprintf(what, sizeof what, "a strand of %lld segments", (long long)strand->segments);
+  int32_t status = hk_part_new_positions(part, more, what, &position);
   if (status != HOOKE_OK) return hk_fail_within(status, "segments");
   for (int64_t k = 0; k < count; k++) {
     double across[2];
@@ -155,7 +156,7 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
     }
   }
   const double piece = is_curl(strand) ? distance(strand, 0, 1) : 0.5 * strand->piece;
-  status = hk_part_add_particles(part, 1, count, piece, position);
+  status = hk_part_add_particles(part, 1, (const int64_t[]){count, 1, 1}, piece, position);
   hk_free(position);
   return status;
 }
@@ -167,11 +168,9 @@ static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 2 && k < count && status == HOOKE_OK; k++) {
-    status = hk_system_add_derived(part->system, part->name, "bend", kappa[k], "N/m",
-                                   group->number[HOOKE_KAPPA][k]);
+    status = hk_part_derive(part, "bend", kappa[k], "N/m", group->number[HOOKE_KAPPA][k]);
     if (status == HOOKE_OK)
-      status = hk_system_add_derived(part->system, part->name, "bend", gamma[k], "N s/m",
-                                     group->number[HOOKE_GAMMA][k]);
+      status = hk_part_derive(part, "bend", gamma[k], "N s/m", group->number[HOOKE_GAMMA][k]);
   }
   return status;
 }
@@ -200,12 +199,12 @@ static int32_t add_springs(struct hk_part *part, const struct strand *strand) {
   int32_t status = HOOKE_OK;
   for (int64_t apart = 1; apart <= 3 && status == HOOKE_OK; apart++) {
     const int64_t count = part->count - apart;
-    const struct hk_part_strip strip = {1,     count > 0 ? count : 0,      0,
-                                        apart, distance(strand, 0, apart), HOOKE_PART_ALONG};
+    const struct hk_part_strip strip = {
+        {count > 0 ? count : 0, 1, 1}, 0, apart, distance(strand, 0, apart), HOOKE_PART_ALONG};
     if (apart == 2 && !is_curl(strand))
       status = hk_options_has_family(part->options, "bend") ? add_bend(part, strand) : HOOKE_OK;
     else
-      status = hk_part_add_family(part, family[apart - 1], part->count, 1, &strip);
+      status = hk_part_add_family(part, family[apart - 1], strip.count, 1, &strip);
   }
   return status;
 }
@@ -237,7 +236,7 @@ static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t
     l = fmin(l, t->rest[k]);
   const double zeta = hooke_options_number(part->options, "altitude.damping_ratio");
   t->damping = zeta * hk_critical_damping(t->stiffness / l, 0.5 * part->inner_mass) * l;
-  return hk_system_add_derived(part->system, part->name, "altitude", "kd", "N s", t->damping);
+  return hk_part_derive(part, "altitude", "kd", "N s", t->damping);
 }
 
 static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
@@ -267,11 +266,6 @@ static int32_t build(struct hk_part *part) {
   return status == HOOKE_OK ? add_altitude(part, &strand) : status;
 }
 
-static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
-  if (k > 0) return -1;
-  return strcmp(word, "start") == 0 ? 0 : part->count - 1;
-}
-
 /* Changes the resolution of a curl, a line of points of its helix. A straight strand has none: the offset of
  * its extra particles depends on its resolution, so no other resolution gives the same strand. */
 static int32_t cells(const hooke_options *options, int64_t cells[3]) {
@@ -279,15 +273,11 @@ static int32_t cells(const hooke_options *options, int64_t cells[3]) {
   return hooke_options_is_set(options, "curl") ? 1 : 0;
 }
 
-static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
-  return hooke_options_set_number(options, "segments", (double)cells[0]);
-}
-
-static const struct hk_part_grid grid = {cells, set_cells};
+static const struct hk_part_grid grid = {cells, hk_part_set_cells};
 
 const struct hooke_part_kind hk_part_strand = {.table = &table,
                                                .build = build,
-                                               .named = named,
+                                               .named = hk_part_named_end,
                                                .grid = &grid,
                                                .summary = "a hair, straight or curled, that keeps "
                                                           "its curl: springs between neighbours, "
