@@ -150,15 +150,6 @@ static int32_t add_springs(struct hk_part *part, const struct hk_surface *surfac
 
 /* ---- the kind ---- */
 
-static int32_t refuse(const struct hk_surface_fault *fault) {
-  char text[256];
-  hk_surface_describe(fault, 0, NULL, text, sizeof text);
-  const int of_vertex = fault->trouble == HOOKE_SURFACE_UNUSED;
-  hk_fail(HOOKE_BAD_VALUE, NULL, "%s", text);
-  return hk_fail_within(HOOKE_BAD_VALUE, of_vertex ? "vertices[%lld]" : "triangles[%lld]",
-                        (long long)(of_vertex ? fault->vertex[0] : fault->triangle[0]));
-}
-
 static int32_t check_space(const struct hk_part *part, const struct hk_surface *surface) {
   const double edges = (double)surface->edge_count;
   const struct hk_more more = {.particles = (double)surface->vertex_count,
@@ -170,11 +161,9 @@ static int32_t check_space(const struct hk_part *part, const struct hk_surface *
 
 static int32_t build(struct hk_part *part) {
   struct hk_surface surface;
-  struct hk_surface_fault fault;
   int32_t status = check_given(part->options);
   if (status != HOOKE_OK) return status;
-  status = hk_surface_create(part->options, &surface, &fault);
-  if (fault.trouble != HOOKE_SURFACE_FINE) status = refuse(&fault);
+  status = hk_surface_create(part->options, NULL, &surface);
   if (status == HOOKE_OK) status = check_space(part, &surface);
   part->count = surface.vertex_count;
   if (status == HOOKE_OK) status = add_particles(part, &surface);
