@@ -77,17 +77,11 @@ static void share_mass(double inner, int32_t axes, const int64_t size[3], int64_
   }
 }
 
-int32_t hk_part_masses(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
-                       int64_t *mass_count, double **mass) {
+static int32_t find_masses(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
+                           int64_t count, double *mass) {
   static const char *const unit[] = {"", "m", "m^2", "m^3"};
-  const int32_t status = hk_part_check_masses(part);
-  if (status != HOOKE_OK) return status;
-  const int by_density = hooke_options_is_set(part->options, "density");
-  *mass_count = by_density ? part->count : 1;
-  *mass = hk_new(*mass_count, sizeof(double));
-  if (*mass == NULL) return HOOKE_NO_MEMORY;
-  if (!by_density) {
-    part->inner_mass = **mass = hk_part_total_mass(part) / (double)part->count;
+  if (!hooke_options_is_set(part->options, "density")) {
+    part->inner_mass = *mass = hk_part_total_mass(part) / (double)part->count;
     return HOOKE_OK;
   }
   part->inner_mass = hooke_options_number(part->options, "density") * piece;
@@ -97,8 +91,20 @@ int32_t hk_part_masses(struct hk_part *part, int32_t axes, const int64_t size[3]
                    "> 0, so let the %s",
                    piece, unit[axes], part->inner_mass,
                    axes == 3 ? "edges of the part span a volume" : "ends and edges of the part lie apart");
-  share_mass(part->inner_mass, axes, size, part->count, *mass);
+  share_mass(part->inner_mass, axes, size, count, mass);
   return derive_masses(part, axes, size);
+}
+
+int32_t hk_part_add_particles(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
+                              const double *position) {
+  const int64_t count = hooke_options_is_set(part->options, "density") ? part->count : 1;
+  double *mass = hk_new(count, sizeof(double));
+  int32_t status = mass ? hk_part_check_masses(part) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = find_masses(part, axes, size, piece, count, mass);
+  if (status == HOOKE_OK)
+    status = hooke_system_add_particles(part->system, part->count, position, NULL, count, mass, &part->first);
+  hk_free(mass);
+  return status;
 }
 
 /* ---- damping ---- */
@@ -116,15 +122,28 @@ double hk_critical_damping(double kappa, double mass) {
   return 2.0 * (fits ? sqrt(product) : sqrt(kappa) * sqrt(mass));
 }
 
-void hk_part_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
-                     const double *rest_length, double *damping) {
+int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int64_t count,
+                            const int64_t *ends, const double *rest_length, hooke_options *springs) {
   const double zeta = hk_part_material(part, family, "damping_ratio");
   const double stiffness = hk_part_material(part, family, "stiffness");
   const double scale = hk_part_material(part, family, "rest_scale");
+  double *damping = hk_new(count, sizeof(double));
+  if (damping == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++) {
     const double length = rest_length[k] * scale, kappa = stiffness / length;
     damping[k] = zeta * hk_critical_damping(kappa, reduced_mass(part, ends + 2 * k)) * length;
   }
+  const int32_t status = hooke_options_set_numbers(springs, "damping", count, damping);
+  hk_free(damping);
+  return status;
+}
+
+int32_t hk_part_check_damping(const struct hk_part *part, const char *family) {
+  if (!hk_part_is_given(part, family, "damping_ratio") || !hk_part_is_given(part, family, "damping"))
+    return HOOKE_OK;
+  hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
+          "damping and damping_ratio are both given; a family has one of them");
+  return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
 }
 
 #define DIRECTIONS(of)                                                                                       \

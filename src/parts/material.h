@@ -9,12 +9,6 @@
 double hk_part_material(const struct hk_part *part, const char *family, const char *key);
 int32_t hk_part_is_given(const struct hk_part *part, const char *family, const char *key);
 
-/* Computes one mass, or that of each particle of a grid of `size`: an equal fraction of the option `mass`, or
- * the option `density` times the piece that each represents: `piece` [m, m^2 or m^3, by the number of axes],
- * halved for each axis at one of whose ends it is. Sets the part's inner mass. The caller frees `mass`. */
-int32_t hk_part_masses(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
-                       int64_t *mass_count, double **mass);
-
 /* Adds a number that follows from the part's options to the list that the system shows. */
 int32_t hk_part_derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
                        double value);
@@ -28,11 +22,14 @@ double hk_part_total_mass(const struct hk_part *part);
 /* 2 sqrt(kappa m). */
 double hk_critical_damping(double kappa, double mass);
 
-/* The option damping [N s] of every spring of a family, `count` long, from its damping_ratio: kd = gamma l0,
- * gamma = 2 zeta sqrt(kappa m/2), l0 the rest length of the springs, m the part's inner mass; without an
- * inner mass m/2 is the reduced mass of the two `ends`. */
-void hk_part_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
-                     const double *rest_length, double *damping);
+/* Sets the option damping [N s] of springs from the damping_ratio of their family: kd = gamma l0, gamma = 2
+ * zeta sqrt(kappa m/2), l0 the rest length of each of `count`, m the part's inner mass; without an inner mass
+ * m/2 is the reduced mass of the two `ends`. HOOKE_NO_MEMORY. */
+int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int64_t count,
+                            const int64_t *ends, const double *rest_length, hooke_options *springs);
+
+/* HOOKE_BAD_VALUE if a family has both damping and damping_ratio. */
+int32_t hk_part_check_damping(const struct hk_part *part, const char *family);
 
 /* Records the derived stiffness and damping of the group added last, for one spring of each direction. */
 int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, int32_t strip_count,

@@ -111,19 +111,6 @@ int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, const c
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hk_part_add_particles(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
-                              const double *position) {
-  int64_t mass_count = 0;
-  double *mass = NULL;
-  int32_t status = hk_part_masses(part, axes, size, piece, &mass_count, &mass);
-  if (status == HOOKE_OK) {
-    status =
-        hooke_system_add_particles(part->system, part->count, position, NULL, mass_count, mass, &part->first);
-  }
-  hk_free(mass);
-  return status;
-}
-
 static void join(const struct hk_part *part, const int64_t size[3], int32_t strip_count,
                  const struct hk_part_strip *strip, int64_t *ends, double *rest_length) {
   for (; strip_count-- > 0; strip++) {
@@ -136,16 +123,6 @@ static void join(const struct hk_part *part, const int64_t size[3], int32_t stri
   }
 }
 
-static int32_t set_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
-                           const double *rest_length, hooke_options *options) {
-  double *damping = hk_new(count, sizeof(double));
-  if (damping == NULL) return HOOKE_NO_MEMORY;
-  hk_part_damping(part, family, count, ends, rest_length, damping);
-  const int32_t status = hooke_options_set_numbers(options, "damping", count, damping);
-  hk_free(damping);
-  return status;
-}
-
 /* Options of a spring group with the values of a family. */
 static int32_t material(const struct hk_part *part, const char *family, int by_ratio, int64_t count,
                         const int64_t *ends, const double *rest_length, hooke_options **options) {
@@ -154,7 +131,8 @@ static int32_t material(const struct hk_part *part, const char *family, int by_r
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
     status = hooke_options_set_number(*options, keys[k], hk_part_material(part, family, keys[k]));
   }
-  if (status == HOOKE_OK && by_ratio) status = set_damping(part, family, count, ends, rest_length, *options);
+  if (status == HOOKE_OK && by_ratio)
+    status = hk_part_set_damping(part, family, count, ends, rest_length, *options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(*options, "rest_length", count, rest_length);
   return status;
 }
@@ -192,18 +170,10 @@ static int32_t check_rest_length(const char *family, double length) {
                  length);
 }
 
-static int32_t check_damping(const struct hk_part *part, const char *family) {
-  if (!hk_part_is_given(part, family, "damping_ratio") || !hk_part_is_given(part, family, "damping"))
-    return HOOKE_OK;
-  hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
-          "damping and damping_ratio are both given; a family has one of them");
-  return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
-}
-
 int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
                           const double *rest_length) {
   if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
-  int32_t status = check_damping(part, family);
+  int32_t status = hk_part_check_damping(part, family);
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     status = check_rest_length(family, rest_length[k]);
   if (status != HOOKE_OK || count == 0) return status;
@@ -214,7 +184,7 @@ int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t coun
 int32_t hk_part_add_family(struct hk_part *part, const char *family, const int64_t size[3],
                            int32_t strip_count, const struct hk_part_strip *strip) {
   if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
-  int32_t status = check_damping(part, family);
+  int32_t status = hk_part_check_damping(part, family);
   int64_t count = 0;
   for (int32_t s = 0; s < strip_count && status == HOOKE_OK; s++) {
     const int64_t springs = hk_part_springs(&strip[s]);

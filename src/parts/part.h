@@ -102,7 +102,8 @@ int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, const c
 double hk_part_if_family(const struct hk_part *part, const char *family, double count);
 
 /* Adds the particles of a grid of `size`; the option `mass` is their total, or `density` refers to the
- * `piece` that an inner one represents: its length, area or volume, by the number of axes. */
+ * `piece` that an inner one represents: its length, area or volume, by the number of axes, halved for each
+ * axis at one of whose ends a particle is. */
 int32_t hk_part_add_particles(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
                               const double *position);
 

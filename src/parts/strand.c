@@ -227,10 +227,6 @@ static int32_t find_rest(const struct hk_part *part, const struct strand *strand
 static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t) {
   t->damping = hooke_options_number(part->options, "altitude.damping");
   if (!hk_part_is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
-  if (hk_part_is_given(part, "altitude", "damping")) {
-    return hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
-                   "damping and damping_ratio are both given; a family has one of them");
-  }
   double l = t->rest[0];
   for (int k = 1; k < HOOKE_ALTITUDES; k++)
     l = fmin(l, t->rest[k]);
@@ -242,6 +238,7 @@ static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t
 static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
   const int64_t count = part->count - 3;
   if (!hk_options_has_family(part->options, "altitude") || count <= 0) return HOOKE_OK;
+  if (hk_part_check_damping(part, "altitude") != HOOKE_OK) return HOOKE_BAD_VALUE;
   const double scale = hooke_options_number(part->options, "altitude.rest_scale");
   struct hk_tetrahedron kind[2] = {
       {.stiffness = hooke_options_number(part->options, "altitude.stiffness"),
