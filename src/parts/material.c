@@ -159,7 +159,7 @@ int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, i
   int32_t status = HOOKE_OK;
   for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK;
        first += hk_part_springs(&strip[s++])) {
-    const int32_t along = strip[s].direction;
+    const enum hk_part_direction along = strip[s].direction;
     if (hk_part_springs(&strip[s]) == 0) continue;
     status = hk_part_derive(part, family, kappa[along], "N/m", group->number[HOOKE_KAPPA][first]);
     if (status == HOOKE_OK)
