@@ -25,6 +25,8 @@ static const struct family {
 } families[] = {{"stretch", 0, 1}, {"structural", 0, 1}, {"shear", 1, 1}, {"bend", 0, 2}};
 enum { FAMILIES = sizeof families / sizeof families[0] };
 
+static const double FLAT = 1e-12; /* of unit edges: area, volume */
+
 /* ---- cells ---- */
 
 /* Runs depend on every bit of these: a lattice has always had the lengths of its sides, the others their part
@@ -99,12 +101,20 @@ static void place_particles(const struct hk_grid *grid, int64_t count, double *p
   }
 }
 
-static struct hk_part_strip strip_of(const struct hk_grid *grid, const int32_t *step, int32_t apart) {
-  struct hk_part_strip strip = {.low = 0};
+/* Springs of one direction: spring (x, y, z) of `count` along each axis joins the points `low` and `high`
+ * beyond point (x, y, z), low < high. All have one rest length, equal to the bit. */
+struct strip {
+  int64_t count[3], springs, low, high;
+  double rest_length;
+};
+
+static struct strip strip_of(const struct hk_grid *grid, const int32_t *step, int32_t apart) {
+  struct strip strip = {.springs = 1};
   double vector[3] = {0.0};
   int64_t stride = 1;
   for (int a = 0; a < 3; stride *= grid->size[a++]) {
     strip.count[a] = grid->size[a] - (step[a] ? apart : 0);
+    strip.springs *= strip.count[a];
     if (step[a] < 0) strip.low += stride; /* starts at the other side of the cell */
     strip.high += step[a] * apart * stride;
     hk_add3((double)step[a], grid->side[a], vector);
@@ -114,16 +124,55 @@ static struct hk_part_strip strip_of(const struct hk_grid *grid, const int32_t *
   return strip;
 }
 
+static void join(const struct hk_part *part, const struct hk_grid *grid, const struct strip *strip,
+                 int64_t *ends, double *rest_length) {
+  for (int64_t k = 0, x[3]; k < strip->springs; k++) {
+    const int64_t at = part->first + hk_part_point(strip->count, k, grid->size, x);
+    *ends++ = at + strip->low;
+    *ends++ = at + strip->high;
+    *rest_length++ = strip->rest_length;
+  }
+}
+
+#define DIRECTIONS(of)                                                                                       \
+  of, of " along u", of " along v", of " along u + v", of " along u - v", /* a lattice: */                   \
+      of " along x", of " along y", of " along z", of " along x + y", of " along x - y", of " along x + z",  \
+      of " along x - z", of " along y + z", of " along y - z", of " along x + y + z", of " along x - y - z", \
+      of " along x - y + z", of " along x + y - z"
+
+/* Records one spring of each direction of the group added last. */
+static int32_t derive_springs(const struct hk_part *part, const struct hk_grid *grid,
+                              const struct family *family, const struct strip *strip) {
+  static const char *const kappa[] = {DIRECTIONS("kappa")}, *const gamma[] = {DIRECTIONS("gamma")};
+  static const int32_t first[] = {0, 0, 1, 5}; /* by the number of axes */
+  const int32_t own = first[grid->axes] + (family->across ? grid->axes : 0);
+  int32_t status = HOOKE_OK;
+  int64_t k = 0;
+  for (int32_t d = 0; d < directions_of(grid, family) && status == HOOKE_OK; k += strip[d++].springs)
+    if (strip[d].springs > 0)
+      status = hk_part_derive_spring(part, family->name, k, kappa[own + d], gamma[own + d]);
+  return status;
+}
+
 static int32_t add_family(struct hk_part *part, const struct hk_grid *grid, const struct family *family) {
-  static const int32_t first[] = {0, HOOKE_PART_ALONG, HOOKE_PART_U, HOOKE_PART_LATTICE};
-  const int32_t count = directions_of(grid, family), before = family->across ? grid->axes : 0;
-  struct hk_part_strip strip[MOST_DIRECTIONS];
-  for (int32_t d = 0; d < count; d++) {
+  const int32_t directions = directions_of(grid, family);
+  struct strip strip[MOST_DIRECTIONS];
+  int64_t count = 0, done = 0;
+  if (!hk_options_has_family(part->options, family->name)) return HOOKE_OK;
+  for (int32_t d = 0; d < directions; count += strip[d++].springs) {
     strip[d] = strip_of(grid, step_of(family, d), family->apart);
-    strip[d].direction = (enum hk_part_direction)(first[grid->axes] + before + d);
     if (!family->across) strip[d].rest_length = family->apart * grid->length[d];
   }
-  return hk_part_add_family(part, family->name, grid->size, count, strip);
+  int64_t *ends = hk_new(2 * count, sizeof(int64_t));
+  double *rest_length = hk_new(count, sizeof(double));
+  int32_t status = ends && rest_length ? HOOKE_OK : HOOKE_NO_MEMORY;
+  for (int32_t d = 0; d < directions && status == HOOKE_OK; done += strip[d++].springs)
+    join(part, grid, &strip[d], ends + 2 * done, rest_length + done);
+  if (status == HOOKE_OK) status = hk_part_add_pairs(part, family->name, count, ends, rest_length);
+  hk_free(ends);
+  hk_free(rest_length);
+  if (status != HOOKE_OK || !hk_part_is_given(part, family->name, "damping_ratio")) return status;
+  return derive_springs(part, grid, family, strip);
 }
 
 /* ---- bending ---- */
@@ -151,8 +200,8 @@ static int32_t add_beams(const struct hk_part *part, const struct hk_grid *grid,
                          double *coefficient, int64_t *done) {
   const double l = grid->length[along], width = grid->axes == 1 ? 1.0 : piece_of(grid) / l;
   const double c = hooke_options_number(part->options, "bending") * width / (l * l * l);
-  const struct hk_part_strip strip = strip_of(grid, axis[along], 2);
-  const int64_t end = *done + hk_part_springs(&strip);
+  const struct strip strip = strip_of(grid, axis[along], 2);
+  const int64_t end = *done + strip.springs;
   int32_t status = end > *done ? check_beams(c) : HOOKE_OK;
   if (status == HOOKE_OK && end > *done) status = derive_beams(part, grid, along, c);
   for (int64_t k = 0; *done < end; k++, (*done)++) {
@@ -209,6 +258,21 @@ int32_t hk_grid_build(struct hk_part *part, struct hk_grid *grid, const char *si
   return status == HOOKE_OK ? add_bending(part, grid) : status;
 }
 
+/* Fails for two edges in one line, or three in one plane. */
+static int32_t check_edges(const double *edges, int32_t count) {
+  double unit[3][3] = {{0.0}}, normal[3];
+  for (int e = 0; e < count; e++) {
+    const double length = hk_length3(edges + 3 * e);
+    if (!(length > 0.0 && isfinite(length))) return HOOKE_OK; /* left to the rest lengths */
+    for (int i = 0; i < 3; i++)
+      unit[e][i] = edges[3 * e + i] / length;
+  }
+  hk_cross3(unit[0], unit[1], normal);
+  if ((count == 3 ? fabs(hk_dot3(normal, unit[2])) : hk_length3(normal)) > FLAT) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "edges", "the edges span no %s; allowed: vectors in different directions",
+                 count == 3 ? "volume" : "area");
+}
+
 int32_t hk_grid_build_sized(struct hk_part *part) {
   const double *size = hooke_options_numbers(part->options, "size");
   struct hk_grid grid = {.axes = (int32_t)hooke_options_number_count(part->options, "size"),
@@ -221,6 +285,6 @@ int32_t hk_grid_build_sized(struct hk_part *part) {
     grid.size[a] = (int64_t)size[a];
   snprintf(what, sizeof what, form, (long long)grid.size[0], (long long)grid.size[1],
            (long long)grid.size[2]);
-  const int32_t status = hk_part_check_edges(grid.edges, grid.axes);
+  const int32_t status = check_edges(grid.edges, grid.axes);
   return status == HOOKE_OK ? hk_grid_build(part, &grid, "size", what) : status;
 }

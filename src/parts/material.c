@@ -146,26 +146,12 @@ int32_t hk_part_check_damping(const struct hk_part *part, const char *family) {
   return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
 }
 
-#define DIRECTIONS(of)                                                                                       \
-  of, of " along u", of " along v", of " along u + v", of " along u - v", /* a lattice: */                   \
-      of " along x", of " along y", of " along z", of " along x + y", of " along x - y", of " along x + z",  \
-      of " along x - z", of " along y + z", of " along y - z", of " along x + y + z", of " along x - y - z", \
-      of " along x - y + z", of " along x + y - z"
-
-int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, int32_t strip_count,
-                               const struct hk_part_strip *strip) {
-  static const char *const kappa[] = {DIRECTIONS("kappa")}, *const gamma[] = {DIRECTIONS("gamma")};
+int32_t hk_part_derive_spring(const struct hk_part *part, const char *family, int64_t k, const char *kappa,
+                              const char *gamma) {
   const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
-  int32_t status = HOOKE_OK;
-  for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK;
-       first += hk_part_springs(&strip[s++])) {
-    const enum hk_part_direction along = strip[s].direction;
-    if (hk_part_springs(&strip[s]) == 0) continue;
-    status = hk_part_derive(part, family, kappa[along], "N/m", group->number[HOOKE_KAPPA][first]);
-    if (status == HOOKE_OK)
-      status = hk_part_derive(part, family, gamma[along], "N s/m", group->number[HOOKE_GAMMA][first]);
-  }
-  return status;
+  const int32_t status = hk_part_derive(part, family, kappa, "N/m", group->number[HOOKE_KAPPA][k]);
+  if (status != HOOKE_OK) return status;
+  return hk_part_derive(part, family, gamma, "N s/m", group->number[HOOKE_GAMMA][k]);
 }
 
 char *hk_part_group_name(const struct hk_part *part, const char *family) {

@@ -31,8 +31,8 @@ int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int6
 /* HOOKE_BAD_VALUE if a family has both damping and damping_ratio. */
 int32_t hk_part_check_damping(const struct hk_part *part, const char *family);
 
-/* Records the derived stiffness and damping of the group added last, for one spring of each direction. */
-int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, int32_t strip_count,
-                               const struct hk_part_strip *strip);
+/* Records the derived stiffness and damping of spring `k` of the group added last, under these names. */
+int32_t hk_part_derive_spring(const struct hk_part *part, const char *family, int64_t k, const char *kappa,
+                              const char *gamma);
 
 #endif

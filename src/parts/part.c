@@ -6,7 +6,6 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "model/system.h"
-#include "model/vector3.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +13,6 @@
 
 static const struct hooke_part_kind *const kinds[] = {&hk_part_rope, &hk_part_cloth, &hk_part_lattice,
                                                       &hk_part_mesh, &hk_part_strand};
-static const double FLAT = 1e-12; /* of unit edges: area, volume */
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hk_option_row family_rows[] = {
@@ -83,20 +81,6 @@ int64_t hk_part_named_end(const struct hk_part *part, const char *word, int64_t 
   return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
 
-int32_t hk_part_check_edges(const double *edges, int32_t count) {
-  double unit[3][3] = {{0.0}}, normal[3];
-  for (int e = 0; e < count; e++) {
-    const double length = hk_length3(edges + 3 * e);
-    if (!(length > 0.0 && isfinite(length))) return HOOKE_OK; /* left to the rest lengths */
-    for (int i = 0; i < 3; i++)
-      unit[e][i] = edges[3 * e + i] / length;
-  }
-  hk_cross3(unit[0], unit[1], normal);
-  if ((count == 3 ? fabs(hk_dot3(normal, unit[2])) : hk_length3(normal)) > FLAT) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, "edges", "the edges span no %s; allowed: vectors in different directions",
-                 count == 3 ? "volume" : "area");
-}
-
 double hk_part_if_family(const struct hk_part *part, const char *family, double count) {
   return hk_options_has_family(part->options, family) ? count : 0.0;
 }
@@ -109,18 +93,6 @@ int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, const c
   part->count = (int64_t)more.particles;
   *position = hk_new(3 * part->count, sizeof(double));
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
-}
-
-static void join(const struct hk_part *part, const int64_t size[3], int32_t strip_count,
-                 const struct hk_part_strip *strip, int64_t *ends, double *rest_length) {
-  for (; strip_count-- > 0; strip++) {
-    for (int64_t k = 0, x[3]; k < hk_part_springs(strip); k++) {
-      const int64_t at = part->first + hk_part_point(strip->count, k, size, x);
-      *ends++ = at + strip->low;
-      *ends++ = at + strip->high;
-      *rest_length++ = strip->rest_length;
-    }
-  }
 }
 
 /* Options of a spring group with the values of a family. */
@@ -179,33 +151,6 @@ int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t coun
   if (status != HOOKE_OK || count == 0) return status;
   status = add_group(part, family, hk_part_is_given(part, family, "damping_ratio"), count, ends, rest_length);
   return status == HOOKE_OK ? status : hk_fail_within(status, "%s", family);
-}
-
-int32_t hk_part_add_family(struct hk_part *part, const char *family, const int64_t size[3],
-                           int32_t strip_count, const struct hk_part_strip *strip) {
-  if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
-  int32_t status = hk_part_check_damping(part, family);
-  int64_t count = 0;
-  for (int32_t s = 0; s < strip_count && status == HOOKE_OK; s++) {
-    const int64_t springs = hk_part_springs(&strip[s]);
-    count += springs;
-    if (springs > 0) status = check_rest_length(family, strip[s].rest_length);
-  }
-  if (status != HOOKE_OK || count == 0) return status; /* 0: too short for springs two apart */
-
-  int64_t *ends = hk_new(2 * count, sizeof(int64_t));
-  double *rest_length = hk_new(count, sizeof(double));
-  status = HOOKE_NO_MEMORY;
-  if (ends && rest_length) {
-    join(part, size, strip_count, strip, ends, rest_length);
-    status = hk_part_add_pairs(part, family, count, ends, rest_length);
-    if (status == HOOKE_OK && hk_part_is_given(part, family, "damping_ratio")) {
-      status = hk_part_derive_springs(part, family, strip_count, strip);
-    }
-  }
-  hk_free(ends);
-  hk_free(rest_length);
-  return status;
 }
 
 static int32_t pin_numbers(const struct hk_part *part) {

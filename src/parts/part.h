@@ -65,27 +65,6 @@ const struct hk_option_table *hk_part_find(const char *name);
 /* Options of a family of springs, nested in the table of every kind. */
 extern const struct hk_option_table hk_part_family;
 
-/* Springs of one family and direction between the points of a grid: spring (x, y, z) of `count` along each
- * axis joins the points `low` and `high` beyond point (x, y, z), low < high. All have one rest length, equal
- * to the bit. */
-enum hk_part_direction {
-  HOOKE_PART_ALONG,
-  HOOKE_PART_U,
-  HOOKE_PART_V,
-  HOOKE_PART_DIAGONAL,
-  HOOKE_PART_OTHER_DIAGONAL,
-  HOOKE_PART_LATTICE /* and the following ones: the directions of a lattice, in order */
-};
-struct hk_part_strip {
-  int64_t count[3], low, high;
-  double rest_length;
-  enum hk_part_direction direction;
-};
-
-static inline int64_t hk_part_springs(const struct hk_part_strip *strip) {
-  return strip->count[0] * strip->count[1] * strip->count[2];
-}
-
 /* Point (x, y, z), which is number `k` of those of `count` along each axis, in a grid of `size`. */
 static inline int64_t hk_part_point(const int64_t count[3], int64_t k, const int64_t size[3], int64_t at[3]) {
   at[0] = k % count[0];
@@ -107,11 +86,8 @@ double hk_part_if_family(const struct hk_part *part, const char *family, double 
 int32_t hk_part_add_particles(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
                               const double *position);
 
-/* Adds the springs of a family, strip after strip, as one group; nothing if the family is not named. */
-int32_t hk_part_add_family(struct hk_part *part, const char *family, const int64_t size[3],
-                           int32_t strip_count, const struct hk_part_strip *strip);
-
-/* The same from pairs of particles and a rest length for each. */
+/* Adds the springs of a family from pairs of particles and a rest length for each, as one group; nothing if
+ * the family is not named. */
 int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
                           const double *rest_length);
 
@@ -120,8 +96,5 @@ char *hk_part_group_name(const struct hk_part *part, const char *family);
 
 /* A `named` of parts with two ends: their words are "start" and "end". */
 int64_t hk_part_named_end(const struct hk_part *part, const char *word, int64_t k);
-
-/* HOOKE_BAD_VALUE for two edges in one line, or three in one plane. */
-int32_t hk_part_check_edges(const double *edges, int32_t count);
 
 #endif

@@ -161,52 +161,33 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
   return status;
 }
 
-/* Records the first two springs of the bend of a straight strand; all others equal one of these. */
-static int32_t derive_bend(const struct hk_part *part, int64_t count) {
-  static const char *const kappa[] = {"kappa on the axis", "kappa of extra particles"};
-  static const char *const gamma[] = {"gamma on the axis", "gamma of extra particles"};
-  const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
-  int32_t status = HOOKE_OK;
-  for (int k = 0; k < 2 && k < count && status == HOOKE_OK; k++) {
-    status = hk_part_derive(part, "bend", kappa[k], "N/m", group->number[HOOKE_KAPPA][k]);
-    if (status == HOOKE_OK)
-      status = hk_part_derive(part, "bend", gamma[k], "N s/m", group->number[HOOKE_GAMMA][k]);
-  }
-  return status;
+/* Two springs apart of a straight strand differ by whether they are on its axis; all other springs of a
+ * family are alike. */
+static int32_t derive_springs(const struct hk_part *part, const struct strand *strand, const char *family,
+                              int64_t apart, int64_t count) {
+  if (apart != 2 || is_curl(strand)) return hk_part_derive_spring(part, family, 0, "kappa", "gamma");
+  const int32_t status = hk_part_derive_spring(part, family, 0, "kappa on the axis", "gamma on the axis");
+  if (status != HOOKE_OK || count < 2) return status;
+  return hk_part_derive_spring(part, family, 1, "kappa of extra particles", "gamma of extra particles");
 }
 
-/* For a straight strand: every second one joins particles on the axis. */
-static int32_t add_bend(struct hk_part *part, const struct strand *strand) {
-  const int64_t count = part->count - 2;
+static int32_t add_family(struct hk_part *part, const struct strand *strand, const char *family,
+                          int64_t apart) {
+  const int64_t count = part->count > apart ? part->count - apart : 0;
+  if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
   int64_t *ends = hk_new(2 * count, sizeof *ends);
   double *rest_length = hk_new(count, sizeof *rest_length);
   int32_t status = ends && rest_length ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     ends[2 * k] = part->first + k;
-    ends[2 * k + 1] = part->first + k + 2;
-    rest_length[k] = distance(strand, k, 2);
+    ends[2 * k + 1] = part->first + k + apart;
+    rest_length[k] = distance(strand, k, apart);
   }
-  if (status == HOOKE_OK) status = hk_part_add_pairs(part, "bend", count, ends, rest_length);
-  if (status == HOOKE_OK && hk_part_is_given(part, "bend", "damping_ratio"))
-    status = derive_bend(part, count);
+  if (status == HOOKE_OK) status = hk_part_add_pairs(part, family, count, ends, rest_length);
   hk_free(ends);
   hk_free(rest_length);
-  return status;
-}
-
-static int32_t add_springs(struct hk_part *part, const struct strand *strand) {
-  static const char *const family[] = {"stretch", "bend", "twist"};
-  int32_t status = HOOKE_OK;
-  for (int64_t apart = 1; apart <= 3 && status == HOOKE_OK; apart++) {
-    const int64_t count = part->count - apart;
-    const struct hk_part_strip strip = {
-        {count > 0 ? count : 0, 1, 1}, 0, apart, distance(strand, 0, apart), HOOKE_PART_ALONG};
-    if (apart == 2 && !is_curl(strand))
-      status = hk_options_has_family(part->options, "bend") ? add_bend(part, strand) : HOOKE_OK;
-    else
-      status = hk_part_add_family(part, family[apart - 1], strip.count, 1, &strip);
-  }
-  return status;
+  if (status != HOOKE_OK || count == 0 || !hk_part_is_given(part, family, "damping_ratio")) return status;
+  return derive_springs(part, strand, family, apart, count);
 }
 
 /* ---- altitude springs ---- */
@@ -259,7 +240,9 @@ static int32_t build(struct hk_part *part) {
   if (status != HOOKE_OK) return status;
   const int64_t count = is_curl(&strand) ? strand.segments + 1 : 2 * strand.segments + 1;
   status = add_particles(part, &strand, count);
-  if (status == HOOKE_OK) status = add_springs(part, &strand);
+  if (status == HOOKE_OK) status = add_family(part, &strand, "stretch", 1);
+  if (status == HOOKE_OK) status = add_family(part, &strand, "bend", 2);
+  if (status == HOOKE_OK) status = add_family(part, &strand, "twist", 3);
   return status == HOOKE_OK ? add_altitude(part, &strand) : status;
 }
 
