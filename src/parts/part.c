@@ -122,7 +122,6 @@ static int64_t count_given(const struct hk_part *part, int by_ratio, int64_t cou
 static int32_t add_group(struct hk_part *part, const char *family, int by_ratio, int64_t count,
                          const int64_t *ends, const double *rest_length) {
   const int64_t given = count_given(part, by_ratio, count, rest_length);
-
   char *name = hk_part_group_name(part, family);
   if (name == NULL) return HOOKE_NO_MEMORY;
   hooke_options *options = NULL;
@@ -134,6 +133,7 @@ static int32_t add_group(struct hk_part *part, const char *family, int by_ratio,
   hk_free(name);
   return status;
 }
+
 static int32_t check_rest_length(const char *family, double length) {
   if (length > 0.0 && isfinite(length)) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, family,

@@ -79,34 +79,6 @@ void hk_unit_list(const char *bases, char *list, int64_t size) {
 
 /* ---- texts ---- */
 
-static int64_t count_of(const char *characters, const char *text, int64_t length) {
-  int64_t count = 0;
-  while (count < length && text[count] && strchr(characters, text[count]))
-    count++;
-  return count;
-}
-
-static int64_t count_digits(const char *text, int64_t length) {
-  return count_of("0123456789", text, length);
-}
-
-/* Length of sign, digits and point; 0 without a digit. */
-static int64_t scan_mantissa(const char *text, int64_t length) {
-  int64_t at = length > 0 && (text[0] == '-' || text[0] == '+');
-  const int64_t whole = count_digits(text + at, length - at);
-  at += whole;
-  if (at == length || text[at] != '.') return whole ? at : 0;
-  const int64_t part = count_digits(text + at + 1, length - at - 1);
-  return whole + part ? at + 1 + part : 0;
-}
-
-static int64_t scan_exponent(const char *text, int64_t length) {
-  if (length == 0 || (text[0] != 'e' && text[0] != 'E')) return 0;
-  const int64_t sign = 1 + (length > 1 && (text[1] == '-' || text[1] == '+'));
-  const int64_t digits = count_digits(text + sign, length - sign);
-  return digits ? sign + digits : 0;
-}
-
 /* Length of the longest unit that stands here alone, or of what stands in its place. */
 static int64_t scan_unit(const char *bases, const char *text, int64_t length) {
   for (int64_t most = length < LONGEST_UNIT ? length : LONGEST_UNIT; most > 0; most--) {
@@ -120,13 +92,11 @@ static int64_t scan_unit(const char *bases, const char *text, int64_t length) {
 }
 
 struct hk_quantity hk_unit_scan(const char *bases, const char *text, int64_t length) {
-  struct hk_quantity found = {0, 0};
-  found.number = scan_mantissa(text, length);
-  if (found.number == 0) return found;
-  found.number += scan_exponent(text + found.number, length - found.number);
-  found.whole = found.number;
-  const int64_t unit = found.number + count_of(" \t", text + found.number, length - found.number);
-  if (unit < length && !strchr("0123456789+-.,;", text[unit]))
+  int64_t mantissa, unit = hk_number_scan(text, length, &mantissa);
+  struct hk_quantity found = {unit, unit};
+  while (unit < length && (text[unit] == ' ' || text[unit] == '\t'))
+    unit++;
+  if (mantissa > 0 && unit < length && !strchr("0123456789+-.,;", text[unit]))
     found.whole = unit + scan_unit(bases, text + unit, length - unit);
   return found;
 }
@@ -138,7 +108,8 @@ enum hk_number_result hk_unit_parse(const char *text, int64_t length, const stru
     if (result == HOOKE_NUMBER_FINE && unit->factor > 0) *value *= unit->factor;
     return result == HOOKE_NUMBER_FINE && isinf(*value) ? HOOKE_NUMBER_TOO_LARGE : result;
   }
-  const int64_t mantissa = scan_mantissa(text, length);
+  int64_t mantissa;
+  hk_number_scan(text, length, &mantissa);
   char *scaled = hk_new(length + EXPONENT_SIZE, 1);
   if (scaled == NULL) return HOOKE_NUMBER_NO_MEMORY;
   memcpy(scaled, text, (size_t)length);
