@@ -20,49 +20,43 @@ static size_t decimal_point(char *point) {
   return bytes;
 }
 
-static int is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 static int64_t skip_digits(const char *text, int64_t at, int64_t length) {
-  while (at < length && is_digit(text[at]))
+  while (at < length && text[at] >= '0' && text[at] <= '9')
     at++;
   return at;
 }
 
-/* Checks the grammar. `point` receives the offset of the decimal point (or -1), `nonzero` whether any digit
- * before the exponent is nonzero. */
-static int is_number(const char *text, int64_t length, int64_t *point, int *nonzero) {
-  int64_t at = length > 0 && (text[0] == '-' || text[0] == '+');
-  int64_t start = at;
-  at = skip_digits(text, at, length);
-  int64_t digits = at - start;
-  *point = -1;
+static int64_t skip_sign(const char *text, int64_t at, int64_t length) {
+  return at + (at < length && (text[at] == '-' || text[at] == '+'));
+}
+
+int64_t hk_number_scan(const char *text, int64_t length, int64_t *mantissa) {
+  const int64_t start = skip_sign(text, 0, length);
+  int64_t at = skip_digits(text, start, length), digits = at - start;
   if (at < length && text[at] == '.') {
-    *point = at;
-    int64_t after = skip_digits(text, at + 1, length);
+    const int64_t after = skip_digits(text, at + 1, length);
     digits += after - at - 1;
     at = after;
   }
-  *nonzero = 0;
-  for (int64_t k = start; k < at; k++)
-    if (text[k] >= '1' && text[k] <= '9') *nonzero = 1;
-  if (digits == 0) return 0;
-  if (at < length && (text[at] == 'e' || text[at] == 'E')) {
-    at++;
-    if (at < length && (text[at] == '-' || text[at] == '+')) at++;
-    int64_t after = skip_digits(text, at, length);
-    if (after == at) return 0;
-    at = after;
-  }
-  return at == length;
+  *mantissa = digits > 0 ? at : 0;
+  if (digits == 0 || at == length || (text[at] != 'e' && text[at] != 'E')) return *mantissa;
+  const int64_t exponent = skip_sign(text, at + 1, length), end = skip_digits(text, exponent, length);
+  return end > exponent ? end : at;
+}
+
+/* 1 if no digit is other than 0. */
+static int is_zero(const char *text, int64_t mantissa) {
+  for (int64_t k = 0; k < mantissa; k++)
+    if (text[k] >= '1' && text[k] <= '9') return 0;
+  return 1;
 }
 
 enum hk_number_result hk_number_parse(const char *text, int64_t length, double *value) {
   HOOKE_KEEP_ERRNO;
-  int64_t point = -1;
-  int nonzero = 0;
-  if (!is_number(text, length, &point, &nonzero)) return HOOKE_NUMBER_JUNK;
+  int64_t mantissa = 0;
+  if (hk_number_scan(text, length, &mantissa) != length || mantissa == 0) return HOOKE_NUMBER_JUNK;
+  const char *found = memchr(text, '.', (size_t)mantissa);
+  const int64_t point = found ? found - text : -1;
   char buffer[SHORT_NUMBER + POINT_SIZE], *copy = buffer, *after;
   if (length >= SHORT_NUMBER) copy = hk_new(length + POINT_SIZE, 1);
   if (copy == NULL) return HOOKE_NUMBER_NO_MEMORY;
@@ -77,7 +71,7 @@ enum hk_number_result hk_number_parse(const char *text, int64_t length, double *
   }
   if (copy != buffer) hk_free(copy);
   if (!isfinite(number)) return HOOKE_NUMBER_TOO_LARGE;
-  if (nonzero && number == 0) return HOOKE_NUMBER_TOO_SMALL;
+  if (number == 0 && !is_zero(text, mantissa)) return HOOKE_NUMBER_TOO_SMALL;
   *value = number;
   return HOOKE_NUMBER_FINE;
 }

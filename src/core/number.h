@@ -12,6 +12,10 @@ enum hk_number_result {
   HOOKE_NUMBER_NO_MEMORY
 };
 
+/* Length of the number that `text` of `length` characters begins with, and of its sign, digits and point; 0:
+ * it begins with none. */
+int64_t hk_number_scan(const char *text, int64_t length, int64_t *mantissa);
+
 /* Parses `length` characters: sign, digits with at most one point, exponent; no blanks. Sets `value` on
  * success. */
 enum hk_number_result hk_number_parse(const char *text, int64_t length, double *value);

@@ -80,15 +80,6 @@ static int32_t reserve_particles(hooke_system *system, int64_t count) {
   return status;
 }
 
-static int32_t check_finite(const char *name, int64_t count, const double *value) {
-  for (int64_t k = 0; k < 3 * count; k++) {
-    if (isfinite(value[k])) continue;
-    hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", value[k]);
-    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%d]", name, (long long)(k / 3), (int)(k % 3));
-  }
-  return HOOKE_OK;
-}
-
 static int32_t check_mass(const hooke_system *system, int64_t count, int64_t mass_count, const double *mass) {
   if (mass_count != 1 && mass_count != count && !(mass_count == 0 && system->overdamped)) {
     return hk_fail(HOOKE_BAD_VALUE, "mass", "%lld masses for %lld particles; allowed: one, or one for each",
@@ -116,8 +107,8 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
   }
   if (status == HOOKE_OK)
     status = hk_system_check_size(system, (struct hk_more){.particles = (double)count}, NULL);
-  if (status == HOOKE_OK) status = check_finite("position", count, position);
-  if (status == HOOKE_OK && velocity) status = check_finite("velocity", count, velocity);
+  if (status == HOOKE_OK) status = hk_require_finite("position", count, 3, position);
+  if (status == HOOKE_OK && velocity) status = hk_require_finite("velocity", count, 3, velocity);
   if (status == HOOKE_OK) status = check_mass(system, count, mass_count, mass);
   if (status == HOOKE_OK) status = reserve_particles(system, count);
   if (status != HOOKE_OK) return status;
@@ -151,12 +142,8 @@ int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *par
 
 int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
   int32_t status = hk_system_require_open(system);
+  if (status == HOOKE_OK) status = hk_require_finite("gravity", 3, 1, gravity);
   if (status != HOOKE_OK) return status;
-  for (int k = 0; k < 3; k++) {
-    if (isfinite(gravity[k])) continue;
-    hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", gravity[k]);
-    return hk_fail_within(HOOKE_BAD_VALUE, "gravity[%d]", k);
-  }
   /* zero gravity is stored as +0, whatever the signs of the zeros */
   system->has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
   for (int k = 0; k < 3; k++)

@@ -59,6 +59,10 @@ void hk_overdamped_undo(hooke_system *system);
 int32_t hk_system_require_open(const hooke_system *system);
 int32_t hk_system_require_committed(const hooke_system *system);
 
+/* HOOKE_BAD_VALUE for the first number that is not finite: at "<where>[k][a]" of rows of several columns, at
+ * "<where>[k]" of several numbers, or at "<where>". */
+int32_t hk_require_finite(const char *where, int64_t rows, int32_t columns, const double *value);
+
 /* HOOKE_BAD_VALUE, with "<where>[k]", for the first particle that does not exist or has the constraint
  * `refused`. */
 int32_t hk_system_check_particles(const hooke_system *system, const char *where, int64_t count,

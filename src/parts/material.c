@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force/bending.h"
 
 #include <float.h>
 #include <math.h>
@@ -21,8 +20,8 @@ int32_t hk_part_is_given(const struct hk_part *part, const char *family, const c
   return hooke_options_is_set(part->options, dotted);
 }
 
-static int32_t derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
-                      double value) {
+int32_t hk_part_derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
+                       double value) {
   return hk_system_add_derived(part->system, part->name, family, name, unit, value);
 }
 
@@ -49,22 +48,18 @@ int32_t hk_part_check_masses(const struct hk_part *part) {
                  both ? "mass and density are both given" : "neither mass nor density is given");
 }
 
-static int is_edge(int64_t k, int64_t count) {
-  return k == 0 || k == count - 1;
-}
-
-/* The kinds of particles, by the number of edges that they are on. */
-static int32_t derive_masses(const struct hk_part *part, int64_t rows, int64_t columns) {
-  const int64_t within = columns - 2, down = rows - 2;
-  const int rope = rows == 1;
-  int32_t status = HOOKE_OK;
-  if (within > 0 && (rope || down > 0))
-    status = derive(part, NULL, "mass of an inner particle", "kg", part->inner_mass);
-  if (status == HOOKE_OK && rope) status = derive(part, NULL, "mass of an end", "kg", 0.5 * part->inner_mass);
-  if (status == HOOKE_OK && !rope && (within > 0 || down > 0))
-    status = derive(part, NULL, "mass of an edge particle", "kg", 0.5 * part->inner_mass);
-  if (status == HOOKE_OK && !rope)
-    status = derive(part, NULL, "mass of a corner", "kg", 0.25 * part->inner_mass);
+/* The kinds of particles, by the number of axes at one of whose ends they are. */
+static int32_t derive_masses(const struct hk_part *part, int32_t axes, const int64_t size[3]) {
+  static const char inner[] = "mass of an inner particle", corner[] = "mass of a corner";
+  static const char *const name[][4] = {
+      {inner, "mass of an end"},
+      {inner, "mass of an edge particle", corner},
+      {inner, "mass of a particle on a face", "mass of a particle on an edge", corner}};
+  int32_t outside = axes, status = HOOKE_OK;
+  for (int32_t a = 0; a < axes; a++)
+    outside -= size[a] > 2;
+  for (; outside <= axes && status == HOOKE_OK; outside++)
+    status = hk_part_derive(part, NULL, name[axes - 1][outside], "kg", ldexp(part->inner_mass, -outside));
   return status;
 }
 
@@ -72,32 +67,44 @@ double hk_part_total_mass(const struct hk_part *part) {
   return hooke_options_is_set(part->options, "mass") ? hooke_options_number(part->options, "mass") : 0.0;
 }
 
-int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, double piece, int64_t *mass_count,
-                       double **mass) {
-  const int32_t status = hk_part_check_masses(part);
-  if (status != HOOKE_OK) return status;
-  const int by_density = hooke_options_is_set(part->options, "density");
-  *mass_count = by_density ? rows * columns : 1;
-  *mass = hk_new(*mass_count, sizeof(double));
-  if (*mass == NULL) return HOOKE_NO_MEMORY;
-  if (!by_density) {
-    part->inner_mass = **mass = hk_part_total_mass(part) / (double)part->count;
+static void share_mass(double inner, int32_t axes, const int64_t size[3], int64_t count, double *mass) {
+  for (int64_t k = 0, at[3]; k < count; k++) {
+    int outside = 0;
+    hk_part_point(size, k, size, at);
+    for (int32_t a = 0; a < axes; a++)
+      outside += at[a] % (size[a] - 1) == 0;
+    mass[k] = ldexp(inner, -outside);
+  }
+}
+
+static int32_t find_masses(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
+                           int64_t count, double *mass) {
+  static const char *const unit[] = {"", "m", "m^2", "m^3"};
+  if (!hooke_options_is_set(part->options, "density")) {
+    part->inner_mass = *mass = hk_part_total_mass(part) / (double)part->count;
     return HOOKE_OK;
   }
-  const double inner = part->inner_mass = hooke_options_number(part->options, "density") * piece;
-  if (!isfinite(inner) || !isfinite(1.0 / (0.25 * inner))) {
+  part->inner_mass = hooke_options_number(part->options, "density") * piece;
+  if (!isfinite(part->inner_mass) || !isfinite(1.0 / ldexp(part->inner_mass, axes == 3 ? -3 : -2)))
     return hk_fail(HOOKE_BAD_VALUE, "density",
-                   "an inner particle stands for %g m%s and would have a mass of %g kg; allowed: finite and "
-                   "> 0, so let the ends and edges of the part lie apart",
-                   piece, rows == 1 ? "" : "^2", inner);
-  }
-  for (int64_t r = 0; r < rows; r++) {
-    for (int64_t c = 0; c < columns; c++) {
-      const double down = rows > 1 && is_edge(r, rows) ? 0.5 : 1.0;
-      (*mass)[r * columns + c] = (is_edge(c, columns) ? 0.5 : 1.0) * down * inner;
-    }
-  }
-  return derive_masses(part, rows, columns);
+                   "an inner particle stands for %g %s and would have a mass of %g kg; allowed: finite and "
+                   "> 0, so let the %s",
+                   piece, unit[axes], part->inner_mass,
+                   axes == 3 ? "edges of the part span a volume" : "ends and edges of the part lie apart");
+  share_mass(part->inner_mass, axes, size, count, mass);
+  return derive_masses(part, axes, size);
+}
+
+int32_t hk_part_add_particles(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
+                              const double *position) {
+  const int64_t count = hooke_options_is_set(part->options, "density") ? part->count : 1;
+  double *mass = hk_new(count, sizeof(double));
+  int32_t status = mass ? hk_part_check_masses(part) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = find_masses(part, axes, size, piece, count, mass);
+  if (status == HOOKE_OK)
+    status = hooke_system_add_particles(part->system, part->count, position, NULL, count, mass, &part->first);
+  hk_free(mass);
+  return status;
 }
 
 /* ---- damping ---- */
@@ -115,116 +122,36 @@ double hk_critical_damping(double kappa, double mass) {
   return 2.0 * (fits ? sqrt(product) : sqrt(kappa) * sqrt(mass));
 }
 
-void hk_part_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
-                     const double *rest_length, double *damping) {
+int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int64_t count,
+                            const int64_t *ends, const double *rest_length, hooke_options *springs) {
   const double zeta = hk_part_material(part, family, "damping_ratio");
   const double stiffness = hk_part_material(part, family, "stiffness");
   const double scale = hk_part_material(part, family, "rest_scale");
+  double *damping = hk_new(count, sizeof(double));
+  if (damping == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++) {
     const double length = rest_length[k] * scale, kappa = stiffness / length;
     damping[k] = zeta * hk_critical_damping(kappa, reduced_mass(part, ends + 2 * k)) * length;
   }
+  const int32_t status = hooke_options_set_numbers(springs, "damping", count, damping);
+  hk_free(damping);
+  return status;
 }
 
-#define DIRECTIONS(of)                                                                                       \
-  of, of " along u", of " along v", of " along u + v", of " along u - v", /* a lattice: */                   \
-      of " along x", of " along y", of " along z", of " along x + y", of " along x - y", of " along x + z",  \
-      of " along x - z", of " along y + z", of " along y - z", of " along x + y + z", of " along x - y - z", \
-      of " along x - y + z", of " along x + y - z"
+int32_t hk_part_check_damping(const struct hk_part *part, const char *family) {
+  if (!hk_part_is_given(part, family, "damping_ratio") || !hk_part_is_given(part, family, "damping"))
+    return HOOKE_OK;
+  hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
+          "damping and damping_ratio are both given; a family has one of them");
+  return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
+}
 
-int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, int32_t strip_count,
-                               const struct hk_part_strip *strip) {
-  static const char *const kappa[] = {DIRECTIONS("kappa")}, *const gamma[] = {DIRECTIONS("gamma")};
+int32_t hk_part_derive_spring(const struct hk_part *part, const char *family, int64_t k, const char *kappa,
+                              const char *gamma) {
   const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
-  int32_t status = HOOKE_OK;
-  for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK; s++) {
-    const int64_t springs = strip[s].rows * strip[s].columns;
-    const int told = s > 0 && strip[s].direction == strip[s - 1].direction; /* layers of a lattice */
-    if (springs == 0) continue;
-    if (!told)
-      status = derive(part, family, kappa[strip[s].direction], "N/m", group->number[HOOKE_KAPPA][first]);
-    if (!told && status == HOOKE_OK)
-      status = derive(part, family, gamma[strip[s].direction], "N s/m", group->number[HOOKE_GAMMA][first]);
-    first += springs;
-  }
-  return status;
-}
-
-/* ---- bending ---- */
-
-static int64_t triples_of(const struct hk_part_beams *beams) {
-  return beams->rows > 0 && beams->columns > 0 ? beams->rows * beams->columns : 0;
-}
-
-static void join(const struct hk_part *part, int64_t stride, const struct hk_part_beams *beams,
-                 int64_t *triple, double *coefficient) {
-  for (int64_t r = 0; r < beams->rows; r++) {
-    for (int64_t c = 0; c < beams->columns; c++) {
-      const int64_t at = part->first + r * stride + c;
-      for (int e = 0; e < 3; e++)
-        *triple++ = at + e * beams->step;
-      const int edge = beams->side_by_side == HOOKE_BEAMS_ROWS      ? is_edge(r, beams->rows)
-                       : beams->side_by_side == HOOKE_BEAMS_COLUMNS ? is_edge(c, beams->columns)
-                                                                    : 0;
-      *coefficient++ = edge ? 0.5 * beams->coefficient : beams->coefficient;
-    }
-  }
-}
-
-static int32_t derive_beams(const struct hk_part *part, const struct hk_part_beams *beams) {
-  static const char *const inner[] = {"c", "c along u", "c along v"};
-  static const char *const edge[] = {NULL, "c along u at an edge", "c along v at an edge"};
-  const int64_t lines = beams->side_by_side == HOOKE_BEAMS_ROWS ? beams->rows : beams->columns;
-  int32_t status = HOOKE_OK;
-  if (beams->side_by_side == HOOKE_BEAMS_ALONE || lines > 2)
-    status = derive(part, "bending", inner[beams->direction], "N/m", beams->coefficient);
-  if (status == HOOKE_OK && beams->side_by_side != HOOKE_BEAMS_ALONE)
-    status = derive(part, "bending", edge[beams->direction], "N/m", 0.5 * beams->coefficient);
-  return status;
-}
-
-static int32_t check_beams(const struct hk_part_beams *beams) {
-  if (beams->coefficient > 0.0 && beams->coefficient <= 1e300) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, "bending",
-                 "its triples would have a coefficient of %g N/m; allowed: > 0 up to 1e300, so let the "
-                 "ends and edges of the part lie apart",
-                 beams->coefficient);
-}
-
-static int32_t add_triples(const struct hk_part *part, int64_t stride, int32_t count,
-                           const struct hk_part_beams *beams, int64_t *triple, double *coefficient) {
-  int64_t done = 0;
-  int32_t status = HOOKE_OK;
-  for (int32_t k = 0; k < count && status == HOOKE_OK; k++) {
-    if (triples_of(&beams[k]) == 0) continue;
-    status = check_beams(&beams[k]);
-    if (status == HOOKE_OK) status = derive_beams(part, &beams[k]);
-    join(part, stride, &beams[k], triple + 3 * done, coefficient + done);
-    done += triples_of(&beams[k]);
-  }
-  char *name = hk_part_group_name(part, "bending");
-  if (name == NULL) return HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK)
-    status = hk_system_add_bending(part->system,
-                                   &(struct hk_addition){&hk_force_bending, name, done, triple, NULL, 1},
-                                   done, coefficient);
-  hk_free(name);
-  return status;
-}
-
-int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
-                            const struct hk_part_beams *beams) {
-  int64_t triples = 0;
-  for (int32_t k = 0; k < count; k++)
-    triples += triples_of(&beams[k]);
-  if (hooke_options_number(part->options, "bending") == 0.0 || triples == 0) return HOOKE_OK;
-  int64_t *triple = hk_new(3 * triples, sizeof(int64_t));
-  double *coefficient = hk_new(triples, sizeof(double));
-  int32_t status = HOOKE_NO_MEMORY;
-  if (triple && coefficient) status = add_triples(part, stride, count, beams, triple, coefficient);
-  hk_free(triple);
-  hk_free(coefficient);
-  return status;
+  const int32_t status = hk_part_derive(part, family, kappa, "N/m", group->number[HOOKE_KAPPA][k]);
+  if (status != HOOKE_OK) return status;
+  return hk_part_derive(part, family, gamma, "N s/m", group->number[HOOKE_GAMMA][k]);
 }
 
 char *hk_part_group_name(const struct hk_part *part, const char *family) {

@@ -9,12 +9,9 @@
 double hk_part_material(const struct hk_part *part, const char *family, const char *key);
 int32_t hk_part_is_given(const struct hk_part *part, const char *family, const char *key);
 
-/* Computes one mass, or `count`, for the `rows` x `columns` particles: an equal fraction of the option
- * `mass`, or the option `density` times the piece that each represents: `piece` [m or m^2], half of it at an
- * edge, a quarter at a corner; a rope (one row) has no edges but its ends. Sets the part's inner mass. The
- * caller frees `mass`. */
-int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, double piece, int64_t *mass_count,
-                       double **mass);
+/* Adds a number that follows from the part's options to the list that the system shows. */
+int32_t hk_part_derive(const struct hk_part *part, const char *family, const char *name, const char *unit,
+                       double value);
 
 /* HOOKE_BAD_VALUE unless one of the options `mass` and `density` is given or, in an overdamped system,
  * none. */
@@ -25,14 +22,17 @@ double hk_part_total_mass(const struct hk_part *part);
 /* 2 sqrt(kappa m). */
 double hk_critical_damping(double kappa, double mass);
 
-/* The option damping [N s] of every spring of a family, `count` long, from its damping_ratio: kd = gamma l0,
- * gamma = 2 zeta sqrt(kappa m/2), l0 the rest length of the springs, m the part's inner mass; without an
- * inner mass m/2 is the reduced mass of the two `ends`. */
-void hk_part_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
-                     const double *rest_length, double *damping);
+/* Sets the option damping [N s] of springs from the damping_ratio of their family: kd = gamma l0, gamma = 2
+ * zeta sqrt(kappa m/2), l0 the rest length of each of `count`, m the part's inner mass; without an inner mass
+ * m/2 is the reduced mass of the two `ends`. HOOKE_NO_MEMORY. */
+int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int64_t count,
+                            const int64_t *ends, const double *rest_length, hooke_options *springs);
 
-/* Records the derived stiffness and damping of the group added last, for one spring of each direction. */
-int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, int32_t strip_count,
-                               const struct hk_part_strip *strip);
+/* HOOKE_BAD_VALUE if a family has both damping and damping_ratio. */
+int32_t hk_part_check_damping(const struct hk_part *part, const char *family);
+
+/* Records the derived stiffness and damping of spring `k` of the group added last, under these names. */
+int32_t hk_part_derive_spring(const struct hk_part *part, const char *family, int64_t k, const char *kappa,
+                              const char *gamma);
 
 #endif

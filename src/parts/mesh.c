@@ -6,9 +6,9 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/group.h"
+#include "model/vector3.h"
 
 #include <math.h>
-#include <stdio.h>
 
 static const struct hk_option_row transform_rows[] = {
     HOOKE_OPTION("scale", HOOKE_OPTION_POSITIVE(NULL), "1", "factor on the coordinates"),
@@ -81,9 +81,8 @@ static int32_t derive_range(const struct hk_part *part, const char *family, cons
     low = fmin(low, value[k]);
     high = fmax(high, value[k]);
   }
-  int32_t status = hk_system_add_derived(part->system, part->name, family, least, unit, low);
-  if (status == HOOKE_OK) status = hk_system_add_derived(part->system, part->name, family, most, unit, high);
-  return status;
+  const int32_t status = hk_part_derive(part, family, least, unit, low);
+  return status == HOOKE_OK ? hk_part_derive(part, family, most, unit, high) : status;
 }
 
 /* Replaces the areas by masses. */
@@ -121,15 +120,11 @@ static int32_t add_family(struct hk_part *part, const char *family, int64_t coun
   for (int64_t k = 0; k < count; k++) {
     const double *a = part->system->position + 3 * ends[2 * k],
                  *b = part->system->position + 3 * ends[2 * k + 1];
-    rest_length[k] = hk_part_length((const double[]){a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+    rest_length[k] = hk_length3((const double[]){a[0] - b[0], a[1] - b[1], a[2] - b[2]});
   }
-  const int64_t groups = hk_system_groups_of(part->system, &hk_force_springs);
-  int32_t status = hk_part_add_pairs(part, family, count, ends, rest_length);
+  const int32_t status = hk_part_add_pairs(part, family, count, ends, rest_length);
   hk_free(rest_length);
-  if (status != HOOKE_OK || hk_system_groups_of(part->system, &hk_force_springs) == groups) return status;
-  char ratio[32];
-  snprintf(ratio, sizeof ratio, "%s.damping_ratio", family);
-  if (!hooke_options_is_set(part->options, ratio)) return HOOKE_OK;
+  if (status != HOOKE_OK || count == 0 || !hk_part_is_given(part, family, "damping_ratio")) return status;
   return derive_range(part, family, "smallest gamma", "largest gamma", "N s/m", count,
                       hk_system_last_group(part->system, &hk_force_springs)->number[HOOKE_GAMMA]);
 }
@@ -155,15 +150,6 @@ static int32_t add_springs(struct hk_part *part, const struct hk_surface *surfac
 
 /* ---- the kind ---- */
 
-static int32_t refuse(const struct hk_surface_fault *fault) {
-  char text[256];
-  hk_surface_describe(fault, 0, NULL, text, sizeof text);
-  const int of_vertex = fault->trouble == HOOKE_SURFACE_UNUSED;
-  hk_fail(HOOKE_BAD_VALUE, NULL, "%s", text);
-  return hk_fail_within(HOOKE_BAD_VALUE, of_vertex ? "vertices[%lld]" : "triangles[%lld]",
-                        (long long)(of_vertex ? fault->vertex[0] : fault->triangle[0]));
-}
-
 static int32_t check_space(const struct hk_part *part, const struct hk_surface *surface) {
   const double edges = (double)surface->edge_count;
   const struct hk_more more = {.particles = (double)surface->vertex_count,
@@ -175,31 +161,21 @@ static int32_t check_space(const struct hk_part *part, const struct hk_surface *
 
 static int32_t build(struct hk_part *part) {
   struct hk_surface surface;
-  struct hk_surface_fault fault;
   int32_t status = check_given(part->options);
   if (status != HOOKE_OK) return status;
-  status = hk_surface_create(part->options, &surface, &fault);
-  if (fault.trouble != HOOKE_SURFACE_FINE) status = refuse(&fault);
+  status = hk_surface_create(part->options, NULL, &surface);
   if (status == HOOKE_OK) status = check_space(part, &surface);
   part->count = surface.vertex_count;
   if (status == HOOKE_OK) status = add_particles(part, &surface);
   if (status == HOOKE_OK) {
     const int64_t given = hooke_options_number_count(part->options, "vertices") / 3;
     if (given > part->count)
-      status = hk_system_add_derived(part->system, part->name, NULL, "vertices welded to others", "",
-                                     (double)(given - part->count));
+      status = hk_part_derive(part, NULL, "vertices welded to others", "", (double)(given - part->count));
   }
   if (status == HOOKE_OK) status = add_springs(part, &surface);
   hk_surface_release(&surface);
   return status;
 }
 
-static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
-  (void)part;
-  (void)word;
-  (void)k;
-  return -1; /* a mesh has no such words */
-}
-
 const struct hooke_part_kind hk_part_mesh = {
-    &table, build, named, NULL, "a surface of triangles, with springs along its edges and across them"};
+    &table, build, NULL, NULL, "a surface of triangles, with springs along its edges and across them"};

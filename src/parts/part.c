@@ -8,13 +8,11 @@
 #include "model/system.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 static const struct hooke_part_kind *const kinds[] = {&hk_part_rope, &hk_part_cloth, &hk_part_lattice,
                                                       &hk_part_mesh, &hk_part_strand};
-static const double FLAT = 1e-12; /* of unit edges: area, volume */
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hk_option_row family_rows[] = {
@@ -61,97 +59,40 @@ const struct hk_option_table *hk_part_table(int64_t k) {
 
 static int32_t cells(const hooke_options *options, int64_t cells[3]) {
   const int32_t axes = (int32_t)hooke_options_number_count(options, "size");
+  if (axes == 0) cells[0] = (int64_t)hooke_options_number(options, "segments");
   for (int32_t a = 0; a < axes; a++)
     cells[a] = (int64_t)hooke_options_numbers(options, "size")[a] - 1;
-  return axes;
+  return axes > 0 ? axes : 1;
 }
 
-static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
+int32_t hk_part_set_cells(hooke_options *options, const int64_t cells[3]) {
   const int64_t axes = hooke_options_number_count(options, "size");
   double size[3];
+  if (axes == 0) return hooke_options_set_number(options, "segments", (double)cells[0]);
   for (int64_t a = 0; a < axes; a++)
     size[a] = (double)cells[a] + 1.0;
   return hooke_options_set_numbers(options, "size", axes, size);
 }
 
-const struct hk_part_grid hk_part_sized = {cells, set_cells};
+const struct hk_part_grid hk_part_sized = {cells, hk_part_set_cells};
 
-double hk_part_length(const double *vector) {
-  return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
-}
-
-int32_t hk_part_check_edges(const double *edges, int32_t count) {
-  double unit[3][3] = {{0.0}}, normal[3], out = 0.0;
-  for (int e = 0; e < count; e++) {
-    const double length = hk_part_length(edges + 3 * e);
-    if (!(length > 0.0 && isfinite(length))) return HOOKE_OK; /* left to the rest lengths */
-    for (int i = 0; i < 3; i++)
-      unit[e][i] = edges[3 * e + i] / length;
-  }
-  for (int i = 0; i < 3; i++) {
-    normal[i] = unit[0][(i + 1) % 3] * unit[1][(i + 2) % 3] - unit[0][(i + 2) % 3] * unit[1][(i + 1) % 3];
-    out += normal[i] * unit[2][i];
-  }
-  if ((count == 3 ? fabs(out) : hk_part_length(normal)) > FLAT) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, "edges", "the edges span no %s; allowed: vectors in different directions",
-                 count == 3 ? "volume" : "area");
+int64_t hk_part_named_end(const struct hk_part *part, const char *word, int64_t k) {
+  if (k > 0) return -1;
+  return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
 
 double hk_part_if_family(const struct hk_part *part, const char *family, double count) {
   return hk_options_has_family(part->options, family) ? count : 0.0;
 }
 
-int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double **position,
-                              const char *format, ...) {
-  char what[128];
-  va_list args;
-  va_start(args, format);
-  hk_print_list(what, sizeof what, format, args);
-  va_end(args);
-
+int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, const char *what,
+                              double **position) {
   *position = NULL;
   const int32_t status = hk_system_check_size(part->system, more, what);
   if (status != HOOKE_OK) return status;
   part->count = (int64_t)more.particles;
   *position = hk_new(3 * part->count, sizeof(double));
   return *position ? HOOKE_OK : HOOKE_NO_MEMORY;
-}
-
-int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t columns, double piece,
-                              const double *position) {
-  int64_t mass_count = 0;
-  double *mass = NULL;
-  int32_t status = hk_part_masses(part, rows, columns, piece, &mass_count, &mass);
-  if (status == HOOKE_OK) {
-    status =
-        hooke_system_add_particles(part->system, part->count, position, NULL, mass_count, mass, &part->first);
-  }
-  hk_free(mass);
-  return status;
-}
-
-static void join(const struct hk_part *part, int64_t stride, int32_t strip_count,
-                 const struct hk_part_strip *strip, int64_t *ends, double *rest_length) {
-  for (int32_t s = 0; s < strip_count; s++) {
-    for (int64_t r = 0; r < strip[s].rows; r++) {
-      for (int64_t c = 0; c < strip[s].columns; c++) {
-        const int64_t at = part->first + r * stride + c;
-        *ends++ = at + strip[s].low;
-        *ends++ = at + strip[s].high;
-        *rest_length++ = strip[s].rest_length;
-      }
-    }
-  }
-}
-
-static int32_t set_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
-                           const double *rest_length, hooke_options *options) {
-  double *damping = hk_new(count, sizeof(double));
-  if (damping == NULL) return HOOKE_NO_MEMORY;
-  hk_part_damping(part, family, count, ends, rest_length, damping);
-  const int32_t status = hooke_options_set_numbers(options, "damping", count, damping);
-  hk_free(damping);
-  return status;
 }
 
 /* Options of a spring group with the values of a family. */
@@ -162,7 +103,8 @@ static int32_t material(const struct hk_part *part, const char *family, int by_r
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
     status = hooke_options_set_number(*options, keys[k], hk_part_material(part, family, keys[k]));
   }
-  if (status == HOOKE_OK && by_ratio) status = set_damping(part, family, count, ends, rest_length, *options);
+  if (status == HOOKE_OK && by_ratio)
+    status = hk_part_set_damping(part, family, count, ends, rest_length, *options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(*options, "rest_length", count, rest_length);
   return status;
 }
@@ -180,7 +122,6 @@ static int64_t count_given(const struct hk_part *part, int by_ratio, int64_t cou
 static int32_t add_group(struct hk_part *part, const char *family, int by_ratio, int64_t count,
                          const int64_t *ends, const double *rest_length) {
   const int64_t given = count_given(part, by_ratio, count, rest_length);
-
   char *name = hk_part_group_name(part, family);
   if (name == NULL) return HOOKE_NO_MEMORY;
   hooke_options *options = NULL;
@@ -192,6 +133,7 @@ static int32_t add_group(struct hk_part *part, const char *family, int by_ratio,
   hk_free(name);
   return status;
 }
+
 static int32_t check_rest_length(const char *family, double length) {
   if (length > 0.0 && isfinite(length)) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, family,
@@ -200,50 +142,15 @@ static int32_t check_rest_length(const char *family, double length) {
                  length);
 }
 
-static int32_t check_damping(const struct hk_part *part, const char *family) {
-  if (!hk_part_is_given(part, family, "damping_ratio") || !hk_part_is_given(part, family, "damping"))
-    return HOOKE_OK;
-  hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
-          "damping and damping_ratio are both given; a family has one of them");
-  return hk_fail_within(HOOKE_BAD_VALUE, "%s", family);
-}
-
 int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
                           const double *rest_length) {
   if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
-  int32_t status = check_damping(part, family);
+  int32_t status = hk_part_check_damping(part, family);
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     status = check_rest_length(family, rest_length[k]);
   if (status != HOOKE_OK || count == 0) return status;
   status = add_group(part, family, hk_part_is_given(part, family, "damping_ratio"), count, ends, rest_length);
   return status == HOOKE_OK ? status : hk_fail_within(status, "%s", family);
-}
-
-int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t stride, int32_t strip_count,
-                           const struct hk_part_strip *strip) {
-  if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
-  int32_t status = check_damping(part, family);
-  int64_t count = 0;
-  for (int32_t s = 0; s < strip_count && status == HOOKE_OK; s++) {
-    const int64_t springs = strip[s].rows * strip[s].columns;
-    count += springs;
-    if (springs > 0) status = check_rest_length(family, strip[s].rest_length);
-  }
-  if (status != HOOKE_OK || count == 0) return status; /* 0: too short for springs two apart */
-
-  int64_t *ends = hk_new(2 * count, sizeof(int64_t));
-  double *rest_length = hk_new(count, sizeof(double));
-  status = HOOKE_NO_MEMORY;
-  if (ends && rest_length) {
-    join(part, stride, strip_count, strip, ends, rest_length);
-    status = hk_part_add_pairs(part, family, count, ends, rest_length);
-    if (status == HOOKE_OK && hk_part_is_given(part, family, "damping_ratio")) {
-      status = hk_part_derive_springs(part, family, strip_count, strip);
-    }
-  }
-  hk_free(ends);
-  hk_free(rest_length);
-  return status;
 }
 
 static int32_t pin_numbers(const struct hk_part *part) {

@@ -21,14 +21,15 @@ struct hk_part {
 struct hooke_part_kind {
   const struct hk_option_table *table;
   int32_t (*build)(struct hk_part *part);
-  /* The k-th particle (0, 1, ...) that a word of `pinned` denotes; -1 past the last. */
+  /* The k-th particle (0, 1, ...) that a word of `pinned` denotes; -1 past the last. NULL: there are none. */
   int64_t (*named)(const struct hk_part *part, const char *word, int64_t k);
   const struct hk_part_grid *grid; /* NULL: its particles form no grid */
   const char *summary;             /* one line */
 };
 
-/* A grid of the option `size`, in particles. */
+/* A grid of the option `size`, in particles, or a line of the option `segments`. */
 extern const struct hk_part_grid hk_part_sized;
+int32_t hk_part_set_cells(hooke_options *options, const int64_t cells[3]);
 
 extern const struct hooke_part_kind hk_part_rope;
 extern const struct hooke_part_kind hk_part_cloth;
@@ -64,63 +65,36 @@ const struct hk_option_table *hk_part_find(const char *name);
 /* Options of a family of springs, nested in the table of every kind. */
 extern const struct hk_option_table hk_part_family;
 
-/* Springs of one family and direction between the points of a grid: row by row, spring (r, c) joins r*stride
- * + c + low and r*stride + c + high, low < high. All have one rest length, equal to the bit. */
-enum hk_part_direction {
-  HOOKE_PART_ALONG,
-  HOOKE_PART_U,
-  HOOKE_PART_V,
-  HOOKE_PART_DIAGONAL,
-  HOOKE_PART_OTHER_DIAGONAL,
-  HOOKE_PART_LATTICE /* and the following ones: the directions of a lattice, in order */
-};
-struct hk_part_strip {
-  int64_t rows, columns, low, high;
-  double rest_length;
-  enum hk_part_direction direction;
-};
-
-/* Lines of a grid as parallel beams: triple (r, c) joins particles at = r*stride + c, at + step and at + 2
- * step. Those in the first and the last row (or column) represent half the width of the others. */
-enum hk_part_beam_order { HOOKE_BEAMS_ALONE, HOOKE_BEAMS_ROWS, HOOKE_BEAMS_COLUMNS };
-struct hk_part_beams {
-  int64_t rows, columns, step;
-  double coefficient; /* [N/m] */
-  enum hk_part_direction direction;
-  enum hk_part_beam_order side_by_side;
-};
+/* Point (x, y, z), which is number `k` of those of `count` along each axis, in a grid of `size`. */
+static inline int64_t hk_part_point(const int64_t count[3], int64_t k, const int64_t size[3], int64_t at[3]) {
+  at[0] = k % count[0];
+  at[1] = k / count[0] % count[1];
+  at[2] = k / count[0] / count[1];
+  return (at[2] * size[1] + at[1]) * size[0] + at[0];
+}
 
 /* Checks that the part fits before anything is allocated, and returns an array of 3 coordinates for each
- * particle, which the caller frees. The format describes the part in messages: "a cloth of 3 x 4 particles".
- */
-int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double **position,
-                              const char *format, ...) __attribute__((format(printf, 4, 5)));
+ * particle, which the caller frees. `what` is the part in messages: "a cloth of 3 x 4 particles". */
+int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, const char *what, double **position);
 
 /* `count` if the part has springs of the family, else 0. */
 double hk_part_if_family(const struct hk_part *part, const char *family, double count);
 
-/* Adds rows x columns particles; the option `mass` is their total, or `density` refers to the `piece` that an
- * inner one represents: its length (one row) or area. */
-int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t columns, double piece,
+/* Adds the particles of a grid of `size`; the option `mass` is their total, or `density` refers to the
+ * `piece` that an inner one represents: its length, area or volume, by the number of axes, halved for each
+ * axis at one of whose ends a particle is. */
+int32_t hk_part_add_particles(struct hk_part *part, int32_t axes, const int64_t size[3], double piece,
                               const double *position);
 
-/* Adds the springs of a family, strip after strip, as one group; nothing if the family is not named. */
-int32_t hk_part_add_family(struct hk_part *part, const char *family, int64_t stride, int32_t strip_count,
-                           const struct hk_part_strip *strip);
-
-/* The same from pairs of particles and a rest length for each. */
+/* Adds the springs of a family from pairs of particles and a rest length for each, as one group; nothing if
+ * the family is not named. */
 int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
                           const double *rest_length);
-
-/* Adds bending along the beams, one after the other, as one group; nothing if the option `bending` is 0. */
-int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
-                            const struct hk_part_beams *beams);
 
 /* "<part>.<family>", which the caller frees; NULL without memory. */
 char *hk_part_group_name(const struct hk_part *part, const char *family);
 
-double hk_part_length(const double *vector);
-/* HOOKE_BAD_VALUE for two edges in one line, or three in one plane. */
-int32_t hk_part_check_edges(const double *edges, int32_t count);
+/* A `named` of parts with two ends: their words are "start" and "end". */
+int64_t hk_part_named_end(const struct hk_part *part, const char *word, int64_t k);
 
 #endif

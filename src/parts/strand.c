@@ -14,6 +14,7 @@
 #include "core/sine.h"
 #include "core/status.h"
 #include "model/force/altitude.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -69,14 +70,13 @@ static void find_axes(const double span[3], double length, double axis[3][3]) {
   }
   for (int a = 0; a < 3; a++)
     axis[0][a] /= sqrt(square);
-  for (int a = 0; a < 3; a++)
-    axis[1][a] = d[(a + 1) % 3] * axis[0][(a + 2) % 3] - d[(a + 2) % 3] * axis[0][(a + 1) % 3];
+  hk_cross3(d, axis[0], axis[1]);
 }
 
 static int32_t read(const hooke_options *options, struct strand *strand) {
   const double *from = hooke_options_numbers(options, "from"), *to = hooke_options_numbers(options, "to");
   const double span[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-  const double length = hk_part_length(span);
+  const double length = hk_length3(span);
   const int curl = hooke_options_is_set(options, "curl"), turns = hooke_options_is_set(options, "turns");
   if (curl != turns) {
     return hk_fail(HOOKE_BAD_VALUE, curl ? "curl" : "turns",
@@ -143,8 +143,9 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
                                      hk_part_if_family(part, "twist", n)},
              {&hk_force_altitude, hk_part_if_family(part, "altitude", n)}}};
   double *position;
-  int32_t status =
-      hk_part_new_positions(part, more, &position, "a strand of %lld segments", (long long)strand->segments);
+  char what[64];
+  snprintf(what, sizeof what, "a strand of %lld segments", (long long)strand->segments);
+  int32_t status = hk_part_new_positions(part, more, what, &position);
   if (status != HOOKE_OK) return hk_fail_within(status, "segments");
   for (int64_t k = 0; k < count; k++) {
     double across[2];
@@ -155,59 +156,38 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
     }
   }
   const double piece = is_curl(strand) ? distance(strand, 0, 1) : 0.5 * strand->piece;
-  status = hk_part_add_particles(part, 1, count, piece, position);
+  status = hk_part_add_particles(part, 1, (const int64_t[]){count, 1, 1}, piece, position);
   hk_free(position);
   return status;
 }
 
-/* Records the first two springs of the bend of a straight strand; all others equal one of these. */
-static int32_t derive_bend(const struct hk_part *part, int64_t count) {
-  static const char *const kappa[] = {"kappa on the axis", "kappa of extra particles"};
-  static const char *const gamma[] = {"gamma on the axis", "gamma of extra particles"};
-  const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
-  int32_t status = HOOKE_OK;
-  for (int k = 0; k < 2 && k < count && status == HOOKE_OK; k++) {
-    status = hk_system_add_derived(part->system, part->name, "bend", kappa[k], "N/m",
-                                   group->number[HOOKE_KAPPA][k]);
-    if (status == HOOKE_OK)
-      status = hk_system_add_derived(part->system, part->name, "bend", gamma[k], "N s/m",
-                                     group->number[HOOKE_GAMMA][k]);
-  }
-  return status;
+/* Two springs apart of a straight strand differ by whether they are on its axis; all other springs of a
+ * family are alike. */
+static int32_t derive_springs(const struct hk_part *part, const struct strand *strand, const char *family,
+                              int64_t apart, int64_t count) {
+  if (apart != 2 || is_curl(strand)) return hk_part_derive_spring(part, family, 0, "kappa", "gamma");
+  const int32_t status = hk_part_derive_spring(part, family, 0, "kappa on the axis", "gamma on the axis");
+  if (status != HOOKE_OK || count < 2) return status;
+  return hk_part_derive_spring(part, family, 1, "kappa of extra particles", "gamma of extra particles");
 }
 
-/* For a straight strand: every second one joins particles on the axis. */
-static int32_t add_bend(struct hk_part *part, const struct strand *strand) {
-  const int64_t count = part->count - 2;
+static int32_t add_family(struct hk_part *part, const struct strand *strand, const char *family,
+                          int64_t apart) {
+  const int64_t count = part->count > apart ? part->count - apart : 0;
+  if (!hk_options_has_family(part->options, family)) return HOOKE_OK;
   int64_t *ends = hk_new(2 * count, sizeof *ends);
   double *rest_length = hk_new(count, sizeof *rest_length);
   int32_t status = ends && rest_length ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     ends[2 * k] = part->first + k;
-    ends[2 * k + 1] = part->first + k + 2;
-    rest_length[k] = distance(strand, k, 2);
+    ends[2 * k + 1] = part->first + k + apart;
+    rest_length[k] = distance(strand, k, apart);
   }
-  if (status == HOOKE_OK) status = hk_part_add_pairs(part, "bend", count, ends, rest_length);
-  if (status == HOOKE_OK && hk_part_is_given(part, "bend", "damping_ratio"))
-    status = derive_bend(part, count);
+  if (status == HOOKE_OK) status = hk_part_add_pairs(part, family, count, ends, rest_length);
   hk_free(ends);
   hk_free(rest_length);
-  return status;
-}
-
-static int32_t add_springs(struct hk_part *part, const struct strand *strand) {
-  static const char *const family[] = {"stretch", "bend", "twist"};
-  int32_t status = HOOKE_OK;
-  for (int64_t apart = 1; apart <= 3 && status == HOOKE_OK; apart++) {
-    const int64_t count = part->count - apart;
-    const struct hk_part_strip strip = {1,     count > 0 ? count : 0,      0,
-                                        apart, distance(strand, 0, apart), HOOKE_PART_ALONG};
-    if (apart == 2 && !is_curl(strand))
-      status = hk_options_has_family(part->options, "bend") ? add_bend(part, strand) : HOOKE_OK;
-    else
-      status = hk_part_add_family(part, family[apart - 1], part->count, 1, &strip);
-  }
-  return status;
+  if (status != HOOKE_OK || count == 0 || !hk_part_is_given(part, family, "damping_ratio")) return status;
+  return derive_springs(part, strand, family, apart, count);
 }
 
 /* ---- altitude springs ---- */
@@ -228,21 +208,18 @@ static int32_t find_rest(const struct hk_part *part, const struct strand *strand
 static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t) {
   t->damping = hooke_options_number(part->options, "altitude.damping");
   if (!hk_part_is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
-  if (hk_part_is_given(part, "altitude", "damping")) {
-    return hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
-                   "damping and damping_ratio are both given; a family has one of them");
-  }
   double l = t->rest[0];
   for (int k = 1; k < HOOKE_ALTITUDES; k++)
     l = fmin(l, t->rest[k]);
   const double zeta = hooke_options_number(part->options, "altitude.damping_ratio");
   t->damping = zeta * hk_critical_damping(t->stiffness / l, 0.5 * part->inner_mass) * l;
-  return hk_system_add_derived(part->system, part->name, "altitude", "kd", "N s", t->damping);
+  return hk_part_derive(part, "altitude", "kd", "N s", t->damping);
 }
 
 static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
   const int64_t count = part->count - 3;
   if (!hk_options_has_family(part->options, "altitude") || count <= 0) return HOOKE_OK;
+  if (hk_part_check_damping(part, "altitude") != HOOKE_OK) return HOOKE_BAD_VALUE;
   const double scale = hooke_options_number(part->options, "altitude.rest_scale");
   struct hk_tetrahedron kind[2] = {
       {.stiffness = hooke_options_number(part->options, "altitude.stiffness"),
@@ -263,13 +240,10 @@ static int32_t build(struct hk_part *part) {
   if (status != HOOKE_OK) return status;
   const int64_t count = is_curl(&strand) ? strand.segments + 1 : 2 * strand.segments + 1;
   status = add_particles(part, &strand, count);
-  if (status == HOOKE_OK) status = add_springs(part, &strand);
+  if (status == HOOKE_OK) status = add_family(part, &strand, "stretch", 1);
+  if (status == HOOKE_OK) status = add_family(part, &strand, "bend", 2);
+  if (status == HOOKE_OK) status = add_family(part, &strand, "twist", 3);
   return status == HOOKE_OK ? add_altitude(part, &strand) : status;
-}
-
-static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
-  if (k > 0) return -1;
-  return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
 
 /* Changes the resolution of a curl, a line of points of its helix. A straight strand has none: the offset of
@@ -279,15 +253,11 @@ static int32_t cells(const hooke_options *options, int64_t cells[3]) {
   return hooke_options_is_set(options, "curl") ? 1 : 0;
 }
 
-static int32_t set_cells(hooke_options *options, const int64_t cells[3]) {
-  return hooke_options_set_number(options, "segments", (double)cells[0]);
-}
-
-static const struct hk_part_grid grid = {cells, set_cells};
+static const struct hk_part_grid grid = {cells, hk_part_set_cells};
 
 const struct hooke_part_kind hk_part_strand = {.table = &table,
                                                .build = build,
-                                               .named = named,
+                                               .named = hk_part_named_end,
                                                .grid = &grid,
                                                .summary = "a hair, straight or curled, that keeps "
                                                           "its curl: springs between neighbours, "

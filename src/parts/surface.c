@@ -10,9 +10,27 @@
 
 static const double FLAT = 1e-12; /* height over the longest edge, below which a triangle counts as flat */
 
-static int32_t found(struct hk_surface_fault *fault, struct hk_surface_fault what) {
-  *fault = what;
+/* ---- faults ---- */
+
+/* Ends the message about a fault at a given triangle, or at a vertex. */
+static int32_t fail_at(const struct hk_surface *surface, int of_vertex, int64_t k) {
+  struct hk_surface_lines *lines = surface->lines;
+  if (lines == NULL)
+    return hk_fail_within(HOOKE_BAD_VALUE, of_vertex ? "vertices[%lld]" : "triangles[%lld]", (long long)k);
+  lines->fault = (of_vertex ? lines->vertex : lines->triangle)[k];
   return HOOKE_BAD_VALUE;
+}
+
+/* A given vertex, and where a triangle is, in messages. */
+static long long vertex_at(const struct hk_surface *surface, double vertex) {
+  return (long long)vertex + (surface->lines != NULL);
+}
+
+static const char *place_of(const struct hk_surface *surface, int64_t triangle, char place[32]) {
+  const struct hk_surface_lines *lines = surface->lines;
+  snprintf(place, 32, "%s %lld", lines ? "line" : "triangle",
+           (long long)(lines ? lines->triangle[triangle] : triangle));
+  return place;
 }
 
 /* ---- vertices ---- */
@@ -37,15 +55,17 @@ static int32_t check_range(const double *corner, int64_t count, int64_t vertices
 
 /* ---- triangles ---- */
 
-static int32_t check_corners(const struct hk_surface *surface, const double *corner, int64_t t,
-                             struct hk_surface_fault *fault) {
+static int32_t check_corners(const struct hk_surface *surface, const double *corner, int64_t t) {
   const int32_t *v = surface->triangle + 3 * t;
   for (int e = 0; e < 3; e++) {
     if (v[e] != v[(e + 1) % 3]) continue;
-    return found(fault,
-                 (struct hk_surface_fault){HOOKE_SURFACE_CORNERS,
-                                           {(int64_t)corner[3 * t + e], (int64_t)corner[3 * t + (e + 1) % 3]},
-                                           {t}});
+    const long long a = vertex_at(surface, corner[3 * t + e]),
+                    b = vertex_at(surface, corner[3 * t + (e + 1) % 3]);
+    hk_fail(HOOKE_BAD_VALUE, NULL,
+            a == b ? "vertex %lld is two of its corners; allowed: three different ones"
+                   : "its corners %lld and %lld become one particle; allowed: three different ones",
+            a, b);
+    return fail_at(surface, 0, t);
   }
   return HOOKE_OK;
 }
@@ -71,16 +91,18 @@ static double area_of(const double *a, const double *b, const double *c) {
   return ratio > FLAT ? 0.5 * ratio * longest * longest : 0.0;
 }
 
-static int32_t share_areas(struct hk_surface *surface, const double *corner, struct hk_surface_fault *fault) {
+static int32_t share_areas(struct hk_surface *surface, const double *corner) {
   for (int64_t t = 0; t < surface->triangle_count; t++) {
     const int32_t *v = surface->triangle + 3 * t;
     const double area = area_of(surface->position + 3 * (int64_t)v[0], surface->position + 3 * (int64_t)v[1],
                                 surface->position + 3 * (int64_t)v[2]);
     if (!(area > 0.0) || !isfinite(area)) {
       const double *given = corner + 3 * t;
-      return found(fault, (struct hk_surface_fault){HOOKE_SURFACE_FLAT,
-                                                    {(int64_t)given[0], (int64_t)given[1], (int64_t)given[2]},
-                                                    {t}});
+      hk_fail(HOOKE_BAD_VALUE, NULL,
+              "the triangle of vertices %lld, %lld and %lld has no area, or one that is not finite; allowed: "
+              "an area > 0, as the mass is shared out by it",
+              vertex_at(surface, given[0]), vertex_at(surface, given[1]), vertex_at(surface, given[2]));
+      return fail_at(surface, 0, t);
     }
     for (int e = 0; e < 3; e++)
       surface->area[v[e]] += area / 3.0;
@@ -88,10 +110,13 @@ static int32_t share_areas(struct hk_surface *surface, const double *corner, str
   return HOOKE_OK;
 }
 
-static int32_t check_used(const struct hk_surface *surface, struct hk_surface_fault *fault) {
+static int32_t check_used(const struct hk_surface *surface) {
   for (int64_t v = 0; v < surface->vertex_count; v++) {
-    if (surface->area[v] == 0.0)
-      return found(fault, (struct hk_surface_fault){HOOKE_SURFACE_UNUSED, {surface->first[v]}, {0}});
+    if (surface->area[v] != 0.0) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL,
+            "vertex %lld is in no face; allowed: vertices of faces only, as the mass is shared out by area",
+            vertex_at(surface, surface->first[v]));
+    return fail_at(surface, 1, surface->first[v]);
   }
   return HOOKE_OK;
 }
@@ -125,30 +150,40 @@ static void sort_sides(int64_t count, int64_t vertices, int by_low, const struct
     to[start[by_low ? from[k].low : from[k].high]++] = from[k];
 }
 
-static int32_t join_sides(struct hk_surface *surface, int64_t count, const struct side *side,
-                          struct hk_surface_fault *fault) {
-  for (int64_t k = 0, next; k < count; k = next) {
-    const int64_t low = surface->first[side[k].low], high = surface->first[side[k].high];
-    for (next = k + 1; next < count && side[next].low == side[k].low && side[next].high == side[k].high;)
-      next++;
-    if (next - k > 2) {
-      return found(fault,
-                   (struct hk_surface_fault){HOOKE_SURFACE_CROWDED,
-                                             {low, high},
-                                             {side[k + 2].triangle, side[k].triangle, side[k + 1].triangle}});
-    }
-    if (next - k == 2 && side[k].across == side[k + 1].across) {
-      return found(fault, (struct hk_surface_fault){HOOKE_SURFACE_TWICE,
-                                                    {low, high, surface->first[side[k].across]},
-                                                    {side[k + 1].triangle, side[k].triangle}});
-    }
-    surface->edge[surface->edge_count++] = (struct hk_surface_edge){
-        side[k].low, side[k].high, {side[k].across, next - k == 2 ? side[k + 1].across : -1}};
+/* Of the sides on one edge: a third one, or a second one of the same triangle. */
+static int32_t check_edge(const struct hk_surface *surface, const struct side *side, int64_t count) {
+  char first[32], second[32];
+  const long long low = vertex_at(surface, surface->first[side->low]),
+                  high = vertex_at(surface, surface->first[side->high]);
+  place_of(surface, side[0].triangle, first);
+  if (count > 2) {
+    hk_fail(
+        HOOKE_BAD_VALUE, NULL,
+        "the edge of vertices %lld and %lld has a third face here, after those of %s and %s; allowed: two "
+        "faces at an edge",
+        low, high, first, place_of(surface, side[1].triangle, second));
+    return fail_at(surface, 0, side[2].triangle);
   }
-  return HOOKE_OK;
+  if (count < 2 || side[0].across != side[1].across) return HOOKE_OK;
+  hk_fail(HOOKE_BAD_VALUE, NULL,
+          "a second face on vertices %lld, %lld and %lld, after that of %s; allowed: each face once", low,
+          high, vertex_at(surface, surface->first[side->across]), first);
+  return fail_at(surface, 0, side[1].triangle);
 }
 
-static int32_t list_edges(struct hk_surface *surface, struct hk_surface_fault *fault) {
+static int32_t join_sides(struct hk_surface *surface, int64_t count, const struct side *side) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0, next; k < count && status == HOOKE_OK; k = next) {
+    for (next = k + 1; next < count && side[next].low == side[k].low && side[next].high == side[k].high;)
+      next++;
+    if (next - k > 1) status = check_edge(surface, &side[k], next - k);
+    surface->edge[surface->edge_count++] = (struct hk_surface_edge){
+        side[k].low, side[k].high, {side[k].across, next - k > 1 ? side[k + 1].across : -1}};
+  }
+  return status;
+}
+
+static int32_t list_edges(struct hk_surface *surface) {
   const int64_t count = 3 * surface->triangle_count;
   struct side *side = hk_new(count, sizeof *side), *sorted = hk_new(count, sizeof *sorted);
   int64_t *start = hk_new(surface->vertex_count + 1, sizeof *start);
@@ -158,7 +193,7 @@ static int32_t list_edges(struct hk_surface *surface, struct hk_surface_fault *f
     list_sides(surface, side);
     sort_sides(count, surface->vertex_count, 0, side, sorted, start);
     sort_sides(count, surface->vertex_count, 1, sorted, side, start);
-    status = join_sides(surface, count, side, fault);
+    status = join_sides(surface, count, side);
   }
   hk_free(side);
   hk_free(sorted);
@@ -168,8 +203,7 @@ static int32_t list_edges(struct hk_surface *surface, struct hk_surface_fault *f
 
 /* ---- surface ---- */
 
-static int32_t fill(const hooke_options *options, struct hk_surface *surface, int32_t *became,
-                    struct hk_surface_fault *fault) {
+static int32_t fill(const hooke_options *options, struct hk_surface *surface, int32_t *became) {
   const int64_t given = hooke_options_number_count(options, "vertices") / 3;
   const double *corner = hooke_options_numbers(options, "triangles");
   place_vertices(options, given, surface->position);
@@ -181,19 +215,18 @@ static int32_t fill(const hooke_options *options, struct hk_surface *surface, in
   for (int64_t k = 0; k < 3 * surface->triangle_count && status == HOOKE_OK; k++)
     surface->triangle[k] = became[(int64_t)corner[k]];
   for (int64_t t = 0; t < surface->triangle_count && status == HOOKE_OK; t++)
-    status = check_corners(surface, corner, t, fault);
-  if (status == HOOKE_OK) status = share_areas(surface, corner, fault);
-  if (status == HOOKE_OK) status = check_used(surface, fault);
-  if (status == HOOKE_OK) status = list_edges(surface, fault);
+    status = check_corners(surface, corner, t);
+  if (status == HOOKE_OK) status = share_areas(surface, corner);
+  if (status == HOOKE_OK) status = check_used(surface);
+  if (status == HOOKE_OK) status = list_edges(surface);
   return status;
 }
 
-int32_t hk_surface_create(const hooke_options *options, struct hk_surface *surface,
-                          struct hk_surface_fault *fault) {
+int32_t hk_surface_create(const hooke_options *options, struct hk_surface_lines *lines,
+                          struct hk_surface *surface) {
   const int64_t vertices = hooke_options_number_count(options, "vertices") / 3;
   const int64_t triangles = hooke_options_number_count(options, "triangles") / 3;
-  *surface = (struct hk_surface){.triangle_count = triangles};
-  *fault = (struct hk_surface_fault){.trouble = HOOKE_SURFACE_FINE};
+  *surface = (struct hk_surface){.triangle_count = triangles, .lines = lines};
   if (vertices > INT32_MAX || 3 * triangles > INT32_MAX) {
     return hk_fail(HOOKE_BAD_VALUE, NULL,
                    "a mesh of %lld vertices and %lld triangles; allowed: "
@@ -207,7 +240,7 @@ int32_t hk_surface_create(const hooke_options *options, struct hk_surface *surfa
   int32_t *became = hk_new(vertices, sizeof(int32_t));
   int32_t status = HOOKE_NO_MEMORY;
   if (surface->position && surface->area && surface->first && surface->triangle && became)
-    status = fill(options, surface, became, fault);
+    status = fill(options, surface, became);
   hk_free(became);
   return status;
 }
@@ -219,48 +252,4 @@ void hk_surface_release(struct hk_surface *surface) {
   hk_free(surface->triangle);
   hk_free(surface->edge);
   *surface = (struct hk_surface){.edge = NULL};
-}
-
-void hk_surface_describe(const struct hk_surface_fault *fault, int64_t base, const int32_t *line, char *text,
-                         int64_t size) {
-  const char *kind = line ? "line" : "triangle";
-  long long v[3], t[3];
-  for (int k = 0; k < 3; k++) {
-    v[k] = (long long)(fault->vertex[k] + base);
-    t[k] = line ? (long long)line[fault->triangle[k]] : (long long)fault->triangle[k];
-  }
-  text[0] = '\0';
-  switch (fault->trouble) {
-  case HOOKE_SURFACE_FINE:
-    break;
-  case HOOKE_SURFACE_CORNERS:
-    snprintf(text, (size_t)size,
-             v[0] == v[1] ? "vertex %lld is two of its corners; allowed: three different ones"
-                          : "its corners %lld and %lld become one particle; allowed: three different ones",
-             v[0], v[1]);
-    break;
-  case HOOKE_SURFACE_FLAT:
-    snprintf(
-        text, (size_t)size,
-        "the triangle of vertices %lld, %lld and %lld has no area, or one that is not finite; allowed: an "
-        "area > 0, as the mass is shared out by it",
-        v[0], v[1], v[2]);
-    break;
-  case HOOKE_SURFACE_UNUSED:
-    snprintf(text, (size_t)size,
-             "vertex %lld is in no face; allowed: vertices of faces only, as the mass is shared out by area",
-             v[0]);
-    break;
-  case HOOKE_SURFACE_CROWDED:
-    snprintf(text, (size_t)size,
-             "the edge of vertices %lld and %lld has a third face here, after those of %s %lld and %s %lld; "
-             "allowed: two faces at an edge",
-             v[0], v[1], kind, t[1], kind, t[2]);
-    break;
-  case HOOKE_SURFACE_TWICE:
-    snprintf(text, (size_t)size,
-             "a second face on vertices %lld, %lld and %lld, after that of %s %lld; allowed: each face once",
-             v[0], v[1], v[2], kind, t[1]);
-    break;
-  }
 }

@@ -13,17 +13,17 @@
 #include <string.h>
 
 struct hk_surface;
-struct hk_surface_fault;
+struct hk_surface_lines;
 
 /* The first function that is called for a file in which every line was valid. */
-int32_t __wrap_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
-                                 struct hk_surface_fault *fault);
-int32_t __real_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
-                                 struct hk_surface_fault *fault);
-int32_t __wrap_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
-                                 struct hk_surface_fault *fault) {
+int32_t __wrap_hk_surface_create(const hooke_options *options, struct hk_surface_lines *lines,
+                                 struct hk_surface *surface);
+int32_t __real_hk_surface_create(const hooke_options *options, struct hk_surface_lines *lines,
+                                 struct hk_surface *surface);
+int32_t __wrap_hk_surface_create(const hooke_options *options, struct hk_surface_lines *lines,
+                                 struct hk_surface *surface) {
   hooke_fuzz_is_past_syntax();
-  return __real_hk_surface_create(options, surface, fault);
+  return __real_hk_surface_create(options, lines, surface);
 }
 
 /* ---- failures ---- */

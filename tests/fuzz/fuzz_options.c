@@ -169,17 +169,17 @@ static void read_number(const char *text) {
 
 /* A number and its unit are within the text, of which nothing else is read, and give a finite number. */
 static void read_units(const char *text, const char *bases, const char *name) {
-  const struct hk_unit *unit = hk_unit_find(bases, name, (int64_t)strlen(name));
+  const struct hk_unit unit = hk_unit_find(bases, name, (int64_t)strlen(name));
   const size_t length = strlen(text);
   char *alone = malloc(length + (length == 0)); /* without the zero at its end */
   if (alone == NULL) return;
   memcpy(alone, text, length);
   const struct hk_quantity found = hk_unit_scan(bases, alone, (int64_t)length);
-  hooke_fuzz_require(unit && 0 <= found.number && found.number <= found.whole &&
+  hooke_fuzz_require(unit.base && 0 <= found.number && found.number <= found.whole &&
                          found.whole <= (int64_t)length,
                      "a number and its unit are in the text");
   double value = 0.0;
-  if (found.number > 0 && hk_unit_parse(alone, found.number, unit, &value) == HOOKE_NUMBER_FINE)
+  if (found.number > 0 && hk_unit_parse(alone, found.number, &unit, &value) == HOOKE_NUMBER_FINE)
     hooke_fuzz_require(isfinite(value), "a number in a unit is finite");
   free(alone);
 }

@@ -1,6 +1,6 @@
 /* The parser of scenes: from text in memory to a committed system, and back to text and to an equal system.
  *
- * Lines of: src/io/scene/scene*.c src/io/scene/json_*.c src/parts/[clr]*.c src/parts/material.c
+ * Lines of: src/io/scene/scene*.c src/io/scene/json_*.c src/parts/[cglr]*.c src/parts/material.c
  *           src/parts/part.c src/parts/strand.c
  * Longest input: 4096, mostly 320 */
 #include "fuzz.h"

@@ -230,7 +230,7 @@ static void touch(const char *folder, const char *name) {
 
 static void check_file(const char *folder, const char *file, const char *message) {
   char *path = NULL;
-  check_status(hk_scene_find_file(folder, file, &path), message ? HOOKE_BAD_VALUE : HOOKE_OK);
+  check_status(hk_scene_find_file(folder, file, 0, &path), message ? HOOKE_BAD_VALUE : HOOKE_OK);
   if (message) {
     check_message(message);
     assert_null(path);

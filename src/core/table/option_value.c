@@ -129,9 +129,9 @@ static int32_t refuse_unit(const struct hk_option_row *row, const char *where, c
 
 /* Parses a number, with or without a unit, which is then in `unit`. */
 static enum hk_number_result parse_quantity(const char *bases, const char *text, int64_t length,
-                                            double *number, const char **wrong, const struct hk_unit **unit) {
+                                            double *number, const char **wrong, struct hk_unit *unit) {
   *wrong = NULL;
-  *unit = NULL;
+  *unit = (struct hk_unit){NULL, 0, 0.0};
   if (bases == NULL) return hk_number_parse(text, length, number);
   const struct hk_quantity found = hk_unit_scan(bases, text, length);
   if (found.whole == found.number || found.whole < length) return hk_number_parse(text, length, number);
@@ -139,25 +139,25 @@ static enum hk_number_result parse_quantity(const char *bases, const char *text,
   while (*name == ' ' || *name == '\t')
     name++;
   *unit = hk_unit_find(bases, name, text + length - name);
-  if (*unit == NULL) {
+  if (unit->base == NULL) {
     *wrong = name;
     return HOOKE_NUMBER_JUNK;
   }
-  return hk_unit_parse(text, found.number, *unit, number);
+  return hk_unit_parse(text, found.number, unit, number);
 }
 
 int32_t hk_option_parse_number(const struct hk_option_row *row, const char *where, const char *text,
                                int64_t length, double *number, const char **base) {
   char shown[HOOKE_OPTION_SHOWN], may[HOOKE_OPTION_ALLOWED];
   const char *wrong;
-  const struct hk_unit *unit;
+  struct hk_unit unit;
   enum hk_number_result result = parse_quantity(row->unit, text, length, number, &wrong, &unit);
   hk_option_show(text, length, shown);
   if (wrong) return refuse_unit(row, where, wrong, text + length - wrong);
-  if (unit && *base && strcmp(unit->base, *base) != 0)
+  if (unit.base && *base && strcmp(unit.base, *base) != 0)
     return hk_fail(HOOKE_BAD_VALUE, where, "%s after a number in %s; allowed: one kind of unit", shown,
                    *base);
-  if (unit) *base = unit->base;
+  if (unit.base) *base = unit.base;
   switch (result) {
   case HOOKE_NUMBER_FINE:
     return HOOKE_OK;

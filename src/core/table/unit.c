@@ -10,83 +10,37 @@
 
 enum { MOST_EXPONENT = 99999, EXPONENT_SIZE = 16, LONGEST_UNIT = 8 };
 
-static const struct hk_unit units[] = {
-    {"m", "m", 0, 0},
-    {"m", "km", 3, 0},
-    {"m", "cm", -2, 0},
-    {"m", "mm", -3, 0},
-    {"m", "um", -6, 0},
-    {"m", "nm", -9, 0},
-    {"s", "s", 0, 0},
-    {"s", "ms", -3, 0},
-    {"s", "us", -6, 0},
-    {"s", "ns", -9, 0},
-    {"s", "min", 0, 60},
-    {"s", "h", 0, 3600},
-    {"kg", "kg", 0, 0},
-    {"kg", "t", 3, 0},
-    {"kg", "g", -3, 0},
-    {"kg", "mg", -6, 0},
-    {"kg", "ug", -9, 0},
-    {"kg/m", "kg/m", 0, 0},
-    {"kg/m", "g/m", -3, 0},
-    {"kg/m", "mg/m", -6, 0},
-    {"kg/m^2", "kg/m^2", 0, 0},
-    {"kg/m^2", "g/m^2", -3, 0},
-    {"kg/m^3", "kg/m^3", 0, 0},
-    {"kg/m^3", "g/cm^3", 3, 0},
-    {"N", "N", 0, 0},
-    {"N", "MN", 6, 0},
-    {"N", "kN", 3, 0},
-    {"N", "mN", -3, 0},
-    {"N", "uN", -6, 0},
-    {"N", "nN", -9, 0},
-    {"N/m", "N/m", 0, 0},
-    {"N/m", "MN/m", 6, 0},
-    {"N/m", "kN/m", 3, 0},
-    {"N/m", "N/mm", 3, 0},
-    {"N/m", "N/cm", 2, 0},
-    {"N/m", "mN/m", -3, 0},
-    {"N/m", "Pa m", 0, 0},
-    {"N/m", "kPa m", 3, 0},
-    {"N s", "N s", 0, 0},
-    {"N s", "kN s", 3, 0},
-    {"N s", "mN s", -3, 0},
-    {"N s/m", "N s/m", 0, 0},
-    {"N s/m", "kN s/m", 3, 0},
-    {"N s/m", "mN s/m", -3, 0},
-    {"N s/m", "N s/mm", 3, 0},
-    {"N s/m", "kg/s", 0, 0},
-    {"N m", "N m", 0, 0},
-    {"N m", "mN m", -3, 0},
-    {"N m", "uN m", -6, 0},
-    {"N m^2", "N m^2", 0, 0},
-    {"N m^2", "kN m^2", 3, 0},
-    {"N m^2", "mN m^2", -3, 0},
-    {"N m^2", "N mm^2", -6, 0},
-    {"m/s", "m/s", 0, 0},
-    {"m/s", "km/s", 3, 0},
-    {"m/s", "cm/s", -2, 0},
-    {"m/s", "mm/s", -3, 0},
-    {"m/s", "um/s", -6, 0},
-    {"m/s", "km/h", 0, 1.0 / 3.6},
-    {"m/s^2", "m/s^2", 0, 0},
-    {"m/s^2", "cm/s^2", -2, 0},
-    {"m/s^2", "mm/s^2", -3, 0},
-    {"Hz", "Hz", 0, 0},
-    {"Hz", "kHz", 3, 0},
-    {"Hz", "mHz", -3, 0},
-    {"rad", "rad", 0, 0},
-    {"rad", "mrad", -3, 0},
-    {"rad", "deg", 0, 0.017453292519943295},
-    {"MB", "MB", 0, 0},
-    {"MB", "GB", 3, 0},
-    {"MB", "kB", -3, 0},
-    {"GB", "GB", 0, 0},
-    {"GB", "TB", 3, 0},
-    {"GB", "MB", -3, 0},
+/* A unit is 10^exponent bases, or so many as `factor` says if that is not 0; each of the prefixes makes
+ * another. */
+static const struct {
+  const char *base, *name, *prefixes;
+  int32_t exponent;
+  double factor;
+} units[] = {
+    {"m", "m", "kcmun", 0, 0},      {"s", "s", "mun", 0, 0},
+    {"s", "min", "", 0, 60},        {"s", "h", "", 0, 3600},
+    {"kg", "kg", "", 0, 0},         {"kg", "t", "", 3, 0},
+    {"kg", "g", "mu", -3, 0},       {"kg/m", "kg/m", "", 0, 0},
+    {"kg/m", "g/m", "m", -3, 0},    {"kg/m^2", "kg/m^2", "", 0, 0},
+    {"kg/m^2", "g/m^2", "", -3, 0}, {"kg/m^3", "kg/m^3", "", 0, 0},
+    {"kg/m^3", "g/cm^3", "", 3, 0}, {"N", "N", "Mkmun", 0, 0},
+    {"N/m", "N/m", "Mk", 0, 0},     {"N/m", "N/mm", "", 3, 0},
+    {"N/m", "N/cm", "", 2, 0},      {"N/m", "mN/m", "", -3, 0},
+    {"N/m", "Pa m", "k", 0, 0},     {"N s", "N s", "km", 0, 0},
+    {"N s/m", "N s/m", "km", 0, 0}, {"N s/m", "N s/mm", "", 3, 0},
+    {"N s/m", "kg/s", "", 0, 0},    {"N m", "N m", "mu", 0, 0},
+    {"N m^2", "N m^2", "km", 0, 0}, {"N m^2", "N mm^2", "", -6, 0},
+    {"m/s", "m/s", "kcmu", 0, 0},   {"m/s", "km/h", "", 0, 1.0 / 3.6},
+    {"m/s^2", "m/s^2", "cm", 0, 0}, {"Hz", "Hz", "km", 0, 0},
+    {"rad", "rad", "m", 0, 0},      {"rad", "deg", "", 0, 0.017453292519943295},
+    {"MB", "MB", "", 0, 0},         {"MB", "GB", "", 3, 0},
+    {"MB", "kB", "", -3, 0},        {"GB", "GB", "", 0, 0},
+    {"GB", "TB", "", 3, 0},         {"GB", "MB", "", -3, 0},
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
+
+static const char prefixes[] = "Mkcmun";
+static const int32_t exponents[] = {6, 3, -2, -3, -6, -9};
 
 /* Each base stands before a blank and a bracket, or before a comma or the end. */
 static int is_one_of(const char *bases, const char *base) {
@@ -102,58 +56,34 @@ static int is_one_of(const char *bases, const char *base) {
   return 0;
 }
 
-const struct hk_unit *hk_unit_find(const char *bases, const char *name, int64_t length) {
+struct hk_unit hk_unit_find(const char *bases, const char *name, int64_t length) {
   for (int k = 0; k < UNIT_COUNT; k++) {
-    if ((int64_t)strlen(units[k].name) == length && memcmp(units[k].name, name, (size_t)length) == 0 &&
-        is_one_of(bases, units[k].base))
-      return &units[k];
+    const size_t own = strlen(units[k].name), prefix = (size_t)length == own + 1;
+    if (prefix ? !strchr(units[k].prefixes, name[0]) : (size_t)length != own) continue;
+    if (memcmp(units[k].name, name + prefix, own) != 0 || !is_one_of(bases, units[k].base)) continue;
+    const int32_t more = prefix ? exponents[strchr(prefixes, name[0]) - prefixes] : 0;
+    return (struct hk_unit){units[k].base, units[k].exponent + more, units[k].factor};
   }
-  return NULL;
+  return (struct hk_unit){NULL, 0, 0.0};
 }
 
 void hk_unit_list(const char *bases, char *list, int64_t size) {
   list[0] = '\0';
   for (int k = 0; k < UNIT_COUNT; k++) {
-    if (is_one_of(bases, units[k].base))
-      hk_append(list, (size_t)size, "%s%s", list[0] ? ", " : "", units[k].name);
+    if (!is_one_of(bases, units[k].base)) continue;
+    hk_append(list, (size_t)size, "%s%s", list[0] ? ", " : "", units[k].name);
+    for (const char *prefix = units[k].prefixes; *prefix; prefix++)
+      hk_append(list, (size_t)size, ", %c%s", *prefix, units[k].name);
   }
 }
 
 /* ---- texts ---- */
 
-static int64_t count_of(const char *characters, const char *text, int64_t length) {
-  int64_t count = 0;
-  while (count < length && text[count] && strchr(characters, text[count]))
-    count++;
-  return count;
-}
-
-static int64_t count_digits(const char *text, int64_t length) {
-  return count_of("0123456789", text, length);
-}
-
-/* Length of sign, digits and point; 0 without a digit. */
-static int64_t scan_mantissa(const char *text, int64_t length) {
-  int64_t at = length > 0 && (text[0] == '-' || text[0] == '+');
-  const int64_t whole = count_digits(text + at, length - at);
-  at += whole;
-  if (at == length || text[at] != '.') return whole ? at : 0;
-  const int64_t part = count_digits(text + at + 1, length - at - 1);
-  return whole + part ? at + 1 + part : 0;
-}
-
-static int64_t scan_exponent(const char *text, int64_t length) {
-  if (length == 0 || (text[0] != 'e' && text[0] != 'E')) return 0;
-  const int64_t sign = 1 + (length > 1 && (text[1] == '-' || text[1] == '+'));
-  const int64_t digits = count_digits(text + sign, length - sign);
-  return digits ? sign + digits : 0;
-}
-
 /* Length of the longest unit that stands here alone, or of what stands in its place. */
 static int64_t scan_unit(const char *bases, const char *text, int64_t length) {
   for (int64_t most = length < LONGEST_UNIT ? length : LONGEST_UNIT; most > 0; most--) {
     if (most < length && !strchr(",; \t", text[most])) continue;
-    if (hk_unit_find(bases, text, most)) return most;
+    if (hk_unit_find(bases, text, most).base) return most;
   }
   int64_t end = 0;
   while (end < length && !strchr(",; \t", text[end]))
@@ -162,13 +92,11 @@ static int64_t scan_unit(const char *bases, const char *text, int64_t length) {
 }
 
 struct hk_quantity hk_unit_scan(const char *bases, const char *text, int64_t length) {
-  struct hk_quantity found = {0, 0};
-  found.number = scan_mantissa(text, length);
-  if (found.number == 0) return found;
-  found.number += scan_exponent(text + found.number, length - found.number);
-  found.whole = found.number;
-  const int64_t unit = found.number + count_of(" \t", text + found.number, length - found.number);
-  if (unit < length && !strchr("0123456789+-.,;", text[unit]))
+  int64_t mantissa, unit = hk_number_scan(text, length, &mantissa);
+  struct hk_quantity found = {unit, unit};
+  while (unit < length && (text[unit] == ' ' || text[unit] == '\t'))
+    unit++;
+  if (mantissa > 0 && unit < length && !strchr("0123456789+-.,;", text[unit]))
     found.whole = unit + scan_unit(bases, text + unit, length - unit);
   return found;
 }
@@ -180,7 +108,8 @@ enum hk_number_result hk_unit_parse(const char *text, int64_t length, const stru
     if (result == HOOKE_NUMBER_FINE && unit->factor > 0) *value *= unit->factor;
     return result == HOOKE_NUMBER_FINE && isinf(*value) ? HOOKE_NUMBER_TOO_LARGE : result;
   }
-  const int64_t mantissa = scan_mantissa(text, length);
+  int64_t mantissa;
+  hk_number_scan(text, length, &mantissa);
   char *scaled = hk_new(length + EXPONENT_SIZE, 1);
   if (scaled == NULL) return HOOKE_NUMBER_NO_MEMORY;
   memcpy(scaled, text, (size_t)length);

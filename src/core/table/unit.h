@@ -5,15 +5,15 @@
 #include "core/number.h"
 
 struct hk_unit {
-  const char *base, *name;
-  int32_t exponent; /* name = 10^exponent base, or */
-  double factor;    /* name = factor base, unless 0 */
+  const char *base; /* NULL: no unit */
+  int32_t exponent; /* 10^exponent base, or */
+  double factor;    /* factor base, unless 0 */
 };
 
 /* `bases` are the units of an option's row: "s", or "N (strain law), N/m (length law)". */
 
-/* The unit with this name, of one of `bases`; NULL if there is none. */
-const struct hk_unit *hk_unit_find(const char *bases, const char *name, int64_t length);
+/* The unit with this name, of one of `bases`. */
+struct hk_unit hk_unit_find(const char *bases, const char *name, int64_t length);
 
 /* Writes the names of all units of `bases`: "s, ms, us, ns, min, h"; "" if `bases` has no other unit. */
 void hk_unit_list(const char *bases, char *list, int64_t size);

@@ -22,16 +22,12 @@ int32_t hk_mesh_check_source(const hooke_options *options) {
 
 /* The checks of adding the part, made here where the line of a fault is known. */
 static int32_t check_surface(const hooke_options *options, const struct hk_obj *obj, int64_t *line) {
+  struct hk_surface_lines lines = {obj->vertex_line, obj->triangle_line, 0};
   struct hk_surface surface;
-  struct hk_surface_fault fault;
-  char text[256];
-  int32_t status = hk_surface_create(options, &surface, &fault);
+  const int32_t status = hk_surface_create(options, &lines, &surface);
   hk_surface_release(&surface);
-  if (fault.trouble == HOOKE_SURFACE_FINE) return status;
-  hk_surface_describe(&fault, 1, obj->triangle_line, text, sizeof text);
-  *line = fault.trouble == HOOKE_SURFACE_UNUSED ? obj->vertex_line[fault.vertex[0]]
-                                                : obj->triangle_line[fault.triangle[0]];
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s", text);
+  *line = lines.fault;
+  return status;
 }
 
 static int32_t read_text(const char *text, int64_t length, hooke_options *options, int64_t *line) {
@@ -61,9 +57,7 @@ static int32_t finish(int32_t status, int64_t line, const char *name, hooke_opti
 int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
                       hooke_options *options) {
   int64_t line = 0;
-  int32_t status = hk_mesh_check_source(options);
-  if (status != HOOKE_OK) return status;
-  status = hk_memory_require(memory_limit, hk_obj_bytes(text, length), "the mesh");
+  int32_t status = hk_memory_require(memory_limit, hk_obj_bytes(text, length), "the mesh");
   if (status == HOOKE_OK) status = read_text(text, length, options, &line);
   return finish(status, line, name, options);
 }
@@ -71,9 +65,7 @@ int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double
 int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit, hooke_options *options) {
   char *text = NULL;
   int64_t length = 0;
-  int32_t status = hk_mesh_check_source(options);
-  if (status != HOOKE_OK) return status;
-  status = hk_scene_read_file(path, NULL, &text, &length);
+  int32_t status = hk_scene_read_file(path, NULL, &text, &length);
   status = status == HOOKE_OK ? hk_mesh_parse(text, length, name, memory_limit, options)
                               : finish(status, 0, name, options);
   hk_free(text);
@@ -81,7 +73,8 @@ int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit,
 }
 
 int32_t hooke_mesh_read(const char *path, hooke_options *options) {
-  const int32_t status =
+  int32_t status =
       hk_options_require(options, hk_options_named("mesh"), "options", "hooke_options_create(\"mesh\", ...)");
+  if (status == HOOKE_OK) status = hk_mesh_check_source(options);
   return status != HOOKE_OK ? status : hk_mesh_read_as(path, path, 0.0, options);
 }

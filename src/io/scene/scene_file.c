@@ -97,19 +97,20 @@ static int is_inside(const char *folder, const char *path) {
   return strncmp(folder, path, length) == 0 && path[length] == '/';
 }
 
-int32_t hk_scene_find_any(const char *folder, const char *file, char **path) {
+static char *join(const char *folder, const char *file) {
   const char *base = hk_os_is_absolute(file) ? "" : folder ? folder : ".";
   const size_t capacity = strlen(base) + strlen(file) + 2;
-  *path = hk_new((int64_t)capacity, 1);
-  if (*path) snprintf(*path, capacity, "%s%s%s", base, base[0] ? "/" : "", file);
-  return *path ? HOOKE_OK : HOOKE_NO_MEMORY;
+  char *path = hk_new((int64_t)capacity, 1);
+  if (path) snprintf(path, capacity, "%s%s%s", base, base[0] ? "/" : "", file);
+  return path;
 }
 
-int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
+int32_t hk_scene_find_file(const char *folder, const char *file, int32_t outside, char **path) {
   HOOKE_KEEP_ERRNO;
   char shown[HOOKE_OPTION_SHOWN], reason[HOOKE_ERROR_SIZE];
   hk_option_show(file, (int64_t)strlen(file), shown);
-  *path = NULL;
+  *path = outside ? join(folder, file) : NULL;
+  if (outside) return *path ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (folder == NULL)
     return hk_fail(HOOKE_BAD_VALUE, NULL,
                    "\"%s\" is not allowed; this scene has no folder to take files from", shown);
@@ -117,9 +118,9 @@ int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
     return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "\"%s\" is not allowed; allowed: a path inside the scene's folder, relative and without ..", shown);
-  char *joined;
-  int32_t status = hk_scene_find_any(folder, file, &joined);
-  if (status != HOOKE_OK) return status;
+  char *joined = join(folder, file);
+  if (joined == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = HOOKE_OK;
   char *real_folder = hk_os_real_path(folder);
   char *real_file = real_folder ? hk_os_real_path(joined) : NULL;
   if (real_file == NULL && errno == ENOMEM)

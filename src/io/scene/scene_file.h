@@ -36,10 +36,8 @@ int32_t hk_scene_read_file(const char *path, const double *memory_limit, char **
 char *hk_scene_folder(const char *path);
 
 /* Resolved path of `file`, which a scene in `folder` names; the caller frees it. HOOKE_BAD_VALUE if it does
- * not exist or is outside the folder, also through links. */
-int32_t hk_scene_find_file(const char *folder, const char *file, char **path);
-
-/* The same if the caller lets the scene name any file; opening it shows whether it exists. */
-int32_t hk_scene_find_any(const char *folder, const char *file, char **path);
+ * not exist or is outside the folder, also through links, unless the scene may name any file (`outside`),
+ * whose opening shows whether it exists. */
+int32_t hk_scene_find_file(const char *folder, const char *file, int32_t outside, char **path);
 
 #endif

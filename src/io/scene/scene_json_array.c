@@ -26,8 +26,7 @@ static const struct hk_option_row source_rows[] = {
 static const struct hk_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
 
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path) {
-  int32_t status =
-      (reader->scene->outside ? hk_scene_find_any : hk_scene_find_file)(reader->folder, file, path);
+  int32_t status = hk_scene_find_file(reader->folder, file, reader->scene->outside, path);
   if (status == HOOKE_OK) status = hk_inputs_note(reader->scene->system, *path, 0);
   if (status == HOOKE_OK) return status;
   hk_free(*path);

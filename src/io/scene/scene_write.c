@@ -8,7 +8,7 @@
 #include "io/scene/json.h"
 #include "io/scene/scene.h"
 #include "io/scene/scene_file.h"
-#include "io/scene/scene_words.h"
+#include "core/table/option.h"
 #include "io/file/text.h"
 #include "model/callbacks.h"
 #include "model/force/drive.h"
@@ -16,7 +16,89 @@
 #include "model/system.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+/* ---- values ---- */
+
+/* An array of numbers, in rows of `columns` (0: flat). */
+static void add_numbers(struct hk_text *text, const char *key, int64_t count, int32_t columns,
+                        const double *value) {
+  const int64_t width = columns > 0 ? columns : count;
+  hk_text_open(text, key, '[');
+  for (int64_t first = 0; first < count; first += width) {
+    if (columns > 0) hk_text_open(text, NULL, '[');
+    for (int64_t k = first; k < first + width; k++)
+      hk_text_number(text, NULL, value[k]);
+    if (columns > 0) hk_text_close(text, ']');
+  }
+  hk_text_close(text, ']');
+}
+
+/* Words mixed with numbers, one or an array of them. */
+static void add_list(struct hk_text *text, const struct hk_option_row *row, const char *words, int64_t count,
+                     const double *number) {
+  const int32_t single = strchr(words, ' ') == NULL;
+  if (count == 0 && single) {
+    hk_text_word(text, row->name, words);
+    return;
+  }
+  hk_text_open(text, row->name, '[');
+  int64_t length;
+  for (const char *at; (at = hk_option_next_word(&words, &length));) {
+    char word[32];
+    snprintf(word, sizeof word, "%.*s", (int)length, at);
+    hk_text_word(text, NULL, word);
+  }
+  for (int64_t k = 0; k < count; k++)
+    hk_text_number(text, NULL, number[k]);
+  hk_text_close(text, ']');
+}
+
+static void add_value(struct hk_text *text, const hooke_options *options, const char *name,
+                      const struct hk_option_row *row) {
+  const int64_t count = hooke_options_number_count(options, name);
+  const double *number = hooke_options_numbers(options, name);
+  const char *words = hooke_options_text(options, name);
+  if (row->type == HOOKE_OPTION_FLAG) {
+    hk_text_flag(text, row->name, number[0] != 0.0);
+  } else if (row->type == HOOKE_OPTION_NUMBER) {
+    hk_text_number(text, row->name, number[0]);
+  } else if (row->type != HOOKE_OPTION_NUMBERS) {
+    hk_text_word(text, row->name, words);
+  } else if (words[0]) {
+    add_list(text, row, words, count, number);
+  } else if (count == 1 && row->min_count == 1 && row->max_count != 1) {
+    hk_text_number(text, row->name, number[0]);
+  } else {
+    add_numbers(text, row->name, count, row->columns, number);
+  }
+}
+
+static void add_table(struct hk_text *text, const hooke_options *options, const struct hk_option_table *table,
+                      const char *prefix, const char *left_out) {
+  for (int32_t k = 0; k < table->row_count; k++) {
+    const struct hk_option_row *row = &table->rows[k];
+    char name[128];
+    snprintf(name, sizeof name, "%s%s", prefix, row->name);
+    if (!hooke_options_is_set(options, name) || (left_out && strcmp(name, left_out) == 0)) continue;
+    if (row->type != HOOKE_OPTION_FAMILY) {
+      add_value(text, options, name, row);
+      continue;
+    }
+    hk_text_open(text, row->name, '{');
+    snprintf(name, sizeof name, "%s%s.", prefix, row->name);
+    add_table(text, options, row->family, name, left_out);
+    hk_text_close(text, '}');
+  }
+}
+
+/* Every option that is set, under its key, except `left_out` (may be NULL). */
+static void add_options(struct hk_text *text, const hooke_options *options, const char *left_out) {
+  add_table(text, options, hk_options_table(options), "", left_out);
+}
+
+/* ---- numbers of particles ---- */
 
 struct writer {
   const hooke_system *system;
@@ -51,7 +133,7 @@ static void add_shared(struct hk_text *text, const char *key, int64_t count, con
   if (count <= same)
     hk_text_number(text, key, count > 0 ? value[0] : 0.0);
   else
-    hk_scene_add_numbers(text, key, count, 0, value);
+    add_numbers(text, key, count, 0, value);
 }
 
 /* ---- particles ---- */
@@ -94,10 +176,9 @@ static void add_particles(struct writer *to) {
   }
   hk_text_open(text, "particles", '{');
   take_alone(to, 3, system->position, rows);
-  hk_scene_add_numbers(text, "position", 3 * count, 3, rows);
+  add_numbers(text, "position", 3 * count, 3, rows);
   if (system->velocity) take_alone(to, 3, system->velocity, rows);
-  if (system->velocity && is_moving(3 * count, rows))
-    hk_scene_add_numbers(text, "velocity", 3 * count, 3, rows);
+  if (system->velocity && is_moving(3 * count, rows)) add_numbers(text, "velocity", 3 * count, 3, rows);
   take_alone(to, 1, system->mass, rows);
   if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
   add_pinned(to, 0, system->particle_count, 0, count);
@@ -117,7 +198,7 @@ static void add_parts(struct writer *to) {
     hk_text_open(text, NULL, '{');
     hk_text_word(text, "kind", part->kind);
     hk_text_word(text, "name", part->name);
-    hk_scene_add_options(text, part->options, as_given ? NULL : "pinned");
+    add_options(text, part->options, as_given ? NULL : "pinned");
     if (!as_given) add_pinned(to, part->first, part->count, to->number[part->first], part->count);
     hk_text_close(text, '}');
   }
@@ -153,7 +234,7 @@ static void add_columns(struct hk_text *text, const struct hk_scene_list *list,
   for (int k = HOOKE_KAPPA + 1; k < HOOKE_GROUP_NUMBERS && group->count > 0; k++) {
     if (width[k] == 1) add_shared(text, hk_group_names[k], group->count, group->number[k]);
     if (width[k] > 1)
-      hk_scene_add_numbers(text, hk_group_names[k], width[k] * group->count, width[k], group->number[k]);
+      add_numbers(text, hk_group_names[k], width[k] * group->count, width[k], group->number[k]);
   }
   if (group->pull_only) hk_text_flag(text, "compression", 0);
 }
@@ -166,7 +247,7 @@ static void add_group(struct writer *to, const struct hk_scene_list *list, const
     if (all.count > 0) all.force->recall(to->system, first, &all);
     open_member(to, list, group->name, all.count, all.particle);
     if (group->options)
-      hk_scene_add_options(&to->json, group->options, NULL);
+      add_options(&to->json, group->options, NULL);
     else
       add_columns(&to->json, list, &all);
     hk_text_close(&to->json, '}');
@@ -202,10 +283,10 @@ static void add_drives(struct writer *to, const struct hk_scene_list *list) {
     open_member(to, list, NULL, drive->count, &drive->particle);
     hk_text_word(text, "motion", drive->kind == HOOKE_DRIVE_TABLE ? "table" : "harmonic");
     if (drive->kind == HOOKE_DRIVE_TABLE) {
-      hk_scene_add_numbers(text, "time", drive->samples, 0, drive->time);
-      hk_scene_add_numbers(text, "position", 3 * drive->samples, 3, drive->displacement);
+      add_numbers(text, "time", drive->samples, 0, drive->time);
+      add_numbers(text, "position", 3 * drive->samples, 3, drive->displacement);
     } else {
-      hk_scene_add_numbers(text, "amplitude", 3, 0, drive->amplitude);
+      add_numbers(text, "amplitude", 3, 0, drive->amplitude);
       hk_text_number(text, "frequency", drive->frequency);
       hk_text_number(text, "phase", drive->phase);
     }
@@ -254,14 +335,14 @@ static void add_scene(struct writer *to, const char *title, const hooke_options 
   hk_text_number(text, "hooke", 1.0);
   if (title && title[0]) hk_text_word(text, "title", title);
   if (system->overdamped) hk_text_word(text, "dynamics", hooke_system_dynamics(system));
-  if (system->has_gravity) hk_scene_add_numbers(text, "gravity", 3, 0, system->gravity);
+  if (system->has_gravity) add_numbers(text, "gravity", 3, 0, system->gravity);
   if (system->drag != 0.0) hk_text_number(text, "drag", system->drag);
   if (to->alone > 0) add_particles(to);
   if (system->part_count > 0) add_parts(to);
   add_lists(to);
   if (run) {
     hk_text_open(text, "run", '{');
-    hk_scene_add_options(text, run, NULL);
+    add_options(text, run, NULL);
     hk_text_close(text, '}');
   }
   hk_text_close(text, '}');

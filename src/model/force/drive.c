@@ -142,20 +142,12 @@ static int32_t check_driven(const hooke_system *system, int64_t count, const int
   return status;
 }
 
-static int32_t require_finite(const char *where, double value) {
-  if (isfinite(value)) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, where, "%g is not allowed; a finite number is", value);
-}
-
 int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
                                     const double *amplitude, double frequency, double phase) {
   int32_t status = check_driven(system, count, particles);
-  for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
-    const char *where[] = {"amplitude[0]", "amplitude[1]", "amplitude[2]"};
-    status = require_finite(where[a], amplitude[a]);
-  }
-  if (status == HOOKE_OK) status = require_finite("frequency", frequency);
-  if (status == HOOKE_OK) status = require_finite("phase", phase);
+  if (status == HOOKE_OK) status = hk_require_finite("amplitude", 3, 1, amplitude);
+  if (status == HOOKE_OK) status = hk_require_finite("frequency", 1, 1, &frequency);
+  if (status == HOOKE_OK) status = hk_require_finite("phase", 1, 1, &phase);
   if (status != HOOKE_OK) return status;
   struct hk_drive_group drive = {
       .kind = HOOKE_DRIVE_HARMONIC, .count = count, .frequency = frequency, .phase = phase};
@@ -172,13 +164,8 @@ static int32_t check_table(int64_t samples, const double *time, const double *di
       hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; times are finite and ascend", time[k]);
       return hk_fail_within(HOOKE_BAD_VALUE, "time[%lld]", (long long)k);
     }
-    for (int a = 0; a < 3; a++) {
-      if (isfinite(displacement[3 * k + a])) continue;
-      hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", displacement[3 * k + a]);
-      return hk_fail_within(HOOKE_BAD_VALUE, "position[%lld][%d]", (long long)k, a);
-    }
   }
-  return HOOKE_OK;
+  return hk_require_finite("position", samples, 3, displacement);
 }
 
 int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int64_t *particles,

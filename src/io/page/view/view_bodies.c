@@ -22,8 +22,7 @@ static void add_grid(struct hk_text *data, const struct hk_part_record *part) {
 
 static void add_triangles(struct hk_text *data, const struct hk_part_record *part) {
   struct hk_surface surface;
-  struct hk_surface_fault fault;
-  const int32_t status = hk_surface_create(part->options, &surface, &fault);
+  const int32_t status = hk_surface_create(part->options, NULL, &surface);
   hk_text_open(data, "triangle", '[');
   for (int64_t k = 0; k < 3 * surface.triangle_count && status == HOOKE_OK; k++)
     hk_text_number(data, NULL, surface.triangle[k]);
