@@ -16,7 +16,7 @@ static int32_t find_bounds(struct hk_limit *limit, const double *q) {
   const int32_t status = hk_node_blocks_create(limit->system, q, &blocks);
   if (status != HOOKE_OK) return status;
   for (int32_t k = 0; k < limit->row_count; k++)
-    limit->row[k].bound = hk_step_bound_of(&blocks, limit->row[k].method);
+    limit->row[k].bound = hk_step_bound_of(&blocks, limit->row[k].method, INFINITY, NULL);
   hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }

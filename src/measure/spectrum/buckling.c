@@ -56,11 +56,11 @@ int32_t hk_buckling_rate(const hooke_system *system, double t, const double *q, 
   *rate = 0.0;
   int32_t status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  const double frequency = hk_node_blocks_frequency(&blocks);
+  const double shift = 1.0 / hk_node_blocks_reach(&blocks, (struct hk_node_limit){.k = 1.0}, INFINITY, NULL);
   hk_node_blocks_release(&blocks);
   double *vectors = hk_new(9 * system->particle_count, sizeof(double));
   if (vectors == NULL) return HOOKE_NO_MEMORY;
-  status = search(system, t, q, frequency * frequency, vectors, rate);
+  status = search(system, t, q, shift, vectors, rate);
   hk_free(vectors);
   return status;
 }

@@ -32,8 +32,10 @@ int32_t hk_reference_method(const hooke_system *system, const double *q, const c
   if (system->mover_count > 0) return HOOKE_OK;
   const int32_t status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  if (system->overdamped || hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))
-    *method = "cvode-bdf";
+  /* in the time that the fastest oscillation takes for a radian, and that the fastest damping takes */
+  const double swing = hk_node_blocks_reach(&blocks, (struct hk_node_limit){.kk = 1.0}, INFINITY, NULL),
+               decay = hk_node_blocks_reach(&blocks, (struct hk_node_limit){.c = 1.0}, INFINITY, NULL);
+  if (system->overdamped || swing > 2.0 * decay) *method = "cvode-bdf";
   hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
