@@ -1,7 +1,6 @@
 /* Creating a limit, and its computation at one state and along a run. */
 #include "measure/limit/limit.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/table/option.h"
@@ -173,18 +172,17 @@ static void add_note(struct hk_limit_row *row, const char *note) {
 }
 
 static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, const hooke_state *state,
-                           double budget) {
+                           struct hk_budget *budget) {
   const double accuracy = hooke_options_number(limit->options, "accuracy");
   const double *q = hooke_state_position((hooke_state *)state);
   struct hk_measured_limit m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
-  const int32_t status =
-      nonlinear
-          ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method, row->predicted,
-                                       accuracy, budget, hk_limit_tell, limit, &m)
-          : hk_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
-                             row->has_mode ? row->mode : NULL, accuracy, budget, hk_limit_tell, limit, &m);
+  const int32_t status = nonlinear
+                             ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method,
+                                                          row->predicted, accuracy, budget, &m)
+                             : hk_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
+                                                row->has_mode ? row->mode : NULL, accuracy, budget, &m);
   if (status != HOOKE_OK) return status;
   row->measured = m.step;
   row->steps_run = (double)m.steps_run;
@@ -195,16 +193,17 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
 
 /* The unused budget of a row goes to later ones. */
 static int32_t measure(struct hk_limit *limit, const hooke_state *state) {
-  const double budget = hooke_options_number(limit->options, "budget");
-  double left = budget, width = (1.0 - PREDICTING) / limit->row_count;
+  const double seconds = hooke_options_number(limit->options, "budget");
+  const double width = (1.0 - PREDICTING) / limit->row_count;
+  struct hk_budget budget = hk_budget_of(seconds, hk_limit_tell, limit);
   for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     if (hooke_method_is_adaptive(row->method)) continue;
     int32_t status = begin_part(limit, PREDICTING + k * width, width, row->method);
-    const double begun = hk_clock_seconds();
-    if (status == HOOKE_OK) status = measure_row(limit, row, state, left / (limit->row_count - k));
+    hk_budget_lend(&budget, 1.0 / (limit->row_count - k));
+    if (status == HOOKE_OK) status = measure_row(limit, row, state, &budget);
     if (status != HOOKE_OK) return status;
-    left = fmax(0.01 * budget, left - (hk_clock_seconds() - begun));
+    hk_budget_take_back(&budget);
   }
   return begin_part(limit, 1.0, 0.0, "done");
 }
