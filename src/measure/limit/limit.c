@@ -62,15 +62,14 @@ static void forget_smallest(struct hk_limit *limit) {
 
 static int32_t make_space(struct hk_limit *limit) {
   const int64_t size = 3 * limit->system->particle_count;
-  limit->q = hk_new(size, sizeof(double));
-  limit->shape = hk_new(size, sizeof(double));
-  limit->stiffest = hk_new(size, sizeof(double));
-  int32_t status = limit->q && limit->shape && limit->stiffest ? HOOKE_OK : HOOKE_NO_MEMORY;
-  for (int32_t k = 0; k < limit->row_count && status == HOOKE_OK; k++) {
-    limit->row[k].mode = hk_new(size, sizeof(double));
-    if (limit->row[k].mode == NULL) status = HOOKE_NO_MEMORY;
-  }
-  return status;
+  double *block = hk_new(size, (size_t)(3 + limit->row_count) * sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  limit->q = hk_part(&block, size);
+  limit->shape = hk_part(&block, size);
+  limit->stiffest = hk_part(&block, size);
+  for (int32_t k = 0; k < limit->row_count; k++)
+    limit->row[k].mode = hk_part(&block, size);
+  return HOOKE_OK;
 }
 
 static int32_t create(hooke_measurement *m) {
@@ -98,11 +97,7 @@ static void destroy(void *object) {
   struct hk_limit *limit = object;
   if (limit == NULL) return;
   forget(limit);
-  for (int32_t k = 0; k < limit->row_count; k++)
-    hk_free(limit->row[k].mode);
   hk_free(limit->q);
-  hk_free(limit->shape);
-  hk_free(limit->stiffest);
   hk_free(limit);
 }
 

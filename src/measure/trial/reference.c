@@ -171,11 +171,6 @@ static int is_lost(const struct hk_reference_watch *watch, const struct hk_refer
   return watch->request->brief && !is_all(r);
 }
 
-/* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
-static int gave_up(int32_t status) {
-  return status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED || status == HOOKE_STEP_LIMIT;
-}
-
 /* Runs a level, which may replace the best one so far. */
 static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *r, double tolerance,
                          struct hk_trial *check) {
@@ -211,7 +206,7 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
   for (;;) {
     const double begun = hk_reference_now(watch);
     status = run_level(watch, r, tolerance, check);
-    const int failed = gave_up(status);
+    const int failed = hk_trial_gave_up(status); /* another tolerance may do */
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
     const int last = tolerance <= TIGHTEST || is_lost(watch, r) || is_drowned(r);

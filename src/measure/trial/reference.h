@@ -60,7 +60,8 @@ void hk_reference_release(struct hk_reference *reference);
 double hk_reference_time(const struct hk_reference *reference, int64_t count, double duration);
 
 /* Options of a run by `method` at a tolerance, which counts in the size of the scene, wherever that lies: the
- * absolute one scales with it, and the relative one is smaller far from the origin. */
+ * absolute one scales with it, and the relative one is smaller far from the origin. The caller destroys them
+ * in either case. */
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *reference, hooke_options **out);
 

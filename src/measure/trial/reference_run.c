@@ -21,19 +21,13 @@ static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *r, hooke_options **out) {
   const double relative = fmax(rtol * fmin(1.0, r->extent / r->farthest), LEAST_RELATIVE);
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_copy(run, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", fmin(rtol, relative));
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", ABSOLUTE * rtol * r->extent);
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
-  if (status == HOOKE_OK)
-    *out = options;
-  else
-    hooke_options_destroy(options);
-  return status;
+  int32_t status = hooke_options_copy(run, out);
+  if (status == HOOKE_OK) status = hooke_options_set_text(*out, "method", method);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "rtol", fmin(rtol, relative));
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "atol", ABSOLUTE * rtol * r->extent);
+  if (status == HOOKE_OK) status = hooke_options_unset(*out, "atol_velocity");
+  if (status == HOOKE_OK) status = hooke_options_unset(*out, "max_order");
+  return status == HOOKE_OK ? hooke_options_unset(*out, "max_steps") : status;
 }
 
 double hk_reference_diagonal(int64_t rows, const double *position) {
@@ -158,8 +152,7 @@ static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_r
   hk_frames_release(&frames);
   watch->work += cost->work;
   watch->expired |= cost->too_long;
-  const int gave_up = status == HOOKE_STEP_LIMIT || status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED;
-  if (!gave_up && !(status == HOOKE_STOPPED && watch->expired)) return status;
+  if (!hk_trial_gave_up(status) && !(status == HOOKE_STOPPED && watch->expired)) return status;
   cost->work = INFINITY;
   return HOOKE_OK;
 }

@@ -26,19 +26,18 @@ const struct hk_trial hk_no_trial = {.step = NAN,
 
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
   *trial = hk_no_trial;
-  trial->error_at = hk_new(reference->count, sizeof(double));
-  trial->error_max_at = hk_new(reference->count, sizeof(double));
-  trial->drift_at = hk_new(reference->count, sizeof(double));
+  double *block = hk_new(reference->count, 3 * sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  trial->error_at = hk_part(&block, reference->count);
+  trial->error_max_at = hk_part(&block, reference->count);
+  trial->drift_at = hk_part(&block, reference->count);
   const int32_t status = hk_watched_series_create(reference->watched.list, reference->count, &trial->watched);
-  if (trial->error_at && trial->error_max_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
-  hk_trial_release(trial);
-  return HOOKE_NO_MEMORY;
+  if (status != HOOKE_OK) hk_trial_release(trial);
+  return status;
 }
 
 void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->error_at);
-  hk_free(trial->error_max_at);
-  hk_free(trial->drift_at);
   hk_watched_series_release(&trial->watched);
   *trial = hk_no_trial;
 }
@@ -161,6 +160,10 @@ static void keep_counts(struct run *run) {
   trial->frames = run->next;
 }
 
+int32_t hk_trial_gave_up(int32_t status) {
+  return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
+}
+
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
                      const hooke_options *options, const struct hk_listener *listener) {
   struct run run = {.reference = reference, .trial = trial, .frames = frames, .listener = listener};
@@ -183,9 +186,7 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
                                              : "failed";
   if (status == HOOKE_OK)
     hk_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
-  const int is_result =
-      too_long || status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
-  return is_result ? HOOKE_OK : status;
+  return too_long || hk_trial_gave_up(status) ? HOOKE_OK : status;
 }
 
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
