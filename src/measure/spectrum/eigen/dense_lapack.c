@@ -3,6 +3,8 @@
 #include "core/memory.h"
 #include "core/status.h"
 
+#include <limits.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -12,9 +14,6 @@ void hk_damped_modes_release(struct hk_damped_modes *modes) {
 }
 
 #if HOOKE_HAVE_LAPACK
-
-#include <limits.h>
-#include <math.h>
 
 /* In Fortran: matrices by columns, everything by address, the lengths of texts at the end. */
 extern void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride,
@@ -30,8 +29,22 @@ extern void dgeev_(const char *left_job, const char *right_job, const int *n, do
                    double *real, double *imaginary, double *left, const int *left_stride, double *right,
                    const int *right_stride, double *work, const int *work_size, int *info, size_t, size_t);
 
+#else
+
+/* Stand-ins that nothing calls: check() refuses before. */
+static void dsyev_(const char *job, ...) {
+  (void)job;
+}
+#define dsyevx_ dsyev_
+#define dstev_  dsyev_
+#define dgeev_  dsyev_
+
+#endif
+
 /* LAPACK ends the process for some non-finite matrices, and counts by int. */
 static int32_t check(int64_t n, int64_t count, const double *matrix) {
+  if (!HOOKE_HAVE_LAPACK)
+    return hk_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
   if (n > INT_MAX / 4) {
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%lld unknowns are too many for dense eigenvalues", (long long)n);
   }
@@ -260,35 +273,3 @@ int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *dampin
   if (status != HOOKE_OK) hk_damped_modes_release(modes);
   return status;
 }
-
-#else
-
-static int32_t not_built(void) {
-  return hk_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
-}
-
-int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vector) {
-  (void)n, (void)matrix, (void)value, (void)vector;
-  return not_built();
-}
-
-int32_t hk_dense_softest(int64_t n, double *matrix, double *vector) {
-  (void)n;
-  (void)matrix;
-  (void)vector;
-  return not_built();
-}
-
-int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
-                             double *vector) {
-  (void)n, (void)diagonal, (void)beside, (void)value, (void)vector;
-  return not_built();
-}
-
-int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *damping,
-                        struct hk_damped_modes *modes) {
-  (void)n, (void)stiffness, (void)damping, (void)modes;
-  return not_built();
-}
-
-#endif
