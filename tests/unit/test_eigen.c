@@ -200,17 +200,20 @@ TEST(test_line) {
 
 TEST(test_reach) {
   const double real = 2.785293563405282; /* z^3 + 4 z^2 + 12 z + 24 = 0 */
-  assert_true(fabs(hk_rk4_reach(0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
-  assert_true(fabs(hk_rk4_reach(-3.0, 0.0) - real) < 2e-15);
-  assert_true(hk_heun_reach(0.0, 5.0) == 0.0);
-  assert_true(fabs(hk_heun_reach(-3.0, 0.0) - 2.0) < 2e-15);
+  assert_true(fabs(hk_ray_reach(4, 0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
+  assert_true(fabs(hk_ray_reach(4, -3.0, 0.0) - real) < 2e-15);
+  assert_true(hk_ray_reach(2, 0.0, 5.0) == 0.0 && hk_ray_reach(1, 0.0, 5.0) == 0.0);
+  assert_true(fabs(hk_ray_reach(1, -3.0, 4.0) - 1.2) < 2e-15);
+  /* 2 cbrt(-x) to the first order near the axis */
+  assert_true(fabs(hk_ray_reach(2, -1e-24, 1.0) - 2e-8) < 1e-21);
+  assert_true(fabs(hk_ray_reach(2, -3.0, 0.0) - 2.0) < 2e-15);
   for (int k = 1; k < 100; k++) { /* |R| = 1 there */
-    const double angle = 0.01 * k, x = -sin(angle), y = cos(angle), r = hk_heun_reach(x, y);
+    const double angle = 0.01 * k, x = -sin(angle), y = cos(angle), r = hk_ray_reach(2, x, y);
     const double re = 1.0 + r * x + 0.5 * r * r * (x * x - y * y), im = r * y + r * r * x * y;
     assert_true(r > 0.0 && fabs(re * re + im * im - 1.0) < 1e-14);
   }
   for (double x = -1.0; x <= 0.0; x += 0.125) {
-    const double y = x + 1.0, reach = hk_rk4_reach(x, y);
+    const double y = x + 1.0, reach = hk_ray_reach(4, x, y);
     const double complex z = reach / hypot(x, y) * (x + y * I);
     assert_true(fabs(cabs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) - 1.0) < 1e-13);
   }

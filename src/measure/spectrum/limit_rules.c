@@ -198,9 +198,8 @@ static const double HALF_DISC = 2.6; /* in the left half plane all of this is st
 /* Largest stable step of an eigenvalue; infinity if that is certain to be above `best`. */
 static double step_of(int32_t degree, double real, double imaginary, double best) {
   const double size = hypot(real, imaginary);
-  if (degree == 1) return -2.0 * real / (real * real + imaginary * imaginary); /* |1 + h lambda| <= 1 */
-  if (degree == 2) return hk_heun_reach(real, imaginary) / size;
-  return best * size <= HALF_DISC ? (double)INFINITY : hk_rk4_reach(real, imaginary) / size;
+  const int certain = degree == 4 && best * size <= HALF_DISC;
+  return certain ? (double)INFINITY : hk_ray_reach(degree, real, imaginary) / size;
 }
 
 /* The smallest step over the known eigenvalues. */
@@ -297,8 +296,9 @@ int32_t hk_limit_rule_needs_all(const char *method) {
 /* An overdamped system has the eigenvalues -k/gamma alone, which are those of M^-1 K here. */
 static void overdamped(struct hk_spectrum *s, const struct hk_stability *stability,
                        struct hk_prediction *out) {
-  out->limit =
-      s->stiffest > 0.0 ? hk_real_reach(stability->degree) / s->stiffest / s->linearised->rate : INFINITY;
+  out->limit = s->stiffest > 0.0
+                   ? hk_ray_reach(stability->degree, -1.0, 0.0) / s->stiffest / s->linearised->rate
+                   : INFINITY;
   take_mode(s, s->stiffest_mode, out);
 }
 

@@ -65,7 +65,8 @@ double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method,
     return hk_node_blocks_reach(blocks, (struct hk_node_limit){.kk = 0.25, .c = 0.5}, most, particle);
   case HOOKE_STABLE_BY_POLYNOMIAL:
     if (!system->overdamped) return polynomial_bound(blocks, stability, most, particle);
-    return hk_node_blocks_reach(blocks, (struct hk_node_limit){.k = 1.0 / hk_real_reach(stability->degree)},
+    return hk_node_blocks_reach(blocks,
+                                (struct hk_node_limit){.k = 1.0 / hk_ray_reach(stability->degree, -1.0, 0.0)},
                                 most, particle);
   default:
     return without;
