@@ -159,36 +159,28 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
                  (long long)asked);
 }
 
-/* The words without an index. */
-static int find_word(const char *text, enum hk_watched_kind *kind) {
-  static const char *const words[] = {"energy", "kinetic", "potential"};
-  for (int k = 0; k < 3; k++) {
-    if (strcmp(text, words[k]) != 0) continue;
-    *kind = (enum hk_watched_kind)(HOOKE_WATCHED_ENERGY + k);
-    return 1;
-  }
+/* 1 if `text` is the word of one of three kinds from `first` on. */
+static int find_word(const char *text, enum hk_watched_kind first, enum hk_watched_kind *kind) {
+  static const char *const words[] = {"", "length", "strain", "tension", "energy", "kinetic", "potential"};
+  for (*kind = first; *kind < first + 3; ++*kind)
+    if (strcmp(text, words[*kind]) == 0) return 1;
   return 0;
 }
 
 /* `text` is modified. */
 static int32_t read_quantity(const struct reading *reading, char *text, struct hk_watched *watched) {
-  static const char *const of_spring[] = {"length", "strain", "tension"};
   static const char period[] = "period:";
   if (strncmp(text, period, sizeof period - 1) == 0) {
     watched->is_period = 1;
     text += sizeof period - 1;
     if (strncmp(text, period, sizeof period - 1) == 0) return refuse(reading);
   }
-  if (find_word(text, &watched->kind)) return HOOKE_OK;
+  if (find_word(text, HOOKE_WATCHED_ENERGY, &watched->kind)) return HOOKE_OK;
   char *dot = strrchr(text, '.');
   if (dot == NULL) return refuse(reading);
   *dot = '\0';
   const char *what = dot + 1;
-  for (int k = 0; k < 3; k++) {
-    if (strcmp(what, of_spring[k]) != 0) continue;
-    watched->kind = (enum hk_watched_kind)(HOOKE_WATCHED_LENGTH + k);
-    return read_spring(reading, text, watched);
-  }
+  if (find_word(what, HOOKE_WATCHED_LENGTH, &watched->kind)) return read_spring(reading, text, watched);
   if (what[0] < 'x' || what[0] > 'z' || what[1]) return refuse(reading);
   watched->axis = what[0] - 'x';
   return read_particle(reading, text, watched);

@@ -13,29 +13,21 @@ int32_t hk_watched_series_create(const struct hk_watched_list *list, int64_t fra
                                  struct hk_watched_series *series) {
   *series = (struct hk_watched_series){.list = NULL};
   if (list == NULL || list->count == 0) return HOOKE_OK;
-  series->list = list;
-  series->frames = frames;
-  series->value = hk_new(frames, (size_t)list->count * sizeof(double));
-  series->figure = hk_new(list->count, sizeof(double));
-  if (series->value == NULL || series->figure == NULL) {
-    hk_watched_series_release(series);
-    return HOOKE_NO_MEMORY;
-  }
+  double *block = hk_new(list->count, ((size_t)frames + 1) * sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  *series = (struct hk_watched_series){list, frames, block, block + list->count * frames};
   hk_watched_series_clear(series);
   return HOOKE_OK;
 }
 
 void hk_watched_series_release(struct hk_watched_series *series) {
   hk_free(series->value);
-  hk_free(series->figure);
   memset(series, 0, sizeof *series);
 }
 
 void hk_watched_series_clear(struct hk_watched_series *series) {
-  for (int64_t k = 0; k < count_of(series) * series->frames; k++)
-    series->value[k] = NAN;
-  for (int64_t k = 0; k < count_of(series); k++)
-    series->figure[k] = NAN;
+  for (int64_t k = 0; k < count_of(series) * (series->frames + 1); k++)
+    series->value[k] = NAN; /* and the figures behind them */
 }
 
 void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, const double *q,
