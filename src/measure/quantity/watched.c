@@ -47,6 +47,13 @@ static void list_names(const hooke_system *system, name_of *name, char text[NAME
   }
 }
 
+/* The part of that name; NULL if there is none. */
+static const struct hk_part_record *find_part(const hooke_system *system, const char *name) {
+  for (int64_t k = 0; k < system->part_count; k++)
+    if (strcmp(system->part[k].name, name) == 0) return &system->part[k];
+  return NULL;
+}
+
 /* ---- numbers ---- */
 
 /* The number that `text` begins with, and its end; -1 for none, or one past 64 bits. */
@@ -117,13 +124,11 @@ static int32_t read_particle(const struct reading *reading, char *text, struct h
   }
   const int64_t index = cut_index(text);
   if (index < 0) return refuse(reading);
-  for (int64_t k = 0; k < system->part_count; k++) {
-    if (strcmp(system->part[k].name, text) != 0) continue;
-    if (index >= system->part[k].count) return refuse_index(reading, text, "particle", system->part[k].count);
-    watched->particle = system->part[k].first + index;
-    return HOOKE_OK;
-  }
-  return refuse_name(reading, "part", part_name);
+  const struct hk_part_record *part = find_part(system, text);
+  if (part == NULL) return refuse_name(reading, "part", part_name);
+  if (index >= part->count) return refuse_index(reading, text, "particle", part->count);
+  watched->particle = part->first + index;
+  return HOOKE_OK;
 }
 
 /* Refuses groups with dropped springs: their indices are not those that the user knows. */
@@ -261,15 +266,6 @@ static int mark_numbers(const char *text, int64_t count, uint8_t *mark) {
   return 0;
 }
 
-static int mark_part(const hooke_system *system, const char *text, uint8_t *mark) {
-  for (int64_t k = 0; k < system->part_count; k++) {
-    if (strcmp(system->part[k].name, text) != 0) continue;
-    memset(mark + system->part[k].first, 1, (size_t)system->part[k].count);
-    return 0;
-  }
-  return -1;
-}
-
 static int mark_group(const hooke_system *system, const char *text, uint8_t *mark) {
   int found = -1;
   int64_t first = 0;
@@ -287,7 +283,9 @@ static int mark_group(const hooke_system *system, const char *text, uint8_t *mar
 int32_t hk_watched_mark_particles(const hooke_system *system, const char *where, const char *text,
                                   uint8_t *mark) {
   char known[NAMES_SIZE] = "";
-  if (mark_part(system, text, mark) == 0 || mark_group(system, text, mark) == 0) return HOOKE_OK;
+  const struct hk_part_record *part = find_part(system, text);
+  if (part) memset(mark + part->first, 1, (size_t)part->count);
+  if (part || mark_group(system, text, mark) == 0) return HOOKE_OK;
   if (mark_numbers(text, system->particle_count, mark) == 0) return HOOKE_OK;
   list_names(system, part_name, known);
   list_names(system, group_name, known);

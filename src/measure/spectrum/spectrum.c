@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "kernel/vector_loops.h"
 #include "measure/spectrum/eigen/dense.h"
 #include "measure/spectrum/eigen/dominant_mode.h"
 #include "model/force/spring.h"
@@ -113,11 +114,10 @@ static const double *end_of(const struct hk_spectrum *s, int64_t j, double k) {
 static int32_t solve_proportional(struct hk_spectrum *s) {
   struct hk_linearised *lin = s->linearised;
   const int64_t n = lin->unknowns, modes = n <= HOOKE_SPECTRUM_DAMPED ? n : 0;
-  double *matrix = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
-  double *vector = modes ? hk_new(n * n, sizeof(double)) : NULL;
-  int32_t status = matrix && value && (vector || !modes)
-                       ? make_space(s, 2 * n, modes ? modes : s->delta > 0.0)
-                       : HOOKE_NO_MEMORY;
+  double *matrix = hk_new((modes ? 2 : 1) * n * n + n, sizeof(double));
+  if (matrix == NULL) return HOOKE_NO_MEMORY;
+  double *value = matrix + n * n, *vector = modes ? value + n : NULL;
+  int32_t status = make_space(s, 2 * n, modes ? modes : s->delta > 0.0);
   hk_linearised_combine(lin, 1.0, 0.0);
   if (status == HOOKE_OK) status = hk_linearised_assemble(lin, matrix);
   if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, value, vector);
@@ -130,8 +130,6 @@ static int32_t solve_proportional(struct hk_spectrum *s) {
   }
   s->decisive = 1;
   hk_free(matrix);
-  hk_free(value);
-  hk_free(vector);
   return status;
 }
 
@@ -168,10 +166,8 @@ static void expand(const struct hk_linearised *lin, int64_t r, const double *bas
     return;
   }
   memset(x, 0, (size_t)lin->size * sizeof(double));
-  for (int64_t j = 0; j < r; j++) {
-    for (int64_t k = 0; k < lin->size; k++)
-      x[k] += fraction[j] * basis[j * lin->size + k];
-  }
+  for (int64_t j = 0; j < r; j++)
+    hk_add_multiple(lin->size, fraction[j], basis + j * lin->size, x);
 }
 
 /* All modes are refined. Those of a partial spectrum are no better than the subspace. */
@@ -244,9 +240,7 @@ static void extend(const struct hk_linearised *lin, const double *x, double *bas
   for (int pass = 0; pass < 2; pass++) {
     for (int64_t j = 0; j < *count; j++) {
       const double *other = basis + j * lin->size;
-      const double along = hk_linearised_dot(lin, other, new_one);
-      for (int64_t k = 0; k < lin->size; k++)
-        new_one[k] -= along * other[k];
+      hk_add_multiple(lin->size, -hk_linearised_dot(lin, other, new_one), other, new_one);
     }
   }
   const double left = sqrt(hk_linearised_dot(lin, new_one, new_one));

@@ -82,9 +82,8 @@ int32_t hooke_step_bound(const hooke_system *system, const char *method, const d
   const int one_pass = system->mover_count == 0 && (method == NULL || hk_step_is_bounded(method));
   if (one_pass) status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  if (method) *bound = hk_step_bound_of(&blocks, method, INFINITY, NULL);
-  for (int64_t k = 0; method == NULL && k < hooke_method_count(); k++)
-    bound[k] = hk_step_bound_of(&blocks, hooke_method_name(k), INFINITY, NULL);
+  for (int64_t k = 0; k < (method ? 1 : hooke_method_count()); k++)
+    bound[k] = hk_step_bound_of(&blocks, method ? method : hooke_method_name(k), INFINITY, NULL);
   if (one_pass) hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }

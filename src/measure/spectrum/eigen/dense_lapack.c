@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "kernel/vector_loops.h"
 
 #include <limits.h>
 #include <math.h>
@@ -134,34 +135,22 @@ int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *be
 /* Eigenvalues of K + C below this fraction of the largest belong to its null space. */
 static const double NOTHING = 1e-14;
 
-static double *copy_of(int64_t count, const double *from) {
-  double *copy = hk_new(count, sizeof(double));
-  if (copy) memcpy(copy, from, (size_t)count * sizeof(double));
-  return copy;
-}
-
 /* out = -Q A Q^T with the r rows of Q. */
 static void project(int64_t n, int64_t r, const double *q, const double *a, double *row, double *out,
                     int64_t stride) {
   for (int64_t i = 0; i < r; i++) {
     memset(row, 0, (size_t)n * sizeof(double));
-    for (int64_t k = 0; k < n; k++) {
-      for (int64_t j = 0; j < n; j++)
-        row[j] += q[i * n + k] * a[k * n + j];
-    }
-    for (int64_t j = 0; j < r; j++) {
-      double sum = 0.0;
-      for (int64_t k = 0; k < n; k++)
-        sum += row[k] * q[j * n + k];
-      out[i * stride + j] = -sum;
-    }
+    for (int64_t k = 0; k < n; k++)
+      hk_add_multiple(n, q[i * n + k], a + k * n, row);
+    for (int64_t j = 0; j < r; j++)
+      out[i * stride + j] = -hk_dot(n, row, q + j * n);
   }
 }
 
 /* The rows of `basis` span the range of K and C; returns their number. */
 static int32_t find_basis(int64_t n, const double *stiffness, const double *damping, double *basis,
                           int64_t *rank) {
-  double *sum = copy_of(n * n, stiffness), *value = hk_new(n, sizeof(double));
+  double *sum = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
   int32_t status = sum && value ? HOOKE_OK : HOOKE_NO_MEMORY;
   /* both scaled to size 1, so that neither hides the other */
   double size[2] = {0.0, 0.0};
@@ -198,10 +187,8 @@ static void take(int64_t n, int64_t r, const double *basis, const double *real, 
   double *re = modes->vector_real + modes->count * n, *im = modes->vector_imaginary + modes->count * n;
   const int64_t from = size > 1.0 ? r : 0;
   for (int64_t i = 0; i < r; i++) {
-    for (int64_t j = 0; j < n; j++) {
-      re[j] += real[from + i] * basis[i * n + j];
-      if (imaginary) im[j] += imaginary[from + i] * basis[i * n + j];
-    }
+    hk_add_multiple(n, real[from + i], basis + i * n, re);
+    if (imaginary) hk_add_multiple(n, imaginary[from + i], basis + i * n, im);
   }
 }
 
