@@ -37,8 +37,15 @@ static int32_t has_fixed_step(const char *method) {
   return !hooke_method_is_adaptive(method);
 }
 
+/* Reports the fraction done of the current part; HOOKE_STOPPED if it is to end. */
+static int32_t tell(double done, const char *what, void *ctx) {
+  struct hk_limit *limit = ctx;
+  const double share = fmin(1.0, limit->share + limit->width * fmax(0.0, fmin(1.0, done)));
+  return hk_measurement_tell(limit->measurement, share, limit->under_way ? limit->under_way : what);
+}
+
 static void forget(struct hk_limit *limit) {
-  limit->endless = hk_budget_of(INFINITY, hk_limit_tell, limit);
+  limit->endless = hk_budget_of(INFINITY, tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = limit->time = NAN;
   limit->mode_count = limit->products = limit->clamped = limit->tipping = limit->limiting.count = 0;
@@ -101,17 +108,11 @@ static void destroy(void *object) {
   hk_free(limit);
 }
 
-int32_t hk_limit_tell(double done, const char *what, void *ctx) {
-  struct hk_limit *limit = ctx;
-  const double share = fmin(1.0, limit->share + limit->width * fmax(0.0, fmin(1.0, done)));
-  return hk_measurement_tell(limit->measurement, share, limit->under_way ? limit->under_way : what);
-}
-
 static int32_t begin_part(struct hk_limit *limit, double share, double width, const char *under_way) {
   limit->share = share;
   limit->width = width;
   limit->under_way = under_way;
-  return hk_limit_tell(0.0, under_way, limit);
+  return tell(0.0, under_way, limit);
 }
 
 /* ---- one state ---- */
@@ -190,7 +191,7 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
 static int32_t measure(struct hk_limit *limit, const hooke_state *state) {
   const double seconds = hooke_options_number(limit->options, "budget");
   const double width = (1.0 - PREDICTING) / limit->row_count;
-  struct hk_budget budget = hk_budget_of(seconds, hk_limit_tell, limit);
+  struct hk_budget budget = hk_budget_of(seconds, tell, limit);
   for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     if (hooke_method_is_adaptive(row->method)) continue;

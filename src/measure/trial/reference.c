@@ -26,7 +26,9 @@ static const double CHECK_COST = 2.0; /* cost of the check relative to the first
  * and limit for another level once all frames are trusted. */
 static const double FIRST_RUN_SHARE = 0.3, FIRST_OF_FEW = 0.45, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
 
-int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
+/* The cheapest method at positions q: Adams, or BDF if damping is faster than the fastest oscillation, so
+ * that fast motion dies out and an implicit method can take long steps. */
+static int32_t choose_method(const hooke_system *system, const double *q, const char **method) {
   struct hk_node_blocks blocks;
   *method = "cvode-adams";
   if (system->mover_count > 0) return HOOKE_OK;
@@ -243,7 +245,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
     return hk_fail(HOOKE_NOT_BUILT, NULL, "a reference needs SUNDIALS, which this build is without");
   }
   int32_t status = hooke_state_create(system, &state);
-  if (status == HOOKE_OK) status = hk_reference_method(system, hooke_state_position(state), &r->method);
+  if (status == HOOKE_OK) status = choose_method(system, hooke_state_position(state), &r->method);
   if (status == HOOKE_OK) find_extent(r, state);
   hooke_state_destroy(state);
   if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);

@@ -65,8 +65,4 @@ double hk_reference_time(const struct hk_reference *reference, int64_t count, do
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *reference, hooke_options **out);
 
-/* The method that makes references cheapest on this system at positions q: Adams, or BDF if damping is faster
- * than the fastest oscillation, so that fast motion dies out and an implicit method can take long steps. */
-int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method);
-
 #endif

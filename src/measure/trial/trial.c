@@ -61,7 +61,7 @@ struct run {
 
 /* A step that is given up takes its counts with it. */
 static int32_t works_too_long(struct run *run) {
-  const double most = run->listener ? run->listener->most_work : 0.0;
+  const double most = run->listener->most_work;
   run->too_long |= most > 0.0 && run->integrator && hk_work_of(run->integrator) > most;
   return run->too_long;
 }
@@ -75,8 +75,7 @@ static int32_t tell(double fraction, const char *method, void *ctx) {
   struct run *run = ctx;
   (void)method;
   if (works_too_long(run)) return 1;
-  if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
-  return run->listener->on_progress(fmin(1.0, fraction), run->listener->ctx);
+  return run->listener->on_progress ? run->listener->on_progress(fmin(1.0, fraction), run->listener->ctx) : 0;
 }
 
 static void judge(const struct run *run, int64_t f, const hooke_state *state) {
@@ -119,9 +118,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   else if (f < run->frames)
     judge(run, f, state);
   int32_t value = 0;
-  if (run->listener && run->listener->on_frame) {
-    value = run->listener->on_frame(f, step, state, run->listener->ctx);
-  }
+  if (run->listener->on_frame) value = run->listener->on_frame(f, step, state, run->listener->ctx);
   return value ? value : tell((hooke_state_time(state) - run->begin) / run->duration, NULL, run);
 }
 
@@ -133,7 +130,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   run->integrator = *integrator;
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) {
-    if (run->listener && run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
+    if (run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
     run->begin = hooke_state_time(state);
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);
