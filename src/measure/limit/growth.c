@@ -162,13 +162,10 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
   const double rise = course->last - course->first;
   const int inertial = !growth->twin->system->overdamped;
   const double speed = kinetic(growth->twin->system, hooke_state_velocity(growth->state));
-  if (rise > certain_rise(growth)) {
-    *verdict = HOOKE_GROWS;
-    return 1;
-  }
-  if (rise < NOTHING_LEFT ||
+  const int grows = rise > certain_rise(growth);
+  if (grows || rise < NOTHING_LEFT ||
       (inertial && rise < LITTLE_LEFT && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
-    *verdict = HOOKE_HOLDS;
+    *verdict = grows ? HOOKE_GROWS : HOOKE_HOLDS;
     return 1;
   }
   if (course->steps > 0 || course->count < 16 || taken < least_steps(growth)) return 0;

@@ -232,16 +232,6 @@ static int32_t try_whole(void *ctx, double step, enum hk_trial_end *end) {
   return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 
-static int32_t prepare(struct whole *whole, const hooke_options *run, const char *method) {
-  whole->duration = run ? hooke_options_number(run, "duration") : NAN;
-  if (!(whole->duration > 0.0))
-    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
-  int32_t status = hooke_options_copy(run, &whole->run);
-  if (status == HOOKE_OK) status = hooke_options_set_text(whole->run, "method", method);
-  if (status == HOOKE_OK) status = hooke_state_create(whole->system, &whole->state);
-  return status;
-}
-
 static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
                              struct hk_measured_limit *out) {
   struct hk_linearised lin;
@@ -274,7 +264,12 @@ int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state
                                    double accuracy, struct hk_budget *budget, struct hk_measured_limit *out) {
   struct whole whole = {.system = system, .start = start, .budget = budget};
   *out = (struct hk_measured_limit){.step = NAN, .note = ""};
-  int32_t status = prepare(&whole, run, method);
+  whole.duration = run ? hooke_options_number(run, "duration") : NAN;
+  if (!(whole.duration > 0.0))
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  int32_t status = hooke_options_copy(run, &whole.run);
+  if (status == HOOKE_OK) status = hooke_options_set_text(whole.run, "method", method);
+  if (status == HOOKE_OK) status = hooke_state_create(system, &whole.state);
   if (status == HOOKE_OK) status = measure_whole(&whole, predicted, accuracy, out);
   hooke_options_destroy(whole.run);
   hooke_state_destroy(whole.state);

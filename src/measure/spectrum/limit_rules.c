@@ -188,11 +188,6 @@ static double verlet_step(double k) {
   return 2.0 / sqrt(k);
 }
 
-static void verlet(struct hk_spectrum *s, struct hk_prediction *out) {
-  out->limit = verlet_step(s->stiffest);
-  take_mode(s, s->stiffest_mode, out);
-}
-
 static const double HALF_DISC = 2.6; /* in the left half plane all of this is stable by degree 4 */
 
 /* Largest stable step of an eigenvalue; infinity if that is certain to be above `best`. */
@@ -310,7 +305,8 @@ static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stab
   }
   switch (stability->kind) {
   case HOOKE_STABLE_BY_K:
-    verlet(s, out);
+    out->limit = verlet_step(s->stiffest);
+    take_mode(s, s->stiffest_mode, out);
     return HOOKE_OK;
   case HOOKE_STABLE_BY_K_AND_C:
     return symplectic_euler(s, out);

@@ -7,13 +7,6 @@
 #include <stddef.h>
 #include <string.h>
 
-static void find_free_particles(struct hk_frames *frames) {
-  const double *inverse_mass = hooke_system_inverse_mass(frames->system);
-  for (int64_t p = 0; p < hooke_system_particle_count(frames->system); p++) {
-    if (inverse_mass[p] > 0.0) frames->free_particle[frames->free_count++] = p;
-  }
-}
-
 int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames) {
   const int64_t size = 3 * hooke_system_particle_count(system);
   *frames = (struct hk_frames){.system = system, .count = count, .size = size};
@@ -28,7 +21,8 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
   frames->energy = hk_part(&block, count);
   frames->rounding = hk_part(&block, count);
   frames->position = block;
-  find_free_particles(frames);
+  for (int64_t p = 0; p < system->particle_count; p++)
+    if (system->inverse_mass[p] > 0.0) frames->free_particle[frames->free_count++] = p;
   return HOOKE_OK;
 }
 

@@ -150,25 +150,22 @@ static void project(int64_t n, int64_t r, const double *q, const double *a, doub
 /* The rows of `basis` span the range of K and C; returns their number. */
 static int32_t find_basis(int64_t n, const double *stiffness, const double *damping, double *basis,
                           int64_t *rank) {
-  double *sum = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
-  int32_t status = sum && value ? HOOKE_OK : HOOKE_NO_MEMORY;
+  double *sum = hk_new((n + 1) * n, sizeof(double));
+  if (sum == NULL) return HOOKE_NO_MEMORY;
+  double *value = sum + n * n;
   /* both scaled to size 1, so that neither hides the other */
   double size[2] = {0.0, 0.0};
   for (int64_t k = 0; k < n; k++) {
     size[0] = fmax(size[0], stiffness[k * n + k]);
     size[1] = fmax(size[1], damping[k * n + k]);
   }
-  if (status == HOOKE_OK) {
-    for (int64_t k = 0; k < n * n; k++) {
-      sum[k] = (size[0] > 0.0 ? stiffness[k] / size[0] : 0.0) + (size[1] > 0.0 ? damping[k] / size[1] : 0.0);
-    }
-    status = hk_dense_symmetric(n, sum, value, basis);
-  }
+  for (int64_t k = 0; k < n * n; k++)
+    sum[k] = (size[0] > 0.0 ? stiffness[k] / size[0] : 0.0) + (size[1] > 0.0 ? damping[k] / size[1] : 0.0);
+  const int32_t status = hk_dense_symmetric(n, sum, value, basis);
   for (*rank = 0; status == HOOKE_OK && *rank < n; ++*rank) {
     if (!(value[*rank] > (double)n * NOTHING * value[0])) break;
   }
   hk_free(sum);
-  hk_free(value);
   return status;
 }
 
@@ -238,9 +235,9 @@ static int32_t solve_companion(int64_t n, int64_t r, const double *basis, double
 int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *damping,
                         struct hk_damped_modes *modes) {
   *modes = (struct hk_damped_modes){.count = 0};
-  double *basis = hk_new(n * n, sizeof(double)), *row = hk_new(n, sizeof(double)), *matrix = NULL;
+  double *basis = hk_new((n + 1) * n, sizeof(double)), *matrix = NULL;
   int64_t r = 0;
-  int32_t status = basis && row ? make_space(n, modes) : HOOKE_NO_MEMORY;
+  int32_t status = basis ? make_space(n, modes) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = find_basis(n, stiffness, damping, basis, &r);
   if (status == HOOKE_OK && r > 0) {
     matrix = hk_new(4 * r * r, sizeof(double));
@@ -248,15 +245,14 @@ int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *dampin
   }
   if (status == HOOKE_OK && r > 0) {
     /* (0, I; -K, -C) in columns; K and C are symmetric */
-    project(n, r, basis, stiffness, row, matrix + r, 2 * r);
-    project(n, r, basis, damping, row, matrix + 2 * r * r + r, 2 * r);
+    project(n, r, basis, stiffness, basis + n * n, matrix + r, 2 * r);
+    project(n, r, basis, damping, basis + n * n, matrix + 2 * r * r + r, 2 * r);
     for (int64_t k = 0; k < r; k++)
       matrix[(r + k) * 2 * r + k] = 1.0;
     status = solve_companion(n, r, basis, matrix, modes);
   }
   hk_free(matrix);
   hk_free(basis);
-  hk_free(row);
   if (status != HOOKE_OK) hk_damped_modes_release(modes);
   return status;
 }
