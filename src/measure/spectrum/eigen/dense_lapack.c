@@ -142,8 +142,12 @@ static void project(int64_t n, int64_t r, const double *q, const double *a, doub
     memset(row, 0, (size_t)n * sizeof(double));
     for (int64_t k = 0; k < n; k++)
       hk_add_multiple(n, q[i * n + k], a + k * n, row);
-    for (int64_t j = 0; j < r; j++)
-      out[i * stride + j] = -hk_dot(n, row, q + j * n);
+    for (int64_t j = 0; j < r; j++) {
+      double sum = 0.0;
+      for (int64_t k = 0; k < n; k++)
+        sum += row[k] * q[j * n + k];
+      out[i * stride + j] = -sum;
+    }
   }
 }
 
