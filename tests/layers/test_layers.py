@@ -29,7 +29,7 @@ def test_calls():
 
 def test_planted_call():
     call = "extern void dsyev_(const char *job);\n"
-    assert rules.call_complaints("src/measure/spectrum/eigen/eigen.c", call)
+    assert rules.call_complaints("src/measure/spectrum/eigen/dominant_mode.c", call)
     assert rules.call_complaints("src/measure/spectrum/eigen/dense_lapack.c", call) == []
 
 
@@ -116,7 +116,7 @@ def test_every_layer_and_public_header_is_known():
         ("src/integrate/solve/factor.c", "#include <cholmod.h>"),
         ("src/integrate/solve/factor_cholmod.h", "#include <cholmod.h>"),
         ("src/measure/study/order_gsl.c", "#include <gsl/gsl_fit.h>"),
-        ("src/measure/spectrum/eigen/eigen.c", "#include <lapack.h>"),
+        ("src/measure/spectrum/eigen/dominant_mode.c", "#include <lapack.h>"),
         ("src/model/system.c", "#include <mpi.h>"),
         ("src/model/system.c", "#include <cmocka.h>"),
         ("src/io/file/bytes.c", "#include <sys/stat.h>"),

@@ -1,11 +1,12 @@
-/* Eigenvalues, the fit of an order, and the stability limit of Runge-Kutta 4 along rays, compared with closed
- * forms. */
+/* Eigenvalues, the steps that blocks of them allow, the fit of an order, and the stability limit of
+ * Runge-Kutta 4 along rays, compared with closed forms. */
 #include "measure/spectrum/eigen/dense.h"
-#include "measure/spectrum/eigen/eigen.h"
 #include "measure/spectrum/limit_rules.h"
+#include "measure/spectrum/node_blocks.h"
 #include "measure/study/study.h"
 
 #include "check.h"
+#include "owned.h"
 
 #include <complex.h>
 #include <float.h>
@@ -30,25 +31,44 @@ static void rotated(const double value[3], double angle, double matrix[6]) {
   }
 }
 
+/* One over the largest eigenvalue, of stiffness and of damping; the step of an oscillation; and of 3 K and 4
+ * C between two of one mode. */
+static void check_reach(const struct hk_node_blocks *blocks, double largest) {
+  const double most = 16.0 * DBL_EPSILON;
+  const double k = hk_node_blocks_reach(blocks, (struct hk_node_limit){.k = 1.0}, INFINITY, NULL),
+               c = hk_node_blocks_reach(blocks, (struct hk_node_limit){.c = 2.0}, INFINITY, NULL),
+               kk = hk_node_blocks_reach(blocks, (struct hk_node_limit){.kk = 1.0}, INFINITY, NULL);
+  assert_true(fabs(k * largest - 1.0) <= most && fabs(c * 2.0 * largest - 1.0) <= most);
+  assert_true(fabs(kk * sqrt(largest) - 1.0) <= most);
+  const struct hk_node_limit both = {.kk = 3.0, .c = 4.0};
+  int64_t particle = -1;
+  const double h = hk_node_blocks_reach(blocks, both, INFINITY, &particle), x = largest * h;
+  assert_true(fabs(3.0 * x * h + 4.0 * x - 1.0) <= 2.0 * most && particle == 0);
+  particle = -1;
+  assert_true(hk_node_blocks_reach(blocks, both, 0.999 * h, &particle) == 0.999 * h && particle == -1);
+  assert_true(hk_node_blocks_reach(blocks, both, 1.001 * h, &particle) <= h * (1.0 + most) && particle == 0);
+}
+
 TEST(test_three_by_three) {
-  static const double values[][3] = {{3, 1, 2},         {5, 5, 1},           {5, 1, 1},      {2, 2, 2},
-                                     {-1, -2, -3},      {0, 0, 0},           {1e-9, 1, 1},   {1, 1 + 1e-9, 1},
-                                     {1e200, 1, 1e-20}, {1e-200, 3e-200, 0}, {0, -4e150, 0}, {7, 0, 0}};
+  static const double values[][3] = {{3, 1, 2},     {5, 5, 1},        {5, 1, 1},         {2, 2, 2},
+                                     {1e-9, 1, 1},  {1, 1 + 1e-9, 1}, {1e200, 1, 1e-20}, {1e-200, 3e-200, 0},
+                                     {0, 4e150, 0}, {7, 0, 0},        {1e-300, 0, 0},    {1e305, 1e305, 0}};
+  owned_system *system = NULL;
+  struct hk_node_blocks blocks;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, NULL, 1, (double[]){1}, NULL));
+  check_ok(hooke_system_commit(system));
+  check_ok(hk_node_blocks_begin(system, &blocks));
+  assert_true(isinf(hk_node_blocks_reach(&blocks, (struct hk_node_limit){1, 1, 1}, INFINITY, NULL)));
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
     const double *v = values[k];
-    const double largest = fmax(v[0], fmax(v[1], v[2]));
-    const double size = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
     for (int turn = 0; turn <= 20; turn++) {
-      double matrix[6];
-      rotated(v, 0.37 * turn, matrix);
-      assert_true(fabs(hk_eigen_largest(matrix) - largest) <= 16.0 * DBL_EPSILON * size);
+      rotated(v, 0.37 * turn, blocks.stiffness);
+      memcpy(blocks.damping, blocks.stiffness, 6 * sizeof(double));
+      check_reach(&blocks, fmax(v[0], fmax(v[1], v[2])));
     }
   }
-  for (int k = 0; k < 6; k++) {
-    double matrix[6] = {3, 2, 1, 0.1, 0.2, 0.3};
-    matrix[k] = NAN;
-    assert_true(isnan(hk_eigen_largest(matrix)));
-  }
+  hk_node_blocks_release(&blocks);
 }
 
 /* A chain of n unit masses and springs between walls: 4 sin^2(k pi/(2 (n + 1))). */
@@ -180,17 +200,20 @@ TEST(test_line) {
 
 TEST(test_reach) {
   const double real = 2.785293563405282; /* z^3 + 4 z^2 + 12 z + 24 = 0 */
-  assert_true(fabs(hk_rk4_reach(0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
-  assert_true(fabs(hk_rk4_reach(-3.0, 0.0) - real) < 2e-15);
-  assert_true(hk_heun_reach(0.0, 5.0) == 0.0);
-  assert_true(fabs(hk_heun_reach(-3.0, 0.0) - 2.0) < 2e-15);
+  assert_true(fabs(hk_ray_reach(4, 0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
+  assert_true(fabs(hk_ray_reach(4, -3.0, 0.0) - real) < 2e-15);
+  assert_true(hk_ray_reach(2, 0.0, 5.0) == 0.0 && hk_ray_reach(1, 0.0, 5.0) == 0.0);
+  assert_true(fabs(hk_ray_reach(1, -3.0, 4.0) - 1.2) < 2e-15);
+  /* 2 cbrt(-x) to the first order near the axis */
+  assert_true(fabs(hk_ray_reach(2, -1e-24, 1.0) - 2e-8) < 1e-21);
+  assert_true(fabs(hk_ray_reach(2, -3.0, 0.0) - 2.0) < 2e-15);
   for (int k = 1; k < 100; k++) { /* |R| = 1 there */
-    const double angle = 0.01 * k, x = -sin(angle), y = cos(angle), r = hk_heun_reach(x, y);
+    const double angle = 0.01 * k, x = -sin(angle), y = cos(angle), r = hk_ray_reach(2, x, y);
     const double re = 1.0 + r * x + 0.5 * r * r * (x * x - y * y), im = r * y + r * r * x * y;
     assert_true(r > 0.0 && fabs(re * re + im * im - 1.0) < 1e-14);
   }
   for (double x = -1.0; x <= 0.0; x += 0.125) {
-    const double y = x + 1.0, reach = hk_rk4_reach(x, y);
+    const double y = x + 1.0, reach = hk_ray_reach(4, x, y);
     const double complex z = reach / hypot(x, y) * (x + y * I);
     assert_true(fabs(cabs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) - 1.0) < 1e-13);
   }

@@ -1,7 +1,6 @@
 #include "integrate/integrator.h"
 #include "measure/limit/growth.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -146,14 +145,6 @@ static void scale(const struct hk_growth *growth, struct course *course) {
   course->offset += off;
 }
 
-static int32_t watch(double done, const char *method, void *ctx) {
-  struct hk_growth *growth = ctx;
-  (void)done;
-  growth->out_of_time = hk_clock_seconds() > growth->deadline;
-  return growth->out_of_time ||
-         (growth->progress && growth->progress(growth->done, method, growth->ctx) != 0);
-}
-
 /* The amplitude that no stable motion exceeds: just below the limit the energy of an undamped mode swings by
  * 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be distinguished. */
 static double certain_rise(const struct hk_growth *growth) {
@@ -171,13 +162,10 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
   const double rise = course->last - course->first;
   const int inertial = !growth->twin->system->overdamped;
   const double speed = kinetic(growth->twin->system, hooke_state_velocity(growth->state));
-  if (rise > certain_rise(growth)) {
-    *verdict = HOOKE_GROWS;
-    return 1;
-  }
-  if (rise < NOTHING_LEFT ||
+  const int grows = rise > certain_rise(growth);
+  if (grows || rise < NOTHING_LEFT ||
       (inertial && rise < LITTLE_LEFT && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
-    *verdict = HOOKE_HOLDS;
+    *verdict = grows ? HOOKE_GROWS : HOOKE_HOLDS;
     return 1;
   }
   if (course->steps > 0 || course->count < 16 || taken < least_steps(growth)) return 0;
@@ -212,7 +200,7 @@ static int32_t take(struct hk_growth *growth, hooke_integrator *integrator, int6
   integrator->scale0 = INFINITY;
   growth->steps_run += count;
   *ended = status != HOOKE_OK;
-  if (status == HOOKE_STOPPED && !growth->out_of_time)
+  if (status == HOOKE_STOPPED && growth->budget->stopped)
     return hk_fail(status, NULL, "the progress callback asked to stop while a limit was measured");
   if (status != HOOKE_DIVERGED && status != HOOKE_SOLVER_FAILED && status != HOOKE_STOPPED) return status;
   *verdict = status == HOOKE_DIVERGED  ? HOOKE_GROWS
@@ -271,7 +259,7 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
   if (status == HOOKE_OK) status = hooke_integrator_create(growth->twin->system, growth->run, &integrator);
   if (status != HOOKE_OK) return status;
   integrator->exactly = 1;
-  hooke_integrator_on_progress(integrator, 0.0, watch, growth);
+  hooke_integrator_on_progress(integrator, 0.0, hk_budget_watch, growth->budget);
   start(growth, step, thorough);
   status = go(growth, integrator, thorough, most_steps, verdict);
   hooke_integrator_destroy(integrator);
@@ -283,9 +271,10 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
 /* ---- creating ---- */
 
 int32_t hk_growth_create(struct hk_twin *twin, const hooke_options *run, const char *method,
-                         const double *mode, double accuracy, double deadline, struct hk_growth *growth) {
+                         const double *mode, double accuracy, struct hk_budget *budget,
+                         struct hk_growth *growth) {
   const int64_t size = 3 * twin->system->particle_count;
-  *growth = (struct hk_growth){.twin = twin, .accuracy = accuracy, .deadline = deadline, .random = 1};
+  *growth = (struct hk_growth){.twin = twin, .accuracy = accuracy, .budget = budget, .random = 1};
   int32_t status =
       run ? hooke_options_copy(run, &growth->run) : hk_options_create(&hk_run_options, &growth->run);
   if (status == HOOKE_OK) status = hooke_options_set_text(growth->run, "method", method);

@@ -25,18 +25,15 @@ struct hk_growth {
   int32_t turns_at_rest; /* 1: motion that turns round in every step has no velocity at its ends */
   int32_t is_convex;     /* 1: the energy is a sum of powers, so that what rises rises for ever */
   int64_t most_steps;    /* of one run */
-  double deadline;       /* hk_clock_seconds() at which runs end */
   int64_t steps_run;     /* of all runs */
   uint64_t random;       /* of the generator */
-  hooke_progress *progress;
-  void *ctx;
-  double done;         /* text of the progress */
-  int32_t out_of_time; /* the deadline ended the last steps */
+  struct hk_budget *budget;
 };
 
 /* `mode`: 3n displacements, or NULL. `run` (options of a run) may be NULL. */
 int32_t hk_growth_create(struct hk_twin *twin, const hooke_options *run, const char *method,
-                         const double *mode, double accuracy, double deadline, struct hk_growth *growth);
+                         const double *mode, double accuracy, struct hk_budget *budget,
+                         struct hk_growth *growth);
 void hk_growth_release(struct hk_growth *growth);
 
 /* Runs at `step` from the known direction with a thousandth of random motion, or from random motion alone,

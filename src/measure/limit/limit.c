@@ -1,7 +1,6 @@
 /* Creating a limit, and its computation at one state and along a run. */
 #include "measure/limit/limit.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/table/option.h"
@@ -38,8 +37,15 @@ static int32_t has_fixed_step(const char *method) {
   return !hooke_method_is_adaptive(method);
 }
 
+/* Reports the fraction done of the current part; HOOKE_STOPPED if it is to end. */
+static int32_t tell(double done, const char *what, void *ctx) {
+  struct hk_limit *limit = ctx;
+  const double share = fmin(1.0, limit->share + limit->width * fmax(0.0, fmin(1.0, done)));
+  return hk_measurement_tell(limit->measurement, share, limit->under_way ? limit->under_way : what);
+}
+
 static void forget(struct hk_limit *limit) {
-  limit->endless = hk_budget_of(INFINITY, hk_limit_tell, limit);
+  limit->endless = hk_budget_of(INFINITY, tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = limit->time = NAN;
   limit->mode_count = limit->products = limit->clamped = limit->tipping = limit->limiting.count = 0;
@@ -63,15 +69,14 @@ static void forget_smallest(struct hk_limit *limit) {
 
 static int32_t make_space(struct hk_limit *limit) {
   const int64_t size = 3 * limit->system->particle_count;
-  limit->q = hk_new(size, sizeof(double));
-  limit->shape = hk_new(size, sizeof(double));
-  limit->stiffest = hk_new(size, sizeof(double));
-  int32_t status = limit->q && limit->shape && limit->stiffest ? HOOKE_OK : HOOKE_NO_MEMORY;
-  for (int32_t k = 0; k < limit->row_count && status == HOOKE_OK; k++) {
-    limit->row[k].mode = hk_new(size, sizeof(double));
-    if (limit->row[k].mode == NULL) status = HOOKE_NO_MEMORY;
-  }
-  return status;
+  double *block = hk_new(size, (size_t)(3 + limit->row_count) * sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  limit->q = hk_part(&block, size);
+  limit->shape = hk_part(&block, size);
+  limit->stiffest = hk_part(&block, size);
+  for (int32_t k = 0; k < limit->row_count; k++)
+    limit->row[k].mode = hk_part(&block, size);
+  return HOOKE_OK;
 }
 
 static int32_t create(hooke_measurement *m) {
@@ -99,25 +104,15 @@ static void destroy(void *object) {
   struct hk_limit *limit = object;
   if (limit == NULL) return;
   forget(limit);
-  for (int32_t k = 0; k < limit->row_count; k++)
-    hk_free(limit->row[k].mode);
   hk_free(limit->q);
-  hk_free(limit->shape);
-  hk_free(limit->stiffest);
   hk_free(limit);
-}
-
-int32_t hk_limit_tell(double done, const char *what, void *ctx) {
-  struct hk_limit *limit = ctx;
-  const double share = fmin(1.0, limit->share + limit->width * fmax(0.0, fmin(1.0, done)));
-  return hk_measurement_tell(limit->measurement, share, limit->under_way ? limit->under_way : what);
 }
 
 static int32_t begin_part(struct hk_limit *limit, double share, double width, const char *under_way) {
   limit->share = share;
   limit->width = width;
   limit->under_way = under_way;
-  return hk_limit_tell(0.0, under_way, limit);
+  return tell(0.0, under_way, limit);
 }
 
 /* ---- one state ---- */
@@ -173,18 +168,17 @@ static void add_note(struct hk_limit_row *row, const char *note) {
 }
 
 static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, const hooke_state *state,
-                           double budget) {
+                           struct hk_budget *budget) {
   const double accuracy = hooke_options_number(limit->options, "accuracy");
   const double *q = hooke_state_position((hooke_state *)state);
   struct hk_measured_limit m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
-  const int32_t status =
-      nonlinear
-          ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method, row->predicted,
-                                       accuracy, budget, hk_limit_tell, limit, &m)
-          : hk_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
-                             row->has_mode ? row->mode : NULL, accuracy, budget, hk_limit_tell, limit, &m);
+  const int32_t status = nonlinear
+                             ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method,
+                                                          row->predicted, accuracy, budget, &m)
+                             : hk_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
+                                                row->has_mode ? row->mode : NULL, accuracy, budget, &m);
   if (status != HOOKE_OK) return status;
   row->measured = m.step;
   row->steps_run = (double)m.steps_run;
@@ -195,16 +189,17 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
 
 /* The unused budget of a row goes to later ones. */
 static int32_t measure(struct hk_limit *limit, const hooke_state *state) {
-  const double budget = hooke_options_number(limit->options, "budget");
-  double left = budget, width = (1.0 - PREDICTING) / limit->row_count;
+  const double seconds = hooke_options_number(limit->options, "budget");
+  const double width = (1.0 - PREDICTING) / limit->row_count;
+  struct hk_budget budget = hk_budget_of(seconds, tell, limit);
   for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     if (hooke_method_is_adaptive(row->method)) continue;
     int32_t status = begin_part(limit, PREDICTING + k * width, width, row->method);
-    const double begun = hk_clock_seconds();
-    if (status == HOOKE_OK) status = measure_row(limit, row, state, left / (limit->row_count - k));
+    hk_budget_lend(&budget, 1.0 / (limit->row_count - k));
+    if (status == HOOKE_OK) status = measure_row(limit, row, state, &budget);
     if (status != HOOKE_OK) return status;
-    left = fmax(0.01 * budget, left - (hk_clock_seconds() - begun));
+    hk_budget_take_back(&budget);
   }
   return begin_part(limit, 1.0, 0.0, "done");
 }

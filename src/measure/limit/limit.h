@@ -64,9 +64,6 @@ int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q, const dou
  * one. */
 const struct hk_limit_row *hk_limit_limiting_row(const struct hk_limit *limit);
 
-/* Reports the fraction done of the current part; HOOKE_STOPPED if it is to end. `limit` is the context. */
-int32_t hk_limit_tell(double done, const char *what, void *limit);
-
 /* The table "blame" of a limit or a diagnosis. */
 enum { HOOKE_LIMITING_COLUMNS = 6 };
 extern const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS];

@@ -1,6 +1,5 @@
 #include "measure/limit/limit_measure.h"
 
-#include "core/clock.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "integrate/method.h"
@@ -30,13 +29,11 @@ struct trial {
   int32_t slow;   /* needs damping: steadiness means that growth is too slow to be seen */
   int32_t degree; /* if slow, growth is that of (omega h)^(2 degree) */
   const char *note;
-  int32_t tries;
 };
 
 static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
   struct trial *trial = ctx;
   enum hk_verdict verdict;
-  trial->growth->done = 1.0 - 1.0 / (1.0 + 0.2 * (double)trial->tries++);
   const int32_t status = hk_growth_see(trial->growth, step, 0, trial->most_steps, &verdict);
   if (status != HOOKE_OK) return status;
   *end = verdict == HOOKE_GROWS ? HOOKE_TRIAL_FAILS : HOOKE_TRIAL_HOLDS;
@@ -166,30 +163,16 @@ static int32_t measure(struct trial *trial, double predicted, struct hk_measured
   return status;
 }
 
-static int32_t check(const char *method, double accuracy) {
-  const int32_t adaptive = hooke_method_is_adaptive(method);
-  if (adaptive < 0) return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
-  if (adaptive)
-    return hk_fail(HOOKE_BAD_VALUE, "method", "%s chooses its steps; the limit of a fixed step was asked for",
-                   method);
-  if (accuracy > 0.0 && accuracy <= 0.1) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, "accuracy", "%g is not allowed; a number > 0 and <= 0.1 is", accuracy);
-}
-
 int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
                          const char *method, double predicted, const double *mode, double accuracy,
-                         double budget, hooke_progress *progress, void *ctx, struct hk_measured_limit *out) {
-  *out = (struct hk_measured_limit){.step = NAN, .note = ""};
-  int32_t status = check(method, accuracy);
-  if (status != HOOKE_OK) return status;
+                         struct hk_budget *budget, struct hk_measured_limit *out) {
   struct hk_twin twin;
   struct hk_growth growth;
-  status = hk_twin_create(system, q, &twin);
+  *out = (struct hk_measured_limit){.step = NAN, .note = ""};
+  int32_t status = hk_twin_create(system, q, &twin);
   if (status != HOOKE_OK) return status;
-  status = hk_growth_create(&twin, run, method, mode, accuracy, hk_clock_seconds() + budget, &growth);
+  status = hk_growth_create(&twin, run, method, mode, accuracy, budget, &growth);
   if (status == HOOKE_OK) {
-    growth.progress = progress;
-    growth.ctx = ctx;
     const struct hk_stability *stability = hk_method_stability_in(method, system);
     const int slow = hk_method_needs_damping(method) && !system->overdamped;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
@@ -219,55 +202,34 @@ struct whole {
   const hooke_state *start;
   hooke_options *run;
   hooke_state *state;
-  double duration, deadline;
+  double duration;
   int64_t steps_run;
-  int32_t tries, out_of_time, asked_to_stop;
-  hooke_progress *progress;
-  void *ctx;
+  struct hk_budget *budget;
 };
-
-static int32_t watch(double done, const char *method, void *ctx) {
-  struct whole *whole = ctx;
-  (void)done;
-  whole->out_of_time = hk_clock_seconds() > whole->deadline;
-  whole->asked_to_stop = whole->progress && whole->progress(1.0 - 1.0 / (1.0 + 0.2 * (double)whole->tries),
-                                                            method, whole->ctx) != 0;
-  return whole->out_of_time || whole->asked_to_stop;
-}
 
 /* The whole duration, rounded up to whole steps. */
 static int32_t try_whole(void *ctx, double step, enum hk_trial_end *end) {
   struct whole *whole = ctx;
   hooke_integrator *integrator = NULL;
   const double duration = step * fmax(1.0, ceil(whole->duration / step * (1.0 - 1e-12)));
-  whole->tries++;
   int32_t status = hooke_options_set_number(whole->run, "step", step);
   if (status == HOOKE_OK) status = hooke_options_set_number(whole->run, "duration", duration);
   if (status == HOOKE_OK) status = hooke_options_unset(whole->run, "every");
   if (status == HOOKE_OK) status = hooke_integrator_create(whole->system, whole->run, &integrator);
-  if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, watch, whole);
+  if (status == HOOKE_OK)
+    status = hooke_integrator_on_progress(integrator, 0.0, hk_budget_watch, whole->budget);
   if (status == HOOKE_OK) status = hooke_state_copy(whole->start, whole->state);
   if (status == HOOKE_OK) status = hk_run_whole(integrator, whole->state);
   if (integrator) whole->steps_run += hooke_integrator_count(integrator, "steps");
   hooke_integrator_destroy(integrator);
   *end = status == HOOKE_OK ? HOOKE_TRIAL_HOLDS : HOOKE_TRIAL_FAILS;
-  if (status == HOOKE_STOPPED && whole->out_of_time) {
+  if (status == HOOKE_STOPPED && whole->budget->stopped)
+    return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop while a limit was measured");
+  if (status == HOOKE_STOPPED && whole->budget->spent) {
     *end = HOOKE_TRIAL_UNKNOWN;
     return HOOKE_OK;
   }
-  if (status == HOOKE_STOPPED && whole->asked_to_stop)
-    return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop while a limit was measured");
   return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
-}
-
-static int32_t prepare(struct whole *whole, const hooke_options *run, const char *method) {
-  whole->duration = run ? hooke_options_number(run, "duration") : NAN;
-  if (!(whole->duration > 0.0))
-    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
-  int32_t status = hooke_options_copy(run, &whole->run);
-  if (status == HOOKE_OK) status = hooke_options_set_text(whole->run, "method", method);
-  if (status == HOOKE_OK) status = hooke_state_create(whole->system, &whole->state);
-  return status;
 }
 
 static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
@@ -299,17 +261,15 @@ static int32_t measure_whole(struct whole *whole, double predicted, double accur
 
 int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
                                    const hooke_options *run, const char *method, double predicted,
-                                   double accuracy, double budget, hooke_progress *progress, void *ctx,
-                                   struct hk_measured_limit *out) {
+                                   double accuracy, struct hk_budget *budget, struct hk_measured_limit *out) {
+  struct whole whole = {.system = system, .start = start, .budget = budget};
   *out = (struct hk_measured_limit){.step = NAN, .note = ""};
-  int32_t status = check(method, accuracy);
-  if (status != HOOKE_OK) return status;
-  struct whole whole = {.system = system,
-                        .start = start,
-                        .deadline = hk_clock_seconds() + budget,
-                        .progress = progress,
-                        .ctx = ctx};
-  status = prepare(&whole, run, method);
+  whole.duration = run ? hooke_options_number(run, "duration") : NAN;
+  if (!(whole.duration > 0.0))
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  int32_t status = hooke_options_copy(run, &whole.run);
+  if (status == HOOKE_OK) status = hooke_options_set_text(whole.run, "method", method);
+  if (status == HOOKE_OK) status = hooke_state_create(system, &whole.state);
   if (status == HOOKE_OK) status = measure_whole(&whole, predicted, accuracy, out);
   hooke_options_destroy(whole.run);
   hooke_state_destroy(whole.state);

@@ -2,7 +2,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 
-#include "hooke/measurement.h"
+#include "measure/trial/budget.h"
 
 struct hk_measured_limit {
   /* the limit [s]: 0 if no step is stable, infinity if nothing limits it, NaN if not found */
@@ -13,21 +13,20 @@ struct hk_measured_limit {
 };
 
 /* The limit of `method` on the linear twin of the system at q (linear_twin.h), to the relative `accuracy`,
- * within `budget` [s]. The search starts at `predicted` (NaN: unknown; 0 and infinity are tested), with runs
+ * within the budget. The search starts at `predicted` (NaN: unknown; 0 and infinity are tested), with runs
  * that start in `mode` (3n displacements, or NULL) and some random motion. The result is confirmed by a run
- * just below it that starts from random motion alone. `run` (options of a run) and `progress` may be NULL.
- * The note says if the budget ended too early. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the
- * progress, HOOKE_NO_MEMORY. */
+ * just below it that starts from random motion alone. `run` (options of a run) may be NULL. The note says if
+ * the budget ended too early. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the caller, HOOKE_NO_MEMORY.
+ */
 int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
                          const char *method, double predicted, const double *mode, double accuracy,
-                         double budget, hooke_progress *progress, void *ctx, struct hk_measured_limit *out);
+                         struct hk_budget *budget, struct hk_measured_limit *out);
 
 /* The largest step at which the scene itself runs from `start` through the `duration` of `run` without
  * divergence. With callbacks and drives only non-finite numbers count. HOOKE_BAD_VALUE without a duration;
  * HOOKE_STOPPED also if a callback of the scene asked for it. */
 int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
                                    const hooke_options *run, const char *method, double predicted,
-                                   double accuracy, double budget, hooke_progress *progress, void *ctx,
-                                   struct hk_measured_limit *out);
+                                   double accuracy, struct hk_budget *budget, struct hk_measured_limit *out);
 
 #endif

@@ -182,9 +182,9 @@ int32_t hk_participation_is_drag(int32_t force) {
   return is_of(force, HOOKE_UNIFORM);
 }
 
-const char *hk_participation_force_name(int32_t force) {
+static const char *force_name(int32_t force) {
   if (force == HOOKE_PARTICIPATION_GEOMETRIC) return "geometric";
-  return force < 0 ? "" : force == HOOKE_PARTICIPATION_DAMPING ? "damping" : hk_force_table(force)->name;
+  return force == HOOKE_PARTICIPATION_DAMPING ? "damping" : hk_force_table(force)->name;
 }
 
 void hk_limiting_add(const hooke_system *system, int64_t spring, double share,
@@ -208,7 +208,7 @@ void hk_limiting_take(const struct hk_participation *participation, struct hk_li
                                         .second = -1,
                                         .share = participation->force_share[force],
                                         .group = "",
-                                        .force = hk_participation_force_name(force)};
+                                        .force = force_name(force)};
   for (int64_t k = 0; k < participation->spring_count; k++)
     list->row[list->count++] = participation->spring[k];
 }

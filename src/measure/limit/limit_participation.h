@@ -61,9 +61,8 @@ int32_t hk_participation_find(const hooke_system *system, const double *q, const
 void hk_participation_release(struct hk_participation *participation);
 
 /* The force with half of the total or more, or HOOKE_PARTICIPATION_DAMPING or _GEOMETRIC; -1 if it is the
- * stiffness of springs, or none. Its name. */
+ * stiffness of springs, or none. */
 int32_t hk_participation_force(const struct hk_participation *participation);
-const char *hk_participation_force_name(int32_t force);
 int32_t hk_participation_is_drag(int32_t force);
 
 /* The group with the largest share; -1 if there is none. */

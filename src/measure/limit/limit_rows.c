@@ -3,7 +3,8 @@
 
 #include "core/memory.h"
 #include "core/print.h"
-#include "measure/spectrum/buckling.h"
+#include "core/random.h"
+#include "kernel/vector_loops.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/sum/motion.h"
 
@@ -16,7 +17,7 @@ static int32_t find_bounds(struct hk_limit *limit, const double *q) {
   const int32_t status = hk_node_blocks_create(limit->system, q, &blocks);
   if (status != HOOKE_OK) return status;
   for (int32_t k = 0; k < limit->row_count; k++)
-    limit->row[k].bound = hk_step_bound_of(&blocks, limit->row[k].method);
+    limit->row[k].bound = hk_step_bound_of(&blocks, limit->row[k].method, INFINITY, NULL);
   hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
@@ -72,12 +73,67 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   return HOOKE_OK;
 }
 
+/* ---- buckling ---- */
+
+/* By the power method on J + s, with J = K/gamma and s a bound of its eigenvalues: they are -s to s. A
+ * growing motion that is slower than LEAST of s counts as none. */
+enum { ITERATIONS = 300 };
+static const double LEAST = 1e-9;
+
+/* One iteration; returns x.Jx of the unit vector x that it began with. */
+static int32_t iterate(const hooke_system *system, double t, const double *q, double shift, double *x,
+                       double *product, double *growth) {
+  const int64_t size = 3 * system->particle_count;
+  const double *still = product + size;
+  const int32_t status = hooke_system_derivative_product(system, t, q, still, x, still, product);
+  *growth = 0.0;
+  for (int64_t k = 0; k < size; k++) {
+    const double rate = system->inverse_mass[k / 3] * product[k];
+    *growth += x[k] * rate;
+    x[k] = system->constrained[k / 3] ? 0.0 : rate + shift * x[k];
+  }
+  const double by = sqrt(hk_dot(size, x, x));
+  for (int64_t k = 0; k < size && by > 0.0; k++)
+    x[k] /= by;
+  return status;
+}
+
+static int32_t find_growth(const hooke_system *system, double t, const double *q, double shift, double *x,
+                           double *rate) {
+  const int64_t size = 3 * system->particle_count;
+  uint64_t random = 1;
+  double growth = 0.0;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < size; k++)
+    x[k] = system->constrained[k / 3] ? 0.0 : hk_random_uniform(&random);
+  for (int k = 0; k < ITERATIONS && status == HOOKE_OK; k++)
+    status = iterate(system, t, q, shift, x, x + size, &growth);
+  *rate = growth > LEAST * shift ? growth : 0.0;
+  return status;
+}
+
+/* A rate [1/s] at which some motion of the system linearised at q and time t grows by itself: a lower bound
+ * of the largest one, by a vector that shows it; 0 if none was found, which proves nothing. */
+static int32_t buckling_rate(const hooke_system *system, double t, const double *q, double *rate) {
+  struct hk_node_blocks blocks;
+  *rate = 0.0;
+  int32_t status = hk_node_blocks_create(system, q, &blocks);
+  if (status != HOOKE_OK) return status;
+  const double shift = 1.0 / hk_node_blocks_reach(&blocks, (struct hk_node_limit){.k = 1.0}, INFINITY, NULL);
+  hk_node_blocks_release(&blocks);
+  double *vectors = hk_new(9 * system->particle_count, sizeof(double));
+  if (vectors == NULL) return HOOKE_NO_MEMORY;
+  status = find_growth(system, t, q, shift, vectors, rate);
+  hk_free(vectors);
+  return status;
+}
+
 /* In an overdamped scene what buckles grows by itself; in the limits of steps it counts as nothing. */
 static int32_t note_buckling(struct hk_limit *limit, const double *q) {
   double rate = 0.0;
   int32_t status = HOOKE_OK;
   if (limit->system->overdamped && limit->clamped > 0)
-    status = hk_buckling_rate(limit->system, limit->time, q, &rate);
+    status = buckling_rate(limit->system, limit->time, q, &rate);
   for (int32_t k = 0; k < limit->row_count && rate > 0.0; k++) {
     if (!limit->row[k].note[0])
       hk_print(limit->row[k].note, sizeof limit->row[k].note,
@@ -87,6 +143,8 @@ static int32_t note_buckling(struct hk_limit *limit, const double *q) {
   }
   return status;
 }
+
+/* ---- all of them ---- */
 
 static int32_t find_rows(struct hk_limit *limit, struct hk_linearised *linearised) {
   struct hk_spectrum spectrum;

@@ -25,11 +25,8 @@ struct looking {
   double *motion;       /* velocity and acceleration of all particles, 6n */
 };
 
-static void tell(struct looking *l, const char *kind, int64_t spring, int64_t particle, const char *format,
-                 ...) __attribute__((format(printf, 5, 6)));
-
-static void tell(struct looking *l, const char *kind, int64_t spring, int64_t particle, const char *format,
-                 ...) {
+__attribute__((format(printf, 5, 6))) static void tell(struct looking *l, const char *kind, int64_t spring,
+                                                       int64_t particle, const char *format, ...) {
   char sentence[256];
   va_list args;
   va_start(args, format);

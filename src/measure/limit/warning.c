@@ -33,13 +33,11 @@ static void release(void *own) {
 }
 
 static int32_t tell(struct warner *warner, const hooke_integrator *it, const hooke_state *state,
-                    int64_t particle) {
+                    int64_t particle, double limit) {
   const hooke_system *system = it->system;
   const char *method = it->method->name;
   const double h = it->schedule.step;
-  const double limit = hk_step_bound_of(&warner->blocks, method);
   char where[HOOKE_NAMING_SIZE] = "", sentence[640];
-  if (isnan(limit)) return 0; /* an overflowed bound means nothing */
   const enum kind kind = limit == 0.0 ? NEVER_STABLE : h > limit ? ABOVE_LIMIT : NEAR_LIMIT;
   if (warner->told[kind]) return 0;
   warner->told[kind] = 1;
@@ -70,12 +68,11 @@ static int32_t look(const hooke_integrator *it, const hooke_state *state, void *
   }
   warner->next = it->count.force_evaluations + EVALUATIONS;
   if (warner->told[ABOVE_LIMIT] || warner->told[NEVER_STABLE]) return 0;
-  const double margin = warner->told[NEAR_LIMIT] ? 0.0 : MARGIN;
+  const double margin = warner->told[NEAR_LIMIT] ? 0.0 : MARGIN, most = it->schedule.step / (1.0 - margin);
   int64_t particle;
   hk_node_blocks_fill(&warner->blocks, state->q);
-  const int safe =
-      hk_step_is_safe(&warner->blocks, it->method->name, it->schedule.step / (1.0 - margin), &particle);
-  return safe ? 0 : tell(warner, it, state, particle);
+  const double limit = hk_step_bound_of(&warner->blocks, it->method->name, most, &particle);
+  return limit < most ? tell(warner, it, state, particle, limit) : 0;
 }
 
 int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning, void *ctx) {

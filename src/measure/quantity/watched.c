@@ -47,6 +47,13 @@ static void list_names(const hooke_system *system, name_of *name, char text[NAME
   }
 }
 
+/* The part of that name; NULL if there is none. */
+static const struct hk_part_record *find_part(const hooke_system *system, const char *name) {
+  for (int64_t k = 0; k < system->part_count; k++)
+    if (strcmp(system->part[k].name, name) == 0) return &system->part[k];
+  return NULL;
+}
+
 /* ---- numbers ---- */
 
 /* The number that `text` begins with, and its end; -1 for none, or one past 64 bits. */
@@ -117,13 +124,11 @@ static int32_t read_particle(const struct reading *reading, char *text, struct h
   }
   const int64_t index = cut_index(text);
   if (index < 0) return refuse(reading);
-  for (int64_t k = 0; k < system->part_count; k++) {
-    if (strcmp(system->part[k].name, text) != 0) continue;
-    if (index >= system->part[k].count) return refuse_index(reading, text, "particle", system->part[k].count);
-    watched->particle = system->part[k].first + index;
-    return HOOKE_OK;
-  }
-  return refuse_name(reading, "part", part_name);
+  const struct hk_part_record *part = find_part(system, text);
+  if (part == NULL) return refuse_name(reading, "part", part_name);
+  if (index >= part->count) return refuse_index(reading, text, "particle", part->count);
+  watched->particle = part->first + index;
+  return HOOKE_OK;
 }
 
 /* Refuses groups with dropped springs: their indices are not those that the user knows. */
@@ -159,36 +164,28 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
                  (long long)asked);
 }
 
-/* The words without an index. */
-static int find_word(const char *text, enum hk_watched_kind *kind) {
-  static const char *const words[] = {"energy", "kinetic", "potential"};
-  for (int k = 0; k < 3; k++) {
-    if (strcmp(text, words[k]) != 0) continue;
-    *kind = (enum hk_watched_kind)(HOOKE_WATCHED_ENERGY + k);
-    return 1;
-  }
+/* 1 if `text` is the word of one of three kinds from `first` on. */
+static int find_word(const char *text, enum hk_watched_kind first, enum hk_watched_kind *kind) {
+  static const char *const words[] = {"", "length", "strain", "tension", "energy", "kinetic", "potential"};
+  for (*kind = first; *kind < first + 3; ++*kind)
+    if (strcmp(text, words[*kind]) == 0) return 1;
   return 0;
 }
 
 /* `text` is modified. */
 static int32_t read_quantity(const struct reading *reading, char *text, struct hk_watched *watched) {
-  static const char *const of_spring[] = {"length", "strain", "tension"};
   static const char period[] = "period:";
   if (strncmp(text, period, sizeof period - 1) == 0) {
     watched->is_period = 1;
     text += sizeof period - 1;
     if (strncmp(text, period, sizeof period - 1) == 0) return refuse(reading);
   }
-  if (find_word(text, &watched->kind)) return HOOKE_OK;
+  if (find_word(text, HOOKE_WATCHED_ENERGY, &watched->kind)) return HOOKE_OK;
   char *dot = strrchr(text, '.');
   if (dot == NULL) return refuse(reading);
   *dot = '\0';
   const char *what = dot + 1;
-  for (int k = 0; k < 3; k++) {
-    if (strcmp(what, of_spring[k]) != 0) continue;
-    watched->kind = (enum hk_watched_kind)(HOOKE_WATCHED_LENGTH + k);
-    return read_spring(reading, text, watched);
-  }
+  if (find_word(what, HOOKE_WATCHED_LENGTH, &watched->kind)) return read_spring(reading, text, watched);
   if (what[0] < 'x' || what[0] > 'z' || what[1]) return refuse(reading);
   watched->axis = what[0] - 'x';
   return read_particle(reading, text, watched);
@@ -269,15 +266,6 @@ static int mark_numbers(const char *text, int64_t count, uint8_t *mark) {
   return 0;
 }
 
-static int mark_part(const hooke_system *system, const char *text, uint8_t *mark) {
-  for (int64_t k = 0; k < system->part_count; k++) {
-    if (strcmp(system->part[k].name, text) != 0) continue;
-    memset(mark + system->part[k].first, 1, (size_t)system->part[k].count);
-    return 0;
-  }
-  return -1;
-}
-
 static int mark_group(const hooke_system *system, const char *text, uint8_t *mark) {
   int found = -1;
   int64_t first = 0;
@@ -295,7 +283,9 @@ static int mark_group(const hooke_system *system, const char *text, uint8_t *mar
 int32_t hk_watched_mark_particles(const hooke_system *system, const char *where, const char *text,
                                   uint8_t *mark) {
   char known[NAMES_SIZE] = "";
-  if (mark_part(system, text, mark) == 0 || mark_group(system, text, mark) == 0) return HOOKE_OK;
+  const struct hk_part_record *part = find_part(system, text);
+  if (part) memset(mark + part->first, 1, (size_t)part->count);
+  if (part || mark_group(system, text, mark) == 0) return HOOKE_OK;
   if (mark_numbers(text, system->particle_count, mark) == 0) return HOOKE_OK;
   list_names(system, part_name, known);
   list_names(system, group_name, known);

@@ -99,9 +99,7 @@ static int32_t try_quick(struct hk_pick *pick, const char *method, double most) 
   hooke_options_destroy(options);
   pick->work += cost.work;
   if (status == HOOKE_OK) pick->quickest = fmin(pick->quickest, cost.work);
-  const int failed = cost.too_long || status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED ||
-                     status == HOOKE_STEP_LIMIT;
-  return failed ? HOOKE_OK : status;
+  return cost.too_long || hk_trial_gave_up(status) ? HOOKE_OK : status;
 }
 
 /* Explicit Euler at its largest step; in stiff and overdamped scenes methods that solve for a step may need
@@ -186,14 +184,8 @@ static int32_t find_reference(struct hk_pick *pick) {
 /* ---- picking ---- */
 
 int32_t hk_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out) {
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_copy(run, &options);
-  if (status == HOOKE_OK) status = hk_trial_set_value(options, method, value);
-  if (status == HOOKE_OK)
-    *out = options;
-  else
-    hooke_options_destroy(options);
-  return status;
+  const int32_t status = hooke_options_copy(run, out);
+  return status == HOOKE_OK ? hk_trial_set_value(*out, method, value) : status;
 }
 
 double hk_pick_trusted(const struct hk_pick *pick) {

@@ -63,7 +63,7 @@ int32_t hk_pick_prepare(struct hk_pick *pick, const hooke_options *run);
  * start: infinity if nothing limits it. */
 int32_t hk_pick_largest_step(struct hk_pick *pick, const char *method, const double *q, double *bound,
                              double *largest);
-/* Options of a run by a method with a step or tolerance. */
+/* Options of a run by a method with a step or tolerance, which the caller destroys in either case. */
 int32_t hk_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out);
 
 /* In words, if the times of this machine would reverse the two best by more than 2; "" if not. */

@@ -30,9 +30,9 @@ static const uint64_t SEED = 1;          /* of that */
 
 /* A run in the search. */
 struct result {
-  double value, error, rms, work, wall_seconds; /* the errors NaN: it did not finish */
-  double allowed;  /* a value clear of the stability limit at all frames; infinity: this one is */
-  int32_t gains;   /* spontaneous rise of energy */
+  struct hk_pick_row row; /* the errors NaN: it did not finish */
+  double allowed;         /* a value clear of the stability limit at all frames; infinity: this one is */
+  int32_t gains;          /* spontaneous rise of energy */
   int32_t unknown; /* 1: that limit is not known at some state, so that nobody knows whether it is sound */
   int32_t late;    /* its work was too much */
 };
@@ -100,7 +100,7 @@ static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, v
 /* Judges the step and the energy of a run. */
 static int32_t judge(struct search *s, struct hk_soundness *soundness, struct result *result) {
   struct hk_budget budget = hk_budget_of_work(SHARE_OF_LIMITS * fmax(0.0, work_left(s->pick)), NULL, NULL);
-  if (isnan(result->error)) soundness->at[1].bound = INFINITY; /* nothing is sure of where it went */
+  if (isnan(result->row.error)) soundness->at[1].bound = INFINITY; /* nothing is sure of where it went */
   const int32_t status = hk_soundness_find_limits(soundness, &budget);
   s->pick->work += hk_soundness_work(soundness) + budget.work;
   result->allowed = hk_soundness_limit_share * soundness->least_limit;
@@ -126,12 +126,9 @@ static int32_t run_row(struct search *s, double value, double displacement, doub
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &r->frames, r->trusted, options, &listener);
   if (looker.status != HOOKE_OK) status = looker.status;
   s->pick->work += trial.work;
-  *result = (struct result){.value = value,
-                            .error = trial.error_max,
-                            .rms = trial.error,
-                            .work = trial.work,
-                            .wall_seconds = trial.wall_seconds,
-                            .late = trial.status && strcmp(trial.status, "stopped") == 0};
+  *result =
+      (struct result){.row = {s->method, value, trial.error_max, trial.error, trial.work, trial.wall_seconds},
+                      .late = trial.status && strcmp(trial.status, "stopped") == 0};
   if (status == HOOKE_OK && looker.soundness.time) status = judge(s, &looker.soundness, result);
   hk_soundness_release(&looker.soundness);
   hk_trial_release(&trial);
@@ -150,36 +147,31 @@ static double fit(const struct search *s, double value) {
  * it. */
 static int beats(const struct search *s, const struct result *result, int32_t meets) {
   if (s->best.method == NULL || meets != s->met) return meets || !s->met;
-  return meets ? result->work < s->best.work : result->error < s->best.error;
+  return meets ? result->row.work < s->best.work : result->row.error < s->best.error;
 }
 
 static int32_t is_sound(const struct result *result) {
-  return !isnan(result->error) && isinf(result->allowed) && !result->gains;
+  return !isnan(result->row.error) && isinf(result->allowed) && !result->gains;
 }
 
 static void learn(struct search *s, const struct result *result) {
   const int32_t sound = is_sound(result);
   const int32_t meets =
-      sound && !result->unknown && s->pick->reference.trusted > 1 && result->error <= s->most;
+      sound && !result->unknown && s->pick->reference.trusted > 1 && result->row.error <= s->most;
   if (sound && beats(s, result, meets)) {
-    s->best = (struct hk_pick_row){.method = s->method,
-                                   .value = result->value,
-                                   .error = result->error,
-                                   .rms = result->rms,
-                                   .work = result->work,
-                                   .wall_seconds = result->wall_seconds};
+    s->best = result->row;
     s->met = meets;
   }
-  if (meets && !(result->value <= s->meets)) {
-    s->meets = result->value;
-    s->error_meets = result->error;
-  } else if (!meets && !(result->value >= s->fails)) {
-    s->fails = result->value;
-    s->error_fails = sound ? result->error : NAN;
+  if (meets && !(result->row.value <= s->meets)) {
+    s->meets = result->row.value;
+    s->error_meets = result->row.error;
+  } else if (!meets && !(result->row.value >= s->fails)) {
+    s->fails = result->row.value;
+    s->error_fails = sound ? result->row.error : NAN;
   }
   if (s->fails <= s->meets) s->fails = NAN; /* a coarser row that meets the want wins over a finer one */
   if (result->allowed < s->largest) s->largest = result->allowed;
-  if (!sound && result->gains) s->largest = fmin(s->largest, 0.5 * result->value);
+  if (!sound && result->gains) s->largest = fmin(s->largest, 0.5 * result->row.value);
 }
 
 /* Value at which the error should be right, by the order, or by the slope between two runs. */
@@ -217,7 +209,8 @@ static double next_value(const struct search *s) {
 /* Work of the first run where it is known, approximate work of the others [s]. */
 static double cost_of(const struct search *s, double value) {
   const struct hk_pick *pick = s->pick;
-  if (s->last.work > 0.0) return s->last.work * pow(s->last.value / value, s->adaptive ? COST_POWER : 1.0);
+  if (s->last.row.work > 0.0)
+    return s->last.row.work * pow(s->last.row.value / value, s->adaptive ? COST_POWER : 1.0);
   const double steps = ceil(pick->fraction * pick->duration / value);
   const double work = s->adaptive ? NAN : hk_work_of_steps(pick->system, s->method, (int64_t)steps);
   return isnan(work) ? 0.0 : work;
@@ -326,7 +319,7 @@ static int32_t try_value(struct search *s, double value, double most_work) {
     return HOOKE_OK;
   }
   learn(s, &s->last);
-  s->over |= s->last.unknown && s->last.error <= s->most; /* no finer one is known any better */
+  s->over |= s->last.unknown && s->last.row.error <= s->most; /* no finer one is known any better */
   if (s->error_meets < GOOD * s->most && isnan(s->fails)) status = raise_largest(s);
   return status;
 }
@@ -375,16 +368,16 @@ static double displacement_of(const struct hk_reference *r) {
 static int32_t confirm(struct search *s, int32_t *holds) {
   struct result again;
   const int32_t status = run_row(s, s->best.value, displacement_of(&s->pick->reference), 0.0, &again);
-  *holds = status == HOOKE_OK && is_sound(&again) && !again.unknown && again.error <= s->most;
-  s->best.error = fmax(s->best.error, again.error);
-  s->best.rms = fmax(s->best.rms, again.rms);
+  *holds = status == HOOKE_OK && is_sound(&again) && !again.unknown && again.row.error <= s->most;
+  s->best.error = fmax(s->best.error, again.row.error);
+  s->best.rms = fmax(s->best.rms, again.row.rms);
   if (*holds || status != HOOKE_OK) return status;
   if (!is_sound(&again)) s->best.method = NULL;
   s->met = 0;
   s->meets = s->error_meets = NAN;
-  s->fails = again.value;
-  s->error_fails = is_sound(&again) ? again.error : NAN;
-  s->largest = fmin(s->largest, fmin(again.allowed, is_sound(&again) ? INFINITY : 0.5 * again.value));
+  s->fails = again.row.value;
+  s->error_fails = is_sound(&again) ? again.row.error : NAN;
+  s->largest = fmin(s->largest, fmin(again.allowed, is_sound(&again) ? INFINITY : 0.5 * again.row.value));
   s->over = 0;
   return HOOKE_OK;
 }

@@ -46,11 +46,11 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
 
 /* The bound where the step is not clear of it. */
 static double see_bound(struct hk_soundness *s, const double *q) {
-  int64_t particle;
+  const double clear = s->step / hk_soundness_limit_share;
   if (s->blocks.system == NULL) return 0.0;
   hk_node_blocks_fill(&s->blocks, q);
-  if (hk_step_is_safe(&s->blocks, s->method, s->step / hk_soundness_limit_share, &particle)) return INFINITY;
-  return hk_step_bound_of(&s->blocks, s->method);
+  const double bound = hk_step_bound_of(&s->blocks, s->method, clear, NULL);
+  return bound < clear ? bound : INFINITY;
 }
 
 static void see_step(struct hk_soundness *s, const hooke_state *state) {

@@ -5,6 +5,8 @@
 #include "hooke/integrator.h"
 #include "hooke/measurement.h"
 #include "integrate/method.h"
+#include "kernel/vector_loops.h"
+#include "measure/spectrum/eigen/dense.h"
 #include "measure/spectrum/eigen/dominant_mode.h"
 
 #include <math.h>
@@ -15,28 +17,38 @@ static const double SLOW_SPIN = 1e-3;
 
 static const char *const SPINS =
     "not known: a body spins so fast that gyroscopic and centrifugal forces count, which are left out";
+static const char *const TOO_LARGE =
+    "not known: damping out of proportion is at predicted velocities, and the "
+    "scene too large to solve for all motion at once";
+static const char *const NOT_ALL =
+    "with damping out of proportion it is not proved that no motion grows below the prediction";
 static const char *const PART_KNOWN =
     "only the fastest modes are known: the limit lies between the bound and the prediction";
+
+static void take_mode(const struct hk_spectrum *s, const double *mode, struct hk_prediction *out) {
+  out->has_mode = mode != NULL;
+  if (mode) memcpy(out->mode, mode, (size_t)s->linearised->size * sizeof(double));
+}
+
+/* h^2 (k - d) + 2 h c = 4, written so that nothing cancels; infinity if it is met nowhere. */
+static double reach(double k, double c, double d) {
+  const double square = c * c + 4.0 * (k - d);
+  return square < 0.0 ? INFINITY : 4.0 / (c + sqrt(square));
+}
 
 /* ---- symplectic Euler ---- */
 
 enum { MOST_TURNS = 30 };
 /* From a good start a value rises little in its first iterations, however far it is from converged. */
 static const double WARM = 0.1;
-
-/* The h of one mode of stiffness k and damping c: h^2 k + 2 h c = 4, written so that nothing cancels. */
-static double symplectic_step(double k, double c) {
-  return 4.0 / (c + sqrt(c * c + 4.0 * k));
-}
+static const double TOLERANCE = 1e-10; /* of dense ones */
 
 /* x.Cx */
-static int32_t damping_of(struct hk_linearised *lin, const double *x, double *work, double *c) {
-  *c = 0.0;
-  if (!lin->damped) return HOOKE_OK;
+static double damping_of(struct hk_linearised *lin, const double *x, double *work) {
+  if (!lin->damped) return 0.0;
   hk_linearised_combine(lin, 0.0, 1.0);
   hk_linearised_multiply(lin, x, work);
-  *c = hk_linearised_dot(lin, x, work);
-  return HOOKE_OK;
+  return hk_linearised_dot(lin, x, work);
 }
 
 /* H at which the largest eigenvalue of M^-1 (h^2 K + 2 h C) is 4. The mode of one h gives its own step, which
@@ -44,30 +56,128 @@ static int32_t damping_of(struct hk_linearised *lin, const double *x, double *wo
  * the first step. */
 static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out) {
   struct hk_linearised *lin = s->linearised;
-  hk_limit_take_mode(s, s->stiffest_mode, out);
-  out->limit = symplectic_step(s->stiffest, s->beta * s->stiffest + s->delta);
+  take_mode(s, s->stiffest_mode, out);
+  out->limit = reach(s->stiffest, s->beta * s->stiffest + s->delta, 0.0);
   if (s->proportional) return HOOKE_OK;
   const double tolerance =
       lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? fmin(1e-7, 1e-2 * s->accuracy) : s->accuracy;
-  double *work = hk_new(lin->size, sizeof(double)), c = 0.0, value = 0.0, change = INFINITY;
+  double *work = hk_new(lin->size, sizeof(double)), value = 0.0, change = INFINITY;
   if (work == NULL) return HOOKE_NO_MEMORY;
-  int32_t status = damping_of(lin, out->mode, work, &c);
-  double h = symplectic_step(s->stiffest, c);
+  int32_t status = HOOKE_OK;
+  double c = damping_of(lin, out->mode, work), h = reach(s->stiffest, c, 0.0);
   /* nothing stiff: the start is no mode at all */
   if (!(h < INFINITY)) {
     status = hk_dominant_mode(lin, 0.0, 1.0, NULL, s->accuracy, &c, out->mode);
-    h = symplectic_step(0.0, c);
+    h = reach(0.0, c, 0.0);
   }
   for (int k = 0; k < MOST_TURNS && status == HOOKE_OK && change > tolerance; k++) {
     memcpy(work, out->mode, (size_t)lin->size * sizeof(double));
     status = hk_dominant_mode(lin, h * h, 2.0 * h, work, WARM * s->accuracy, &value, out->mode);
-    if (status == HOOKE_OK) status = damping_of(lin, out->mode, work, &c);
-    const double next = symplectic_step(fmax(0.0, (value - 2.0 * h * c) / (h * h)), c);
+    if (status != HOOKE_OK) break;
+    c = damping_of(lin, out->mode, work);
+    const double next = reach(fmax(0.0, (value - 2.0 * h * c) / (h * h)), c, 0.0);
     change = fabs(next - h) / next;
     h = next;
   }
   out->limit = h;
   hk_free(work);
+  return status;
+}
+
+/* ---- verlet of bodies ---- */
+
+/* It takes damping at a predicted velocity: stable where h^2 K + 2 h C - h^2 C^2 < 4 and h C < 2, over the
+ * masses. An eigenvalue of its step is -1 or 1 where one of these is met, whatever K and C are; of one mode
+ * its eigenvalues leave the unit circle nowhere else. */
+static double by_damping(double c) {
+  return c > 0.0 ? 2.0 / c : INFINITY;
+}
+
+static double predicted_step(double k, double c) {
+  return fmin(reach(k, c, c * c), by_damping(c));
+}
+
+struct search {
+  int64_t n;
+  double *k, *c, *sum, *value, *vector, *product; /* n x n: k, c, sum, vector */
+};
+
+/* out = m x */
+static void multiply(int64_t n, const double *m, const double *x, double *out) {
+  for (int64_t i = 0; i < n; i++)
+    out[i] = hk_dot(n, m + i * n, x);
+}
+
+/* sum = h^2 K + 2 h C - h^2 C^2; C is symmetric. */
+static void combine(struct search *z, double h) {
+  for (int64_t i = 0; i < z->n; i++) {
+    multiply(z->n, z->c, z->c + i * z->n, z->product);
+    for (int64_t j = 0; j < z->n; j++) {
+      const int64_t at = i * z->n + j;
+      z->sum[at] = h * h * (z->k[at] - z->product[j]) + 2.0 * h * z->c[at];
+    }
+  }
+}
+
+/* The value of a vector is that of the matrix at least, so the h that it gives is at most too large; Newton's
+ * iteration from above. */
+static int32_t search(struct search *z, double *h) {
+  double change = INFINITY;
+  int32_t status = HOOKE_OK;
+  for (int turn = 0; turn < MOST_TURNS && status == HOOKE_OK && change > TOLERANCE; turn++) {
+    combine(z, *h);
+    status = hk_dense_symmetric(z->n, z->sum, z->value, z->vector);
+    if (status != HOOKE_OK) break;
+    multiply(z->n, z->k, z->vector, z->product);
+    const double k = hk_dot(z->n, z->vector, z->product);
+    multiply(z->n, z->c, z->vector, z->product);
+    const double c = hk_dot(z->n, z->vector, z->product), d = hk_dot(z->n, z->product, z->product);
+    const double next = reach(k, c, d);
+    change = fabs(next - *h) / next;
+    *h = next;
+  }
+  return status;
+}
+
+static int32_t out_of_proportion(struct hk_spectrum *s, struct hk_prediction *out) {
+  struct hk_linearised *lin = s->linearised;
+  const int64_t n = lin->unknowns;
+  double *block = hk_new(4 * n * n + 2 * n, sizeof(double));
+  struct search z = {.n = n, .k = block};
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  z.c = z.k + n * n;
+  z.sum = z.c + n * n;
+  z.vector = z.sum + n * n;
+  z.value = z.vector + n * n;
+  z.product = z.value + n;
+  int32_t status = HOOKE_OK;
+  for (int j = 0; j < 2 && status == HOOKE_OK; j++) {
+    hk_linearised_combine(lin, j == 0, j == 1);
+    status = hk_linearised_assemble(lin, j == 0 ? z.k : z.c);
+  }
+  out->limit = reach(s->stiffest, s->fastest_decay, 0.0); /* too small: the mode of a first turn */
+  if (status == HOOKE_OK) status = search(&z, &out->limit);
+  if (status == HOOKE_OK) hk_linearised_unpack(lin, z.vector, out->mode);
+  out->has_mode = status == HOOKE_OK;
+  hk_free(block);
+  return status;
+}
+
+static int32_t predicted(struct hk_spectrum *s, struct hk_prediction *out) {
+  if (s->proportional) { /* the stiffest mode meets both first */
+    out->limit = predicted_step(s->stiffest, s->beta * s->stiffest + s->delta);
+    take_mode(s, s->stiffest_mode, out);
+    return HOOKE_OK;
+  }
+  if (s->linearised->unknowns > HOOKE_SPECTRUM_DAMPED) {
+    out->limit = NAN;
+    out->note = TOO_LARGE;
+    return HOOKE_OK;
+  }
+  const int32_t status = out_of_proportion(s, out);
+  out->limit = fmin(out->limit, by_damping(s->fastest_decay));
+  out->exact = 0;
+  out->note = NOT_ALL;
   return status;
 }
 
@@ -78,19 +188,13 @@ static double verlet_step(double k) {
   return 2.0 / sqrt(k);
 }
 
-static void verlet(struct hk_spectrum *s, struct hk_prediction *out) {
-  out->limit = verlet_step(s->stiffest);
-  hk_limit_take_mode(s, s->stiffest_mode, out);
-}
-
 static const double HALF_DISC = 2.6; /* in the left half plane all of this is stable by degree 4 */
 
 /* Largest stable step of an eigenvalue; infinity if that is certain to be above `best`. */
 static double step_of(int32_t degree, double real, double imaginary, double best) {
   const double size = hypot(real, imaginary);
-  if (degree == 1) return -2.0 * real / (real * real + imaginary * imaginary); /* |1 + h lambda| <= 1 */
-  if (degree == 2) return hk_heun_reach(real, imaginary) / size;
-  return best * size <= HALF_DISC ? (double)INFINITY : hk_rk4_reach(real, imaginary) / size;
+  const int certain = degree == 4 && best * size <= HALF_DISC;
+  return certain ? (double)INFINITY : hk_ray_reach(degree, real, imaginary) / size;
 }
 
 /* The smallest step over the known eigenvalues. */
@@ -103,7 +207,7 @@ static void smallest(const struct hk_spectrum *s, int32_t degree, struct hk_pred
     out->limit = h;
     worst = k;
   }
-  if (worst >= 0) hk_limit_take_mode(s, s->value[worst].mode, out);
+  if (worst >= 0) take_mode(s, s->value[worst].mode, out);
   out->exact = s->decisive;
   if (!s->decisive) out->note = PART_KNOWN;
 }
@@ -113,7 +217,7 @@ static void needs_damping(struct hk_spectrum *s, struct hk_prediction *out) {
   if (!s->linearised->damped && s->stiffest > 0.0) {
     out->limit = 0.0; /* for any set of known modes */
     out->exact = 1;
-    hk_limit_take_mode(s, s->stiffest_mode, out);
+    take_mode(s, s->stiffest_mode, out);
   }
   if (out->limit <= 0.0) {
     out->limit = 0.0;
@@ -157,9 +261,9 @@ static double mode_step(const struct hk_stability *stability, double k, double c
   case HOOKE_STABLE_BY_K:
     return verlet_step(k);
   case HOOKE_STABLE_BY_K_AND_C:
-    return symplectic_step(k, c);
+    return reach(k, c, 0.0);
   case HOOKE_STABLE_BY_PREDICTION:
-    return hk_limit_predicted_step(k, c);
+    return predicted_step(k, c);
   default:
     return stability->degree > 0 ? polynomial_mode(stability->degree, k, c) : (double)NAN;
   }
@@ -187,9 +291,10 @@ int32_t hk_limit_rule_needs_all(const char *method) {
 /* An overdamped system has the eigenvalues -k/gamma alone, which are those of M^-1 K here. */
 static void overdamped(struct hk_spectrum *s, const struct hk_stability *stability,
                        struct hk_prediction *out) {
-  out->limit =
-      s->stiffest > 0.0 ? hk_real_reach(stability->degree) / s->stiffest / s->linearised->rate : INFINITY;
-  hk_limit_take_mode(s, s->stiffest_mode, out);
+  out->limit = s->stiffest > 0.0
+                   ? hk_ray_reach(stability->degree, -1.0, 0.0) / s->stiffest / s->linearised->rate
+                   : INFINITY;
+  take_mode(s, s->stiffest_mode, out);
 }
 
 static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stability,
@@ -200,12 +305,13 @@ static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stab
   }
   switch (stability->kind) {
   case HOOKE_STABLE_BY_K:
-    verlet(s, out);
+    out->limit = verlet_step(s->stiffest);
+    take_mode(s, s->stiffest_mode, out);
     return HOOKE_OK;
   case HOOKE_STABLE_BY_K_AND_C:
     return symplectic_euler(s, out);
   case HOOKE_STABLE_BY_PREDICTION:
-    return hk_limit_rule_predicted(s, out);
+    return predicted(s, out);
   default:
     polynomial(s, stability, out);
     return HOOKE_OK;

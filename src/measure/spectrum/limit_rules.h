@@ -29,17 +29,8 @@ int32_t hk_limit_rule(struct hk_spectrum *spectrum, const char *method, struct h
 /* hooke_limit_of_mode() for steps of this system, in which bodies may move. */
 double hk_limit_of_mode_in(const hooke_system *system, const char *method, double frequency, double decay);
 
-/* For the rules: the mode, if it is not NULL; and that of HOOKE_STABLE_BY_PREDICTION, of one mode x'' + c x'
- * + k x = 0 and of all. */
-void hk_limit_take_mode(const struct hk_spectrum *spectrum, const double *mode, struct hk_prediction *out);
-double hk_limit_predicted_step(double k, double c);
-int32_t hk_limit_rule_predicted(struct hk_spectrum *spectrum, struct hk_prediction *out);
-
-/* Distance from 0 up to which Runge-Kutta 4 and Heun's method are stable on the ray to (real, imaginary),
- * real <= 0 (stable_ray.c). */
-double hk_rk4_reach(double real, double imaginary);
-double hk_heun_reach(double real, double imaginary);
-/* The same on the negative real axis, for a polynomial of degree 1, 2 or 4. */
-double hk_real_reach(int32_t degree);
+/* Distance from 0 up to which the Runge-Kutta method of degree 1, 2 or 4 is stable on the ray to (real,
+ * imaginary), real <= 0 (stable_ray.c). */
+double hk_ray_reach(int32_t degree, double real, double imaginary);
 
 #endif

@@ -134,14 +134,13 @@ static void keep_others(struct making *making, struct hk_twin *twin) {
 static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
   const int64_t n = making->system->particle_count, springs = making->system->springs->count;
   const int64_t count = springs + hk_elements_of(making->system, HOOKE_OTHERS);
-  twin->origin = hk_new(3 * n, sizeof(double));
-  twin->balance = hk_new(3 * n, sizeof(double));
-  twin->moved = hk_new(6 * n, sizeof(double));
+  twin->origin = hk_new(12 * n, sizeof(double));
   twin->element = hk_new(count, sizeof *twin->element);
   making->ends = hk_new(2 * springs + n, sizeof(int64_t));
   making->kappa = hk_new(3 * springs, sizeof(double));
-  if (!twin->origin || !twin->balance || !twin->moved || !twin->element || !making->ends || !making->kappa)
-    return HOOKE_NO_MEMORY;
+  if (!twin->origin || !twin->element || !making->ends || !making->kappa) return HOOKE_NO_MEMORY;
+  twin->balance = twin->origin + 3 * n;
+  twin->moved = twin->balance + 3 * n;
   making->last = making->ends + 2 * springs;
   making->gamma = making->kappa + springs;
   making->rest_length = making->gamma + springs;
@@ -270,8 +269,6 @@ void hk_twin_release(struct hk_twin *twin) {
   hk_linearised_release(&twin->lin);
   hooke_system_destroy(twin->system);
   hk_free(twin->origin);
-  hk_free(twin->balance);
-  hk_free(twin->moved);
   hk_free(twin->element);
   memset(twin, 0, sizeof *twin);
 }

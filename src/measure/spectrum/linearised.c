@@ -219,15 +219,6 @@ static int is_alone(const hooke_system *system, int64_t particle) {
   return !system->constrained[particle] && !hk_is_carried(system, particle);
 }
 
-static int32_t see_bodies(struct hk_linearised *lin, const double *q, const double *v,
-                          const double *spring_scale) {
-  const int32_t status = hk_rigid_create(lin->system, q, spring_scale, &lin->rigid);
-  if (status != HOOKE_OK) return status;
-  lin->unknowns += hk_rigid_unknowns(&lin->rigid);
-  if (v) lin->spin = hk_rigid_spin(&lin->rigid, v);
-  return HOOKE_OK;
-}
-
 static int32_t check_places(int64_t n, const double *q) {
   for (int64_t k = 0; k < 3 * n; k++) {
     if (fabs(q[k]) <= FARTHEST) continue;
@@ -270,7 +261,9 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
   }
   status = see_springs(lin, q, spring_scale);
   if (status == HOOKE_OK) status = see_others(lin, q);
-  if (status == HOOKE_OK) status = see_bodies(lin, q, v, spring_scale);
+  if (status == HOOKE_OK) status = hk_rigid_create(system, q, spring_scale, &lin->rigid);
+  lin->unknowns += hk_rigid_unknowns(&lin->rigid); /* none, as long as it is not made */
+  if (v) lin->spin = hk_rigid_spin(&lin->rigid, v);
   if (status == HOOKE_OK) status = choose_rate(lin, q, sum);
   if (status != HOOKE_OK) hk_linearised_release(lin);
   return status;

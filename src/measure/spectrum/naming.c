@@ -3,8 +3,6 @@
 #include "core/print.h"
 #include "model/group.h"
 
-#include <string.h>
-
 static const struct hk_group *group_of(const hooke_system *system, const struct hk_force_row *force,
                                        int64_t number) {
   int64_t g = hk_system_first_group(system, force), end = g + hk_system_groups_of(system, force);
@@ -22,12 +20,10 @@ const char *hk_naming_group(const hooke_system *system, const struct hk_force_ro
 /* "particles 1, 2 and 3" */
 static void list_particles(const struct hk_element *e, char *text, size_t size) {
   hk_print(text, size, "particle%s ", e->count > 1 ? "s" : "");
-  for (int j = 0; j < e->count; j++)
-    hk_print(text + strlen(text), size - strlen(text), "%s%d",
-             j == 0              ? ""
-             : j == e->count - 1 ? " and "
-                                 : ", ",
-             (int)e->particle[j]);
+  for (int j = 0; j < e->count; j++) {
+    const char *before = j == e->count - 1 ? " and " : ", ";
+    hk_append(text, size, "%s%d", j == 0 ? "" : before, (int)e->particle[j]);
+  }
 }
 
 const char *hk_naming_words(const hooke_system *system, const struct hk_force_row *force, int64_t number,

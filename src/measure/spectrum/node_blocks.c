@@ -3,7 +3,6 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "measure/counted_work/work.h"
-#include "measure/spectrum/eigen/eigen.h"
 #include "model/force/force.h"
 
 #include <math.h>
@@ -87,88 +86,50 @@ static int is_positive(const double m[6]) {
   return first > 0.0 && second > 0.0 && m[2] - xz * m[4] - yz * yz / second > 0.0;
 }
 
-/* 1 if no eigenvalue of a B + b G at particle p reaches `most`. */
-static int stays_below(const struct hk_node_blocks *blocks, int64_t p, double a, double b, double most) {
+/* 1 if h (h kk B + k B + c G) stays below `mass` at particle p; in this order nothing overflows. */
+static int stays_below(const struct hk_node_blocks *blocks, int64_t p, struct hk_node_limit limit, double h,
+                       double mass) {
   const double *stiffness = blocks->stiffness + 6 * p, *damping = blocks->damping + 6 * p;
   double gap[6];
   for (int k = 0; k < 6; k++)
-    gap[k] = (k < 3 ? most : 0.0) - (a * stiffness[k] + b * damping[k]);
+    gap[k] = (k < 3 ? mass : 0.0) - h * ((h * limit.kk + limit.k) * stiffness[k] + limit.c * damping[k]);
   return is_positive(gap);
 }
 
-/* Equal particles differ by rounding: new eigenvalues are not worth their time for that. */
+/* Equal particles differ by rounding: a new search is not worth its time for that. */
 static const double ALIKE = 1.0 + 1e-15;
+static const double PRECISE = 4e-16;
 
-/* The largest eigenvalue over particles of block/m, B or G. */
-static double largest_rate(const struct hk_node_blocks *blocks, const double *block) {
-  const int stiff = block == blocks->stiffness;
-  double most = 0.0;
-  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
-    if (blocks->system->constrained[p]) continue;
-    if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->inertia[p])) continue;
-    most = fmax(most, hk_eigen_largest(block + 6 * p) * blocks->system->inverse_mass[p]);
+/* A step that is too large for particle p, or hardly small enough: the largest eigenvalue is at least every
+ * number on the diagonal. */
+static double too_large(const struct hk_node_blocks *blocks, int64_t p, struct hk_node_limit limit) {
+  const double w = blocks->system->inverse_mass[p];
+  double least = INFINITY;
+  for (int64_t j = 6 * p; j < 6 * p + 3; j++) {
+    const double b = blocks->stiffness[j] * w, g = blocks->damping[j] * w, by = limit.k * b + limit.c * g;
+    /* h^2 kk b + h (k b + c g) = 1, written so that nothing cancels */
+    least = fmin(least, 2.0 / (by + hypot(by, 2.0 * sqrt(limit.kk * b))));
   }
-  return most;
+  return least;
 }
 
-double hk_node_blocks_frequency(const struct hk_node_blocks *blocks) {
-  return sqrt(largest_rate(blocks, blocks->stiffness));
-}
-
-double hk_node_blocks_damping_rate(const struct hk_node_blocks *blocks) {
-  return largest_rate(blocks, blocks->damping);
-}
-
-int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a, double b, double limit,
-                                  int64_t *particle) {
+double hk_node_blocks_reach(const struct hk_node_blocks *blocks, struct hk_node_limit limit, double most,
+                            int64_t *particle) {
   const hooke_system *system = blocks->system;
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->constrained[p]) continue;
-    if (stays_below(blocks, p, a, b, limit * system->inertia[p])) continue;
-    *particle = p;
-    return 0;
-  }
-  return 1;
-}
-
-/* The largest eigenvalue of (h^2 B + 2 h G)/m at particle p. */
-static double growth(const struct hk_node_blocks *blocks, int64_t p, double h) {
-  double matrix[6];
-  for (int k = 0; k < 6; k++) {
-    matrix[k] = h * (h * blocks->stiffness[6 * p + k] + 2.0 * blocks->damping[6 * p + k]);
-  }
-  return hk_eigen_largest(matrix) * blocks->system->inverse_mass[p];
-}
-
-/* A step that is too large for particle p: the largest eigenvalue is at least a third of the trace. */
-static double too_large(const struct hk_node_blocks *blocks, int64_t p) {
-  const double *b = blocks->stiffness + 6 * p, *g = blocks->damping + 6 * p;
-  const double w = blocks->system->inverse_mass[p];
-  const double trace_b = (b[0] + b[1] + b[2]) * w, trace_g = (g[0] + g[1] + g[2]) * w;
-  if (!(trace_b > 0.0) && !(trace_g > 0.0)) return INFINITY;
-  /* h^2 b + 2 h g = 12 over the mass, written so that nothing cancels */
-  return 12.0 / (trace_g + sqrt(trace_g * trace_g + 12.0 * trace_b));
-}
-
-double hk_node_blocks_step(const struct hk_node_blocks *blocks) {
-  double best = INFINITY;
-  for (int64_t p = 0; p < blocks->system->particle_count; p++) {
-    if (blocks->system->constrained[p]) continue;
-    const double start = too_large(blocks, p);
-    double high = fmin(best, start), low = 0.0;
-    if (isinf(high)) continue;
-    if (best < INFINITY &&
-        stays_below(blocks, p, best * best, 2.0 * best, ALIKE * 4.0 * blocks->system->inertia[p]))
-      continue;
-    if (growth(blocks, p, high) <= 4.0) low = high;
-    while (high - low > 1e-12 * high) {
+    if (system->constrained[p] || stays_below(blocks, p, limit, most, ALIKE * system->inertia[p])) continue;
+    const double start = too_large(blocks, p, limit);
+    if (isinf(start)) continue; /* nothing acts on it */
+    double high = fmin(most, start), low = 0.0;
+    while (high - low > PRECISE * high) {
       const double middle = 0.5 * (low + high);
-      if (growth(blocks, p, middle) <= 4.0)
+      if (stays_below(blocks, p, limit, middle, system->inertia[p]))
         low = middle;
       else
         high = middle;
     }
-    best = low;
+    most = low;
+    if (particle) *particle = p;
   }
-  return best;
+  return most;
 }

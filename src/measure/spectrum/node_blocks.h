@@ -26,16 +26,15 @@ int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *
 void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q);
 void hk_node_blocks_release(struct hk_node_blocks *blocks);
 
-/* Bounds of the largest frequency [rad/s] and of the largest damping rate [1/s]. */
-double hk_node_blocks_frequency(const struct hk_node_blocks *blocks);
-double hk_node_blocks_damping_rate(const struct hk_node_blocks *blocks);
+/* A limit of steps: h (h kk K + k K + c C) < M. */
+struct hk_node_limit {
+  double kk, k, c;
+};
 
-/* 1 if no eigenvalue of (a K + b C)/m exceeds `limit` at any particle by these blocks; otherwise 0, and
- * `particle` is the first one at which one does. Far quicker than eigenvalues. */
-int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a, double b, double limit,
-                                  int64_t *particle);
-
-/* The largest h at which h^2 K + 2 h C stays below 4 M by these blocks; infinity if none limits it. */
-double hk_node_blocks_step(const struct hk_node_blocks *blocks);
+/* The largest step up to `most` within the limit at all particles by these blocks; if it is smaller,
+ * `particle` (or NULL) becomes the one that determines it. Where `most` is within the limit this is one
+ * elimination a particle. */
+double hk_node_blocks_reach(const struct hk_node_blocks *blocks, struct hk_node_limit limit, double most,
+                            int64_t *particle);
 
 #endif

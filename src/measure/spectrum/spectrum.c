@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "kernel/vector_loops.h"
 #include "measure/spectrum/eigen/dense.h"
 #include "measure/spectrum/eigen/dominant_mode.h"
 #include "model/force/spring.h"
@@ -91,11 +92,6 @@ static int32_t find_proportion(struct hk_spectrum *s) {
          (!lin->across_any && !lin->points_damped && !lin->bends && lin->rigid.stiffest == 0.0);
 }
 
-static void compare_damping(struct hk_spectrum *s) {
-  s->proportional = find_proportion(s);
-  if (!s->proportional) s->beta = s->delta = 0.0;
-}
-
 /* The softest mode, in the block. */
 static int32_t find_softest(struct hk_spectrum *s, double *matrix) {
   struct hk_linearised *lin = s->linearised;
@@ -118,11 +114,10 @@ static const double *end_of(const struct hk_spectrum *s, int64_t j, double k) {
 static int32_t solve_proportional(struct hk_spectrum *s) {
   struct hk_linearised *lin = s->linearised;
   const int64_t n = lin->unknowns, modes = n <= HOOKE_SPECTRUM_DAMPED ? n : 0;
-  double *matrix = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
-  double *vector = modes ? hk_new(n * n, sizeof(double)) : NULL;
-  int32_t status = matrix && value && (vector || !modes)
-                       ? make_space(s, 2 * n, modes ? modes : s->delta > 0.0)
-                       : HOOKE_NO_MEMORY;
+  double *matrix = hk_new((modes ? 2 : 1) * n * n + n, sizeof(double));
+  if (matrix == NULL) return HOOKE_NO_MEMORY;
+  double *value = matrix + n * n, *vector = modes ? value + n : NULL;
+  int32_t status = make_space(s, 2 * n, modes ? modes : s->delta > 0.0);
   hk_linearised_combine(lin, 1.0, 0.0);
   if (status == HOOKE_OK) status = hk_linearised_assemble(lin, matrix);
   if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, value, vector);
@@ -135,8 +130,6 @@ static int32_t solve_proportional(struct hk_spectrum *s) {
   }
   s->decisive = 1;
   hk_free(matrix);
-  hk_free(value);
-  hk_free(vector);
   return status;
 }
 
@@ -173,10 +166,8 @@ static void expand(const struct hk_linearised *lin, int64_t r, const double *bas
     return;
   }
   memset(x, 0, (size_t)lin->size * sizeof(double));
-  for (int64_t j = 0; j < r; j++) {
-    for (int64_t k = 0; k < lin->size; k++)
-      x[k] += fraction[j] * basis[j * lin->size + k];
-  }
+  for (int64_t j = 0; j < r; j++)
+    hk_add_multiple(lin->size, fraction[j], basis + j * lin->size, x);
 }
 
 /* All modes are refined. Those of a partial spectrum are no better than the subspace. */
@@ -207,19 +198,33 @@ static int32_t take_modes(struct hk_spectrum *s, int64_t r, const double *basis,
   return status;
 }
 
-static int32_t solve_damped(struct hk_spectrum *s) {
+/* Matrix of K or C between r modes. */
+static int32_t project(struct hk_linearised *lin, int64_t r, const double *basis, double *matrix) {
+  double *out = hk_new(lin->size, sizeof(double));
+  if (out == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t i = 0; i < r; i++) {
+    hk_linearised_multiply(lin, basis + i * lin->size, out);
+    for (int64_t j = 0; j < r; j++)
+      matrix[i * r + j] = hk_linearised_dot(lin, out, basis + j * lin->size);
+  }
+  hk_free(out);
+  return HOOKE_OK;
+}
+
+/* Between r modes, or of all r unknowns (NULL). */
+static int32_t solve_damped(struct hk_spectrum *s, int64_t r, const double *basis) {
   struct hk_linearised *lin = s->linearised;
-  const int64_t n = lin->unknowns;
-  double *matrix = hk_new(2 * n * n, sizeof(double));
+  double *matrix = hk_new(2 * r * r, sizeof(double));
   struct hk_damped_modes found = {.count = 0};
   int32_t status = matrix ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
+    double *of = matrix + k * r * r;
     hk_linearised_combine(lin, k == 0, k == 1);
-    status = hk_linearised_assemble(lin, matrix + k * n * n);
+    status = basis ? project(lin, r, basis, of) : hk_linearised_assemble(lin, of);
   }
-  if (status == HOOKE_OK) status = hk_dense_damped(n, matrix, matrix + n * n, &found);
-  if (status == HOOKE_OK) status = take_modes(s, n, NULL, &found);
-  s->decisive = 1;
+  if (status == HOOKE_OK) status = hk_dense_damped(r, matrix, matrix + r * r, &found);
+  if (status == HOOKE_OK) status = take_modes(s, r, basis, &found);
+  s->decisive = basis == NULL;
   hk_damped_modes_release(&found);
   hk_free(matrix);
   return status;
@@ -235,9 +240,7 @@ static void extend(const struct hk_linearised *lin, const double *x, double *bas
   for (int pass = 0; pass < 2; pass++) {
     for (int64_t j = 0; j < *count; j++) {
       const double *other = basis + j * lin->size;
-      const double along = hk_linearised_dot(lin, other, new_one);
-      for (int64_t k = 0; k < lin->size; k++)
-        new_one[k] -= along * other[k];
+      hk_add_multiple(lin->size, -hk_linearised_dot(lin, other, new_one), other, new_one);
     }
   }
   const double left = sqrt(hk_linearised_dot(lin, new_one, new_one));
@@ -263,36 +266,16 @@ static int32_t extend_by_arpack(struct hk_spectrum *s, int32_t damping, double *
   return status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 
-/* Matrix of K or C between modes. */
-static void project(struct hk_linearised *lin, int64_t r, const double *basis, double *out, double *matrix) {
-  for (int64_t i = 0; i < r; i++) {
-    hk_linearised_multiply(lin, basis + i * lin->size, out);
-    for (int64_t j = 0; j < r; j++)
-      matrix[i * r + j] = hk_linearised_dot(lin, out, basis + j * lin->size);
-  }
-}
-
 static int32_t solve_part(struct hk_spectrum *s, const double *decaying) {
   struct hk_linearised *lin = s->linearised;
   int64_t r = 0;
-  double *basis = hk_new((MOST_OF_BASIS + 1) * lin->size, sizeof(double));
-  double *matrix = hk_new((int64_t)2 * MOST_OF_BASIS * MOST_OF_BASIS, sizeof(double));
-  struct hk_damped_modes found = {.count = 0};
-  int32_t status = basis && matrix ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) {
-    extend(lin, s->stiffest_mode, basis, &r);
-    if (decaying) extend(lin, decaying, basis, &r);
-    status = extend_by_arpack(s, 0, basis, &r);
-  }
-  if (status == HOOKE_OK && decaying) status = extend_by_arpack(s, 1, basis, &r);
-  for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    hk_linearised_combine(lin, k == 0, k == 1);
-    project(lin, r, basis, basis + MOST_OF_BASIS * lin->size, matrix + k * r * r);
-  }
-  if (status == HOOKE_OK) status = hk_dense_damped(r, matrix, matrix + r * r, &found);
-  if (status == HOOKE_OK) status = take_modes(s, r, basis, &found);
-  hk_damped_modes_release(&found);
-  hk_free(matrix);
+  double *basis = hk_new(MOST_OF_BASIS * lin->size, sizeof(double));
+  if (basis == NULL) return HOOKE_NO_MEMORY;
+  extend(lin, s->stiffest_mode, basis, &r);
+  extend(lin, decaying, basis, &r);
+  int32_t status = extend_by_arpack(s, 0, basis, &r);
+  if (status == HOOKE_OK) status = extend_by_arpack(s, 1, basis, &r);
+  if (status == HOOKE_OK) status = solve_damped(s, r, basis);
   hk_free(basis);
   return status;
 }
@@ -339,19 +322,16 @@ static int32_t find_fastest_decay(struct hk_spectrum *s, double *decaying) {
   return hk_dominant_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
 }
 
-static int32_t solve(struct hk_spectrum *s, double *decaying) {
+static int32_t solve(struct hk_spectrum *s, enum hk_spectrum_extent extent, double *decaying) {
   const int64_t unknowns = s->linearised->unknowns;
-  if (!has_time_for_all(s)) return HOOKE_STOPPED;
+  if (extent == HOOKE_SPECTRUM_ALL && !has_time_for_all(s)) return HOOKE_STOPPED;
   const int32_t status = find_fastest_decay(s, decaying);
   if (status != HOOKE_OK) return status;
+  if (extent == HOOKE_SPECTRUM_EXTREMES)
+    return s->proportional && s->delta == 0.0 ? solve_stiffest(s) : HOOKE_OK;
   if (s->proportional)
     return unknowns <= HOOKE_SPECTRUM_PROPORTIONAL ? solve_proportional(s) : solve_stiffest(s);
-  return unknowns <= HOOKE_SPECTRUM_DAMPED ? solve_damped(s) : solve_part(s, decaying);
-}
-
-static int32_t solve_extremes(struct hk_spectrum *s, double *decaying) {
-  const int32_t status = find_fastest_decay(s, decaying);
-  return status == HOOKE_OK && s->proportional && s->delta == 0.0 ? solve_stiffest(s) : status;
+  return unknowns <= HOOKE_SPECTRUM_DAMPED ? solve_damped(s, unknowns, NULL) : solve_part(s, decaying);
 }
 
 int32_t hk_spectrum_create(struct hk_linearised *lin, double accuracy, enum hk_spectrum_extent extent,
@@ -362,10 +342,10 @@ int32_t hk_spectrum_create(struct hk_linearised *lin, double accuracy, enum hk_s
   int32_t status = s->stiffest_mode && decaying ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
     status = hk_dominant_mode(lin, 1.0, 0.0, start, accuracy, &s->stiffest, s->stiffest_mode);
-  if (status == HOOKE_OK) compare_damping(s);
-  if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_ALL) status = solve(s, decaying);
-  if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_EXTREMES)
-    status = solve_extremes(s, decaying);
+  s->proportional = status == HOOKE_OK && find_proportion(s);
+  if (!s->proportional) s->beta = s->delta = 0.0;
+  if (status == HOOKE_OK && lin->unknowns > 0 && extent != HOOKE_SPECTRUM_STIFFEST)
+    status = solve(s, extent, decaying);
   if (status == HOOKE_OK && s->count > 0) qsort(s->value, (size_t)s->count, sizeof *s->value, compare);
   hk_free(decaying);
   if (status != HOOKE_OK) hk_spectrum_release(s);

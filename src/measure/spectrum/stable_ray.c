@@ -1,48 +1,39 @@
 #include "measure/spectrum/limit_rules.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-/* |1 + z + z^2/2 + z^3/6 + z^4/24|^2 - 1 at z = x + i y */
-static double growth(double x, double y) {
-  double re = 1.0, im = 0.0;
-  for (int k = 4; k > 0; k--) {
-    const double a = (re * x - im * y) / k, b = (re * y + im * x) / k;
-    re = 1.0 + a;
-    im = b;
+/* The series of exp(z) up to its power `n`, at z = r (x + i y) with x^2 + y^2 = 1: |series|^2 - 1, by powers
+ * of r. The first n are those of exp(2 x r), in which nothing cancels near the imaginary axis. */
+enum { MOST_DEGREE = 4 };
+
+static void expand(int32_t n, double x, double y, double power[2 * MOST_DEGREE + 1]) {
+  static const double factorial[] = {1.0, 1.0, 2.0, 6.0, 24.0};
+  double turned[MOST_DEGREE + 1] = {1.0}, sine = 0.0; /* real parts of (x + i y)^k */
+  for (int32_t k = 0; k <= n; k++)
+    power[k] = pow(2.0 * x, k) / factorial[k];
+  for (int32_t k = 0; k < n; k++) {
+    turned[k + 1] = turned[k] * x - sine * y;
+    sine = sine * x + turned[k] * y;
   }
-  return re * re + im * im - 1.0;
+  for (int32_t m = n + 1; m <= 2 * n; m++)
+    for (int32_t j = m - n; j <= n; j++)
+      power[m] += turned[abs(2 * j - m)] / (factorial[j] * factorial[m - j]);
 }
 
-/* In the left half plane all of |z| <= 2.6 is stable, and nothing at |z| = 3.2. */
-double hk_rk4_reach(double real, double imaginary) {
-  const double size = hypot(real, imaginary), x = real / size, y = imaginary / size;
-  double low = 2.6, high = 3.2;
-  while (high - low > 1e-15) { /* two units in the last place */
-    const double middle = 0.5 * (low + high);
-    if (growth(middle * x, middle * y) <= 0.0)
-      low = middle;
-    else
-      high = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-/* |1 + z + z^2/2| <= 1 at z = r (x + i y) where r^3 + 4 x r^2 + 8 x^2 r + 8 x <= 0. This rises with r, and
- * is 0 from 1 to 1.5 times 2 (-x)^(1/3). */
-double hk_heun_reach(double real, double imaginary) {
-  const double x = real / hypot(real, imaginary);
-  double low = 2.0 * cbrt(fmax(0.0, -x)), high = 1.5 * low;
+/* In the left half plane a ray leaves what is stable once, at up to 2 for degrees 1 and 2, where that is 0 on
+ * the axis, and at 2.6 to 3.2 for degree 4. */
+double hk_ray_reach(int32_t degree, double real, double imaginary) {
+  const double size = hypot(real, imaginary);
+  double power[2 * MOST_DEGREE + 1] = {0.0}, low = degree == 4 ? 2.6 : 0.0, high = 3.2;
+  if (degree < 4 && real >= 0.0) return 0.0;
+  expand(degree, real / size, imaginary / size, power);
   while (high - low > 4e-16 * high) {
     const double r = 0.5 * (low + high);
-    if (r <= low || r >= high) break;
-    if (((r + 4.0 * x) * r + 8.0 * x * x) * r + 8.0 * x <= 0.0)
-      low = r;
-    else
-      high = r;
+    double rise = 0.0;
+    for (int32_t m = 2 * degree; m > 0; m--)
+      rise = r * rise + power[m];
+    *(rise <= 0.0 ? &low : &high) = r;
   }
   return 0.5 * (low + high);
-}
-
-double hk_real_reach(int32_t degree) {
-  return degree == 4 ? hk_rk4_reach(-1.0, 0.0) : 2.0;
 }

@@ -23,49 +23,23 @@ static double least_drag_rate(const struct hk_node_blocks *blocks) {
  * mode with k its stiffness and c its damping, and h <= 2/c. Of elements c/k is at least the smallest
  * gamma/kappa, which is 0 across a taut spring, in bending, and where a spring is undamped; there only drag
  * damps. */
-static double bound_by_damping(const struct hk_node_blocks *blocks, int32_t degree, double frequency,
-                               double rate) {
-  if (frequency == 0.0) return rate > 0.0 ? 2.0 / rate : INFINITY;
-  const double by_drag = least_drag_rate(blocks) / (frequency * frequency);
-  const double ratio = fmax(blocks->least_ratio, by_drag);
-  return fmin(degree == 1 ? ratio : cbrt(4.0 * ratio / (frequency * frequency)), 2.0 / rate);
-}
-
-static int32_t allowed_by_damping(const struct hk_node_blocks *blocks, int32_t degree, double h,
-                                  int64_t *particle) {
-  if (!hk_node_blocks_stay_below(blocks, 0.0, h, 2.0, particle)) return 0;
-  const double ratio = blocks->least_ratio, drag = least_drag_rate(blocks);
-  if (degree > 1)
-    return hk_node_blocks_stay_below(blocks, h * h, 0.0, fmax(4.0 * ratio / h, 2.0 * sqrt(drag * h)),
-                                     particle);
-  return h <= ratio || hk_node_blocks_stay_below(blocks, h, 0.0, drag, particle);
+static double bound_by_damping(const struct hk_node_blocks *blocks, int32_t degree, double most,
+                               int64_t *particle) {
+  const double softness = hk_node_blocks_reach(blocks, (struct hk_node_limit){.k = 1.0}, INFINITY, particle);
+  if (isfinite(softness)) { /* 1/k of the stiffest mode */
+    const double ratio = fmax(blocks->least_ratio, least_drag_rate(blocks) * softness);
+    most = fmin(most, degree == 1 ? ratio : cbrt(4.0 * ratio * softness));
+  }
+  return hk_node_blocks_reach(blocks, (struct hk_node_limit){.c = 0.5}, most, particle);
 }
 
 /* An eigenvalue is at most omega where it oscillates, and at most c where it does not. */
-static double polynomial_bound(const struct hk_node_blocks *blocks, const struct hk_stability *stability) {
-  const double frequency = hk_node_blocks_frequency(blocks), rate = hk_node_blocks_damping_rate(blocks);
-  const double fastest = fmax(frequency, rate);
-  if (stability->axis == 0.0) return bound_by_damping(blocks, stability->degree, frequency, rate);
-  return fastest > 0.0 ? stability->half_disc / fastest : INFINITY;
-}
-
-static int32_t polynomial_allows(const struct hk_node_blocks *blocks, const struct hk_stability *stability,
-                                 double h, int64_t *particle) {
-  const double most = stability->half_disc;
-  if (stability->axis == 0.0) return allowed_by_damping(blocks, stability->degree, h, particle);
-  return hk_node_blocks_stay_below(blocks, h * h, 0.0, most * most, particle) &&
-         hk_node_blocks_stay_below(blocks, 0.0, h, most, particle);
-}
-
-static double bound_by_stiffness(const struct hk_node_blocks *blocks) {
-  const double frequency = hk_node_blocks_frequency(blocks);
-  return frequency > 0.0 ? 2.0 / frequency : INFINITY;
-}
-
-/* Eigenvalues are -k/gamma. */
-static double overdamped_bound(const struct hk_node_blocks *blocks, const struct hk_stability *stability) {
-  const double frequency = hk_node_blocks_frequency(blocks);
-  return frequency > 0.0 ? hk_real_reach(stability->degree) / (frequency * frequency) : INFINITY;
+static double polynomial_bound(const struct hk_node_blocks *blocks, const struct hk_stability *stability,
+                               double most, int64_t *particle) {
+  const double per = 1.0 / stability->half_disc;
+  if (stability->axis == 0.0) return bound_by_damping(blocks, stability->degree, most, particle);
+  most = hk_node_blocks_reach(blocks, (struct hk_node_limit){.kk = per * per}, most, particle);
+  return hk_node_blocks_reach(blocks, (struct hk_node_limit){.c = per}, most, particle);
 }
 
 int32_t hk_step_is_bounded(const char *method) {
@@ -73,45 +47,29 @@ int32_t hk_step_is_bounded(const char *method) {
   return kind != HOOKE_STABILITY_UNKNOWN && kind != HOOKE_STABLE_ALWAYS;
 }
 
-int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method, double h,
+/* Bodies have none: tensions and gravity are stiffness about a pin or an axis. Of an overdamped system the
+ * eigenvalues are -k/gamma. */
+double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method, double most,
                         int64_t *particle) {
   const struct hk_stability *stability = hk_method_stability(method);
-  if (blocks->system->mover_count > 0 || blocks->unknown) return 1;
-  if (blocks->system->overdamped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
-    return hk_node_blocks_stay_below(blocks, h, 0.0, hk_real_reach(stability->degree), particle);
+  const hooke_system *system = blocks->system;
+  const double without = hooke_method_is_adaptive(method) ? most : (double)NAN;
+  if (system->mover_count > 0 || blocks->unknown) return without;
+  if (system->overdamped && !hk_method_suits(method, system)) return NAN;
   switch (stability->kind) {
+  case HOOKE_STABLE_ALWAYS:
+    return most;
   case HOOKE_STABLE_BY_K:
-    return hk_node_blocks_stay_below(blocks, h * h, 0.0, 4.0, particle);
+    return hk_node_blocks_reach(blocks, (struct hk_node_limit){.kk = 0.25}, most, particle);
   case HOOKE_STABLE_BY_K_AND_C:
-    return hk_node_blocks_stay_below(blocks, h * h, 2.0 * h, 4.0, particle);
+    return hk_node_blocks_reach(blocks, (struct hk_node_limit){.kk = 0.25, .c = 0.5}, most, particle);
   case HOOKE_STABLE_BY_POLYNOMIAL:
-    return polynomial_allows(blocks, stability, h, particle);
+    if (!system->overdamped) return polynomial_bound(blocks, stability, most, particle);
+    return hk_node_blocks_reach(blocks,
+                                (struct hk_node_limit){.k = 1.0 / hk_ray_reach(stability->degree, -1.0, 0.0)},
+                                most, particle);
   default:
-    return 1;
-  }
-}
-
-/* With rigid bodies, where tensions and gravity are stiffness about a pin or an axis, and without lengths. */
-static double unknown_bound(const char *method) {
-  return hooke_method_is_adaptive(method) ? INFINITY : (double)NAN;
-}
-
-double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method) {
-  const struct hk_stability *stability = hk_method_stability(method);
-  if (blocks->system->mover_count > 0 || blocks->unknown) return unknown_bound(method);
-  if (blocks->system->overdamped && !hk_method_suits(method, blocks->system)) return NAN;
-  if (blocks->system->overdamped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
-    return overdamped_bound(blocks, stability);
-  switch (stability->kind) {
-  case HOOKE_STABLE_BY_K:
-    return bound_by_stiffness(blocks);
-  case HOOKE_STABLE_BY_K_AND_C:
-    return hk_node_blocks_step(blocks);
-  case HOOKE_STABLE_BY_POLYNOMIAL:
-    return polynomial_bound(blocks, stability);
-  default:
-    return stability->kind == HOOKE_STABLE_ALWAYS || hooke_method_is_adaptive(method) ? INFINITY
-                                                                                      : (double)NAN;
+    return without;
   }
 }
 
@@ -124,9 +82,8 @@ int32_t hooke_step_bound(const hooke_system *system, const char *method, const d
   const int one_pass = system->mover_count == 0 && (method == NULL || hk_step_is_bounded(method));
   if (one_pass) status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  if (method) *bound = hk_step_bound_of(&blocks, method);
-  for (int64_t k = 0; method == NULL && k < hooke_method_count(); k++)
-    bound[k] = hk_step_bound_of(&blocks, hooke_method_name(k));
+  for (int64_t k = 0; k < (method ? 1 : hooke_method_count()); k++)
+    bound[k] = hk_step_bound_of(&blocks, method ? method : hooke_method_name(k), INFINITY, NULL);
   if (one_pass) hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }

@@ -7,12 +7,10 @@
 /* 1 if this method has a bound on its step. */
 int32_t hk_step_is_bounded(const char *method);
 
-/* 1 if `h` is at most hooke_step_bound() for the positions of the blocks (to rounding), or if the method has
- * no bound, as with bodies; otherwise 0, and `particle` is one at which it is exceeded. */
-int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method, double h, int64_t *particle);
-
-/* hooke_step_bound() from existing blocks, for a method of any known kind. */
-double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method);
+/* hooke_step_bound() from existing blocks, for a method of any known kind, or `most` where that is smaller: a
+ * step is safe unless this is below it. Then `particle` (or NULL) is the one that determines it. */
+double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method, double most,
+                        int64_t *particle);
 
 /* `step`, or the largest below it at which the method solves nothing, where that makes a run cheaper.
  * HOOKE_NO_MEMORY. */

@@ -33,6 +33,11 @@ int32_t hk_budget_ends(struct hk_budget *p, const char *what) {
   return p->spent || p->stopped;
 }
 
+int32_t hk_budget_watch(double done, const char *what, void *budget) {
+  (void)done;
+  return hk_budget_ends(budget, what);
+}
+
 int32_t hk_budget_has(struct hk_budget *p, double seconds) {
   if (p == NULL) return 1;
   p->spent |= !(now_of(p) + seconds <= p->until);

@@ -30,6 +30,9 @@ void hk_budget_spend(struct hk_budget *budget, double work);
  * (NULL) it never ends. */
 int32_t hk_budget_ends(struct hk_budget *budget, const char *what);
 
+/* The same as the progress of a run, whose context is the budget: `what` is its method. */
+int32_t hk_budget_watch(double done, const char *what, void *budget);
+
 /* 1 if that many seconds are left; if not, it counts as spent. For work that cannot be interrupted. */
 int32_t hk_budget_has(struct hk_budget *budget, double seconds);
 

@@ -7,34 +7,27 @@
 #include <stddef.h>
 #include <string.h>
 
-static void find_free_particles(struct hk_frames *frames) {
-  const double *inverse_mass = hooke_system_inverse_mass(frames->system);
-  for (int64_t p = 0; p < hooke_system_particle_count(frames->system); p++) {
-    if (inverse_mass[p] > 0.0) frames->free_particle[frames->free_count++] = p;
-  }
-}
-
 int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames) {
   const int64_t size = 3 * hooke_system_particle_count(system);
   *frames = (struct hk_frames){.system = system, .count = count, .size = size};
-  frames->time = hk_new(count, sizeof(double));
-  frames->energy = hk_new(count, sizeof(double));
-  frames->position = hk_new(count, (size_t)(size + 1) * sizeof(double));
-  frames->rounding = hk_new(count, sizeof(double));
+  double *block = hk_new(count, (size_t)(size + 3) * sizeof(double));
+  frames->time = block;
   frames->free_particle = hk_new(hooke_system_count(system, "free"), sizeof(int64_t));
-  if (!frames->time || !frames->energy || !frames->position || !frames->rounding || !frames->free_particle) {
+  if (block == NULL || frames->free_particle == NULL) {
     hk_frames_release(frames);
     return HOOKE_NO_MEMORY;
   }
-  find_free_particles(frames);
+  frames->time = hk_part(&block, count);
+  frames->energy = hk_part(&block, count);
+  frames->rounding = hk_part(&block, count);
+  frames->position = block;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    if (system->inverse_mass[p] > 0.0) frames->free_particle[frames->free_count++] = p;
   return HOOKE_OK;
 }
 
 void hk_frames_release(struct hk_frames *frames) {
   hk_free(frames->time);
-  hk_free(frames->energy);
-  hk_free(frames->position);
-  hk_free(frames->rounding);
   hk_free(frames->free_particle);
   hk_watched_series_release(&frames->watched);
   memset(frames, 0, sizeof *frames);

@@ -4,7 +4,7 @@
 #define HOOKE_MEASURE_TRIAL_FRAMES_H
 
 #include "integrate/integrator.h"
-#include "measure/quantity/watched_series.h"
+#include "measure/quantity/watched.h"
 
 struct hk_frames {
   const hooke_system *system;

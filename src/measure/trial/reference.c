@@ -28,14 +28,18 @@ static const double CHECK_COST = 2.0; /* cost of the check relative to the first
  * and limit for another level once all frames are trusted. */
 static const double FIRST_RUN_SHARE = 0.3, FIRST_OF_FEW = 0.45, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
 
-int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
+/* The cheapest method at positions q: Adams, or BDF if damping is faster than the fastest oscillation, so
+ * that fast motion dies out and an implicit method can take long steps. */
+static int32_t choose_method(const hooke_system *system, const double *q, const char **method) {
   struct hk_node_blocks blocks;
   *method = hooke_method_is_built("cvode-adams") ? "cvode-adams" : hk_rk4.name;
   if (system->mover_count > 0 || !hooke_method_is_adaptive(*method)) return HOOKE_OK;
   const int32_t status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  if (system->overdamped || hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))
-    *method = "cvode-bdf";
+  /* in the time that the fastest oscillation takes for a radian, and that the fastest damping takes */
+  const double swing = hk_node_blocks_reach(&blocks, (struct hk_node_limit){.kk = 1.0}, INFINITY, NULL),
+               decay = hk_node_blocks_reach(&blocks, (struct hk_node_limit){.c = 1.0}, INFINITY, NULL);
+  if (system->overdamped || swing > 2.0 * decay) *method = "cvode-bdf";
   hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
@@ -183,11 +187,6 @@ static int is_lost(const struct hk_reference_watch *watch, const struct hk_refer
   return watch->request->brief && !is_all(r) && (!hk_reference_is_halved(r) || tolerance <= TIGHT);
 }
 
-/* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
-static int gave_up(int32_t status) {
-  return status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED || status == HOOKE_STEP_LIMIT;
-}
-
 /* Runs a level, which may replace the best one so far. */
 static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *r, double tolerance,
                          struct hk_trial *check) {
@@ -224,7 +223,7 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
   for (;;) {
     const double begun = hk_reference_now(watch);
     status = run_level(watch, r, tolerance, check);
-    const int failed = gave_up(status);
+    const int failed = hk_trial_gave_up(status); /* another tolerance may do */
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
     const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(r);
@@ -259,7 +258,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
                              .energy_agreement = NAN,
                              .coarse = 1};
   int32_t status = hooke_state_create(system, &state);
-  if (status == HOOKE_OK) status = hk_reference_method(system, hooke_state_position(state), &r->method);
+  if (status == HOOKE_OK) status = choose_method(system, hooke_state_position(state), &r->method);
   if (status == HOOKE_OK) find_extent(r, state);
   hooke_state_destroy(state);
   if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);

@@ -69,13 +69,9 @@ int32_t hk_reference_is_halved(const struct hk_reference *reference);
 double hk_reference_setting(const struct hk_reference *reference, const char *method, double rtol);
 
 /* Options of a run by `method` at a tolerance, which counts in the size of the scene, wherever that lies: the
- * absolute one scales with it, and the relative one is smaller far from the origin. */
+ * absolute one scales with it, and the relative one is smaller far from the origin. The caller destroys them
+ * in either case. */
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *reference, hooke_options **out);
-
-/* The method that makes references cheapest on this system at positions q: Adams, or BDF if damping is faster
- * than the fastest oscillation, so that fast motion dies out and an implicit method can take long steps. rk4
- * without SUNDIALS. */
-int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "core/memory.h"
 #include "core/random.h"
+#include "kernel/vector_loops.h"
 #include "model/coordinates/coordinates.h"
 
 #include <math.h>
@@ -120,20 +121,9 @@ static void apply(int64_t rows, int64_t columns, int64_t stride, const double *c
                   double x[MOST_COORDINATES]) {
   double y[MOST_COORDINATES / 2] = {0.0};
   for (int64_t j = 0; j < columns; j++)
-    for (int64_t i = 0; i < rows; i++)
-      y[i] += column[j * stride + i] * x[j];
-  for (int64_t j = 0; j < columns; j++) {
-    x[j] = 0.0;
-    for (int64_t i = 0; i < rows; i++)
-      x[j] += column[j * stride + i] * y[i];
-  }
-}
-
-static double norm(int64_t count, const double *x) {
-  double square = 0.0;
-  for (int64_t k = 0; k < count; k++)
-    square += x[k] * x[k];
-  return sqrt(square);
+    hk_add_multiple(rows, x[j], column + j * stride, y);
+  for (int64_t j = 0; j < columns; j++)
+    x[j] = hk_dot(rows, column + j * stride, y);
 }
 
 /* The largest singular value, by power iteration from x, which becomes its vector. */
@@ -141,12 +131,12 @@ static double singular_value(int64_t rows, int64_t columns, int64_t stride, cons
                              double x[MOST_COORDINATES]) {
   double value = 0.0;
   for (int turn = 0; turn < MOST_TURNS; turn++) {
-    const double length = norm(columns, x), before = value;
+    const double length = sqrt(hk_dot(columns, x, x)), before = value;
     if (!(length > 0.0)) return 0.0;
     for (int64_t j = 0; j < columns; j++)
       x[j] /= length;
     apply(rows, columns, stride, column, x);
-    value = sqrt(norm(columns, x));
+    value = sqrt(sqrt(hk_dot(columns, x, x)));
     if (fabs(value - before) <= 1e-6 * value) break;
   }
   return value;

@@ -42,21 +42,15 @@ double hk_reference_setting(const struct hk_reference *r, const char *method, do
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *r, hooke_options **out) {
   const double relative = fmax(rtol * fmin(1.0, r->extent / r->farthest), LEAST_RELATIVE);
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_copy(run, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
+  int32_t status = hooke_options_copy(run, out);
+  if (status == HOOKE_OK) status = hooke_options_set_text(*out, "method", method);
   if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
-    status = hooke_options_set_number(options, "step", hk_reference_setting(r, method, rtol));
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", relative);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", ABSOLUTE * rtol * r->extent);
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
-  if (status == HOOKE_OK)
-    *out = options;
-  else
-    hooke_options_destroy(options);
-  return status;
+    status = hooke_options_set_number(*out, "step", hk_reference_setting(r, method, rtol));
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "rtol", relative);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "atol", ABSOLUTE * rtol * r->extent);
+  if (status == HOOKE_OK) status = hooke_options_unset(*out, "atol_velocity");
+  if (status == HOOKE_OK) status = hooke_options_unset(*out, "max_order");
+  return status == HOOKE_OK ? hooke_options_unset(*out, "max_steps") : status;
 }
 
 double hk_reference_diagonal(int64_t rows, const double *position) {
@@ -171,8 +165,7 @@ static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_r
   hk_frames_release(&frames);
   watch->work += cost->work;
   watch->expired |= cost->too_long;
-  const int gave_up = status == HOOKE_STEP_LIMIT || status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED;
-  if (!gave_up && !(status == HOOKE_STOPPED && watch->expired)) return status;
+  if (!hk_trial_gave_up(status) && !(status == HOOKE_STOPPED && watch->expired)) return status;
   cost->work = INFINITY;
   return HOOKE_OK;
 }
@@ -189,32 +182,18 @@ int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_re
   return status;
 }
 
-/* Counted work of rk8pd in a short trial, relative to that of the first method for the same part of its run.
- */
-static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
-                             struct hk_run_cost first, double *ratio) {
+/* Counted work of a check in a short trial, with so much and so many steps at most, relative to that of the
+ * first method for the same part of its run. */
+static int32_t relative_cost(struct hk_reference_watch *watch, const struct hk_reference *r,
+                             const char *method, double rtol, double first_work, double most,
+                             double most_steps, double *ratio) {
   struct hk_run_cost trial;
+  const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
   *ratio = INFINITY;
-  if (!hooke_method_is_built("rk8pd")) return HOOKE_OK;
-  const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
-  /* a scene too stiff for it must not delay the study: forces cost it no more than the other */
-  const double steps = MOST_COST * TRIAL_SHARE * first.force_evaluations * MOST_EVALUATIONS;
-  const double work = 2.0 * MOST_COST * TRIAL_SHARE * first.work;
-  const int32_t status =
-      try_beginning(watch, r, "rk8pd", rtol, work, fmax(10.0, ceil(steps)), TRIAL_SHARE * reached, &trial);
-  if (status == HOOKE_OK) *ratio = trial.work / (TRIAL_SHARE * first.work);
-  return status;
-}
-
-/* The same of arkode-esdirk; it may come to no end where springs are very stiff. */
-static int32_t implicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
-                             struct hk_run_cost first, double *ratio) {
-  struct hk_run_cost trial;
-  const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
-  const int32_t status =
-      try_beginning(watch, r, "arkode-esdirk", rtol, MOST_ESDIRK * TRIAL_SHARE * first.work, INFINITY,
-                    TRIAL_SHARE * reached, &trial);
-  *ratio = status == HOOKE_OK ? trial.work / (TRIAL_SHARE * first.work) : INFINITY;
+  if (!hooke_method_is_built(method)) return HOOKE_OK;
+  const int32_t status = try_beginning(watch, r, method, rtol, most * TRIAL_SHARE * first_work, most_steps,
+                                       TRIAL_SHARE * reached, &trial);
+  if (status == HOOKE_OK) *ratio = trial.work / (TRIAL_SHARE * first_work);
   return status;
 }
 
@@ -225,9 +204,13 @@ int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_re
     r->check = r->method;
     return HOOKE_OK;
   }
-  int32_t status = explicit_cost(watch, r, rtol, first, &by_explicit);
+  /* a scene too stiff for it must not delay the study: forces cost it no more than the other */
+  const double steps = MOST_COST * TRIAL_SHARE * first.force_evaluations * MOST_EVALUATIONS;
+  int32_t status = relative_cost(watch, r, "rk8pd", rtol, first.work, 2.0 * MOST_COST,
+                                 fmax(10.0, ceil(steps)), &by_explicit);
+  /* it may come to no end where springs are very stiff */
   if (status == HOOKE_OK && by_explicit >= MOST_COST)
-    status = implicit_cost(watch, r, rtol, first, &by_implicit);
+    status = relative_cost(watch, r, "arkode-esdirk", rtol, first.work, MOST_ESDIRK, INFINITY, &by_implicit);
   r->check = by_explicit <= by_implicit ? "rk8pd" : "arkode-esdirk";
   /* of order 2 alone, but it comes to an end */
   if (status != HOOKE_OK || !isinf(by_explicit) || !isinf(by_implicit)) return status;

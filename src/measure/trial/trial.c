@@ -26,19 +26,18 @@ const struct hk_trial hk_no_trial = {.step = NAN,
 
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
   *trial = hk_no_trial;
-  trial->error_at = hk_new(reference->count, sizeof(double));
-  trial->error_max_at = hk_new(reference->count, sizeof(double));
-  trial->drift_at = hk_new(reference->count, sizeof(double));
+  double *block = hk_new(reference->count, 3 * sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  trial->error_at = hk_part(&block, reference->count);
+  trial->error_max_at = hk_part(&block, reference->count);
+  trial->drift_at = hk_part(&block, reference->count);
   const int32_t status = hk_watched_series_create(reference->watched.list, reference->count, &trial->watched);
-  if (trial->error_at && trial->error_max_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
-  hk_trial_release(trial);
-  return HOOKE_NO_MEMORY;
+  if (status != HOOKE_OK) hk_trial_release(trial);
+  return status;
 }
 
 void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->error_at);
-  hk_free(trial->error_max_at);
-  hk_free(trial->drift_at);
   hk_watched_series_release(&trial->watched);
   *trial = hk_no_trial;
 }
@@ -62,7 +61,7 @@ struct run {
 
 /* A step that is given up takes its counts with it. */
 static int32_t works_too_long(struct run *run) {
-  const double most = run->listener ? run->listener->most_work : 0.0;
+  const double most = run->listener->most_work;
   run->too_long |= most > 0.0 && run->integrator && hk_work_of(run->integrator) > most;
   return run->too_long;
 }
@@ -76,8 +75,7 @@ static int32_t tell(double fraction, const char *method, void *ctx) {
   struct run *run = ctx;
   (void)method;
   if (works_too_long(run)) return 1;
-  if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
-  return run->listener->on_progress(fmin(1.0, fraction), run->listener->ctx);
+  return run->listener->on_progress ? run->listener->on_progress(fmin(1.0, fraction), run->listener->ctx) : 0;
 }
 
 static void judge(const struct run *run, int64_t f, const hooke_state *state) {
@@ -120,9 +118,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   else if (f < run->frames)
     judge(run, f, state);
   int32_t value = 0;
-  if (run->listener && run->listener->on_frame) {
-    value = run->listener->on_frame(f, step, state, run->listener->ctx);
-  }
+  if (run->listener->on_frame) value = run->listener->on_frame(f, step, state, run->listener->ctx);
   return value ? value : tell((hooke_state_time(state) - run->begin) / run->duration, NULL, run);
 }
 
@@ -134,7 +130,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   run->integrator = *integrator;
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) {
-    if (run->listener && run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
+    if (run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
     run->begin = hooke_state_time(state);
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);
@@ -161,6 +157,10 @@ static void keep_counts(struct run *run) {
   trial->frames = run->next;
 }
 
+int32_t hk_trial_gave_up(int32_t status) {
+  return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
+}
+
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
                      const hooke_options *options, const struct hk_listener *listener) {
   struct run run = {.reference = reference, .trial = trial, .frames = frames, .listener = listener};
@@ -183,9 +183,7 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
                                              : "failed";
   if (status == HOOKE_OK)
     hk_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
-  const int is_result =
-      too_long || status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
-  return is_result ? HOOKE_OK : status;
+  return too_long || hk_trial_gave_up(status) ? HOOKE_OK : status;
 }
 
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,

@@ -41,6 +41,9 @@ void hk_trial_release(struct hk_trial *trial);
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
                      const hooke_options *options, const struct hk_listener *listener);
 
+/* 1 if an integrator gave up: a result of a trial, not its failure. */
+int32_t hk_trial_gave_up(int32_t status);
+
 /* What a run took. */
 struct hk_run_cost {
   double wall_seconds, force_evaluations;

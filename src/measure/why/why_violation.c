@@ -96,11 +96,12 @@ int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   if (hk_budget_ends(&inquiry->budget, "bounds")) return HOOKE_OK;
   const int32_t bodies = inquiry->system->mover_count > 0; /* without a bound, nor growing motion */
   if (bodies && inquiry->large) return HOOKE_OK;
-  if (!bodies && hk_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle))
-    return HOOKE_OK;
+  const double step = inquiry->run->schedule.step,
+               bound = hk_step_bound_of(blocks, method_of(inquiry), step, &particle);
+  if (!bodies && !(bound < step)) return HOOKE_OK;
   if (violation->pause-- > 0) return HOOKE_OK;
   violation->pause = violation->tries++;
-  if (isnan(violation->bound)) violation->bound = hk_step_bound_of(blocks, method_of(inquiry));
+  if (isnan(violation->bound)) violation->bound = bound;
   return inquiry->large ? by_growth(inquiry, q, t, particle) : by_spectrum(inquiry, q, state->v, t, particle);
 }
 

@@ -2,7 +2,10 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "kernel/vector_loops.h"
 
+#include <limits.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -12,9 +15,6 @@ void hk_damped_modes_release(struct hk_damped_modes *modes) {
 }
 
 #if HOOKE_HAVE_LAPACK
-
-#include <limits.h>
-#include <math.h>
 
 /* In Fortran: matrices by columns, everything by address, the lengths of texts at the end. */
 extern void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride,
@@ -30,8 +30,22 @@ extern void dgeev_(const char *left_job, const char *right_job, const int *n, do
                    double *real, double *imaginary, double *left, const int *left_stride, double *right,
                    const int *right_stride, double *work, const int *work_size, int *info, size_t, size_t);
 
+#else
+
+/* Stand-ins that nothing calls: check() refuses before. */
+static void dsyev_(const char *job, ...) {
+  (void)job;
+}
+#define dsyevx_ dsyev_
+#define dstev_  dsyev_
+#define dgeev_  dsyev_
+
+#endif
+
 /* LAPACK ends the process for some non-finite matrices, and counts by int. */
 static int32_t check(int64_t n, int64_t count, const double *matrix) {
+  if (!HOOKE_HAVE_LAPACK)
+    return hk_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
   if (n > INT_MAX / 4) {
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%lld unknowns are too many for dense eigenvalues", (long long)n);
   }
@@ -121,21 +135,13 @@ int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *be
 /* Eigenvalues of K + C below this fraction of the largest belong to its null space. */
 static const double NOTHING = 1e-14;
 
-static double *copy_of(int64_t count, const double *from) {
-  double *copy = hk_new(count, sizeof(double));
-  if (copy) memcpy(copy, from, (size_t)count * sizeof(double));
-  return copy;
-}
-
 /* out = -Q A Q^T with the r rows of Q. */
 static void project(int64_t n, int64_t r, const double *q, const double *a, double *row, double *out,
                     int64_t stride) {
   for (int64_t i = 0; i < r; i++) {
     memset(row, 0, (size_t)n * sizeof(double));
-    for (int64_t k = 0; k < n; k++) {
-      for (int64_t j = 0; j < n; j++)
-        row[j] += q[i * n + k] * a[k * n + j];
-    }
+    for (int64_t k = 0; k < n; k++)
+      hk_add_multiple(n, q[i * n + k], a + k * n, row);
     for (int64_t j = 0; j < r; j++) {
       double sum = 0.0;
       for (int64_t k = 0; k < n; k++)
@@ -148,25 +154,22 @@ static void project(int64_t n, int64_t r, const double *q, const double *a, doub
 /* The rows of `basis` span the range of K and C; returns their number. */
 static int32_t find_basis(int64_t n, const double *stiffness, const double *damping, double *basis,
                           int64_t *rank) {
-  double *sum = copy_of(n * n, stiffness), *value = hk_new(n, sizeof(double));
-  int32_t status = sum && value ? HOOKE_OK : HOOKE_NO_MEMORY;
+  double *sum = hk_new((n + 1) * n, sizeof(double));
+  if (sum == NULL) return HOOKE_NO_MEMORY;
+  double *value = sum + n * n;
   /* both scaled to size 1, so that neither hides the other */
   double size[2] = {0.0, 0.0};
   for (int64_t k = 0; k < n; k++) {
     size[0] = fmax(size[0], stiffness[k * n + k]);
     size[1] = fmax(size[1], damping[k * n + k]);
   }
-  if (status == HOOKE_OK) {
-    for (int64_t k = 0; k < n * n; k++) {
-      sum[k] = (size[0] > 0.0 ? stiffness[k] / size[0] : 0.0) + (size[1] > 0.0 ? damping[k] / size[1] : 0.0);
-    }
-    status = hk_dense_symmetric(n, sum, value, basis);
-  }
+  for (int64_t k = 0; k < n * n; k++)
+    sum[k] = (size[0] > 0.0 ? stiffness[k] / size[0] : 0.0) + (size[1] > 0.0 ? damping[k] / size[1] : 0.0);
+  const int32_t status = hk_dense_symmetric(n, sum, value, basis);
   for (*rank = 0; status == HOOKE_OK && *rank < n; ++*rank) {
     if (!(value[*rank] > (double)n * NOTHING * value[0])) break;
   }
   hk_free(sum);
-  hk_free(value);
   return status;
 }
 
@@ -185,10 +188,8 @@ static void take(int64_t n, int64_t r, const double *basis, const double *real, 
   double *re = modes->vector_real + modes->count * n, *im = modes->vector_imaginary + modes->count * n;
   const int64_t from = size > 1.0 ? r : 0;
   for (int64_t i = 0; i < r; i++) {
-    for (int64_t j = 0; j < n; j++) {
-      re[j] += real[from + i] * basis[i * n + j];
-      if (imaginary) im[j] += imaginary[from + i] * basis[i * n + j];
-    }
+    hk_add_multiple(n, real[from + i], basis + i * n, re);
+    if (imaginary) hk_add_multiple(n, imaginary[from + i], basis + i * n, im);
   }
 }
 
@@ -238,9 +239,9 @@ static int32_t solve_companion(int64_t n, int64_t r, const double *basis, double
 int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *damping,
                         struct hk_damped_modes *modes) {
   *modes = (struct hk_damped_modes){.count = 0};
-  double *basis = hk_new(n * n, sizeof(double)), *row = hk_new(n, sizeof(double)), *matrix = NULL;
+  double *basis = hk_new((n + 1) * n, sizeof(double)), *matrix = NULL;
   int64_t r = 0;
-  int32_t status = basis && row ? make_space(n, modes) : HOOKE_NO_MEMORY;
+  int32_t status = basis ? make_space(n, modes) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = find_basis(n, stiffness, damping, basis, &r);
   if (status == HOOKE_OK && r > 0) {
     matrix = hk_new(4 * r * r, sizeof(double));
@@ -248,47 +249,14 @@ int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *dampin
   }
   if (status == HOOKE_OK && r > 0) {
     /* (0, I; -K, -C) in columns; K and C are symmetric */
-    project(n, r, basis, stiffness, row, matrix + r, 2 * r);
-    project(n, r, basis, damping, row, matrix + 2 * r * r + r, 2 * r);
+    project(n, r, basis, stiffness, basis + n * n, matrix + r, 2 * r);
+    project(n, r, basis, damping, basis + n * n, matrix + 2 * r * r + r, 2 * r);
     for (int64_t k = 0; k < r; k++)
       matrix[(r + k) * 2 * r + k] = 1.0;
     status = solve_companion(n, r, basis, matrix, modes);
   }
   hk_free(matrix);
   hk_free(basis);
-  hk_free(row);
   if (status != HOOKE_OK) hk_damped_modes_release(modes);
   return status;
 }
-
-#else
-
-static int32_t not_built(void) {
-  return hk_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
-}
-
-int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vector) {
-  (void)n, (void)matrix, (void)value, (void)vector;
-  return not_built();
-}
-
-int32_t hk_dense_softest(int64_t n, double *matrix, double *vector) {
-  (void)n;
-  (void)matrix;
-  (void)vector;
-  return not_built();
-}
-
-int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
-                             double *vector) {
-  (void)n, (void)diagonal, (void)beside, (void)value, (void)vector;
-  return not_built();
-}
-
-int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *damping,
-                        struct hk_damped_modes *modes) {
-  (void)n, (void)stiffness, (void)damping, (void)modes;
-  return not_built();
-}
-
-#endif

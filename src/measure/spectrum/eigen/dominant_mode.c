@@ -16,17 +16,16 @@ static const double NOISE = 0.1;
 
 static int32_t dense(struct hk_linearised *lin, double *value, double *mode) {
   const int64_t n = lin->unknowns;
-  double *matrix = hk_new(n * n, sizeof(double)), *vector = hk_new(n * n, sizeof(double));
-  double *values = hk_new(n, sizeof(double));
-  int32_t status = matrix && vector && values ? hk_linearised_assemble(lin, matrix) : HOOKE_NO_MEMORY;
+  double *matrix = hk_new((2 * n + 1) * n, sizeof(double));
+  if (matrix == NULL) return HOOKE_NO_MEMORY;
+  double *vector = matrix + n * n, *values = vector + n * n;
+  int32_t status = hk_linearised_assemble(lin, matrix);
   if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, values, vector);
   if (status == HOOKE_OK) {
     *value = values[0];
     hk_linearised_unpack(lin, vector, mode);
   }
   hk_free(matrix);
-  hk_free(vector);
-  hk_free(values);
   return status;
 }
 
