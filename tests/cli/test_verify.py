@@ -97,9 +97,11 @@ def test_every_method_verifies(hooke, made, method):
     claims = {claim["key"]: claim for claim in found["claims"]}
     assert list(claims) == ["verdict", "energy", "error", "run-again"]
     words = " ".join(hooke("verify", "out.h5", "--all").out.split())
-    assert "verdict agrees to the bit from 0 s to" in words and "energy the balance holds from 0 s to" in words
+    assert "verdict the file agrees with its scene to the bit from 0 s to" in words
+    assert "energy the balance of energy holds from 0 s to" in words
     assert {claim["of"] for claim in claims.values()} == {"part" if found["frame_first"] else "whole"}
-    assert claims["verdict"]["text"] == f"agrees to the bit from {found['time_first']:g} s to {found['time_last']:g} s"
+    times = f"from {found['time_first']:g} s to {found['time_last']:g} s"
+    assert claims["verdict"]["text"] == f"the file agrees with its scene to the bit {times}"
     assert f"{found['error_estimate']:.2g} m" in claims["error"]["text"]
     assert (found["verdict"], found["difference"], found["balance"]) == ("agrees", "", "holds")
     assert found["method"] == method and len(found["run"]) == 32
@@ -157,7 +159,7 @@ def test_one_changed_bit_is_found(hooke, made, name, index, words, sealed):
     answer = hooke("verify", "out.h5", "--json")
     assert answer.code == 3 and answer.json["verdict"] == "disagrees" and answer.json["difference"]
     (verdict,) = (claim for claim in answer.json["claims"] if claim["key"] == "verdict")
-    assert (verdict["text"], verdict["of"]) == ("disagrees with its scene", "whole")
+    assert (verdict["text"], verdict["of"]) == ("the file disagrees with its scene", "whole")
 
 
 def test_a_false_mass_is_found(hooke, made):
@@ -192,7 +194,7 @@ def test_what_is_not_known_is_said_in_words(hooke, made, method):
         answer = hooke("verify", "out.h5", "--all")
         assert answer.code == 3 and "nan" not in answer.out and "inf" not in answer.out.split("verdict")[0]
         again = next(line for line in answer.out.splitlines() if line.startswith("run-again"))
-        assert ("nothing: the file does not hold" in again) == (not sealed or index[0] == 0), again
+        assert ("nothing was run again: " in again) == (not sealed or index[0] == 0), again
         path.write_bytes(whole)
     assert "nan" not in hooke("verify", "out.h5", "--bits").out
 

@@ -12,7 +12,7 @@ SCENES = "cloth-16 cloth-gentle curl drag-or-damping lattice mesh oscillator rop
 
 def verified(text: str) -> dict[str, Any]:
     """Number of runs elsewhere that this machine repeated to the bit."""
-    same = len(re.findall(r"^verdict +agrees to the bit$", text, re.MULTILINE))
+    same = len(re.findall(r"^verdict +the file agrees with its scene to the bit ", text, re.MULTILINE))
     if same != len(SCENES.split()):
         raise ValueError(f"{same} of {len(SCENES.split())} runs have the same bits")
     return {"scenes": same}

@@ -22,13 +22,14 @@ static enum hk_claim_of of_slice(const struct hk_verify *verify) {
 static void tell_verdict(const struct hk_verify *verify, struct hk_claims *claims) {
   const char *verdict = verify->verdict;
   if (strcmp(verdict, "stopped") == 0) {
-    hk_claim(claims, "verdict", HOOKE_OF_UNKNOWN, "runs", "stopped before the file was compared");
+    hk_claim(claims, "verdict", HOOKE_OF_UNKNOWN, "runs",
+             "the work was stopped before the file was compared");
   } else if (strcmp(verdict, "disagrees") == 0) {
-    hk_claim(claims, "verdict", HOOKE_OF_WHOLE, "bits", "disagrees with its scene");
+    hk_claim(claims, "verdict", HOOKE_OF_WHOLE, "bits", "the file disagrees with its scene");
   } else {
     const int same = strcmp(verdict, "agrees") == 0;
     hk_claim(claims, "verdict", of_slice(verify), same ? "bits" : "half-step",
-             "agrees %s from %.6g s to %.6g s",
+             "the file agrees with its scene %s from %.6g s to %.6g s",
              same ? "to the bit" : "within the error of the method, as of another version or machine,",
              verify->time_from, verify->time_to);
   }
@@ -38,10 +39,12 @@ static void tell_verdict(const struct hk_verify *verify, struct hk_claims *claim
 static void tell_slice(const struct hk_verify *verify, struct hk_claims *claims) {
   char from[KNOWN], to[KNOWN];
   if (isnan(verify->steps))
-    hk_claim(claims, "run-again", HOOKE_OF_UNKNOWN, "runs", "nothing: the file does not hold as it is");
+    hk_claim(claims, "run-again", HOOKE_OF_UNKNOWN, "runs",
+             "nothing was run again: the file does not hold as it is");
   else
-    hk_claim(claims, "run-again", of_slice(verify), "runs", "frames 0 and %lld to %lld, %s to %s, %.0f steps",
-             (long long)verify->from, (long long)verify->to, known(verify->time_from, "s", 6, from),
+    hk_claim(claims, "run-again", of_slice(verify), "runs",
+             "frames 0 and %lld to %lld, %s to %s, were run again in %.0f steps", (long long)verify->from,
+             (long long)verify->to, known(verify->time_from, "s", 6, from),
              known(verify->time_to, "s", 6, to), verify->steps);
   if (strcmp(verify->parts, "not-covered") == 0)
     hk_claim(claims, "not-covered", HOOKE_OF_UNKNOWN, "check-values",
@@ -49,9 +52,10 @@ static void tell_slice(const struct hk_verify *verify, struct hk_claims *claims)
 }
 
 static void tell_balance(const struct hk_verify *verify, struct hk_claims *claims) {
-  static const char *const verdicts[][2] = {{"holds", "the balance holds"},
-                                            {"does-not-hold", "the balance does not hold"},
-                                            {"unresolved", "the steps are too long to tell if it balances"}};
+  static const char *const verdicts[][2] = {
+      {"holds", "the balance of energy holds"},
+      {"does-not-hold", "the balance of energy does not hold"},
+      {"unresolved", "the steps are too long to tell if energy balances"}};
   const int fixed = verify->fixed, told = strcmp(verify->balance, "unresolved") != 0;
   char one[KNOWN], two[KNOWN], three[KNOWN], left[KNOWN], fine[KNOWN], bound[KNOWN];
   for (size_t k = 0; k < sizeof verdicts / sizeof verdicts[0]; k++) {
@@ -65,7 +69,7 @@ static void tell_balance(const struct hk_verify *verify, struct hk_claims *claim
         known(verify->residual, "J", 3, left), known(verify->residual_refined, "J", 3, fine),
         fixed ? "" : " (tolerances a hundredth)", known(verify->bound, "J", 3, bound));
     hk_claim(claims, "error", isnan(verify->error) ? HOOKE_OF_UNKNOWN : of_slice(verify), "half-step",
-             "about %s in a coordinate from %.6g s to %.6g s", known(verify->error, "m", 2, one),
+             "the error of a coordinate is about %s from %.6g s to %.6g s", known(verify->error, "m", 2, one),
              verify->time_from, verify->time_to);
   }
 }
