@@ -44,8 +44,8 @@ def test_the_largest_groups_are_looked_at():
     system.add_springs("two", [[0, 1], [1, 2]], stiffness=5)
     found = hooke.cost(system, predict=True, groups=1)
     assert np.isnan(found.rows["memory_bytes"]).tolist() == [True, False]
-    assert "1 more ingredient was not looked at" in str(found) and "without one" not in str(found)
-    assert [(claim.key, claim.of) for claim in found.claims] == [("cost", "whole"), ("limit", "whole"), ("left-out", "unknown")]
+    assert "1 ingredient was not looked at" in str(found) and "without one" not in str(found)
+    assert [(claim.key, claim.of) for claim in found.claims] == [("cost", "whole"), ("limit", "part"), ("left-out", "unknown")]
 
 
 def test_a_callback_is_an_ingredient():

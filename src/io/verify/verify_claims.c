@@ -22,10 +22,11 @@ static enum hk_claim_of of_slice(const struct hk_verify *verify) {
 static void tell_verdict(const struct hk_verify *verify, struct hk_claims *claims) {
   const char *verdict = verify->verdict;
   if (strcmp(verdict, "stopped") == 0) {
-    hk_claim(claims, "verdict", HOOKE_OF_UNKNOWN, "runs",
-             "the work was stopped before the file was compared");
+    hk_claim(claims, "verdict", HOOKE_OF_UNKNOWN, "runs", "the work was stopped before all was compared");
   } else if (strcmp(verdict, "disagrees") == 0) {
-    hk_claim(claims, "verdict", HOOKE_OF_WHOLE, "bits", "the file disagrees with its scene");
+    const int moved = strcmp(verify->balance, "does-not-hold") == 0;
+    hk_claim(claims, "verdict", HOOKE_OF_WHOLE, moved ? "half-step" : "bits",
+             "the file disagrees with its scene");
   } else {
     const int same = strcmp(verdict, "agrees") == 0;
     hk_claim(claims, "verdict", of_slice(verify), same ? "bits" : "half-step",
@@ -37,15 +38,21 @@ static void tell_verdict(const struct hk_verify *verify, struct hk_claims *claim
 
 /* What of the run was taken again, which ends at the first fault. */
 static void tell_slice(const struct hk_verify *verify, struct hk_claims *claims) {
-  char from[KNOWN], to[KNOWN];
-  if (isnan(verify->steps))
+  const int disagrees = strcmp(verify->verdict, "disagrees") == 0;
+  char beside[16] = "";
+  if (verify->from > 0) hk_print(beside, sizeof beside, "0 and ");
+  if (disagrees && isnan(verify->steps))
     hk_claim(claims, "run-again", HOOKE_OF_UNKNOWN, "runs",
              "nothing was run again: the file does not hold as it is");
-  else
+  else if (disagrees)
+    hk_claim(claims, "run-again", HOOKE_OF_PART, "runs",
+             "of frames %s%lld to %lld as many were run again as agree, in %.0f steps", beside,
+             (long long)verify->from, (long long)verify->to, verify->steps);
+  else if (strcmp(verify->verdict, "stopped") != 0)
     hk_claim(claims, "run-again", of_slice(verify), "runs",
-             "frames 0 and %lld to %lld, %s to %s, were run again in %.0f steps", (long long)verify->from,
-             (long long)verify->to, known(verify->time_from, "s", 6, from),
-             known(verify->time_to, "s", 6, to), verify->steps);
+             "frames %s%lld to %lld, %.6g s to %.6g s, were run again in %.0f steps", beside,
+             (long long)verify->from, (long long)verify->to, verify->time_from, verify->time_to,
+             verify->steps);
   if (strcmp(verify->parts, "not-covered") == 0)
     hk_claim(claims, "not-covered", HOOKE_OF_UNKNOWN, "check-values",
              "the file is older than check values of scene, options, masses and springs");
@@ -62,7 +69,7 @@ static void tell_balance(const struct hk_verify *verify, struct hk_claims *claim
     if (strcmp(verify->balance, verdicts[k][0]) != 0) continue;
     hk_claim(
         claims, "energy", told ? of_slice(verify) : HOOKE_OF_UNKNOWN, "half-step",
-        "%s from %.6g s to %.6g s: work in %s = change %s + heat %s; up to %s are left over, %s at the end with half the "
+        "%s from %.6g s to %.6g s: work in %s, change %s, heat %s; up to %s are left over, %s at the end with half the "
         "step%s; bound %s",
         verdicts[k][1], verify->time_from, verify->time_to, known(verify->work, "J", 6, one),
         known(verify->energy_change, "J", 6, two), known(verify->heat, "J", 6, three),

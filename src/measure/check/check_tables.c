@@ -134,7 +134,9 @@ static void tell_memory(const struct hk_check *check, struct hk_claims *claims) 
   if (hooke_system_count(check->system, "springs") > 0)
     hk_append(more, sizeof more, " and %.1f a spring", per_spring(check));
   hk_claim(claims, "memory", HOOKE_OF_WHOLE, "count",
-           "%.3g MB at the peak of a run, %.3g MB if it writes its frames%s", most, written, more);
+           "%.3g MB at the peak of a run%s, %.3g MB if it writes its frames%s", most,
+           !hooke_options_is_set(check->options, "process") ? " beside the program's own" : "", written,
+           more);
 }
 
 static void tell_cost(const struct hk_check *check, struct hk_claims *claims) {

@@ -30,8 +30,11 @@ static void tell_limit(const struct hk_cost *cost, struct hk_claims *claims) {
   const char *name = hk_cost_row_name(cost, most);
   char without[64] = "at any step";
   if (isfinite(limit)) hk_print(without, sizeof without, "up to %.6g s", limit);
-  hk_claim(claims, "limit", HOOKE_OF_WHOLE, "prediction", "%s is stable up to %.6g s, and without %s %s",
-           cost->method, cost->limit, name[0] ? name : most->kind, without);
+  char now[64] = "at no step";
+  if (cost->limit > 0.0) hk_print(now, sizeof now, "up to %.6g s", cost->limit);
+  hk_claim(claims, "limit", HOOKE_OF_PART, "prediction",
+           "at the state of the cost, %s is stable %s, and without %s %s", cost->method, now,
+           name[0] ? name : most->kind, without);
 }
 
 void hk_cost_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
@@ -42,6 +45,6 @@ void hk_cost_claim(const hooke_measurement *measurement, struct hk_claims *claim
   tell_whole(cost, claims);
   tell_limit(cost, claims);
   if (unknown > 0)
-    hk_claim(claims, "left-out", HOOKE_OF_UNKNOWN, "budget", "%lld more %s not looked at", unknown,
+    hk_claim(claims, "left-out", HOOKE_OF_UNKNOWN, "options", "%lld %s not looked at", unknown,
              unknown == 1 ? "ingredient was" : "ingredients were");
 }

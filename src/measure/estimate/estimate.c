@@ -250,7 +250,7 @@ static int measure_by_reference(struct hk_estimate *e) {
 /* Why nothing is run again; NULL: it is. */
 static const char *find_obstacle(const struct hk_estimate *e, const hooke_state *state) {
   const double end = e->begin + e->duration;
-  if (e->resumed) return "the run went on from a state of another one, whose error is not known here";
+  if (e->resumed) return "the run was continued, and how wrong it was before is not known here";
   if (fabs(hooke_state_time(state) - end) > 1e-9 * e->duration || e->kept.recorded < e->kept.count)
     return "the run did not come to its end";
   return hk_system_calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;

@@ -27,11 +27,17 @@ static void tell_limit(const struct teller *t, const struct hk_limit_row *row) {
   else if (!isnan(row->measured))
     hk_print(measured, sizeof measured, row->measured > 0.0 ? ", by runs up to %.6g s" : ", by runs at none",
              row->measured);
-  if (isfinite(row->smallest))
-    hk_claim(t->claims, "along", HOOKE_OF_PART, t->by,
-             "at the frames up to t = %.6g s the smallest limit of %s is %.6g s, at t = %.6g s",
-             t->limit->time, row->method, row->smallest, row->smallest_time);
   say(t, "limit", HOOKE_OF_PART, "%s is stable %s%s", row->method, predicted, measured);
+}
+
+/* The first row has the method of the run, or the first one asked for. */
+static void tell_along(const struct teller *t, const struct hk_limit_row *row) {
+  char frames[64] = "that were reached";
+  if (row == NULL || !isfinite(row->smallest)) return;
+  if (!isnan(t->limit->time)) hk_print(frames, sizeof frames, "up to t = %.6g s", t->limit->time);
+  hk_claim(t->claims, "along", HOOKE_OF_PART, t->by,
+           "at the frames %s the smallest limit of %s is %.6g s, at t = %.6g s", frames, row->method,
+           row->smallest, row->smallest_time);
 }
 
 static void tell_none(const struct teller *t) {
@@ -77,11 +83,12 @@ static void tell_note(const struct teller *t, int32_t first) {
 
 void hk_limit_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_limit *limit = measurement->object;
-  const struct hk_limit_row *row = limit->found ? hk_limit_limiting_row(limit) : NULL;
+  const struct hk_limit_row *row = hk_limit_limiting_row(limit);
   const struct teller t = {limit, claims,
                            row && !isnan(row->measured) ? "eigenvalues and runs" : "eigenvalues"};
+  tell_along(&t, row ? row : limit->row_count > 0 ? limit->row : NULL);
   if (!limit->found)
-    hk_claim(claims, "limit", HOOKE_OF_UNKNOWN, t.by, "no limit is known: the search for it was stopped");
+    hk_claim(claims, "limit", HOOKE_OF_UNKNOWN, t.by, "the search for limits was stopped before its end");
   if (!limit->found) return;
   if (row)
     tell_limit(&t, row);

@@ -189,6 +189,10 @@ static void tell_groups(const hooke_system *system, const struct hk_participatio
     hk_append(text, size, "no spring limits the step");
     return;
   }
+  if (system->springs->count == 1) {
+    hk_append(text, size, "the only spring limits the step");
+    return;
+  }
   hk_append(text, size,
             "no few springs or particles limit the step: the limiting mode is spread over the scene");
   double before = INFINITY;

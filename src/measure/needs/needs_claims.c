@@ -1,29 +1,40 @@
 /* What needs say of their results. */
 #include "measure/needs/needs.h"
 
+#include "core/memory.h"
 #include "core/print.h"
+#include "core/status.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
-enum { NAMES_SIZE = 1024, CELLS_SIZE = 64 };
+enum { CELLS_SIZE = 64 };
 
 static int32_t judges_all(const struct hk_needs *needs) {
   return hk_needs_judged_until(needs) >= needs->duration * (1.0 - 1e-9);
 }
 
+static enum hk_claim_of of_judged(const struct hk_needs *needs) {
+  return judges_all(needs) ? HOOKE_OF_WHOLE : HOOKE_OF_PART;
+}
+
 /* ---- the lean scene ---- */
 
-/* Names of the rows that are left out, or of those that were not looked at, with commas; returns their
- * number. */
-static int64_t list_rows(const struct hk_needs *needs, int32_t left_out, char names[NAMES_SIZE]) {
-  const int64_t known = hk_needs_known_rows(needs);
-  int64_t count = 0;
-  names[0] = '\0';
-  for (int64_t row = left_out ? 0 : known; row < (left_out ? known : needs->row_count); row++) {
+/* Names of the rows that are left out, or of those that were not looked at, with commas, and their number;
+ * NULL without memory, which the claims then lack. */
+static char *list_rows(const struct hk_needs *needs, int32_t left_out, struct hk_claims *claims,
+                       int64_t *count) {
+  const int64_t known = hk_needs_known_rows(needs), first = left_out ? 0 : known,
+                end = left_out ? known : needs->row_count;
+  char *names = hk_new(1 + (end - first) * (HOOKE_NEEDS_NAME + 2), 1), *at = names;
+  *count = 0;
+  if (names == NULL) claims->status = HOOKE_NO_MEMORY;
+  for (int64_t row = first; row < end && names; row++) {
     if (left_out && !needs->row[row].left_out) continue;
-    hk_append(names, NAMES_SIZE, "%s%s", count++ ? ", " : "", needs->row[row].without);
+    at += snprintf(at, HOOKE_NEEDS_NAME + 2, "%s%s", (*count)++ ? ", " : "", needs->row[row].without);
   }
-  return count;
+  return names;
 }
 
 static int32_t has_unknown(const struct hk_needs *needs) {
@@ -37,7 +48,7 @@ static void tell_saving(const struct hk_needs *needs, struct hk_claims *claims) 
   const double lean = needs->lean.cost.wall_seconds, full = needs->cheapest.wall_seconds;
   const int less = lean <= full;
   hk_claim(
-      claims, "saving", HOOKE_OF_WHOLE, "clock",
+      claims, "saving", of_judged(needs), "clock",
       "within the wanted error it takes %.3g s of wall time by %s, where the full scene takes %.3g s (%.1f times "
       "%s)",
       lean, hooke_options_text(needs->run, "method"), full, less ? full / lean : lean / full,
@@ -47,33 +58,42 @@ static void tell_saving(const struct hk_needs *needs, struct hk_claims *claims) 
              needs->other_method, needs->other_seconds);
 }
 
+static void tell_left_out(const struct hk_needs *needs, struct hk_claims *claims, int64_t count,
+                          const char *names) {
+  char where[48] = "", springs[64] = "";
+  if (!judges_all(needs)) hk_print(where, sizeof where, " up to t = %.6g s", hk_needs_judged_until(needs));
+  if (needs->lean.cost.springs != needs->full.springs)
+    hk_print(springs, sizeof springs, ", with %.0f springs instead of %.0f", needs->lean.cost.springs,
+             needs->full.springs);
+  hk_claim(claims, "lean", of_judged(needs), "runs",
+           "%s can be left out%s: %s; the scene is then at most %.3g m off%s%s",
+           count == 1 ? "one ingredient" : "these ingredients", count == 1 ? "" : " together", names,
+           needs->lean.error, where, springs);
+  tell_saving(needs, claims);
+}
+
 static void tell_lean(const struct hk_needs *needs, struct hk_claims *claims) {
-  const enum hk_claim_of of = judges_all(needs) ? HOOKE_OF_WHOLE : HOOKE_OF_PART;
-  char names[NAMES_SIZE];
-  const int64_t count = list_rows(needs, 1, names);
-  if (count > 0) {
-    hk_claim(
-        claims, "lean", of, "runs",
-        "%s can be left out%s: %s; the scene is then at most %.3g m off, with %.0f springs instead of %.0f",
-        count == 1 ? "one ingredient" : "these ingredients", count == 1 ? "" : " together", names,
-        needs->lean.error, needs->lean.cost.springs, needs->full.springs);
-    tell_saving(needs, claims);
-  } else if (!needs->lean_note[0]) {
-    hk_claim(claims, "lean", has_unknown(needs) ? HOOKE_OF_UNKNOWN : of, "runs", "%s",
+  int64_t count;
+  char *names = list_rows(needs, 1, claims, &count);
+  if (count > 0)
+    tell_left_out(needs, claims, count, names);
+  else if (!needs->lean_note[0])
+    hk_claim(claims, "lean", has_unknown(needs) ? HOOKE_OF_UNKNOWN : of_judged(needs), "runs", "%s",
              has_unknown(needs) ? "nothing is left out: it cannot be told what is not needed"
                                 : "all that would save something is needed: there is nothing to leave out");
-  }
   if (needs->lean_note[0])
-    hk_claim(claims, count > 0 ? "changes" : "lean", of, "runs", "%s", needs->lean_note);
+    hk_claim(claims, count > 0 ? "changes" : "lean", of_judged(needs), "runs", "%s", needs->lean_note);
+  hk_free(names);
 }
 
 /* Of work that was stopped. */
 static void tell_unfinished(const struct hk_needs *needs, struct hk_claims *claims) {
-  char names[NAMES_SIZE];
-  const int64_t count = list_rows(needs, 0, names);
+  int64_t count;
+  char *names = list_rows(needs, 0, claims, &count);
   hk_claim(claims, "lean", HOOKE_OF_UNKNOWN, "runs",
            "no lean scene was found before the work was stopped%s%s", count > 0 ? "; not looked at: " : "",
            names);
+  hk_free(names);
 }
 
 /* ---- resolution ---- */
@@ -87,14 +107,18 @@ static void print_cells(const struct hk_needs_part *part, double factor, char te
 
 static void tell_part(const struct hk_needs *needs, const struct hk_needs_part *part,
                       struct hk_claims *claims) {
-  const enum hk_claim_of of = judges_all(needs) ? HOOKE_OF_WHOLE : HOOKE_OF_PART;
   char has[CELLS_SIZE], wanted[CELLS_SIZE];
   print_cells(part, 1.0, has);
   print_cells(part, part->factor, wanted);
-  if (isfinite(part->factor))
-    hk_claim(claims, "resolution", of, "Richardson",
-             "%s has %s cells, which leaves %.3g m; an error of at most %.6g m asks for %s", part->name, has,
-             part->error, needs->want, wanted);
+  const char *noun = strcmp(has, "1") == 0 ? "cell" : "cells";
+  if (isfinite(part->factor) && !isnan(part->error))
+    hk_claim(claims, "resolution", of_judged(needs), "Richardson",
+             "%s has %s %s, which leaves %.3g m; an error of at most %.6g m asks for %s", part->name, has,
+             noun, part->error, needs->want, wanted);
+  else if (isfinite(part->factor))
+    hk_claim(claims, "resolution", of_judged(needs), "Richardson",
+             "%s has %s %s, which are enough for an error of at most %.6g m: %s", part->name, has, noun,
+             needs->want, part->note);
   else
     hk_claim(claims, "resolution", HOOKE_OF_UNKNOWN, "Richardson",
              "what resolution %s needs is not known%s%s", part->name, part->note[0] ? ": " : "", part->note);
@@ -109,7 +133,7 @@ static void tell_full(const struct hk_needs *needs, struct hk_claims *claims) {
     hk_claim(claims, "full", HOOKE_OF_UNKNOWN, "runs", "by %s%s the full scene was not run to its end",
              method, how);
   else
-    hk_claim(claims, "full", judges_all(needs) ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "half-step",
+    hk_claim(claims, "full", of_judged(needs), "half-step",
              "by %s%s the time step puts the full scene off by at most %.2g m", method, how,
              needs->full.step_error);
 }

@@ -14,11 +14,22 @@ static const double CHAOTIC = 1e3;
 struct teller {
   const struct hk_study *study;
   struct hk_claims *claims;
-  double until; /* the time up to which errors are known [s] */
-  int32_t all;  /* 1: that is the whole run */
+  double until;        /* the time up to which errors are known [s] */
+  int32_t all;         /* 1: that is the whole run */
+  enum hk_claim_of of; /* what claims of the recommendation are true of, else of errors */
+  char where[48];      /* " up to 9 s" where that is a part */
 };
 
 #define say(teller, key, of, by, ...) hk_claim((teller)->claims, key, of, by, __VA_ARGS__)
+
+/* Errors are known up to this time. */
+static void stand_until(struct teller *t, double until) {
+  t->until = until;
+  t->all = until >= t->study->duration * (1.0 - 1e-9);
+  t->of = t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART;
+  t->where[0] = '\0';
+  if (!t->all && !isnan(until)) hk_print(t->where, sizeof t->where, " up to %.6g s", until);
+}
 
 /* ---- the recommendation ---- */
 
@@ -40,15 +51,13 @@ static void tell_time(const struct teller *t) {
 static void tell_closest(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
   char run[SETTING_SIZE];
-  say(t, "recommendation",
-      isnan(r->error) ? HOOKE_OF_UNKNOWN
-      : t->all        ? HOOKE_OF_WHOLE
-                      : HOOKE_OF_PART,
-      "reference", "no run is recommended for an error of at most %.6g m: %s", r->want, r->note);
+  say(t, "recommendation", isnan(r->error) ? HOOKE_OF_UNKNOWN : t->of, "reference",
+      "no run is recommended for an error of at most %.6g m%s: %s", r->want, t->where, r->note);
   if (r->method < 0) return;
-  say(t, "closest", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
-      "the closest is %s: its error is %.3g m, with %.0f evaluations of the forces", name_run(t->study, run),
-      r->error, r->force_evaluations);
+  say(t, "closest", t->of, "reference",
+      "the closest is %s: its error%s is %.3g m%s, with %.0f evaluations of the forces",
+      name_run(t->study, run), t->where, r->error,
+      r->error <= r->want ? ", but nothing is known of its margin" : "", r->force_evaluations);
   tell_time(t);
 }
 
@@ -57,20 +66,21 @@ static void tell_change(const struct teller *t, const char *key, const char *cha
   const struct hk_study_margin *margin = &t->study->recommendation.margin;
   const double held = margin->holds[which], error = margin->error[which];
   if (isnan(held))
-    say(t, key, HOOKE_OF_UNKNOWN, "reference", "%s: not known in this time", change);
+    say(t, key, HOOKE_OF_UNKNOWN, "reference", "%s: not known%s", change,
+        t->study->budget_spent ? " in this time" : "");
   else if (isnan(error))
     say(t, key, HOOKE_OF_UNKNOWN, "reference",
         "%s: no longer, a run did not come to its end or was not judged", change);
   else
-    say(t, key, t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference", "%s: %s, its error is %.3g m then",
-        change, held == 1.0 ? "still at most that" : "no longer", error);
+    say(t, key, t->of, "reference", "%s: %s, its error%s is %.3g m then", change,
+        held == 1.0 ? "still at most that" : "no longer", t->where, error);
 }
 
 static void tell_margin(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
   const double fraction = r->margin.limit_share, agreement = t->study->reference.agreement;
-  say(t, "margin", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
-      "that error lies between %.3g and %.3g m, by what the reference is known to",
+  say(t, "margin", t->of, "reference",
+      "that error%s lies between %.3g and %.3g m, by what the reference is known to", t->where,
       fmax(0.0, r->error - agreement), r->error + agreement);
   if (fraction > 0.0 && !isinf(fraction))
     say(t, "stability", HOOKE_OF_PART, "limit", "its step is %.2g of the largest stable one at the start",
@@ -80,22 +90,22 @@ static void tell_margin(const struct teller *t) {
               HOOKE_STUDY_START);
 }
 
-static void tell_recommendation(const struct teller *t) {
-  const struct hk_study_recommendation *r = &t->study->recommendation;
-  char run[SETTING_SIZE], where[96] = "over the whole run";
+/* Its error may be known for less than that of the rows. */
+static void tell_recommendation(const struct teller *errors) {
+  const struct hk_study_recommendation *r = &errors->study->recommendation;
+  struct teller recommended = *errors, *t = &recommended;
+  char run[SETTING_SIZE];
   if (!hk_study_recommends(t->study)) return;
+  if (!isnan(r->until)) stand_until(t, r->until);
   if (!r->met) {
     tell_closest(t);
     return;
   }
-  const int whole = t->all && r->until >= t->until * (1.0 - 1e-9);
-  if (!whole)
-    hk_print(where, sizeof where, "up to %.6g s, beyond which nobody knows it%s", r->until,
-             t->all ? " of the pick" : "");
-  say(t, "recommendation", whole ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
-      "the cheapest run found whose error is at most %.6g m %s is %s: its error is %.3g m, with %.0f evaluations of "
-      "the forces",
-      r->want, where, name_run(t->study, run), r->error, r->force_evaluations);
+  say(t, "recommendation", t->of, "reference",
+      "the cheapest run found whose error is at most %.6g m%s is %s: its error is %.3g m, with %.0f evaluations of "
+      "the forces%s",
+      r->want, t->all ? " over the whole run" : t->where, name_run(t->study, run), r->error,
+      r->force_evaluations, t->all ? "" : "; of what comes later nothing is known");
   tell_time(t);
   if (r->note[0]) say(t, "machine", HOOKE_OF_WHOLE, "clock", "%s", r->note);
   tell_margin(t);
@@ -144,10 +154,10 @@ static void tell_floor(const struct teller *t) {
              "itself in steps of %.6g s, twice as long: an error that both make alike is not seen", step);
   else
     hk_print(check, sizeof check, "%s, which shares nothing with it but the forces", r->check);
-  say(t, "floor", t->all ? HOOKE_OF_WHOLE : HOOKE_OF_PART, "reference",
-      "no error below %.3g m means anything, and no energy drift below %.3g J: to that the reference, by %s, "
+  say(t, "floor", t->of, "reference",
+      "no error below %.3g m means anything%s, and no energy drift below %.3g J: to that the reference, by %s, "
       "agrees with %s",
-      r->agreement, r->energy_agreement, r->method, check);
+      r->agreement, t->where, r->energy_agreement, r->method, check);
 }
 
 static void tell_reference(const struct teller *t) {
@@ -188,7 +198,7 @@ static void tell_ensemble(const struct teller *t) {
         (int)e->members);
   else if (e)
     say(t, "statistics", HOOKE_OF_PART, "ensemble",
-        "statistics are of means over %.6g s to %.6g s, where positions cannot be computed, of %d runs of each "
+        "statistics are of means over %.6g s to %.6g s, beyond the frames whose errors are known, of %d runs of each "
         "method, whose starts differ by noise of %.3g m",
         e->from, e->until, (int)e->members, e->noise);
   else if (asked && t->all)
@@ -198,10 +208,8 @@ static void tell_ensemble(const struct teller *t) {
 
 void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_study *study = measurement->object;
-  const struct teller t = {.study = study,
-                           .claims = claims,
-                           .until = hk_study_trusted_until(study),
-                           .all = hk_study_trusts_all(study)};
+  struct teller t = {.study = study, .claims = claims};
+  stand_until(&t, hk_study_trusted_until(study));
   tell_recommendation(&t);
   tell_reference(&t);
   if (study->budget_spent)

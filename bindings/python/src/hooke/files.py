@@ -14,7 +14,7 @@ import numpy as np
 
 from ._library import lib
 from ._look import WorkProgress
-from ._measurement import Measurement, Record
+from ._measurement import Claim, Measurement, Record, said
 from ._memory import Handle, double_pointer
 from ._status import BadValue
 from ._types import FloatArray, Path
@@ -116,9 +116,9 @@ def _view(source: pathlib.Path, title: str | None, options: dict[str, Any]) -> M
     return made
 
 
-class Verification(Record, table="verify.verify"):
+class Verification(Record, table="verify.verify", also=("claims",)):
     """The result of verifying a trajectory; true if it reproduces from its scene. Machines and versions are those that
-    made the file, and those here."""
+    made the file, and those here. `claims` are what it says, which ``print(found)`` shows."""
 
     @property
     def texts(self) -> dict[str, str]:
@@ -132,6 +132,9 @@ class Verification(Record, table="verify.verify"):
 
     def __bool__(self) -> bool:
         return self.verdict in ("agrees", "within-tolerance")
+
+    def __str__(self) -> str:
+        return said(self.claims)
 
     def __repr__(self) -> str:
         return f"Verification({self.verdict}, balance {self.balance}, {self.difference or 'no difference'})"
@@ -159,4 +162,4 @@ def verify(
     except BadValue:
         if measurement.text("verify", 0, "verdict") != "disagrees":
             raise
-    return measurement.each(Verification, "verify")[0]
+    return measurement.each(Verification, "verify", claims=measurement.each(Claim, "claims"))[0]
