@@ -170,6 +170,7 @@ def test_refine(hooke, write):
     assert cloth["order"] is None and "the error of the step" in cloth["note"]
     told = [claim for claim in answer.json["claims"] if claim["key"] == "resolution"]
     assert [claim["of"] for claim in told] == ["whole" if part["factor"] else "unknown" for part in (cloth, rope)]
+    assert cloth["error"] is None and "nan" not in told[0]["text"] and cloth["note"] in told[0]["text"]
     assert f"rope has 4 cells, which leaves {rope['error']:.3g} m; an error of at most 0.01 m asks for {rope['wanted'][0]}" == told[1]["text"]
     assert "2N to 4N" in hooke("needs", "scene.json", "--want", "1cm", "--watch", "rope", "--refine").out
 
@@ -285,3 +286,12 @@ def test_the_method_is_named_with_who_chose_it(hooke, write):
         told, found = (hooke("needs", write(scene), "--want", "1cm", *more) for more in ((), ("--json",)))
         assert f"by {found.json['method']}{how} the time step puts the full scene off" in told.out
         assert found.json["method_picked"] == bool(left_out)
+
+
+def test_every_name_that_is_left_out_is_told_whole(hooke, write):
+    scene = copy.deepcopy(SIX_PARTICLES)
+    names = [f"\u00e9\U0001f600{'x' * 150}{k}" for k in range(8)]
+    scene["springs"] += [{"name": name, "between": [[1, 3]] * 9, "stiffness": 1e-9} for name in names]
+    told = hooke("needs", write(scene), "--want", "1cm", "--duration", "0.1", "--method", "verlet", "--json").json
+    claim = next(claim for claim in told["claims"] if claim["key"] == "lean")
+    assert set(names) <= set(told["lean"]["without"]) and all(name in claim["text"] for name in names)
