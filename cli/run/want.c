@@ -115,42 +115,26 @@ void cli_want_print(const struct cli_run *run) {
   cli_print_flush();
 }
 
-static void print_json_piece(const struct cli_run *run, struct cli_json *json) {
-  const double piece = number_of(run, "last_piece");
-  if (isnan(piece)) return;
-  cli_json_open(json, "last_piece", '{');
-  cli_json_number(json, "error", piece);
-  cli_json_number(json, "from", number_of(run, "last_from"));
-  cli_json_number(json, "until", hooke_state_time(run->setup.state));
-  cli_json_close(json);
-}
-
-static void print_json_error(const struct cli_run *run, struct cli_json *json) {
+static void print_json_error(const struct cli_run *run) {
   const char *by = text_of(run, "by"), *reason = text_of(run, "reason");
-  cli_json_open(json, "error", '{');
-  cli_json_number(json, "estimate", number_of(run, "estimate"));
-  cli_json_number(json, "rms", number_of(run, "rms"));
-  cli_json_number(json, "known_until", number_of(run, "known_until"));
-  cli_json_text(json, "by", by);
-  cli_json_number(json, "energy_rise", number_of(run, "energy_rise"));
-  cli_json_number(json, "heat_excess", number_of(run, "heat_excess"));
-  cli_json_text(json, "reason", reason[0] ? reason : NULL);
-  cli_json_close(json);
+  const double piece = number_of(run, "last_piece");
+  cli_print_json("'error': {'estimate': %g, 'rms': %g, 'known_until': %g, 'by': %s, 'energy_rise': %g, "
+                 "'heat_excess': %g, 'reason': %s}, ",
+                 number_of(run, "estimate"), number_of(run, "rms"), number_of(run, "known_until"), by,
+                 number_of(run, "energy_rise"), number_of(run, "heat_excess"), reason[0] ? reason : NULL);
+  if (!isnan(piece))
+    cli_print_json("'last_piece': {'error': %g, 'from': %g, 'until': %g}, ", piece,
+                   number_of(run, "last_from"), hooke_state_time(run->setup.state));
 }
 
-void cli_want_print_json(const struct cli_run *run, struct cli_json *json) {
+void cli_want_print_json(const struct cli_run *run) {
   if (!run->estimate || run->was_finished) return;
   const double met = number_of(run, "met");
-  if (run->outcome == HOOKE_OK) {
-    print_json_error(run, json);
-    print_json_piece(run, json);
-  }
+  if (run->outcome == HOOKE_OK) print_json_error(run);
   if (!is_wanted(run)) return;
-  cli_json_open(json, "want", '{');
-  cli_json_number(json, "wanted", number_of(run, "wanted"));
-  cli_json_flag(json, "met", met);
-  cli_json_number(json, "seconds", number_of(run, "seconds"));
-  cli_json_close(json);
+  cli_print_json("'want': {'wanted': %g, 'met': ", number_of(run, "wanted"));
+  cli_print_json(isnan(met) ? "null" : met == 1.0 ? "true" : "false");
+  cli_print_json(", 'seconds': %g}, ", number_of(run, "seconds"));
 }
 
 int cli_want_exit_code(const struct cli_run *run) {

@@ -138,16 +138,6 @@ static int read_back(struct make *make) {
 
 /* ---- results ---- */
 
-static void print_json(const struct make *make) {
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_text(&json, "scene", make->output);
-  cli_json_text(&json, "kind", make->arguments->scene);
-  cli_json_count(&json, "particles", hooke_system_particle_count(make->system));
-  cli_json_count(&json, "springs", hooke_system_count(make->system, "springs"));
-  cli_json_end(&json);
-}
-
 /* Describes the scene; and for a step that was not given, names the commands that find one. */
 static void tell(struct make *make) {
   const int64_t particles = hooke_system_particle_count(make->system);
@@ -174,7 +164,10 @@ static int write(const struct make *make) {
   const int32_t status = hooke_scene_write(make->output, make->system,
                                            hooke_options_text(make->arguments->more, "title"), make->run);
   if (status != HOOKE_OK) return cli_report_status(make->arguments, status);
-  if (make->arguments->json) print_json(make);
+  if (make->arguments->json)
+    cli_print_json("{'scene': %s, 'kind': %s, 'particles': %" PRId64 ", 'springs': %" PRId64 "}\n",
+                   make->output, make->arguments->scene, hooke_system_particle_count(make->system),
+                   hooke_system_count(make->system, "springs"));
   return HOOKE_EXIT_DONE;
 }
 

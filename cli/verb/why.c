@@ -94,23 +94,19 @@ static int32_t read_output(struct why *why) {
 /* ---- results ---- */
 
 /* For a run that did not blow up: a document of nothing but its method and the time that it reached. */
-static int32_t print_nothing(const struct why *why) {
+static void print_nothing(const struct why *why) {
   const char *name;
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_text(&json, "scene", why->arguments->scene);
+  cli_print_json("{'scene': %s", why->arguments->scene);
   for (int64_t k = 0; (name = hooke_measurement_column("why", "why", k, "name")); k++) {
     if (strcmp(name, "time") == 0)
-      cli_json_number(&json, name, why->time);
+      cli_print_json(", %s: %g", name, why->time);
     else
-      cli_json_text(&json, name,
-                    strcmp(name, "method") == 0 ? hooke_options_text(why->setup.options, name) : NULL);
+      cli_print_json(", %s: %s", name,
+                     strcmp(name, "method") == 0 ? hooke_options_text(why->setup.options, name) : NULL);
   }
-  for (int64_t k = 1; (name = hooke_measurement_table("why", k, "name")); k++) {
-    cli_json_open(&json, name, '[');
-    cli_json_close(&json);
-  }
-  return cli_json_end(&json);
+  for (int64_t k = 1; (name = hooke_measurement_table("why", k, "name")); k++)
+    cli_print_json(", %s: []", name);
+  cli_print_json("}\n");
 }
 
 static void print_number(const char *label, double value, const char *unit) {
@@ -152,12 +148,13 @@ static void print_words(const struct why *why) {
 static int32_t tell(const struct why *why) {
   int32_t status = HOOKE_OK;
   if (why->why) status = cli_advice_label(why->arguments, why->why);
-  if (why->arguments->json && !why->why) return print_nothing(why);
-  if (why->arguments->json) {
+  if (why->arguments->json && why->why) {
     const int32_t rest = cli_claims_print_json(why->arguments, "scene", why->why);
     return status == HOOKE_OK ? rest : status;
   }
-  if (why->why)
+  if (why->arguments->json)
+    print_nothing(why);
+  else if (why->why)
     print_words(why);
   else
     print_margin(why);
