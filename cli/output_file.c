@@ -26,7 +26,8 @@ int cli_output_file_check(const struct cli_arguments *arguments, const char *fla
   return HOOKE_EXIT_DONE;
 }
 
-int cli_output_file_check_report(const struct cli_arguments *arguments, const char *report) {
+int cli_output_file_check_report(const struct cli_arguments *arguments) {
+  const char *report = cli_arguments_text(arguments, "report");
   if (!report) return HOOKE_EXIT_DONE;
   const char *library = hooke_build_fact("chartjs");
   if (!library || !library[0]) {

@@ -9,7 +9,7 @@
 int cli_output_file_check(const struct cli_arguments *arguments, const char *flag, const char *file);
 
 /* The same for --report, which also needs the drawing library in this build; NULL is allowed. */
-int cli_output_file_check_report(const struct cli_arguments *arguments, const char *report);
+int cli_output_file_check_report(const struct cli_arguments *arguments);
 
 /* Writes the page of --report, if it was given, with the title of the scene.
  * Returns `code`, or that of a page that could not be written. */

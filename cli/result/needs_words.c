@@ -1,6 +1,6 @@
 /* Needs of a scene, in words. */
 #include "claims.h"
-#include "needs_results.h"
+#include "results.h"
 #include "rows.h"
 
 #include <math.h>
@@ -93,15 +93,15 @@ static void print_parts(const hooke_measurement *needs) {
   }
 }
 
-void cli_needs_results_print(const struct cli_needs_results *results) {
-  const hooke_measurement *needs = results->needs;
+void cli_needs_results_print(const struct cli_results *results) {
+  const hooke_measurement *needs = results->found;
   const double spread = cli_number(needs, "needs", "spread");
   cli_say("%s, %g m wanted\n", cli_setup_title(results->arguments, &results->setup),
           cli_number(needs, "needs", "want"));
   cli_claims_print(results->arguments, needs, LABEL, results->command);
   if (isnan(cli_number(needs, "full", "step_error"))) return;
   printf("\n");
-  if (results->refine) {
+  if (cli_arguments_asks(results->arguments, "refine")) {
     print_parts(needs);
     return;
   }

@@ -204,7 +204,7 @@ static int read_options(struct why *why) {
 
 static int do_why(const struct cli_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .bound = NAN};
-  int code = cli_output_file_check_report(arguments, cli_arguments_text(arguments, "report"));
+  int code = cli_output_file_check_report(arguments);
   if (code == HOOKE_EXIT_DONE) code = read_options(&why);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
