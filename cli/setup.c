@@ -127,15 +127,3 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
   }
   return HOOKE_EXIT_DONE;
 }
-
-int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value) {
-  const char *text = cli_arguments_text(arguments, name);
-  hooke_options *options = NULL;
-  if (!text) return HOOKE_EXIT_DONE;
-  int32_t status = hooke_options_create("study", &options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, name, text);
-  if (status == HOOKE_OK) *value = hooke_options_number(options, name);
-  hooke_options_destroy(options);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE
-                            : cli_report(arguments, HOOKE_EXIT_USAGE, "--%s: %s", name, hooke_last_error());
-}

@@ -41,8 +41,4 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
 /* Before any work: checks that this build can write `output` (NULL: none), a file of HDF5. */
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 
-/* Reads the number given as --`name`, whose unit and bounds are those of a study's option;
- * `value` is unchanged if it is not given. A failure is reported and returned as exit code. */
-int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value);
-
 #endif

@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12, HEAD_SIZE = 128 };
@@ -119,45 +118,27 @@ static const char *head_of(const hooke_measurement *study, const char *table, in
   return head;
 }
 
-/* Right-aligned text in a column. */
-static void print_right(int width, const char *text) {
-  for (int k = (int)strlen(text); k < width; k++)
-    fputc(' ', stdout);
-  cli_print_text(stdout, text);
+/* The step, or the tolerance that stands for it. */
+static void print_setting(const hooke_measurement *study, const char *table, int64_t row) {
+  const double step = hooke_measurement_number(study, table, row, "step");
+  cli_rows_print_as(SETTING, isnan(step) ? hooke_measurement_number(study, table, row, "rtol") : step,
+                    isnan(step) ? "rtol %.4g" : "%.4g", NULL, NULL);
 }
 
-static void print_setting(int width, double step, double rtol) {
-  char setting[HOOKE_NUMBER_SIZE];
-  snprintf(setting, sizeof setting, "%s%.4g", isnan(step) ? "rtol " : "", isnan(step) ? rtol : step);
-  print_right(width, setting);
-}
-
-static int print_head(const hooke_measurement *study, int64_t quantity) {
+static int width_of(const hooke_measurement *study, int64_t quantity) {
   char head[HEAD_SIZE];
-  const int length = (int)strlen(head_of(study, "watched", quantity, head)),
-            width = length < CELL ? CELL : length;
-  printf("  ");
-  print_right(width, head);
-  return width;
+  const int length = (int)strlen(head_of(study, "watched", quantity, head));
+  return length < CELL ? CELL : length;
 }
 
-/* A number, marked if it is within ten times the accuracy of the reference. */
-static void print_error(int width, double value, double agreement) {
-  char cell[HOOKE_NUMBER_SIZE] = "-";
-  if (!isnan(value)) snprintf(cell, sizeof cell, "%.4g", value);
-  printf(" %*s%c", width, cell, value <= 10.0 * agreement ? '*' : ' ');
-}
-
-/* The errors of a row; the agreements if it is -1. */
-static void print_cells(const hooke_measurement *study, int64_t row, const int *width) {
+/* The errors of a row, marked within ten times the agreement of the reference; the agreements if it is -1. */
+static void print_cells(const hooke_measurement *study, int64_t row) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
   for (int64_t k = 0; k < count; k++) {
-    const double agreement = hooke_measurement_number(study, "watched", k, "agreement");
-    if (row < 0)
-      print_error(width[k], agreement, -1.0);
-    else
-      print_error(width[k], hooke_measurement_number(study, "watched_errors", row * count + k, "error"),
-                  agreement);
+    const double agreement = hooke_measurement_number(study, "watched", k, "agreement"),
+                 error = hooke_measurement_number(study, "watched_errors", row * count + k, "error");
+    cli_rows_print_as(width_of(study, k), row < 0 ? agreement : error, "%.4g", NULL, NULL);
+    putchar(row >= 0 && error <= 10.0 * agreement ? '*' : ' ');
   }
   printf("\n");
 }
@@ -165,23 +146,22 @@ static void print_cells(const hooke_measurement *study, int64_t row, const int *
 /* A line a row of the study; nothing if none are watched. */
 static void print_watched(const hooke_measurement *study, int32_t method_width) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
-  int *width = count > 0 ? calloc((size_t)count, sizeof *width) : NULL;
-  if (width == NULL) return;
+  char head[HEAD_SIZE];
+  if (count <= 0) return;
   printf("\n%-*s %*s", method_width, "error in", SETTING, "step [s]");
-  for (int64_t k = 0; k < count; k++)
-    width[k] = print_head(study, k);
+  for (int64_t k = 0; k < count; k++) {
+    const char *text = head_of(study, "watched", k, head);
+    cli_say("%*s%s", 2 + width_of(study, k) - (int)strlen(text), "", text);
+  }
   printf("\n%-*s %*s", method_width, "agreement", SETTING, "");
-  print_cells(study, -1, width);
+  print_cells(study, -1);
   for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
     cli_print_padded(stdout, method_width, hooke_measurement_text(study, "rows", row, "method"));
-    printf(" ");
-    print_setting(SETTING, hooke_measurement_number(study, "rows", row, "step"),
-                  hooke_measurement_number(study, "rows", row, "rtol"));
-    print_cells(study, row, width);
+    print_setting(study, "rows", row);
+    print_cells(study, row);
   }
   printf("the largest differences from the reference, in a period (-: none is seen) that of the two periods; "
          "*: within ten times of the agreement\n");
-  free(width);
 }
 
 /* ---- statistics ---- */
@@ -216,32 +196,25 @@ static void print_bias(const hooke_measurement *study, int64_t row) {
 
 static void print_source(const hooke_measurement *study, int32_t method_width, int64_t row) {
   printf("  ");
-  cli_print_padded(stdout, method_width + 1, hooke_measurement_text(study, "statistics", row, "method"));
-  print_setting(SETTING, statistic(study, row, "step"), statistic(study, row, "rtol"));
+  cli_print_padded(stdout, method_width, hooke_measurement_text(study, "statistics", row, "method"));
+  print_setting(study, "statistics", row);
   printf(" %5.0f", statistic(study, row, "members"));
   cli_rows_print_cell(CELL, statistic(study, row, "mean"));
   cli_rows_print_cell(CELL, statistic(study, row, "spread"));
   print_bias(study, row);
 }
 
-/* One of `count` quantities. */
-static void print_quantity(const hooke_measurement *study, int32_t method_width, int64_t quantity,
-                           int64_t count) {
-  const int64_t rows = hooke_measurement_row_count(study, "statistics");
-  char head[HEAD_SIZE];
-  cli_say("%s\n", head_of(study, "statistics", quantity, head));
-  for (int64_t row = quantity; row < rows; row += count)
-    print_source(study, method_width, row);
-}
-
 static void print_ensemble(const hooke_measurement *study, int32_t method_width) {
-  if (isnan(cli_number(study, "ensemble", "from"))) return;
-  printf("\nstatistics\n");
-  printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
-         CELL, "spread", "bias");
   const int64_t count = quantity_count(study);
-  for (int64_t k = 0; k < count; k++)
-    print_quantity(study, method_width, k, count);
+  char head[HEAD_SIZE];
+  if (isnan(cli_number(study, "ensemble", "from"))) return;
+  printf("\nstatistics\n  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs",
+         CELL, "mean", CELL, "spread", "bias");
+  for (int64_t k = 0; k < count; k++) {
+    cli_say("%s\n", head_of(study, "statistics", k, head));
+    for (int64_t row = k; row < hooke_measurement_row_count(study, "statistics"); row += count)
+      print_source(study, method_width, row);
+  }
   printf("spread: the standard deviation of the runs; bias: the difference from the reference's mean, in "
          "standard errors of it;\nbelow %.0f none is seen, and where there is none, one figure in twenty is "
          "above, more with few runs\n",

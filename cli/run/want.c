@@ -38,32 +38,32 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
                    adaptive ? "" : " s");
 }
 
-/* `want` [m]; NaN: none. */
-static int32_t create(struct cli_run *run, double want) {
+/* `want`: NULL without one. */
+static int create(struct cli_run *run, const char *want) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_create("estimate", &options);
-  if (status == HOOKE_OK && !isnan(want)) status = hooke_options_set_number(options, "want", want);
+  if (status == HOOKE_OK && want) status = hooke_options_set_text(options, "want", want);
+  const int32_t refused = status == HOOKE_BAD_VALUE;
   if (status == HOOKE_OK)
     status = hooke_measurement_create("estimate", run->setup.system, NULL, options, &run->estimate);
   hooke_options_destroy(options);
-  return status;
+  if (refused) return cli_report(run->arguments, HOOKE_EXIT_USAGE, "--want: %s", hooke_last_error());
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
 int cli_want_pick(struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   const char *text = cli_arguments_text(arguments, "want");
-  double want = NAN;
   int code = text ? cli_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (code == HOOKE_EXIT_DONE && text) code = cli_setup_read_study(arguments, "want", &want);
-  if (code != HOOKE_EXIT_DONE) return code;
   if (!text && cli_arguments_text(arguments, "no-estimate")) return HOOKE_EXIT_DONE;
-  int32_t status = create(run, want);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  if (code == HOOKE_EXIT_DONE) code = create(run, text);
+  if (code != HOOKE_EXIT_DONE) return code;
   hooke_measurement_on_progress(run->estimate, cli_watch_progress, &run->watch);
   if (!text) return HOOKE_EXIT_DONE;
   cli_watch_start(&run->watch, arguments);
-  status = hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
+  const int32_t status =
+      hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
   cli_watch_end(&run->watch);
   if (status == HOOKE_STOPPED)
     return cli_report(arguments, HOOKE_EXIT_INTERRUPTED,

@@ -18,8 +18,7 @@ enum { LABEL = 12 };
 struct why {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_record *record; /* NULL: the scene is not an output */
-  hooke_options *options;
+  hooke_record *record;   /* NULL: the scene is not an output */
   hooke_measurement *why; /* NULL: the run did not blow up */
   const char *status;     /* of the run, if any */
   double time;            /* reached, if any */
@@ -53,7 +52,7 @@ static int32_t run_again(struct why *why) {
   why->status = "finished";
   if (status == HOOKE_OK) status = find_bound(why, why->setup.state);
   if (cli_exit_code(status) == HOOKE_EXIT_DIVERGED) {
-    status = hooke_why_create(integrator, why->options, &why->why);
+    status = hooke_why_create(integrator, why->arguments->more, &why->why);
     if (status == HOOKE_OK) status = cli_watch_run(why->arguments, why->why, NULL);
   }
   hooke_integrator_destroy(integrator);
@@ -77,8 +76,8 @@ static int32_t read_output(struct why *why) {
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
     if (blew_up(why->status))
-      status =
-          hooke_why_create_kept(why->setup.system, why->setup.options, first, last, why->options, &why->why);
+      status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last, why->arguments->more,
+                                     &why->why);
   }
   hooke_state_destroy(first);
   hooke_state_destroy(last);
@@ -193,32 +192,18 @@ static int find_out(struct why *why) {
   return write_report(why, status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments));
 }
 
-static int read_options(struct why *why) {
-  double budget = NAN;
-  const int code = cli_setup_read_study(why->arguments, "budget", &budget);
-  if (code != HOOKE_EXIT_DONE) return code;
-  int32_t status = hooke_options_create("why", &why->options);
-  if (status == HOOKE_OK && !isnan(budget)) status = hooke_options_set_number(why->options, "budget", budget);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(why->arguments, status);
-}
-
 static int do_why(const struct cli_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .bound = NAN};
   int code = cli_output_file_check_report(arguments);
-  if (code == HOOKE_EXIT_DONE) code = read_options(&why);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_measurement_destroy(why.why);
-  hooke_options_destroy(why.options);
   hooke_record_close(why.record);
   cli_setup_destroy(&why.setup);
   return code;
 }
 
 static const struct cli_verb_row rows[] = {
-    {"budget", 0, "SECONDS",
-     "wall time that the explanation may take after the run, such as 5s or 2min; if not given, as much "
-     "counted work as the run took, or 2 s if that is more, which is the same however busy the machine is"},
     {"report", 0, "FILE.html",
      "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
      "slowly, beside the advised run"},
@@ -231,6 +216,7 @@ const struct cli_verb cli_verb_why = {
             "where and when, the springs that determine it, and what to do, as commands that have been "
             "tried. The exit code is 0 also if the run did not blow up.",
     HOOKE_VERB_ROWS(rows),
+    .options = "why",
     .example = "hooke why cloth.json --step 50ms --every 50ms",
     .function = do_why,
 };
