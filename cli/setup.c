@@ -104,10 +104,6 @@ int cli_setup_require(const struct cli_arguments *arguments, const struct cli_se
       duration ? " --duration 1" : "", step ? " --step 1e-3" : "");
 }
 
-int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {
-  return cli_setup_require(arguments, setup, NULL);
-}
-
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
                           const char *output) {
   if (output && cli_os_is_same_file(input, output)) {

@@ -29,9 +29,7 @@ const char *cli_setup_title(const struct cli_arguments *arguments, const struct 
 int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
                          const char *output);
 
-/* Report what a run by `method` lacks: a duration, a step, the method itself in this build; the first
- * function checks the duration only. */
-int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup);
+/* Reports what a run by `method` (NULL: any) lacks: a duration, a step, the method itself in this build. */
 int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
                       const char *method);
 

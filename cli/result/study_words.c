@@ -13,6 +13,18 @@ enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12, HEAD_SIZE =
 static const double SEEN = 2.0;
 static const int MEMBERS_ADVISED = 16;
 
+static const struct cli_column columns[] = {
+    {"step", "step", "[s]", 9, "%.4g", NULL, NULL, 0},
+    {"rtol", "rtol", "", 9, "%.4g", NULL, NULL, 0},
+    {"error", "error", "max [m]", 10, "%.4g", NULL, NULL, 1},
+    {"error_final", "error", "end [m]", 10, "%.4g", NULL, NULL, 0},
+    {"error_max", "farthest", "particle [m]", 12, "%.4g", NULL, NULL, 0},
+    {"energy_drift", "energy", "drift [J]", 10, "%.4g", NULL, NULL, 1},
+    {"steps", "steps", "", 9, "%.0f", NULL, NULL, 0},
+    {"force_evaluations", "force", "evaluations", 11, "%.0f", NULL, NULL, 0},
+    {"wall_seconds", "wall time", "[s]", 10, "%.4g", NULL, NULL, 1},
+    {.what = NULL}};
+
 int32_t cli_study_trusts_all(const hooke_measurement *study) {
   return cli_number(study, "reference", "trusted_until") >=
          cli_number(study, "study", "duration") * (1.0 - 1e-9);
@@ -26,29 +38,20 @@ static char mark_of(const hooke_measurement *study, int64_t row, const char *wha
   return hooke_measurement_number(study, "rows", row, "timed_alone") == 0.0 ? '+' : ' ';
 }
 
-static struct cli_rows rows_of(const struct cli_results *results) {
-  return (struct cli_rows){.source = results->found,
-                           .count = hooke_measurement_row_count(results->found, "rows"),
-                           .columns = cli_rows_of_runs,
-                           .grouped = !cli_arguments_asks(results->arguments, "once"),
-                           .status = 1,
-                           .mark = mark_of};
-}
-
 /* ---- errors over time ---- */
 
 /* At a few evenly spaced frames, including the last. */
-static void print_errors(const struct cli_rows *rows, int32_t width) {
+static void print_errors(const hooke_measurement *study, int32_t width) {
   int64_t count;
-  const double *time = hooke_measurement_series(rows->source, "reference", 0, "time", &count);
+  const double *time = hooke_measurement_series(study, "reference", 0, "time", &count);
   const int64_t last = count - 1, frames = last < TIMES ? last : TIMES;
   printf("\nerror [m]\n%-*s", width, "at t [s] =");
   for (int64_t i = 1; i <= frames; i++)
     cli_rows_print_cell(10, time[last * i / frames]);
   printf("\n");
-  for (int64_t row = 0; row < rows->count; row++) {
-    const double *error = hooke_measurement_series(rows->source, "rows", row, "error_at", NULL);
-    cli_print_padded(stdout, width, hooke_measurement_text(rows->source, "rows", row, "method"));
+  for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
+    const double *error = hooke_measurement_series(study, "rows", row, "error_at", NULL);
+    cli_print_padded(stdout, width, hooke_measurement_text(study, "rows", row, "method"));
     for (int64_t i = 1; i <= frames; i++)
       cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
     printf("\n");
@@ -86,13 +89,12 @@ static void print_orders(const hooke_measurement *study, int32_t width) {
 }
 
 /* Legend of the columns, and of the marks that occur. */
-static void print_legend(const struct cli_rows *rows, const hooke_measurement *study, int32_t once) {
+static void print_legend(const hooke_measurement *study, int32_t once) {
   int32_t shared = 0, marked = 0;
   double spread = 0.0;
-  for (int64_t row = 0; row < rows->count; row++) {
-    shared |= rows->mark(rows->source, row, "wall_seconds") == '+';
-    marked |=
-        rows->mark(rows->source, row, "error") == '*' || rows->mark(rows->source, row, "energy_drift") == '*';
+  for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
+    shared |= mark_of(study, row, "wall_seconds") == '+';
+    marked |= mark_of(study, row, "error") == '*' || mark_of(study, row, "energy_drift") == '*';
     spread = fmax(spread, hooke_measurement_number(study, "rows", row, "wall_median") /
                               hooke_measurement_number(study, "rows", row, "wall_seconds"));
   }
@@ -239,25 +241,26 @@ static void print_statistics(const struct cli_results *results, int32_t method_w
 
 void cli_study_results_print(const struct cli_results *results) {
   const struct cli_arguments *arguments = results->arguments;
-  const struct cli_rows rows = rows_of(results);
+  const hooke_measurement *study = results->found;
   const int once = cli_arguments_asks(arguments, "once");
-  int32_t width = cli_rows_method_width(&rows);
+  const int met = cli_number(study, "recommendation", "met") == 1.0;
+  const int32_t width = cli_rows_width(study, "rows", "method", HOOKE_METHOD_WIDTH);
+  const struct cli_rows rows = {
+      .source = study, .columns = columns, .grouped = !once, .status = 1, .mark = mark_of};
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, %s s\n", cli_setup_title(arguments, &results->setup),
-          cli_format_rounded(cli_number(results->found, "study", "duration"), text));
-  const int met = cli_number(results->found, "recommendation", "met") == 1.0;
-  cli_claims_print(arguments, results->found, INDENT, met ? results->command : NULL);
-  if (rows.count > 0) {
-    if (once) print_errors(&rows, width);
+          cli_format_rounded(cli_number(study, "study", "duration"), text));
+  cli_claims_print(arguments, study, INDENT, met ? results->command : NULL);
+  if (hooke_measurement_row_count(study, "rows") > 0) {
+    if (once) print_errors(study, width);
     printf("\n");
     cli_rows_print(&rows, width);
-    print_legend(&rows, results->found, once);
-    print_watched(results->found, width);
-  }
-  if (rows.count > 0 && !once) print_orders(results->found, width);
-  if (rows.count > 0 && !arguments->quiet && !cli_arguments_text(arguments, "want")) {
-    printf("\nwhich one to take: %s the error that you can live with, such as --want 1mm\n",
-           once ? "'hooke study' with" : "add");
+    print_legend(study, once);
+    print_watched(study, width);
+    if (!once) print_orders(study, width);
+    if (!arguments->quiet && !cli_arguments_text(arguments, "want"))
+      printf("\nwhich one to take: %s the error that you can live with, such as --want 1mm\n",
+             once ? "'hooke study' with" : "add");
   }
   if (!once) print_statistics(results, width);
 }

@@ -54,7 +54,7 @@ static int create(struct cli_run *run, const char *want) {
 int cli_want_pick(struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   const char *text = cli_arguments_text(arguments, "want");
-  int code = text ? cli_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
+  int code = text ? cli_setup_require(arguments, &run->setup, NULL) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
   if (!text && cli_arguments_text(arguments, "no-estimate")) return HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = create(run, text);

@@ -59,8 +59,7 @@ static int make_ready(struct cli_results *l) {
   l->from = l->setup.state;
   const char *method = hooke_options_text(l->setup.options, "method");
   if (cli_arguments_asks(l->arguments, "along")) return cli_setup_require(l->arguments, &l->setup, method);
-  if (cli_arguments_asks(l->arguments, "nonlinear"))
-    return cli_setup_require_duration(l->arguments, &l->setup);
+  if (cli_arguments_asks(l->arguments, "nonlinear")) return cli_setup_require(l->arguments, &l->setup, NULL);
   return HOOKE_EXIT_DONE;
 }
 
@@ -83,16 +82,15 @@ enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 /* The columns in which anything is known. */
 static void print_table(const hooke_measurement *limit) {
   struct cli_column shown[COLUMN_COUNT + 1] = {{.what = NULL}};
-  const struct cli_rows rows = {
-      .source = limit, .count = hooke_measurement_row_count(limit, "rows"), .columns = shown};
+  const struct cli_rows rows = {.source = limit, .columns = shown};
   int32_t count = 0;
   for (int k = 0; k < COLUMN_COUNT; k++) {
     int32_t known = 0;
-    for (int64_t row = 0; row < rows.count; row++)
+    for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
       known |= !isnan(hooke_measurement_number(limit, "rows", row, columns[k].what));
     if (known) shown[count++] = columns[k];
   }
-  cli_rows_print(&rows, cli_rows_method_width(&rows));
+  cli_rows_print(&rows, cli_rows_width(limit, "rows", "method", HOOKE_METHOD_WIDTH));
 }
 
 static void print_words(const struct cli_results *l) {

@@ -26,7 +26,7 @@ static int check(const struct cli_arguments *arguments) {
 }
 
 static int require(struct cli_results *results) {
-  return cli_setup_require_duration(results->arguments, &results->setup);
+  return cli_setup_require(results->arguments, &results->setup, NULL);
 }
 
 /* ---- the lean scene ---- */

@@ -122,7 +122,7 @@ static int tell(struct cli_results *results) {
 /* A ladder has steps of its own. */
 static int require(struct cli_results *results) {
   struct cli_methods methods;
-  int code = cli_setup_require_duration(results->arguments, &results->setup);
+  int code = cli_setup_require(results->arguments, &results->setup, NULL);
   if (code != HOOKE_EXIT_DONE || !cli_arguments_asks(results->arguments, "once")) return code;
   code = cli_methods_choose(results->arguments, &methods);
   for (int32_t k = 0; k < methods.count && code == HOOKE_EXIT_DONE; k++)
