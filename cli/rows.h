@@ -28,8 +28,9 @@ struct cli_rows {
 double cli_number(const hooke_measurement *measurement, const char *table, const char *column);
 const char *cli_text(const hooke_measurement *measurement, const char *table, const char *column);
 
+enum { HOOKE_METHOD_WIDTH = 10 }; /* the least, of a column of methods */
+
 /* Width of a column of texts, at least `least`. */
-enum { HOOKE_METHOD_WIDTH = 10 };
 int32_t cli_rows_width(const hooke_measurement *measurement, const char *table, const char *column,
                        size_t least);
 

@@ -1,6 +1,5 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
 #include "claims.h"
-#include "methods.h"
 #include "output_file.h"
 #include "limiting.h"
 #include "print.h"
@@ -45,12 +44,6 @@ static int read_state(struct cli_results *l, const char *at) {
 }
 
 /* ---- computing ---- */
-
-static int check_names(const struct cli_arguments *arguments) {
-  struct cli_methods methods;
-  if (!cli_arguments_text(arguments, "methods")) return HOOKE_EXIT_DONE;
-  return cli_methods_choose(arguments, &methods);
-}
 
 static int make_ready(struct cli_results *l) {
   const char *at = cli_arguments_text(l->arguments, "at");
@@ -125,7 +118,7 @@ static int tell(struct cli_results *l) {
 }
 
 static int do_limit(const struct cli_arguments *arguments) {
-  return cli_results_make(arguments, "limit", check_names, make_ready, tell);
+  return cli_results_make(arguments, "limit", NULL, make_ready, tell);
 }
 
 static const struct cli_verb_row own_rows[] = {

@@ -1,7 +1,6 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
 #include "claims.h"
 #include "command.h"
-#include "methods.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -24,9 +23,8 @@ static int ends_in(const char *name, const char *ending) {
 
 static int check(const struct cli_arguments *arguments) {
   const char *output = cli_arguments_text(arguments, "output");
-  struct cli_methods methods;
-  int code = cli_methods_choose(arguments, &methods);
-  if (code != HOOKE_EXIT_DONE || !output) return code;
+  int code = HOOKE_EXIT_DONE;
+  if (!output) return code;
   if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
     return cli_report(arguments, HOOKE_EXIT_USAGE,
                       "-o %s: allowed: a name that ends in .csv, for the "
@@ -121,12 +119,10 @@ static int tell(struct cli_results *results) {
 
 /* A ladder has steps of its own. */
 static int require(struct cli_results *results) {
-  struct cli_methods methods;
+  const int once = cli_arguments_asks(results->arguments, "once");
   int code = cli_setup_require(results->arguments, &results->setup, NULL);
-  if (code != HOOKE_EXIT_DONE || !cli_arguments_asks(results->arguments, "once")) return code;
-  code = cli_methods_choose(results->arguments, &methods);
-  for (int32_t k = 0; k < methods.count && code == HOOKE_EXIT_DONE; k++)
-    code = cli_setup_require(results->arguments, &results->setup, methods.name[k]);
+  for (int32_t k = 0; once && k < results->method_count && code == HOOKE_EXIT_DONE; k++)
+    code = cli_setup_require(results->arguments, &results->setup, results->method[k]);
   return code;
 }
 
