@@ -1,4 +1,4 @@
-/* The common start of verbs: loads the scene with the given options, commits it, and creates its initial
+/* The common start of verbs: checks files, loads the scene with the given options, and creates its initial
  * state. */
 #ifndef HOOKE_CLI_SETUP_H
 #define HOOKE_CLI_SETUP_H
@@ -38,5 +38,15 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
                           const char *output);
 /* Before any work: checks that this build can write `output` (NULL: none), a file of HDF5. */
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
+
+/* Refuses `file` (NULL: none), given to `flag`, if it ends like another kind than the option writes, and says
+ * what writes that kind; with the scene it is known whether it can be written. */
+int cli_setup_check_ending(const struct cli_arguments *arguments, const char *flag, const char *file);
+/* The same for --report, which also needs the drawing library in this build. */
+int cli_setup_check_report(const struct cli_arguments *arguments);
+/* Writes the page of --report, if it was given, with the title of the scene. Returns `code`, or that of a
+ * page that could not be written. */
+int cli_setup_write_report(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                           hooke_measurement *measurement, int code);
 
 #endif

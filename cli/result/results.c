@@ -1,6 +1,5 @@
 #include "results.h"
 
-#include "output_file.h"
 #include "report.h"
 #include "watch.h"
 
@@ -53,7 +52,7 @@ int cli_results_make(const struct cli_arguments *arguments, const char *kind,
   struct cli_results results = {.arguments = arguments};
   int code = choose_methods(&results);
   if (code == HOOKE_EXIT_DONE && check) code = check(arguments);
-  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_check_report(arguments);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = ready(&results);
   if (code == HOOKE_EXIT_DONE)

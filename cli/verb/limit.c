@@ -1,6 +1,5 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
 #include "claims.h"
-#include "output_file.h"
 #include "limiting.h"
 #include "print.h"
 #include "report.h"
@@ -114,7 +113,7 @@ static int tell(struct cli_results *l) {
     code = HOOKE_EXIT_DIVERGED;
   }
   if (isnan(number_of(l, "frequency_max"))) return code;
-  return cli_output_file_write_report(l->arguments, &l->setup, l->found, code);
+  return cli_setup_write_report(l->arguments, &l->setup, l->found, code);
 }
 
 static int do_limit(const struct cli_arguments *arguments) {

@@ -1,7 +1,6 @@
 /* hooke make: writes the scene of one part, from the options of the part. */
 #include "describe.h"
 #include "os.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
@@ -177,7 +176,7 @@ static int do_make(const struct cli_arguments *arguments) {
   if (make.output && strcmp(make.output, "-") == 0) make.output = NULL;
   if (cli_arguments_has_run(arguments)) make.run = arguments->run;
   cli_watch_start(&watch, arguments);
-  int code = make.output ? cli_output_file_check(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
+  int code = make.output ? cli_setup_check_ending(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = check_required(&make);
   if (code == HOOKE_EXIT_DONE) code = cli_watch_check(arguments, build(&make));
   if (code == HOOKE_EXIT_DONE) code = check_run(&make);

@@ -2,7 +2,6 @@
  */
 #include "claims.h"
 #include "os.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "results.h"
@@ -22,7 +21,7 @@ static int check(const struct cli_arguments *arguments) {
         arguments, HOOKE_EXIT_USAGE,
         "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
   }
-  return output ? cli_output_file_check(arguments, "-o", output) : HOOKE_EXIT_DONE;
+  return output ? cli_setup_check_ending(arguments, "-o", output) : HOOKE_EXIT_DONE;
 }
 
 static int require(struct cli_results *results) {
@@ -65,7 +64,7 @@ static int tell(struct cli_results *results) {
     code = cli_report_missing_words(results->arguments);
   if (!results->arguments->json) cli_needs_results_print(results);
   cli_print_flush();
-  code = cli_output_file_write_report(results->arguments, &results->setup, results->found, code);
+  code = cli_setup_write_report(results->arguments, &results->setup, results->found, code);
   if (results->outcome != HOOKE_STOPPED) return code;
   cli_report_words(results->arguments, "interrupted; kept: what is known so far");
   return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;

@@ -3,7 +3,6 @@
 #include "command.h"
 #include "fit.h"
 #include "os.h"
-#include "output_file.h"
 #include "report.h"
 #include "run.h"
 #include "want.h"
@@ -422,7 +421,7 @@ static int do_run(const struct cli_arguments *arguments) {
                         .output = cli_arguments_text(arguments, "output"),
                         .resumed = cli_arguments_text(arguments, "resume")};
   int code = check_resume(arguments);
-  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check(arguments, "-o", run.output);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_check_ending(arguments, "-o", run.output);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;

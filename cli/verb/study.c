@@ -1,7 +1,6 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
 #include "claims.h"
 #include "command.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "rows.h"
@@ -32,7 +31,7 @@ static int check(const struct cli_arguments *arguments) {
                       output);
   }
   if (ends_in(output, ".h5")) code = cli_setup_check_output(arguments, output);
-  return code == HOOKE_EXIT_DONE ? cli_output_file_check(arguments, "-o", output) : code;
+  return code == HOOKE_EXIT_DONE ? cli_setup_check_ending(arguments, "-o", output) : code;
 }
 
 /* ---- the recommended command ---- */
@@ -114,7 +113,7 @@ static int tell(struct cli_results *results) {
                      output && written == HOOKE_OK ? output : "");
   }
   int code = finish(results, written, found);
-  return rows > 0 ? cli_output_file_write_report(arguments, &results->setup, results->found, code) : code;
+  return rows > 0 ? cli_setup_write_report(arguments, &results->setup, results->found, code) : code;
 }
 
 /* A ladder has steps of its own. */

@@ -1,7 +1,6 @@
 /* hooke view: writes a trajectory as a page that plays it. */
 #include "blow_up.h"
 #include "os.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "run.h"
@@ -195,7 +194,7 @@ static int do_view(const struct cli_arguments *arguments) {
   if (code != HOOKE_EXIT_DONE) return code;
   char *output = output_of(arguments);
   if (!output) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  code = cli_output_file_check(arguments, "-o", output);
+  code = cli_setup_check_ending(arguments, "-o", output);
   if (code == HOOKE_EXIT_DONE) {
     code = write_view(arguments, output);
     const int written = code == HOOKE_EXIT_DONE || code == HOOKE_EXIT_DIVERGED;

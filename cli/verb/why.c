@@ -3,7 +3,6 @@
 #include "command.h"
 #include "fit.h"
 #include "limiting.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "rows.h"
@@ -167,7 +166,7 @@ static int write_report(const struct why *why, int code) {
     cli_report_words(why->arguments, "no page is written, since the run did not blow up");
     return code;
   }
-  return cli_output_file_write_report(why->arguments, &why->setup, why->why, code);
+  return cli_setup_write_report(why->arguments, &why->setup, why->why, code);
 }
 
 static int find_out(struct why *why) {
@@ -194,7 +193,7 @@ static int find_out(struct why *why) {
 
 static int do_why(const struct cli_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .bound = NAN};
-  int code = cli_output_file_check_report(arguments);
+  int code = cli_setup_check_report(arguments);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_measurement_destroy(why.why);
