@@ -380,6 +380,10 @@ const char *cli_arguments_text(const struct cli_arguments *arguments, const char
   return NULL;
 }
 
+int32_t cli_arguments_asks(const struct cli_arguments *arguments, const char *name) {
+  return hooke_options_number(arguments->more, name) == 1.0;
+}
+
 int32_t cli_arguments_has_run(const struct cli_arguments *arguments) {
   int32_t has = 0;
   for (int32_t i = 0; i < arguments->count; i++)

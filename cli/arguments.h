@@ -52,6 +52,9 @@ const char *cli_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]);
 /* Text given for an option; NULL if it was not given. */
 const char *cli_arguments_text(const struct cli_arguments *arguments, const char *name);
 
+/* 1 if a flag of the verb's own table is set. */
+int32_t cli_arguments_asks(const struct cli_arguments *arguments, const char *name);
+
 /* 1 if an option of a run was given. */
 int32_t cli_arguments_has_run(const struct cli_arguments *arguments);
 /* Sets every option of a run that was given. */

@@ -190,97 +190,49 @@ void cli_print_fact(int32_t indent, int32_t width, const char *label, const char
 
 /* ---- JSON ---- */
 
-static void write_string(FILE *file, const char *text) {
+static void write_string(const char *text) {
   uint32_t point;
-  fputc('"', file);
-  for (; *text; text += any_length(text)) {
-    if (read_character(text, &point) == 0)
-      fputs("\\ufffd", file);
-    else if (plain_length(text) == 0)
-      fprintf(file, "\\u%04x", (unsigned)point);
+  fputs(text ? "\"" : "null", stdout);
+  for (const char *at = text; at && *at; at += any_length(at)) {
+    if (read_character(at, &point) == 0)
+      fputs("\\ufffd", stdout);
+    else if (plain_length(at) == 0)
+      printf("\\u%04x", (unsigned)point);
     else
-      fprintf(file, "%s%.*s", *text == '"' || *text == '\\' ? "\\" : "", plain_length(text), text);
+      printf("%s%.*s", *at == '"' || *at == '\\' ? "\\" : "", plain_length(at), at);
   }
-  fputc('"', file);
+  if (text) fputc('"', stdout);
 }
 
-static void write_key(struct cli_json *json, const char *key) {
-  if (json->is_filled) fputs(", ", json->file);
-  json->is_filled = 1;
-  if (key) write_string(json->file, key);
-  if (key) fputs(": ", json->file);
-}
-
-void cli_json_begin(struct cli_json *json, FILE *file) {
-  *json = (struct cli_json){.file = file};
-  cli_json_open(json, NULL, '{');
-}
-
-int32_t cli_json_end(struct cli_json *json) {
-  while (json->depth > 0)
-    cli_json_close(json);
-  fputc('\n', json->file);
-  return json->status;
-}
-
-void cli_json_open(struct cli_json *json, const char *key, char bracket) {
-  write_key(json, key);
-  fputc(bracket, json->file);
-  json->bracket[json->depth++] = bracket;
-  json->is_filled = 0;
-}
-
-void cli_json_close(struct cli_json *json) {
-  fputc(json->bracket[--json->depth] == '{' ? '}' : ']', json->file);
-  json->is_filled = 1;
-}
-
-void cli_json_number(struct cli_json *json, const char *key, double value) {
+void cli_print_json(const char *format, ...) {
   char text[HOOKE_NUMBER_SIZE];
-  write_key(json, key);
-  fputs(isfinite(value) ? cli_format_number(value, text) : "null", json->file);
+  va_list args;
+  va_start(args, format);
+  for (; *format; format++) {
+    if (*format != '%') {
+      fputc(*format == '\'' ? '"' : *format, stdout);
+      continue;
+    }
+    const size_t longer = strspn(++format, "lI64"); /* of PRId64 */
+    format += longer;
+    if (*format == 's') {
+      write_string(va_arg(args, const char *));
+    } else if (*format == 'g') {
+      const double value = va_arg(args, double);
+      fputs(isfinite(value) ? cli_format_number(value, text) : "null", stdout);
+    } else {
+      const int64_t count = longer ? va_arg(args, int64_t) : va_arg(args, int);
+      printf(count < 0 ? "null" : "%" PRId64, count);
+    }
+  }
+  va_end(args);
 }
 
-void cli_json_flag(struct cli_json *json, const char *key, double value) {
-  write_key(json, key);
-  fputs(isnan(value) ? "null" : value != 0.0 ? "true" : "false", json->file);
-}
-
-void cli_json_count(struct cli_json *json, const char *key, int64_t value) {
-  write_key(json, key);
-  if (value < 0)
-    fputs("null", json->file);
-  else
-    fprintf(json->file, "%" PRId64, value);
-}
-
-void cli_json_text(struct cli_json *json, const char *key, const char *text) {
-  write_key(json, key);
-  if (text)
-    write_string(json->file, text);
-  else
-    fputs("null", json->file);
-}
-
-void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,
-                       const char *table, int64_t row) {
+int32_t cli_print_members(const char *before, hooke_measurement *measurement, const char *table,
+                          int64_t row) {
   const char *text = hooke_measurement_json(measurement, table, row);
-  if (!text) {
-    json->status = HOOKE_NO_MEMORY;
-    return;
-  }
-  const int skipped = key == NULL;
-  write_key(json, key);
-  fwrite(text + skipped, 1, strlen(text) - 2 * (size_t)skipped, json->file);
-}
-
-void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz) {
-  cli_json_open(json, key, '[');
-  for (int64_t row = 0; row < rows; row++) {
-    cli_json_open(json, NULL, '[');
-    for (int64_t i = 0; i < 3; i++)
-      cli_json_number(json, NULL, xyz[3 * row + i]);
-    cli_json_close(json);
-  }
-  cli_json_close(json);
+  if (!text) return HOOKE_NO_MEMORY;
+  fputs(before, stdout);
+  fwrite(text + 1, 1, strlen(text) - 2, stdout);
+  return HOOKE_OK;
 }

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { HOOKE_NUMBER_SIZE = 32, HOOKE_JSON_DEPTH = 8 };
+enum { HOOKE_NUMBER_SIZE = 32 };
 
 /* For display: writes the number to 6 digits into `text` and returns it. Numbers of lower accuracy are
  * printed with fewer. */
@@ -49,33 +49,13 @@ void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width
 void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* A JSON value being written, on one line. `key` is NULL inside arrays. */
-struct cli_json {
-  FILE *file;
-  int32_t depth;
-  char bracket[HOOKE_JSON_DEPTH];
-  int32_t is_filled; /* 1: a value stands before */
-  int32_t status;
-};
-
-void cli_json_begin(struct cli_json *json, FILE *file);
-/* Closes open brackets and ends the line. HOOKE_NO_MEMORY if something is left out. */
-int32_t cli_json_end(struct cli_json *json);
-void cli_json_open(struct cli_json *json, const char *key, char bracket); /* '{' or '[' */
-void cli_json_close(struct cli_json *json);
-/* Null if the number is not finite. */
-void cli_json_number(struct cli_json *json, const char *key, double value);
-/* True or false, null for NaN; a number of things, null if it is below 0. */
-void cli_json_flag(struct cli_json *json, const char *key, double value);
-void cli_json_count(struct cli_json *json, const char *key, int64_t value);
-/* Null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text()
- * replaces are escaped. */
-void cli_json_text(struct cli_json *json, const char *key, const char *text);
-/* What hooke_measurement_json() says: under a key, or (NULL) its members alone. Left out without memory,
- * which cli_json_end() tells. */
-void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,
-                       const char *table, int64_t row);
-/* `rows` rows of x y z as an array of arrays */
-void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz);
+/* A piece of JSON on standard output: the format itself, with ' for ", and values in it by %g (a number; null
+ * if it is not finite), %d or PRId64 (a number of things; null if it is below 0) and %s (a text in quotes;
+ * null if it is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text() replaces
+ * are escaped); by nothing else. */
+void cli_print_json(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* After `before`, what hooke_measurement_json() says, without the brackets around it. HOOKE_NO_MEMORY, with
+ * nothing printed. */
+int32_t cli_print_members(const char *before, hooke_measurement *measurement, const char *table, int64_t row);
 
 #endif

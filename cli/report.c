@@ -121,13 +121,7 @@ static void say(const struct cli_arguments *arguments, const char *style, const 
 }
 
 static int report_json(const struct cli_arguments *arguments, int code, const char *message) {
-  struct cli_json json;
-  if (!arguments->json) return code;
-  cli_json_begin(&json, stdout);
-  cli_json_open(&json, "error", '{');
-  cli_json_count(&json, "exit", code);
-  cli_json_text(&json, "message", message);
-  cli_json_end(&json);
+  if (arguments->json) cli_print_json("{'error': {'exit': %d, 'message': %s}}\n", code, message);
   return code;
 }
 

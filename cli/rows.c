@@ -5,19 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CELL_SIZE = 24, LEAST_WIDTH = 10 };
-
-const struct cli_column cli_rows_of_runs[] = {
-    {"step", "step", "[s]", 9, "%.4g", NULL, NULL, 0},
-    {"rtol", "rtol", "", 9, "%.4g", NULL, NULL, 0},
-    {"error", "error", "max [m]", 10, "%.4g", NULL, NULL, 1},
-    {"error_final", "error", "end [m]", 10, "%.4g", NULL, NULL, 0},
-    {"error_max", "farthest", "particle [m]", 12, "%.4g", NULL, NULL, 0},
-    {"energy_drift", "energy", "drift [J]", 10, "%.4g", NULL, NULL, 1},
-    {"steps", "steps", "", 9, "%.0f", NULL, NULL, 0},
-    {"force_evaluations", "force", "evaluations", 11, "%.0f", NULL, NULL, 0},
-    {"wall_seconds", "wall time", "[s]", 10, "%.4g", NULL, NULL, 1},
-    {.what = NULL}};
+enum { CELL_SIZE = 24 };
 
 static const char *method_of(const struct cli_rows *rows, int64_t row) {
   return hooke_measurement_text(rows->source, "rows", row, "method");
@@ -38,10 +26,6 @@ int32_t cli_rows_width(const hooke_measurement *measurement, const char *table, 
     if (length > least) least = length;
   }
   return (int32_t)least;
-}
-
-int32_t cli_rows_method_width(const struct cli_rows *rows) {
-  return cli_rows_width(rows->source, "rows", "method", LEAST_WIDTH);
 }
 
 void cli_rows_print_as(int32_t width, double value, const char *format, const char *infinite,
@@ -79,7 +63,7 @@ static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_w
 void cli_rows_print(const struct cli_rows *rows, int32_t method_width) {
   print_head(rows, method_width, 0);
   print_head(rows, method_width, 1);
-  for (int64_t row = 0; row < rows->count; row++) {
+  for (int64_t row = 0; row < hooke_measurement_row_count(rows->source, "rows"); row++) {
     if (rows->grouped && row > 0 && strcmp(method_of(rows, row), method_of(rows, row - 1)) != 0) printf("\n");
     print_row(rows, row, method_width);
   }

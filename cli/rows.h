@@ -15,12 +15,8 @@ struct cli_column {
   int32_t marked;              /* a mark may follow */
 };
 
-/* Of a study: step or tolerance, errors and cost. */
-extern const struct cli_column cli_rows_of_runs[];
-
 struct cli_rows {
-  const hooke_measurement *source; /* with a table "rows" */
-  int64_t count;
+  const hooke_measurement *source;  /* with a table "rows" */
   const struct cli_column *columns; /* ends with a `what` of NULL */
   int32_t grouped;                  /* 1: an empty line before each method but the first */
   int32_t status;                   /* 1: the column of that name ends the line */
@@ -32,10 +28,11 @@ struct cli_rows {
 double cli_number(const hooke_measurement *measurement, const char *table, const char *column);
 const char *cli_text(const hooke_measurement *measurement, const char *table, const char *column);
 
-/* Width of a column of texts, at least `least`; of that of methods. */
+enum { HOOKE_METHOD_WIDTH = 10 }; /* the least, of a column of methods */
+
+/* Width of a column of texts, at least `least`. */
 int32_t cli_rows_width(const hooke_measurement *measurement, const char *table, const char *column,
                        size_t least);
-int32_t cli_rows_method_width(const struct cli_rows *rows);
 
 /* A number in `width` columns to 4 digits, "-" if there is none; the second in another format, with other
  * words in place of infinity and 0 (NULL: as numbers). */

@@ -1,4 +1,4 @@
-/* The common start of verbs: loads the scene with the given options, commits it, and creates its initial
+/* The common start of verbs: checks files, loads the scene with the given options, and creates its initial
  * state. */
 #ifndef HOOKE_CLI_SETUP_H
 #define HOOKE_CLI_SETUP_H
@@ -29,9 +29,7 @@ const char *cli_setup_title(const struct cli_arguments *arguments, const struct 
 int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
                          const char *output);
 
-/* Report what a run by `method` lacks: a duration, a step, the method itself in this build; the first
- * function checks the duration only. */
-int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup);
+/* Reports what a run by `method` (NULL: any) lacks: a duration, a step, the method itself in this build. */
 int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
                       const char *method);
 
@@ -41,8 +39,14 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
 /* Before any work: checks that this build can write `output` (NULL: none), a file of HDF5. */
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 
-/* Reads the number given as --`name`, whose unit and bounds are those of a study's option;
- * `value` is unchanged if it is not given. A failure is reported and returned as exit code. */
-int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value);
+/* Refuses `file` (NULL: none), given to `flag`, if it ends like another kind than the option writes, and says
+ * what writes that kind; with the scene it is known whether it can be written. */
+int cli_setup_check_ending(const struct cli_arguments *arguments, const char *flag, const char *file);
+/* The same for --report, which also needs the drawing library in this build. */
+int cli_setup_check_report(const struct cli_arguments *arguments);
+/* Writes the page of --report, if it was given, with the title of the scene. Returns `code`, or that of a
+ * page that could not be written. */
+int cli_setup_write_report(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                           hooke_measurement *measurement, int code);
 
 #endif

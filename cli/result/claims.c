@@ -18,20 +18,11 @@ const char *cli_claim(const hooke_measurement *measurement, const char *key) {
   return hooke_measurement_text(measurement, "claims", row, "text");
 }
 
-void cli_claims_add_json(struct cli_json *json, hooke_measurement *measurement) {
-  if (measurement && hooke_measurement_row_count(measurement, "claims") >= 0) {
-    cli_json_measured(json, "claims", measurement, "claims", -1);
-    return;
-  }
-  cli_json_open(json, "claims", '[');
-  cli_json_close(json);
-}
-
 int32_t cli_claims_print_json(const struct cli_arguments *arguments, const char *key,
                               hooke_measurement *measurement) {
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  if (key) cli_json_text(&json, key, arguments->scene);
-  cli_json_measured(&json, NULL, measurement, NULL, 0);
-  return cli_json_end(&json);
+  cli_print_json("{");
+  if (key) cli_print_json("%s: %s", key, arguments->scene);
+  const int32_t status = cli_print_members(key ? ", " : "", measurement, NULL, 0);
+  cli_print_json("}\n");
+  return status;
 }

@@ -13,9 +13,6 @@ void cli_claims_print(const struct cli_arguments *arguments, const hooke_measure
 /* The text of the claim with this key; NULL if there is none. */
 const char *cli_claim(const hooke_measurement *measurement, const char *key);
 
-/* Adds them under "claims"; an empty array without a measurement. */
-void cli_claims_add_json(struct cli_json *json, hooke_measurement *measurement);
-
 /* Prints the whole document of the measurement, after the name of the file under `key` (NULL: without).
  * HOOKE_NO_MEMORY if something is left out. */
 int32_t cli_claims_print_json(const struct cli_arguments *arguments, const char *key,

@@ -1,6 +1,6 @@
 /* Needs of a scene, in words. */
 #include "claims.h"
-#include "needs_results.h"
+#include "results.h"
 #include "rows.h"
 
 #include <math.h>
@@ -8,10 +8,6 @@
 #include <string.h>
 
 enum { WIDTH = 110, LABEL = 14 };
-
-static double nanoseconds(double wall, double steps) {
-  return steps > 0.0 ? 1e9 * wall / steps : (double)NAN;
-}
 
 /* ---- the table ---- */
 
@@ -21,27 +17,29 @@ static void print_head(int32_t width) {
   printf("%-*s %10s %12s %10s %10s %10s\n", width, "", "[m]", "of forces", "step", "[s]", "step [s]");
 }
 
-static void print_costs(double evaluations, double per_step, double wall, double limit) {
-  printf(" %12.0f", evaluations);
-  cli_rows_print_cell(10, per_step);
+static double number(const hooke_measurement *needs, const char *table, int64_t row, const char *what) {
+  return hooke_measurement_number(needs, table, row, what);
+}
+
+static void print_costs(const hooke_measurement *needs, const char *table, int64_t row) {
+  const double wall = number(needs, table, row, "wall_seconds"), steps = number(needs, table, row, "steps");
+  printf(" %12.0f", number(needs, table, row, "force_evaluations"));
+  cli_rows_print_cell(10, steps > 0.0 ? 1e9 * wall / steps : (double)NAN);
   cli_rows_print_cell(10, wall);
-  cli_rows_print_as(10, limit, "%.4g", "none", NULL);
+  cli_rows_print_as(10, number(needs, table, row, "step_limit"), "%.4g", "none", NULL);
 }
 
 static void print_row(const hooke_measurement *needs, int64_t row, int32_t width) {
   const char *note = hooke_measurement_text(needs, "rows", row, "note");
-  const double wall = hooke_measurement_number(needs, "rows", row, "wall_seconds");
+  const double error = number(needs, "rows", row, "error"), needed = number(needs, "rows", row, "needed");
   cli_print_padded(stdout, width, hooke_measurement_text(needs, "rows", row, "without"));
-  if (isnan(hooke_measurement_number(needs, "rows", row, "error"))) {
+  if (isnan(error)) {
     printf("  needed: ");
     cli_print_wrapped(stdout, width + LABEL, width + LABEL, WIDTH, note);
     return;
   }
-  cli_rows_print_cell(10, hooke_measurement_number(needs, "rows", row, "error"));
-  print_costs(hooke_measurement_number(needs, "rows", row, "force_evaluations"),
-              nanoseconds(wall, hooke_measurement_number(needs, "rows", row, "steps")), wall,
-              hooke_measurement_number(needs, "rows", row, "step_limit"));
-  const double needed = hooke_measurement_number(needs, "rows", row, "needed");
+  cli_rows_print_cell(10, error);
+  print_costs(needs, "rows", row);
   const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
   cli_say("  %s%s%s\n", verdict, note[0] ? "; " : "", note);
 }
@@ -49,12 +47,9 @@ static void print_row(const hooke_measurement *needs, int64_t row, int32_t width
 static void print_table(const hooke_measurement *needs) {
   static const char full[] = "nothing (the full scene)";
   const int32_t width = cli_rows_width(needs, "rows", "without", strlen(full));
-  const double wall = cli_number(needs, "full", "wall_seconds");
   print_head(width);
   printf("%-*s %10s", width, full, "");
-  print_costs(cli_number(needs, "full", "force_evaluations"),
-              nanoseconds(wall, cli_number(needs, "full", "steps")), wall,
-              cli_number(needs, "full", "step_limit"));
+  print_costs(needs, "full", 0);
   printf("\n");
   for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++)
     print_row(needs, row, width);
@@ -65,7 +60,7 @@ static void print_table(const hooke_measurement *needs) {
 static void print_cells(const hooke_measurement *needs, int64_t part, const char *const numbers[3]) {
   char text[64] = "";
   for (int a = 0; a < 3; a++) {
-    const double cells = hooke_measurement_number(needs, "parts", part, numbers[a]);
+    const double cells = number(needs, "parts", part, numbers[a]);
     if (!isnan(cells)) cli_append(text, sizeof text, "%s%.0f", text[0] ? " x " : "", cells);
   }
   printf(" %14s", text[0] ? text : "-");
@@ -83,7 +78,7 @@ static void print_parts(const hooke_measurement *needs) {
     cli_print_padded(stdout, width, hooke_measurement_text(needs, "parts", part, "part"));
     print_cells(needs, part, has);
     for (int k = 0; k < 4; k++)
-      cli_rows_print_cell(k == 2 ? 8 : 12, hooke_measurement_number(needs, "parts", part, numbers[k]));
+      cli_rows_print_cell(k == 2 ? 8 : 12, number(needs, "parts", part, numbers[k]));
     print_cells(needs, part, wanted);
     printf("\n");
     if (note[0]) {
@@ -93,15 +88,15 @@ static void print_parts(const hooke_measurement *needs) {
   }
 }
 
-void cli_needs_results_print(const struct cli_needs_results *results) {
-  const hooke_measurement *needs = results->needs;
+void cli_needs_results_print(const struct cli_results *results) {
+  const hooke_measurement *needs = results->found;
   const double spread = cli_number(needs, "needs", "spread");
   cli_say("%s, %g m wanted\n", cli_setup_title(results->arguments, &results->setup),
           cli_number(needs, "needs", "want"));
   cli_claims_print(results->arguments, needs, LABEL, results->command);
   if (isnan(cli_number(needs, "full", "step_error"))) return;
   printf("\n");
-  if (results->refine) {
+  if (cli_arguments_asks(results->arguments, "refine")) {
     print_parts(needs);
     return;
   }

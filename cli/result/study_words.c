@@ -1,14 +1,34 @@
 /* The results of a study in words. */
 #include "claims.h"
+#include "results.h"
 #include "rows.h"
-#include "study_results.h"
-#include "study_watched.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { INDENT = 16, WIDTH = 110, TIMES = 5 };
+enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12, HEAD_SIZE = 128 };
+
+/* A bias below this many standard errors is compatible with chance. */
+static const double SEEN = 2.0;
+static const int MEMBERS_ADVISED = 16;
+
+static const struct cli_column columns[] = {
+    {"step", "step", "[s]", 9, "%.4g", NULL, NULL, 0},
+    {"rtol", "rtol", "", 9, "%.4g", NULL, NULL, 0},
+    {"error", "error", "max [m]", 10, "%.4g", NULL, NULL, 1},
+    {"error_final", "error", "end [m]", 10, "%.4g", NULL, NULL, 0},
+    {"error_max", "farthest", "particle [m]", 12, "%.4g", NULL, NULL, 0},
+    {"energy_drift", "energy", "drift [J]", 10, "%.4g", NULL, NULL, 1},
+    {"steps", "steps", "", 9, "%.0f", NULL, NULL, 0},
+    {"force_evaluations", "force", "evaluations", 11, "%.0f", NULL, NULL, 0},
+    {"wall_seconds", "wall time", "[s]", 10, "%.4g", NULL, NULL, 1},
+    {.what = NULL}};
+
+int32_t cli_study_trusts_all(const hooke_measurement *study) {
+  return cli_number(study, "reference", "trusted_until") >=
+         cli_number(study, "study", "duration") * (1.0 - 1e-9);
+}
 
 static char mark_of(const hooke_measurement *study, int64_t row, const char *what) {
   if (strcmp(what, "error") == 0)
@@ -18,29 +38,20 @@ static char mark_of(const hooke_measurement *study, int64_t row, const char *wha
   return hooke_measurement_number(study, "rows", row, "timed_alone") == 0.0 ? '+' : ' ';
 }
 
-static struct cli_rows rows_of(const struct cli_study_results *results) {
-  return (struct cli_rows){.source = results->study,
-                           .count = hooke_measurement_row_count(results->study, "rows"),
-                           .columns = cli_rows_of_runs,
-                           .grouped = !results->once,
-                           .status = 1,
-                           .mark = mark_of};
-}
-
 /* ---- errors over time ---- */
 
 /* At a few evenly spaced frames, including the last. */
-static void print_errors(const struct cli_rows *rows, int32_t width) {
+static void print_errors(const hooke_measurement *study, int32_t width) {
   int64_t count;
-  const double *time = hooke_measurement_series(rows->source, "reference", 0, "time", &count);
+  const double *time = hooke_measurement_series(study, "reference", 0, "time", &count);
   const int64_t last = count - 1, frames = last < TIMES ? last : TIMES;
   printf("\nerror [m]\n%-*s", width, "at t [s] =");
   for (int64_t i = 1; i <= frames; i++)
     cli_rows_print_cell(10, time[last * i / frames]);
   printf("\n");
-  for (int64_t row = 0; row < rows->count; row++) {
-    const double *error = hooke_measurement_series(rows->source, "rows", row, "error_at", NULL);
-    cli_print_padded(stdout, width, hooke_measurement_text(rows->source, "rows", row, "method"));
+  for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
+    const double *error = hooke_measurement_series(study, "rows", row, "error_at", NULL);
+    cli_print_padded(stdout, width, hooke_measurement_text(study, "rows", row, "method"));
     for (int64_t i = 1; i <= frames; i++)
       cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
     printf("\n");
@@ -78,13 +89,12 @@ static void print_orders(const hooke_measurement *study, int32_t width) {
 }
 
 /* Legend of the columns, and of the marks that occur. */
-static void print_legend(const struct cli_rows *rows, const hooke_measurement *study, int32_t once) {
+static void print_legend(const hooke_measurement *study, int32_t once) {
   int32_t shared = 0, marked = 0;
   double spread = 0.0;
-  for (int64_t row = 0; row < rows->count; row++) {
-    shared |= rows->mark(rows->source, row, "wall_seconds") == '+';
-    marked |=
-        rows->mark(rows->source, row, "error") == '*' || rows->mark(rows->source, row, "energy_drift") == '*';
+  for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
+    shared |= mark_of(study, row, "wall_seconds") == '+';
+    marked |= mark_of(study, row, "error") == '*' || mark_of(study, row, "energy_drift") == '*';
     spread = fmax(spread, hooke_measurement_number(study, "rows", row, "wall_median") /
                               hooke_measurement_number(study, "rows", row, "wall_seconds"));
   }
@@ -99,26 +109,158 @@ static void print_legend(const struct cli_rows *rows, const hooke_measurement *s
          shared ? "+: other rows ran beside it, so its time may be too long\n" : "");
 }
 
-void cli_study_results_print(const struct cli_study_results *results) {
+/* ---- watched quantities ---- */
+
+/* "57.y [m]", from a row of a table. */
+static const char *head_of(const hooke_measurement *study, const char *table, int64_t row,
+                           char head[HEAD_SIZE]) {
+  const char *unit = hooke_measurement_text(study, table, row, "unit");
+  snprintf(head, HEAD_SIZE, "%.100s%s%s%s", hooke_measurement_text(study, table, row, "quantity"),
+           unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+  return head;
+}
+
+/* The step, or the tolerance that stands for it. */
+static void print_setting(const hooke_measurement *study, const char *table, int64_t row) {
+  const double step = hooke_measurement_number(study, table, row, "step");
+  cli_rows_print_as(SETTING, isnan(step) ? hooke_measurement_number(study, table, row, "rtol") : step,
+                    isnan(step) ? "rtol %.4g" : "%.4g", NULL, NULL);
+}
+
+static int width_of(const hooke_measurement *study, int64_t quantity) {
+  char head[HEAD_SIZE];
+  const int length = (int)strlen(head_of(study, "watched", quantity, head));
+  return length < CELL ? CELL : length;
+}
+
+/* The errors of a row, marked within ten times the agreement of the reference; the agreements if it is -1. */
+static void print_cells(const hooke_measurement *study, int64_t row) {
+  const int64_t count = hooke_measurement_row_count(study, "watched");
+  for (int64_t k = 0; k < count; k++) {
+    const double agreement = hooke_measurement_number(study, "watched", k, "agreement"),
+                 error = hooke_measurement_number(study, "watched_errors", row * count + k, "error");
+    cli_rows_print_as(width_of(study, k), row < 0 ? agreement : error, "%.4g", NULL, NULL);
+    putchar(row >= 0 && error <= 10.0 * agreement ? '*' : ' ');
+  }
+  printf("\n");
+}
+
+/* A line a row of the study; nothing if none are watched. */
+static void print_watched(const hooke_measurement *study, int32_t method_width) {
+  const int64_t count = hooke_measurement_row_count(study, "watched");
+  char head[HEAD_SIZE];
+  if (count <= 0) return;
+  printf("\n%-*s %*s", method_width, "error in", SETTING, "step [s]");
+  for (int64_t k = 0; k < count; k++) {
+    const char *text = head_of(study, "watched", k, head);
+    cli_say("%*s%s", 2 + width_of(study, k) - (int)strlen(text), "", text);
+  }
+  printf("\n%-*s %*s", method_width, "agreement", SETTING, "");
+  print_cells(study, -1);
+  for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
+    cli_print_padded(stdout, method_width, hooke_measurement_text(study, "rows", row, "method"));
+    print_setting(study, "rows", row);
+    print_cells(study, row);
+  }
+  printf("the largest differences from the reference, in a period (-: none is seen) that of the two periods; "
+         "*: within ten times of the agreement\n");
+}
+
+/* ---- statistics ---- */
+
+/* Of the table "statistics", whose rows are those of each method, the reference first, times these. */
+static int64_t quantity_count(const hooke_measurement *study) {
+  const int64_t count = hooke_measurement_row_count(study, "statistics");
+  int64_t quantities = 0;
+  while (quantities < count &&
+         strcmp(hooke_measurement_text(study, "statistics", quantities, "method"), "reference") == 0)
+    quantities++;
+  return quantities;
+}
+
+static double statistic(const hooke_measurement *study, int64_t row, const char *what) {
+  return hooke_measurement_number(study, "statistics", row, what);
+}
+
+static void print_bias(const hooke_measurement *study, int64_t row) {
+  const double bias = statistic(study, row, "bias");
+  if (strcmp(hooke_measurement_text(study, "statistics", row, "method"), "reference") == 0)
+    printf("\n");
+  else if (statistic(study, row, "failed") > 0.0)
+    printf("  unknown: a run did not come to its end\n");
+  else if (isnan(bias))
+    printf("  unknown\n");
+  else if (fabs(bias) < SEEN)
+    printf("  none seen (%+.1f)\n", bias);
+  else
+    printf("  %+.3g standard errors\n", bias);
+}
+
+static void print_source(const hooke_measurement *study, int32_t method_width, int64_t row) {
+  printf("  ");
+  cli_print_padded(stdout, method_width, hooke_measurement_text(study, "statistics", row, "method"));
+  print_setting(study, "statistics", row);
+  printf(" %5.0f", statistic(study, row, "members"));
+  cli_rows_print_cell(CELL, statistic(study, row, "mean"));
+  cli_rows_print_cell(CELL, statistic(study, row, "spread"));
+  print_bias(study, row);
+}
+
+static void print_ensemble(const hooke_measurement *study, int32_t method_width) {
+  const int64_t count = quantity_count(study);
+  char head[HEAD_SIZE];
+  if (isnan(cli_number(study, "ensemble", "from"))) return;
+  printf("\nstatistics\n  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs",
+         CELL, "mean", CELL, "spread", "bias");
+  for (int64_t k = 0; k < count; k++) {
+    cli_say("%s\n", head_of(study, "statistics", k, head));
+    for (int64_t row = k; row < hooke_measurement_row_count(study, "statistics"); row += count)
+      print_source(study, method_width, row);
+  }
+  printf("spread: the standard deviation of the runs; bias: the difference from the reference's mean, in "
+         "standard errors of it;\nbelow %.0f none is seen, and where there is none, one figure in twenty is "
+         "above, more with few runs\n",
+         SEEN);
+}
+
+/* Means, spreads and biases where the motion cannot be judged; or how to obtain them. */
+static void print_statistics(const struct cli_results *results, int32_t method_width) {
+  const hooke_measurement *study = results->found;
+  const int32_t asked = cli_arguments_text(results->arguments, "ensemble") != NULL;
+  if (hooke_measurement_row_count(study, "ensemble") > 0) {
+    print_ensemble(study, method_width);
+  } else if (!cli_study_trusts_all(study) && !asked && hooke_measurement_row_count(study, "rows") > 0 &&
+             !results->arguments->quiet) {
+    printf("\n");
+    cli_print_fact(INDENT, WIDTH, "statistics", "--ensemble %d tells means and spreads beyond %.6g s",
+                   MEMBERS_ADVISED, cli_number(study, "reference", "trusted_until"));
+  }
+}
+
+/* ---- all ---- */
+
+void cli_study_results_print(const struct cli_results *results) {
   const struct cli_arguments *arguments = results->arguments;
-  const struct cli_rows rows = rows_of(results);
-  int32_t width = cli_rows_method_width(&rows);
+  const hooke_measurement *study = results->found;
+  const int once = cli_arguments_asks(arguments, "once");
+  const int met = cli_number(study, "recommendation", "met") == 1.0;
+  const int32_t width = cli_rows_width(study, "rows", "method", HOOKE_METHOD_WIDTH);
+  const struct cli_rows rows = {
+      .source = study, .columns = columns, .grouped = !once, .status = 1, .mark = mark_of};
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, %s s\n", cli_setup_title(arguments, &results->setup),
-          cli_format_rounded(cli_number(results->study, "study", "duration"), text));
-  const int met = cli_number(results->study, "recommendation", "met") == 1.0;
-  cli_claims_print(arguments, results->study, INDENT, met ? results->command : NULL);
-  if (rows.count > 0) {
-    if (results->once) print_errors(&rows, width);
+          cli_format_rounded(cli_number(study, "study", "duration"), text));
+  cli_claims_print(arguments, study, INDENT, met ? results->command : NULL);
+  if (hooke_measurement_row_count(study, "rows") > 0) {
+    if (once) print_errors(study, width);
     printf("\n");
     cli_rows_print(&rows, width);
-    print_legend(&rows, results->study, results->once);
-    cli_study_watched_print(results, width);
+    print_legend(study, once);
+    print_watched(study, width);
+    if (!once) print_orders(study, width);
+    if (!arguments->quiet && !cli_arguments_text(arguments, "want"))
+      printf("\nwhich one to take: %s the error that you can live with, such as --want 1mm\n",
+             once ? "'hooke study' with" : "add");
   }
-  if (rows.count > 0 && !results->once) print_orders(results->study, width);
-  if (rows.count > 0 && !arguments->quiet && !cli_arguments_text(arguments, "want")) {
-    printf("\nwhich one to take: %s the error that you can live with, such as --want 1mm\n",
-           results->once ? "'hooke study' with" : "add");
-  }
-  if (!results->once) cli_study_statistics_print(results, width);
+  if (!once) print_statistics(results, width);
 }

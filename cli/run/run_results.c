@@ -67,103 +67,77 @@ static int64_t count_of(const struct cli_run *run, int k) {
 
 /* ---- JSON ---- */
 
-static void print_json_motion(struct cli_json *json, const struct cli_run *run) {
-  double momentum[3];
-  cli_json_open(json, "energy", '{');
-  cli_json_number(json, "initial", run->energy_before);
-  cli_json_number(json, "final", run->energy_after);
-  cli_json_close(json);
-  hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
-  cli_json_open(json, "momentum", '[');
-  for (int i = 0; i < 3; i++)
-    cli_json_number(json, NULL, momentum[i]);
-  cli_json_close(json);
+static void print_vectors(const char *key, int64_t rows, const double *xyz) {
+  cli_print_json("%s: [", key);
+  for (int64_t row = 0; row < rows; row++, xyz += 3)
+    cli_print_json(row ? ", [%g, %g, %g]" : "[%g, %g, %g]", xyz[0], xyz[1], xyz[2]);
+  cli_print_json("]");
 }
 
-static void print_json(const struct cli_run *run, int32_t with_final) {
+/* What is said of it, and where every particle is. */
+static void print_json_end(const struct cli_run *run) {
+  const int64_t particles = hooke_system_particle_count(run->setup.system);
+  hooke_measurement *says = run->why ? run->why : run->estimate;
+  cli_print_json("'claims': [");
+  if (says && hooke_measurement_row_count(says, "claims") >= 0)
+    (void)cli_print_members("", says, "claims", -1);
+  cli_print_json("]");
+  if (cli_arguments_text(run->arguments, "final")) {
+    cli_print_json(", 'final': {");
+    print_vectors("position", particles, position_of(run));
+    cli_print_json(", ");
+    print_vectors("velocity", particles, velocity_of(run));
+    cli_print_json("}");
+  }
+  cli_print_json("}\n");
+}
+
+static void print_json(const struct cli_run *run) {
   const hooke_system *system = run->setup.system;
   const int32_t outcome = run->outcome;
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_text(&json, "status",
-                outcome == HOOKE_OK         ? "finished"
-                : outcome == HOOKE_DIVERGED ? "diverged"
-                                            : "stopped");
-  cli_json_text(&json, "method", cli_run_method(run));
-  if (is_adaptive(run)) {
-    cli_json_number(&json, "rtol", option_of(run, "rtol"));
-    cli_json_number(&json, "atol", option_of(run, "atol"));
-  } else {
-    cli_json_number(&json, "step", option_of(run, "step"));
-  }
-  cli_json_number(&json, "time", hooke_state_time(run->setup.state));
-  cli_json_count(&json, counts[0][0], count_of(run, 0));
-  cli_json_count(&json, counts[1][0], count_of(run, 1));
-  cli_json_number(&json, "wall_seconds", run->was_finished ? NAN : run->wall_seconds);
-  cli_json_count(&json, "particles", hooke_system_particle_count(system));
-  cli_json_count(&json, "springs", hooke_system_count(system, "springs"));
-  cli_json_count(&json, counts[HOOKE_RUN_COUNTS - 2][0], count_of(run, HOOKE_RUN_COUNTS - 2));
-  print_json_motion(&json, run);
-  if (cli_run_goes_beyond(run)) cli_json_count(&json, "frames_beyond", run->frames_beyond);
-  cli_json_text(&json, "output", run->output);
-  cli_json_text(&json, "diagnosis", cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
-  cli_want_print_json(run, &json);
-  cli_claims_add_json(&json, run->why ? run->why : run->estimate);
-  if (with_final) {
-    const int64_t particles = hooke_system_particle_count(system);
-    cli_json_open(&json, "final", '{');
-    cli_json_vectors(&json, "position", particles, position_of(run));
-    cli_json_vectors(&json, "velocity", particles, velocity_of(run));
-  }
-  cli_json_end(&json);
+  double momentum[3];
+  hooke_system_momentum(system, velocity_of(run), momentum);
+  cli_print_json("{'status': %s, 'method': %s, ",
+                 outcome == HOOKE_OK         ? "finished"
+                 : outcome == HOOKE_DIVERGED ? "diverged"
+                                             : "stopped",
+                 cli_run_method(run));
+  if (is_adaptive(run))
+    cli_print_json("'rtol': %g, 'atol': %g, ", option_of(run, "rtol"), option_of(run, "atol"));
+  else
+    cli_print_json("'step': %g, ", option_of(run, "step"));
+  cli_print_json("'time': %g, 'steps': %" PRId64 ", 'force_evaluations': %" PRId64 ", 'wall_seconds': %g, ",
+                 hooke_state_time(run->setup.state), count_of(run, 0), count_of(run, 1),
+                 run->was_finished ? NAN : run->wall_seconds);
+  cli_print_json("'particles': %" PRId64 ", 'springs': %" PRId64 ", 'zero_passages': %" PRId64 ", ",
+                 hooke_system_particle_count(system), hooke_system_count(system, "springs"),
+                 count_of(run, HOOKE_RUN_COUNTS - 2));
+  cli_print_json("'energy': {'initial': %g, 'final': %g}, 'momentum': [%g, %g, %g], ", run->energy_before,
+                 run->energy_after, momentum[0], momentum[1], momentum[2]);
+  if (cli_run_goes_beyond(run)) cli_print_json("'frames_beyond': %" PRId64 ", ", run->frames_beyond);
+  cli_print_json("'output': %s, 'diagnosis': %s, ", run->output,
+                 cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
+  cli_want_print_json(run);
+  print_json_end(run);
 }
 
 /* ---- words ---- */
 
-static void print_row(const char *label) {
-  printf("%-22s", label);
-}
-
-static void print_quantity(double value, const char *unit) {
-  printf("%.6g %s", value, unit);
-}
-
-static void print_count(const struct cli_run *run, int k) {
-  const int64_t count = count_of(run, k);
-  if (count <= 0 || counts[k][1] == NULL) return;
-  print_row(counts[k][1]);
-  printf("%" PRId64 "\n", count);
-}
-
 static void print_work(const struct cli_run *run) {
   const int64_t springs = hooke_system_count(run->setup.system, "springs");
-  const int64_t steps = count_of(run, 0);
-  const double seconds = run->wall_seconds;
   for (int k = 0; k < HOOKE_RUN_COUNTS; k++)
-    print_count(run, k);
+    if (counts[k][1] && count_of(run, k) > 0) printf("%-22s%" PRId64 "\n", counts[k][1], count_of(run, k));
   if (run->was_finished) return;
-  print_row("wall time");
-  print_quantity(seconds, "s");
-  if (springs > 0 && steps > 0) {
-    printf(", %.3g ns per spring-step", 1e9 * seconds / (double)springs / (double)steps);
-  }
+  printf("%-22s%.6g s", "wall time", run->wall_seconds);
+  if (springs > 0 && run->count[0] > 0)
+    printf(", %.3g ns per spring-step", 1e9 * run->wall_seconds / (double)springs / (double)run->count[0]);
   printf("\n");
 }
 
-static void print_method(const struct cli_run *run) {
-  cli_say("%-22s%s, ", "method", cli_run_method(run));
-  if (is_adaptive(run))
-    printf("rtol %.6g, atol %.6g m\n", option_of(run, "rtol"), option_of(run, "atol"));
-  else
-    printf("step %.6g s\n", option_of(run, "step"));
-}
-
 /* A sum that has overflowed, or a difference of two of those, is not known. */
-static void print_known(double value, const char *unit) {
-  if (isfinite(value))
-    print_quantity(value, unit);
-  else
-    printf("not known");
+static const char *known(double value, const char *unit, char text[HOOKE_NUMBER_SIZE]) {
+  snprintf(text, HOOKE_NUMBER_SIZE, isfinite(value) ? "%.6g%s" : "not known", value, unit);
+  return text;
 }
 
 /* 0 for what is rounding alone, beside the energies that the scene has. */
@@ -172,23 +146,15 @@ static double energy_shown(const struct cli_run *run, double energy) {
 }
 
 static void print_motion(const struct cli_run *run) {
-  const double before = energy_shown(run, run->energy_before), after = energy_shown(run, run->energy_after);
-  double momentum[3];
   const double change = run->energy_after - run->energy_before;
-  print_row("energy");
-  print_known(before, "J");
-  printf(" before, ");
-  print_known(after, "J");
-  printf(" after");
+  char text[3][HOOKE_NUMBER_SIZE];
+  double momentum[3];
+  printf("%-22s%s before, %s after", "energy", known(energy_shown(run, run->energy_before), " J", text[0]),
+         known(energy_shown(run, run->energy_after), " J", text[1]));
   if (isfinite(change)) printf(" (change %+.6g J)", energy_shown(run, change));
-  printf("\n");
   hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
-  print_row("momentum");
-  for (int i = 0; i < 3; i++) {
-    print_known(momentum[i], "");
-    printf("%s", isfinite(momentum[i]) ? "" : " ");
-  }
-  printf("kg m/s\n");
+  printf("\n%-22s%s %s %s kg m/s\n", "momentum", known(momentum[0], "", text[0]),
+         known(momentum[1], "", text[1]), known(momentum[2], "", text[2]));
 }
 
 static void print_words(const struct cli_run *run) {
@@ -196,13 +162,14 @@ static void print_words(const struct cli_run *run) {
   const char *title = hooke_scene_text(run->setup.scene, "title");
   const int64_t particles = hooke_system_particle_count(system);
   if (title && title[0]) cli_say("%-22s%s\n", "scene", title);
-  print_row("particles");
-  printf("%" PRId64 " (%" PRId64 " pinned or driven), springs %" PRId64 "\n", particles,
+  printf("%-22s%" PRId64 " (%" PRId64 " pinned or driven), springs %" PRId64 "\n", "particles", particles,
          particles - hooke_system_count(system, "free"), hooke_system_count(system, "springs"));
-  print_method(run);
-  print_row("time reached");
-  print_quantity(hooke_state_time(run->setup.state), "s of ");
-  print_quantity(run->duration, "s");
+  cli_say("%-22s%s, ", "method", cli_run_method(run));
+  if (is_adaptive(run))
+    printf("rtol %.6g, atol %.6g m\n", option_of(run, "rtol"), option_of(run, "atol"));
+  else
+    printf("step %.6g s\n", option_of(run, "step"));
+  printf("%-22s%.6g s of %.6g s", "time reached", hooke_state_time(run->setup.state), run->duration);
   const double diverged =
       run->outcome == HOOKE_DIVERGED ? hooke_integrator_number(run->integrator, "diverged_at") : NAN;
   if (!isnan(diverged)) printf("; diverged at %.6g s, what follows is of the last good state", diverged);
@@ -214,30 +181,24 @@ static void print_words(const struct cli_run *run) {
             run->frames == 1 ? "" : "s");
 }
 
-static void print_final(const struct cli_run *run) {
-  const double *q = position_of(run), *v = velocity_of(run);
-  char text[HOOKE_NUMBER_SIZE];
-  printf("\nparticle x y z [m] vx vy vz [m/s]\n");
-  for (int64_t i = 0; i < hooke_system_particle_count(run->setup.system); i++) {
-    printf("%" PRId64, i);
-    for (int64_t k = 0; k < 3; k++)
-      printf(" %s", cli_format_number(q[3 * i + k], text));
-    for (int64_t k = 0; k < 3; k++)
-      printf(" %s", cli_format_number(v[3 * i + k], text));
-    printf("\n");
-  }
-}
-
 void cli_run_print(const struct cli_run *run) {
   if (run->arguments->json)
-    print_json(run, cli_arguments_text(run->arguments, "final") != NULL);
+    print_json(run);
   else
     print_words(run);
   cli_print_flush();
 }
 
 void cli_run_print_final(const struct cli_run *run) {
+  const double *q = position_of(run), *v = velocity_of(run);
+  char text[HOOKE_NUMBER_SIZE];
   if (run->arguments->json || !cli_arguments_text(run->arguments, "final")) return;
-  print_final(run);
+  printf("\nparticle x y z [m] vx vy vz [m/s]\n");
+  for (int64_t i = 0; i < hooke_system_particle_count(run->setup.system); i++) {
+    printf("%" PRId64, i);
+    for (int64_t k = 0; k < 6; k++)
+      printf(" %s", cli_format_number(k < 3 ? q[3 * i + k] : v[3 * i + k - 3], text));
+    printf("\n");
+  }
   cli_print_flush();
 }

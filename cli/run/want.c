@@ -38,32 +38,32 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
                    adaptive ? "" : " s");
 }
 
-/* `want` [m]; NaN: none. */
-static int32_t create(struct cli_run *run, double want) {
+/* `want`: NULL without one. */
+static int create(struct cli_run *run, const char *want) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_create("estimate", &options);
-  if (status == HOOKE_OK && !isnan(want)) status = hooke_options_set_number(options, "want", want);
+  if (status == HOOKE_OK && want) status = hooke_options_set_text(options, "want", want);
+  const int32_t refused = status == HOOKE_BAD_VALUE;
   if (status == HOOKE_OK)
     status = hooke_measurement_create("estimate", run->setup.system, NULL, options, &run->estimate);
   hooke_options_destroy(options);
-  return status;
+  if (refused) return cli_report(run->arguments, HOOKE_EXIT_USAGE, "--want: %s", hooke_last_error());
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
 int cli_want_pick(struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   const char *text = cli_arguments_text(arguments, "want");
-  double want = NAN;
-  int code = text ? cli_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
+  int code = text ? cli_setup_require(arguments, &run->setup, NULL) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (code == HOOKE_EXIT_DONE && text) code = cli_setup_read_study(arguments, "want", &want);
-  if (code != HOOKE_EXIT_DONE) return code;
   if (!text && cli_arguments_text(arguments, "no-estimate")) return HOOKE_EXIT_DONE;
-  int32_t status = create(run, want);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  if (code == HOOKE_EXIT_DONE) code = create(run, text);
+  if (code != HOOKE_EXIT_DONE) return code;
   hooke_measurement_on_progress(run->estimate, cli_watch_progress, &run->watch);
   if (!text) return HOOKE_EXIT_DONE;
   cli_watch_start(&run->watch, arguments);
-  status = hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
+  const int32_t status =
+      hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
   cli_watch_end(&run->watch);
   if (status == HOOKE_STOPPED)
     return cli_report(arguments, HOOKE_EXIT_INTERRUPTED,
@@ -115,42 +115,26 @@ void cli_want_print(const struct cli_run *run) {
   cli_print_flush();
 }
 
-static void print_json_piece(const struct cli_run *run, struct cli_json *json) {
-  const double piece = number_of(run, "last_piece");
-  if (isnan(piece)) return;
-  cli_json_open(json, "last_piece", '{');
-  cli_json_number(json, "error", piece);
-  cli_json_number(json, "from", number_of(run, "last_from"));
-  cli_json_number(json, "until", hooke_state_time(run->setup.state));
-  cli_json_close(json);
-}
-
-static void print_json_error(const struct cli_run *run, struct cli_json *json) {
+static void print_json_error(const struct cli_run *run) {
   const char *by = text_of(run, "by"), *reason = text_of(run, "reason");
-  cli_json_open(json, "error", '{');
-  cli_json_number(json, "estimate", number_of(run, "estimate"));
-  cli_json_number(json, "rms", number_of(run, "rms"));
-  cli_json_number(json, "known_until", number_of(run, "known_until"));
-  cli_json_text(json, "by", by);
-  cli_json_number(json, "energy_rise", number_of(run, "energy_rise"));
-  cli_json_number(json, "heat_excess", number_of(run, "heat_excess"));
-  cli_json_text(json, "reason", reason[0] ? reason : NULL);
-  cli_json_close(json);
+  const double piece = number_of(run, "last_piece");
+  cli_print_json("'error': {'estimate': %g, 'rms': %g, 'known_until': %g, 'by': %s, 'energy_rise': %g, "
+                 "'heat_excess': %g, 'reason': %s}, ",
+                 number_of(run, "estimate"), number_of(run, "rms"), number_of(run, "known_until"), by,
+                 number_of(run, "energy_rise"), number_of(run, "heat_excess"), reason[0] ? reason : NULL);
+  if (!isnan(piece))
+    cli_print_json("'last_piece': {'error': %g, 'from': %g, 'until': %g}, ", piece,
+                   number_of(run, "last_from"), hooke_state_time(run->setup.state));
 }
 
-void cli_want_print_json(const struct cli_run *run, struct cli_json *json) {
+void cli_want_print_json(const struct cli_run *run) {
   if (!run->estimate || run->was_finished) return;
   const double met = number_of(run, "met");
-  if (run->outcome == HOOKE_OK) {
-    print_json_error(run, json);
-    print_json_piece(run, json);
-  }
+  if (run->outcome == HOOKE_OK) print_json_error(run);
   if (!is_wanted(run)) return;
-  cli_json_open(json, "want", '{');
-  cli_json_number(json, "wanted", number_of(run, "wanted"));
-  cli_json_flag(json, "met", met);
-  cli_json_number(json, "seconds", number_of(run, "seconds"));
-  cli_json_close(json);
+  cli_print_json("'want': {'wanted': %g, 'met': ", number_of(run, "wanted"));
+  cli_print_json(isnan(met) ? "null" : met == 1.0 ? "true" : "false");
+  cli_print_json(", 'seconds': %g}, ", number_of(run, "seconds"));
 }
 
 int cli_want_exit_code(const struct cli_run *run) {

@@ -16,8 +16,8 @@ int32_t cli_want_goes_on(struct cli_run *run);
 
 /* What the estimate says of the run. */
 void cli_want_print(const struct cli_run *run);
-/* The keys "error" and "want". */
-void cli_want_print_json(const struct cli_run *run, struct cli_json *json);
+/* The keys "error" and "want", as JSON, each with a comma after it. */
+void cli_want_print_json(const struct cli_run *run);
 
 /* Exit code of a finished run. */
 int cli_want_exit_code(const struct cli_run *run);

@@ -193,11 +193,14 @@ static int32_t print_words(struct check *check) {
 
 /* HOOKE_NO_MEMORY if something is missing. */
 static int32_t print_json(struct check *check) {
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_measured(&json, NULL, check->found, NULL, 0);
-  if (check->cost) cli_json_measured(&json, "cost", check->cost, NULL, 0);
-  return cli_json_end(&json);
+  cli_print_json("{");
+  int32_t status = cli_print_members("", check->found, NULL, 0);
+  if (check->cost && status == HOOKE_OK) {
+    status = cli_print_members(", \"cost\": {", check->cost, NULL, 0);
+    cli_print_json(status == HOOKE_OK ? "}" : "");
+  }
+  cli_print_json("}\n");
+  return status;
 }
 
 /* Measures with the memory that the process has right after loading. */

@@ -1,13 +1,10 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
 #include "claims.h"
-#include "methods.h"
-#include "output_file.h"
 #include "limiting.h"
 #include "print.h"
 #include "report.h"
+#include "results.h"
 #include "rows.h"
-#include "setup.h"
-#include "watch.h"
 
 #include <errno.h>
 #include <math.h>
@@ -17,17 +14,10 @@
 
 enum { INDENT = 12 };
 
-struct limit {
-  const struct cli_arguments *arguments;
-  struct cli_setup setup;
-  hooke_measurement *limit;
-  int32_t along, outcome;
-};
-
 /* ---- the state ---- */
 
 /* FILE:FRAME, or FILE alone for its last frame. */
-static int read_state(struct limit *l, const char *at) {
+static int read_state(struct cli_results *l, const char *at) {
   const char *colon = strrchr(at, ':');
   char *end = NULL;
   errno = 0;
@@ -54,24 +44,21 @@ static int read_state(struct limit *l, const char *at) {
 
 /* ---- computing ---- */
 
-static int check_names(const struct cli_arguments *arguments) {
-  struct cli_methods methods;
-  if (!cli_arguments_text(arguments, "methods")) return HOOKE_EXIT_DONE;
-  return cli_methods_choose(arguments, &methods);
-}
-
-static int check_needs(const struct limit *l) {
+static int make_ready(struct cli_results *l) {
+  const char *at = cli_arguments_text(l->arguments, "at");
+  const int code = at ? read_state(l, at) : HOOKE_EXIT_DONE;
+  if (code != HOOKE_EXIT_DONE) return code;
+  l->from = l->setup.state;
   const char *method = hooke_options_text(l->setup.options, "method");
-  if (l->along) return cli_setup_require(l->arguments, &l->setup, method);
-  if (hooke_options_number(l->arguments->more, "nonlinear") != 0.0)
-    return cli_setup_require_duration(l->arguments, &l->setup);
+  if (cli_arguments_asks(l->arguments, "along")) return cli_setup_require(l->arguments, &l->setup, method);
+  if (cli_arguments_asks(l->arguments, "nonlinear")) return cli_setup_require(l->arguments, &l->setup, NULL);
   return HOOKE_EXIT_DONE;
 }
 
 /* ---- words ---- */
 
-static double number_of(const struct limit *l, const char *what) {
-  return cli_number(l->limit, "limit", what);
+static double number_of(const struct cli_results *l, const char *what) {
+  return cli_number(l->found, "limit", what);
 }
 
 static const struct cli_column columns[] = {
@@ -87,67 +74,50 @@ enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 /* The columns in which anything is known. */
 static void print_table(const hooke_measurement *limit) {
   struct cli_column shown[COLUMN_COUNT + 1] = {{.what = NULL}};
-  const struct cli_rows rows = {
-      .source = limit, .count = hooke_measurement_row_count(limit, "rows"), .columns = shown};
+  const struct cli_rows rows = {.source = limit, .columns = shown};
   int32_t count = 0;
   for (int k = 0; k < COLUMN_COUNT; k++) {
     int32_t known = 0;
-    for (int64_t row = 0; row < rows.count; row++)
+    for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
       known |= !isnan(hooke_measurement_number(limit, "rows", row, columns[k].what));
     if (known) shown[count++] = columns[k];
   }
-  cli_rows_print(&rows, cli_rows_method_width(&rows));
+  cli_rows_print(&rows, cli_rows_width(limit, "rows", "method", HOOKE_METHOD_WIDTH));
 }
 
-static void print_words(const struct limit *l) {
+static void print_words(const struct cli_results *l) {
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, at t = %s s\n", cli_setup_title(l->arguments, &l->setup),
           cli_format_rounded(number_of(l, "time"), text));
-  cli_claims_print(l->arguments, l->limit, INDENT, NULL);
+  cli_claims_print(l->arguments, l->found, INDENT, NULL);
   printf("\nfastest motion %.6g rad/s, fastest damping %.6g 1/s\n\n", number_of(l, "frequency_max"),
          number_of(l, "rate_max"));
-  print_table(l->limit);
-  if (hooke_measurement_row_count(l->limit, "blame") > 0) printf("\n");
-  cli_limiting_print(l->limit);
+  print_table(l->found);
+  if (hooke_measurement_row_count(l->found, "blame") > 0) printf("\n");
+  cli_limiting_print(l->found);
 }
 
-static int tell(const struct limit *l) {
+static int tell(struct cli_results *l) {
   int code = HOOKE_EXIT_DONE;
   if (!l->arguments->json)
     print_words(l);
-  else if (cli_claims_print_json(l->arguments, "scene", l->limit) != HOOKE_OK)
+  else if (cli_claims_print_json(l->arguments, "scene", l->found) != HOOKE_OK)
     code = cli_report_missing_words(l->arguments);
   cli_print_flush();
   if (l->outcome == HOOKE_STOPPED) {
     cli_report_words(l->arguments, "interrupted; kept: what was found so far");
-    return HOOKE_EXIT_INTERRUPTED;
+    code = HOOKE_EXIT_INTERRUPTED;
+  } else if (l->outcome != HOOKE_OK) {
+    cli_report_words(l->arguments, "the run ended early, at t = %g s: %s", hooke_state_time(l->setup.state),
+                     hooke_last_error());
+    code = HOOKE_EXIT_DIVERGED;
   }
-  if (l->outcome == HOOKE_OK) return code;
-  cli_report_words(l->arguments, "the run ended early, at t = %g s: %s", hooke_state_time(l->setup.state),
-                   hooke_last_error());
-  return HOOKE_EXIT_DIVERGED;
+  if (isnan(number_of(l, "frequency_max"))) return code;
+  return cli_setup_write_report(l->arguments, &l->setup, l->found, code);
 }
 
 static int do_limit(const struct cli_arguments *arguments) {
-  struct limit l = {.arguments = arguments, .along = hooke_options_number(arguments->more, "along") != 0.0};
-  const char *at = cli_arguments_text(arguments, "at");
-  const char *report = cli_arguments_text(arguments, "report");
-  int code = check_names(arguments);
-  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
-  if (code != HOOKE_EXIT_DONE) return code;
-  code = cli_setup_load(arguments, &l.setup);
-  if (code == HOOKE_EXIT_DONE && at) code = read_state(&l, at);
-  if (code == HOOKE_EXIT_DONE) code = check_needs(&l);
-  if (code == HOOKE_EXIT_DONE)
-    code = cli_watch_measure(arguments, "limit", &l.setup, l.setup.state, &l.limit, &l.outcome);
-  if (code == HOOKE_EXIT_DONE) {
-    code = tell(&l);
-    if (!isnan(number_of(&l, "frequency_max")))
-      code = cli_output_file_write_report(arguments, &l.setup, l.limit, code);
-  }
-  hooke_measurement_destroy(l.limit);
-  cli_setup_destroy(&l.setup);
-  return code;
+  return cli_results_make(arguments, "limit", NULL, make_ready, tell);
 }
 
 static const struct cli_verb_row own_rows[] = {

@@ -1,7 +1,6 @@
 /* hooke make: writes the scene of one part, from the options of the part. */
 #include "describe.h"
 #include "os.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
@@ -138,16 +137,6 @@ static int read_back(struct make *make) {
 
 /* ---- results ---- */
 
-static void print_json(const struct make *make) {
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_text(&json, "scene", make->output);
-  cli_json_text(&json, "kind", make->arguments->scene);
-  cli_json_count(&json, "particles", hooke_system_particle_count(make->system));
-  cli_json_count(&json, "springs", hooke_system_count(make->system, "springs"));
-  cli_json_end(&json);
-}
-
 /* Describes the scene; and for a step that was not given, names the commands that find one. */
 static void tell(struct make *make) {
   const int64_t particles = hooke_system_particle_count(make->system);
@@ -174,7 +163,10 @@ static int write(const struct make *make) {
   const int32_t status = hooke_scene_write(make->output, make->system,
                                            hooke_options_text(make->arguments->more, "title"), make->run);
   if (status != HOOKE_OK) return cli_report_status(make->arguments, status);
-  if (make->arguments->json) print_json(make);
+  if (make->arguments->json)
+    cli_print_json("{'scene': %s, 'kind': %s, 'particles': %" PRId64 ", 'springs': %" PRId64 "}\n",
+                   make->output, make->arguments->scene, hooke_system_particle_count(make->system),
+                   hooke_system_count(make->system, "springs"));
   return HOOKE_EXIT_DONE;
 }
 
@@ -184,7 +176,7 @@ static int do_make(const struct cli_arguments *arguments) {
   if (make.output && strcmp(make.output, "-") == 0) make.output = NULL;
   if (cli_arguments_has_run(arguments)) make.run = arguments->run;
   cli_watch_start(&watch, arguments);
-  int code = make.output ? cli_output_file_check(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
+  int code = make.output ? cli_setup_check_ending(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = check_required(&make);
   if (code == HOOKE_EXIT_DONE) code = cli_watch_check(arguments, build(&make));
   if (code == HOOKE_EXIT_DONE) code = check_run(&make);

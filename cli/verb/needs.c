@@ -1,33 +1,31 @@
 /* hooke needs: the ingredients that a scene needs for a wanted accuracy, and a lean scene without the rest.
  */
 #include "claims.h"
-#include "needs_results.h"
 #include "os.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
-#include "watch.h"
+#include "results.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static int check_files(const struct cli_needs_results *results) {
-  const struct cli_arguments *arguments = results->arguments;
+static int check(const struct cli_arguments *arguments) {
   const char *output = cli_arguments_text(arguments, "output");
-  const char *report = cli_arguments_text(arguments, "report");
-  int code = HOOKE_EXIT_DONE;
   if (!cli_arguments_text(arguments, "want")) {
     return cli_report(arguments, HOOKE_EXIT_USAGE,
                       "no want: give the error that you can live with, such as --want 1mm");
   }
-  if (output && results->refine) {
+  if (output && cli_arguments_asks(arguments, "refine")) {
     return cli_report(
         arguments, HOOKE_EXIT_USAGE,
         "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
   }
-  if (output) code = cli_output_file_check(arguments, "-o", output);
-  return code == HOOKE_EXIT_DONE ? cli_output_file_check_report(arguments, report) : code;
+  return output ? cli_setup_check_ending(arguments, "-o", output) : HOOKE_EXIT_DONE;
+}
+
+static int require(struct cli_results *results) {
+  return cli_setup_require(results->arguments, &results->setup, NULL);
 }
 
 /* ---- the lean scene ---- */
@@ -43,50 +41,37 @@ static int32_t make_command(const char *file, char **command) {
   return cli_print_end(stream, command);
 }
 
-static int write_lean(struct cli_needs_results *results) {
+static int write_lean(struct cli_results *results) {
   const char *output = cli_arguments_text(results->arguments, "output");
-  const hooke_system *lean = hooke_needs_lean(results->needs);
+  const hooke_system *lean = hooke_needs_lean(results->found);
   if (!output || !lean) return HOOKE_EXIT_DONE;
   const int32_t status = hooke_scene_write(output, lean, hooke_scene_text(results->setup.scene, "title"),
-                                           hooke_needs_lean_run(results->needs));
+                                           hooke_needs_lean_run(results->found));
   if (status != HOOKE_OK) {
     cli_report_words(results->arguments, "%s", hooke_last_error());
     return cli_exit_code(status);
   }
   int32_t made = make_command(output, &results->command);
-  if (made == HOOKE_OK) made = hooke_measurement_label(results->needs, "command", results->command);
-  if (made == HOOKE_OK) made = hooke_measurement_label(results->needs, "output", output);
+  if (made == HOOKE_OK) made = hooke_measurement_label(results->found, "command", results->command);
+  if (made == HOOKE_OK) made = hooke_measurement_label(results->found, "output", output);
   return made == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(results->arguments);
 }
 
 /* Results are printed also when a file fails. */
-static int tell(struct cli_needs_results *results, int32_t outcome) {
+static int tell(struct cli_results *results) {
   int code = write_lean(results);
-  if (results->arguments->json && cli_claims_print_json(results->arguments, NULL, results->needs) != HOOKE_OK)
+  if (results->arguments->json && cli_claims_print_json(results->arguments, NULL, results->found) != HOOKE_OK)
     code = cli_report_missing_words(results->arguments);
   if (!results->arguments->json) cli_needs_results_print(results);
   cli_print_flush();
-  code = cli_output_file_write_report(results->arguments, &results->setup, results->needs, code);
-  if (outcome != HOOKE_STOPPED) return code;
+  code = cli_setup_write_report(results->arguments, &results->setup, results->found, code);
+  if (results->outcome != HOOKE_STOPPED) return code;
   cli_report_words(results->arguments, "interrupted; kept: what is known so far");
   return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;
 }
 
 static int do_needs(const struct cli_arguments *arguments) {
-  struct cli_needs_results results = {.arguments = arguments,
-                                      .refine = hooke_options_number(arguments->more, "refine") == 1.0};
-  int32_t outcome;
-  int code = check_files(&results);
-  if (code != HOOKE_EXIT_DONE) return code;
-  code = cli_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE)
-    code = cli_watch_measure(arguments, "needs", &results.setup, NULL, &results.needs, &outcome);
-  if (code == HOOKE_EXIT_DONE) code = tell(&results, outcome);
-  free(results.command);
-  hooke_measurement_destroy(results.needs);
-  cli_setup_destroy(&results.setup);
-  return code;
+  return cli_results_make(arguments, "needs", check, require, tell);
 }
 
 static const struct cli_verb_row own_rows[] = {

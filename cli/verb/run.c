@@ -3,9 +3,7 @@
 #include "command.h"
 #include "fit.h"
 #include "os.h"
-#include "output_file.h"
 #include "report.h"
-#include "resume.h"
 #include "run.h"
 #include "want.h"
 
@@ -16,6 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+static const double MOST_STEPS = 9007199254740992.0; /* 2^53, up to which doubles hold every integer */
+static const char MAY_BE_GIVEN[] = "resume threads final no-why json quiet help";
 
 /* Of the state; the scale becomes the largest sum of its kinds without their signs. */
 static double state_energy(struct cli_run *run) {
@@ -152,10 +153,34 @@ static void find_why(struct cli_run *run) {
     cli_report_words(run->arguments, "interrupted: why the run ended early is not looked into further");
 }
 
+/* Number of the step after which the last of `frames` was written; -1 if the file does not say. */
+static int32_t read_steps(hooke_record *record, int64_t frames, int64_t *steps) {
+  int64_t rows = 0, columns = 0;
+  *steps = -1;
+  int32_t status = hooke_record_size(record, "step", &rows, &columns);
+  if (status != HOOKE_OK || frames < 1 || rows < frames || columns != 1) return status;
+  double *all = malloc((size_t)rows * sizeof *all);
+  if (all == NULL) return HOOKE_NO_MEMORY;
+  status = hooke_record_numbers(record, "step", all);
+  if (status == HOOKE_OK && all[frames - 1] >= 0.0 && all[frames - 1] <= MOST_STEPS)
+    *steps = (int64_t)all[frames - 1];
+  free(all);
+  return status;
+}
+
+static int32_t read_finished(struct cli_run *run) {
+  hooke_record *record = NULL;
+  int32_t status = hooke_record_open(run->output, &record);
+  if (status == HOOKE_OK) status = hooke_record_read(record, -1, run->setup.state);
+  if (status == HOOKE_OK) run->frames = hooke_record_count(record, "frames");
+  if (status == HOOKE_OK) status = read_steps(record, run->frames, &run->finished_steps);
+  hooke_record_close(record);
+  return status;
+}
+
 /* Reports a run that had finished already. */
 static int take_finished(struct cli_run *run) {
-  const int32_t status =
-      cli_resume_read_finished(run->output, run->setup.state, &run->frames, &run->finished_steps);
+  const int32_t status = read_finished(run);
   if (status == HOOKE_NO_MEMORY) return cli_report(run->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   run->energy_after = state_energy(run);
@@ -165,7 +190,7 @@ static int take_finished(struct cli_run *run) {
   return HOOKE_EXIT_DONE;
 }
 
-/* Prepares the first step. */
+/* Of a run that could not take its first step. */
 static int give_up(struct cli_run *run, int32_t status) {
   const int code = cli_report_status(run->arguments, status);
   (void)hooke_trajectory_close(run->trajectory, status);
@@ -209,6 +234,16 @@ static int integrate(struct cli_run *run) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
+static void tell_how(const struct cli_run *run) {
+  if (run->kept_place == HOOKE_UNSUITED)
+    cli_report_words(
+        run->arguments,
+        "this method goes on from checkpoints alone, and --checkpoint DT was not given: it begins again");
+  fputs("to go on:\n  hooke run --resume ", stderr);
+  cli_print_quoted(stderr, run->output);
+  fputc('\n', stderr);
+}
+
 /* On standard error: that a run was interrupted, and what is kept. */
 static void tell_interrupted(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
@@ -219,7 +254,7 @@ static void tell_interrupted(const struct cli_run *run) {
   }
   cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s",
                    hooke_state_time(run->setup.state), kept);
-  if (run->output) cli_resume_tell_how(arguments, run->output, run->kept_place);
+  if (run->output) tell_how(run);
 }
 
 static void tell_coincident(const struct cli_run *run) {
@@ -362,12 +397,31 @@ int cli_run_to_show(const struct cli_arguments *arguments, char *path, const cha
   return code;
 }
 
+/* Reports options that --resume takes from the run itself, and --checkpoint without a file to write it
+ * beside. */
+static int check_resume(const struct cli_arguments *arguments) {
+  const char *file = cli_arguments_text(arguments, "resume");
+  if (!file && cli_arguments_text(arguments, "checkpoint") && !cli_arguments_text(arguments, "output")) {
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "--checkpoint keeps places to go on from beside the output; give one with -o OUT.h5");
+  }
+  for (int32_t i = 0; file && i < arguments->count; i++) {
+    const struct cli_argument *argument = &arguments->all[i];
+    if (!argument->text || cli_is_among(MAY_BE_GIVEN, argument->name)) continue;
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "--resume goes on with the scene and the options of %s, so that the bits are those of "
+                      "a run that never stopped; leave out --%s",
+                      file, argument->flag);
+  }
+  return HOOKE_EXIT_DONE;
+}
+
 static int do_run(const struct cli_arguments *arguments) {
   struct cli_run run = {.arguments = arguments,
                         .output = cli_arguments_text(arguments, "output"),
                         .resumed = cli_arguments_text(arguments, "resume")};
-  int code = cli_resume_check(arguments);
-  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check(arguments, "-o", run.output);
+  int code = check_resume(arguments);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_check_ending(arguments, "-o", run.output);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;

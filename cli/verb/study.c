@@ -1,12 +1,10 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
 #include "claims.h"
 #include "command.h"
-#include "methods.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "rows.h"
-#include "study_results.h"
+#include "results.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -22,35 +20,37 @@ static int ends_in(const char *name, const char *ending) {
   return length > end && strcmp(name + length - end, ending) == 0;
 }
 
-static int check_output(const struct cli_arguments *arguments, const char *output) {
-  if (!output) return HOOKE_EXIT_DONE;
+static int check(const struct cli_arguments *arguments) {
+  const char *output = cli_arguments_text(arguments, "output");
+  int code = HOOKE_EXIT_DONE;
+  if (!output) return code;
   if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
     return cli_report(arguments, HOOKE_EXIT_USAGE,
                       "-o %s: allowed: a name that ends in .csv, for the "
                       "rows as a table, or in .h5, for the whole study",
                       output);
   }
-  const int code = ends_in(output, ".h5") ? cli_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
-  return code == HOOKE_EXIT_DONE ? cli_output_file_check(arguments, "-o", output) : code;
+  if (ends_in(output, ".h5")) code = cli_setup_check_output(arguments, output);
+  return code == HOOKE_EXIT_DONE ? cli_setup_check_ending(arguments, "-o", output) : code;
 }
 
 /* ---- the recommended command ---- */
 
-static double recommended(const struct cli_study_results *results, const char *what) {
-  return hooke_measurement_number(results->study, "recommendation", 0, what);
+static double recommended(const struct cli_results *results, const char *what) {
+  return hooke_measurement_number(results->found, "recommendation", 0, what);
 }
 
 /* NULL if the number does not apply. */
-static const char *setting(const struct cli_study_results *results, const char *what,
+static const char *setting(const struct cli_results *results, const char *what,
                            char text[HOOKE_NUMBER_SIZE]) {
   double value = recommended(results, what);
   return isnan(value) ? NULL : cli_format_number(value, text);
 }
 
 /* HOOKE_NO_MEMORY */
-static int32_t find_command(struct cli_study_results *results) {
+static int32_t find_command(struct cli_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
-  const char *method = hooke_measurement_text(results->study, "recommendation", 0, "method");
+  const char *method = hooke_measurement_text(results->found, "recommendation", 0, "method");
   if (!method) return HOOKE_OK;
   struct cli_setting settings[] = {{"method", method},
                                    {"step", setting(results, "step", step)},
@@ -61,34 +61,44 @@ static int32_t find_command(struct cli_study_results *results) {
   /* the study sets it to the number of atol, for any scene */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
   const int32_t status = cli_command_make(results->arguments, settings, &results->command);
-  return status == HOOKE_OK ? hooke_measurement_label(results->study, "command", results->command) : status;
+  return status == HOOKE_OK ? hooke_measurement_label(results->found, "command", results->command) : status;
 }
 
 /* ---- results ---- */
 
-static int32_t write_output(const struct cli_study_results *results, const char *output) {
+static int32_t write_output(const struct cli_results *results, const char *output) {
   struct cli_watch watch;
   int32_t status =
-      hooke_measurement_label(results->study, "scene", hooke_scene_text(results->setup.scene, "text"));
+      hooke_measurement_label(results->found, "scene", hooke_scene_text(results->setup.scene, "text"));
   if (status != HOOKE_OK) return status;
   cli_watch_start(&watch, results->arguments);
-  hooke_measurement_on_progress(results->study, cli_watch_progress, &watch);
-  status = hooke_measurement_write(results->study, output);
-  hooke_measurement_on_progress(results->study, NULL, NULL);
+  hooke_measurement_on_progress(results->found, cli_watch_progress, &watch);
+  status = hooke_measurement_write(results->found, output);
+  hooke_measurement_on_progress(results->found, NULL, NULL);
   cli_watch_end(&watch);
   return status;
 }
 
+/* The exit code, by the status of the file and of the command. */
+static int finish(const struct cli_results *results, int32_t written, int32_t found) {
+  if (written != HOOKE_OK) return cli_exit_code(written);
+  if (found != HOOKE_OK) return cli_report_missing_words(results->arguments);
+  if (results->outcome == HOOKE_STOPPED) return HOOKE_EXIT_INTERRUPTED;
+  const int32_t made = hooke_measurement_text(results->found, "recommendation", 0, "note") != NULL;
+  const int32_t met = recommended(results, "met") == 1.0 && cli_study_trusts_all(results->found);
+  return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
+}
+
 /* Results are printed also when the file fails. */
-static int tell(struct cli_study_results *results, const char *output) {
+static int tell(struct cli_results *results) {
   const struct cli_arguments *arguments = results->arguments;
+  const char *output = cli_arguments_text(arguments, "output");
+  const int64_t rows = hooke_measurement_row_count(results->found, "rows");
   int32_t written = HOOKE_OK;
   /* a study that was stopped before its first row does not replace an older file */
-  if (hooke_measurement_row_count(results->study, "rows") == 0) output = NULL;
-  results->trusts_all = cli_number(results->study, "reference", "trusted_until") >=
-                        cli_number(results->study, "study", "duration") * (1.0 - 1e-9);
+  if (rows == 0) output = NULL;
   int32_t found = find_command(results);
-  if (arguments->json && cli_claims_print_json(arguments, "scene", results->study) != HOOKE_OK)
+  if (arguments->json && cli_claims_print_json(arguments, "scene", results->found) != HOOKE_OK)
     found = HOOKE_NO_MEMORY;
   if (!arguments->json) cli_study_results_print(results);
   if (output) written = write_output(results, output);
@@ -98,51 +108,25 @@ static int tell(struct cli_study_results *results, const char *output) {
     cli_report_words(arguments, "%s",
                      written == HOOKE_STOPPED ? "interrupted; nothing is written" : hooke_last_error());
   if (results->outcome == HOOKE_STOPPED) {
-    cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
-                     hooke_measurement_row_count(results->study, "rows"),
+    cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s", rows,
                      output && written == HOOKE_OK ? ", in " : "",
                      output && written == HOOKE_OK ? output : "");
   }
-  if (written != HOOKE_OK) return cli_exit_code(written);
-  if (found != HOOKE_OK) return cli_report_missing_words(arguments);
-  if (results->outcome == HOOKE_STOPPED) return HOOKE_EXIT_INTERRUPTED;
-  const int32_t made = hooke_measurement_text(results->study, "recommendation", 0, "note") != NULL;
-  const int32_t met = recommended(results, "met") == 1.0 && results->trusts_all;
-  return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
+  int code = finish(results, written, found);
+  return rows > 0 ? cli_setup_write_report(arguments, &results->setup, results->found, code) : code;
 }
 
 /* A ladder has steps of its own. */
-static int require(const struct cli_study_results *results, const struct cli_methods *methods) {
-  int code = cli_setup_require_duration(results->arguments, &results->setup);
-  for (int32_t k = 0; results->once && k < methods->count; k++)
-    if (code == HOOKE_EXIT_DONE)
-      code = cli_setup_require(results->arguments, &results->setup, methods->name[k]);
+static int require(struct cli_results *results) {
+  const int once = cli_arguments_asks(results->arguments, "once");
+  int code = cli_setup_require(results->arguments, &results->setup, NULL);
+  for (int32_t k = 0; once && k < results->method_count && code == HOOKE_EXIT_DONE; k++)
+    code = cli_setup_require(results->arguments, &results->setup, results->method[k]);
   return code;
 }
 
 static int do_study(const struct cli_arguments *arguments) {
-  struct cli_study_results results = {.arguments = arguments,
-                                      .once = hooke_options_number(arguments->more, "once") == 1.0};
-  const char *output = cli_arguments_text(arguments, "output");
-  const char *report = cli_arguments_text(arguments, "report");
-  struct cli_methods methods;
-  int code = cli_methods_choose(arguments, &methods);
-  if (code == HOOKE_EXIT_DONE) code = check_output(arguments, output);
-  if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
-  if (code != HOOKE_EXIT_DONE) return code;
-  code = cli_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = require(&results, &methods);
-  if (code == HOOKE_EXIT_DONE)
-    code = cli_watch_measure(arguments, "study", &results.setup, NULL, &results.study, &results.outcome);
-  if (code == HOOKE_EXIT_DONE) {
-    code = tell(&results, output);
-    if (hooke_measurement_row_count(results.study, "rows") > 0)
-      code = cli_output_file_write_report(arguments, &results.setup, results.study, code);
-  }
-  free(results.command);
-  hooke_measurement_destroy(results.study);
-  cli_setup_destroy(&results.setup);
-  return code;
+  return cli_results_make(arguments, "study", check, require, tell);
 }
 
 static const struct cli_verb_row own_rows[] = {

@@ -1,7 +1,6 @@
 /* hooke view: writes a trajectory as a page that plays it. */
 #include "blow_up.h"
 #include "os.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "run.h"
@@ -52,24 +51,18 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
                      damaged, damaged == 1.0 ? " is" : "s are");
 }
 
-static void print_one(struct cli_json *json, const struct shown *shown, int32_t k) {
-  cli_json_text(json, "status", hooke_record_text(shown->record[k], "status"));
-  cli_json_measured(json, NULL, shown->view[k], "view", 0);
-}
-
 static int32_t print_json(const struct shown *shown, const char *output) {
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_text(&json, "output", output);
-  if (shown->count == 1) print_one(&json, shown, 0);
-  if (shown->count > 1) cli_json_open(&json, "views", '[');
-  for (int32_t k = 0; k < shown->count && shown->count > 1; k++) {
-    cli_json_open(&json, NULL, '{');
-    cli_json_text(&json, "trajectory", shown->path[k]);
-    print_one(&json, shown, k);
-    cli_json_close(&json);
+  int32_t status = HOOKE_OK;
+  cli_print_json(shown->count == 1 ? "{'output': %s, " : "{'output': %s, 'views': [", output);
+  for (int32_t k = 0; k < shown->count; k++) {
+    if (shown->count > 1) cli_print_json(k ? ", {'trajectory': %s, " : "{'trajectory': %s, ", shown->path[k]);
+    cli_print_json("'status': %s", hooke_record_text(shown->record[k], "status"));
+    const int32_t printed = cli_print_members(", ", shown->view[k], "view", 0);
+    if (printed != HOOKE_OK) status = printed;
+    cli_print_json("}");
   }
-  return cli_json_end(&json);
+  cli_print_json(shown->count == 1 ? "\n" : "]}\n");
+  return status;
 }
 
 static int write_page(const struct cli_arguments *arguments, const struct shown *shown, const char *output) {
@@ -201,7 +194,7 @@ static int do_view(const struct cli_arguments *arguments) {
   if (code != HOOKE_EXIT_DONE) return code;
   char *output = output_of(arguments);
   if (!output) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  code = cli_output_file_check(arguments, "-o", output);
+  code = cli_setup_check_ending(arguments, "-o", output);
   if (code == HOOKE_EXIT_DONE) {
     code = write_view(arguments, output);
     const int written = code == HOOKE_EXIT_DONE || code == HOOKE_EXIT_DIVERGED;

@@ -3,7 +3,6 @@
 #include "command.h"
 #include "fit.h"
 #include "limiting.h"
-#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "rows.h"
@@ -18,8 +17,7 @@ enum { LABEL = 12 };
 struct why {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_record *record; /* NULL: the scene is not an output */
-  hooke_options *options;
+  hooke_record *record;   /* NULL: the scene is not an output */
   hooke_measurement *why; /* NULL: the run did not blow up */
   const char *status;     /* of the run, if any */
   double time;            /* reached, if any */
@@ -53,7 +51,7 @@ static int32_t run_again(struct why *why) {
   why->status = "finished";
   if (status == HOOKE_OK) status = find_bound(why, why->setup.state);
   if (cli_exit_code(status) == HOOKE_EXIT_DIVERGED) {
-    status = hooke_why_create(integrator, why->options, &why->why);
+    status = hooke_why_create(integrator, why->arguments->more, &why->why);
     if (status == HOOKE_OK) status = cli_watch_run(why->arguments, why->why, NULL);
   }
   hooke_integrator_destroy(integrator);
@@ -77,8 +75,8 @@ static int32_t read_output(struct why *why) {
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
     if (blew_up(why->status))
-      status =
-          hooke_why_create_kept(why->setup.system, why->setup.options, first, last, why->options, &why->why);
+      status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last, why->arguments->more,
+                                     &why->why);
   }
   hooke_state_destroy(first);
   hooke_state_destroy(last);
@@ -94,23 +92,19 @@ static int32_t read_output(struct why *why) {
 /* ---- results ---- */
 
 /* For a run that did not blow up: a document of nothing but its method and the time that it reached. */
-static int32_t print_nothing(const struct why *why) {
+static void print_nothing(const struct why *why) {
   const char *name;
-  struct cli_json json;
-  cli_json_begin(&json, stdout);
-  cli_json_text(&json, "scene", why->arguments->scene);
+  cli_print_json("{'scene': %s", why->arguments->scene);
   for (int64_t k = 0; (name = hooke_measurement_column("why", "why", k, "name")); k++) {
     if (strcmp(name, "time") == 0)
-      cli_json_number(&json, name, why->time);
+      cli_print_json(", %s: %g", name, why->time);
     else
-      cli_json_text(&json, name,
-                    strcmp(name, "method") == 0 ? hooke_options_text(why->setup.options, name) : NULL);
+      cli_print_json(", %s: %s", name,
+                     strcmp(name, "method") == 0 ? hooke_options_text(why->setup.options, name) : NULL);
   }
-  for (int64_t k = 1; (name = hooke_measurement_table("why", k, "name")); k++) {
-    cli_json_open(&json, name, '[');
-    cli_json_close(&json);
-  }
-  return cli_json_end(&json);
+  for (int64_t k = 1; (name = hooke_measurement_table("why", k, "name")); k++)
+    cli_print_json(", %s: []", name);
+  cli_print_json("}\n");
 }
 
 static void print_number(const char *label, double value, const char *unit) {
@@ -152,12 +146,13 @@ static void print_words(const struct why *why) {
 static int32_t tell(const struct why *why) {
   int32_t status = HOOKE_OK;
   if (why->why) status = cli_advice_label(why->arguments, why->why);
-  if (why->arguments->json && !why->why) return print_nothing(why);
-  if (why->arguments->json) {
+  if (why->arguments->json && why->why) {
     const int32_t rest = cli_claims_print_json(why->arguments, "scene", why->why);
     return status == HOOKE_OK ? rest : status;
   }
-  if (why->why)
+  if (why->arguments->json)
+    print_nothing(why);
+  else if (why->why)
     print_words(why);
   else
     print_margin(why);
@@ -171,7 +166,7 @@ static int write_report(const struct why *why, int code) {
     cli_report_words(why->arguments, "no page is written, since the run did not blow up");
     return code;
   }
-  return cli_output_file_write_report(why->arguments, &why->setup, why->why, code);
+  return cli_setup_write_report(why->arguments, &why->setup, why->why, code);
 }
 
 static int find_out(struct why *why) {
@@ -196,32 +191,18 @@ static int find_out(struct why *why) {
   return write_report(why, status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments));
 }
 
-static int read_options(struct why *why) {
-  double budget = NAN;
-  const int code = cli_setup_read_study(why->arguments, "budget", &budget);
-  if (code != HOOKE_EXIT_DONE) return code;
-  int32_t status = hooke_options_create("why", &why->options);
-  if (status == HOOKE_OK && !isnan(budget)) status = hooke_options_set_number(why->options, "budget", budget);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(why->arguments, status);
-}
-
 static int do_why(const struct cli_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN, .bound = NAN};
-  int code = cli_output_file_check_report(arguments, cli_arguments_text(arguments, "report"));
-  if (code == HOOKE_EXIT_DONE) code = read_options(&why);
+  int code = cli_setup_check_report(arguments);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_measurement_destroy(why.why);
-  hooke_options_destroy(why.options);
   hooke_record_close(why.record);
   cli_setup_destroy(&why.setup);
   return code;
 }
 
 static const struct cli_verb_row rows[] = {
-    {"budget", 0, "SECONDS",
-     "wall time that the explanation may take after the run, such as 5s or 2min; if not given, as much "
-     "counted work as the run took, or 2 s if that is more, which is the same however busy the machine is"},
     {"report", 0, "FILE.html",
      "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
      "slowly, beside the advised run"},
@@ -234,6 +215,7 @@ const struct cli_verb cli_verb_why = {
             "where and when, the springs that determine it, and what to do, as commands that have been "
             "tried. The exit code is 0 also if the run did not blow up.",
     HOOKE_VERB_ROWS(rows),
+    .options = "why",
     .example = "hooke why cloth.json --step 50ms --every 50ms",
     .function = do_why,
 };

@@ -1,0 +1,33 @@
+/* What a verb measures of a scene, and the way that these verbs go. */
+#ifndef HOOKE_CLI_RESULTS_H
+#define HOOKE_CLI_RESULTS_H
+
+#include "setup.h"
+
+enum { HOOKE_MOST_METHODS = 32 };
+
+struct cli_results {
+  const struct cli_arguments *arguments;
+  struct cli_setup setup;
+  const char *method[HOOKE_MOST_METHODS]; /* those of --methods a,b,c, or all of this build; all different */
+  int32_t method_count;
+  hooke_state *from; /* where the measurement starts; NULL: at the start of the scene */
+  hooke_measurement *found;
+  int32_t outcome; /* of measuring */
+  char *command;   /* that the results lead to, for free(); NULL: none */
+};
+
+/* Checks --methods, the other arguments (`check`; NULL: nothing) and the page of --report, loads the scene,
+ * makes it `ready`, measures by the verb's own options, and tells, of failures too. Returns the exit code. */
+int cli_results_make(const struct cli_arguments *arguments, const char *kind,
+                     int (*check)(const struct cli_arguments *arguments),
+                     int (*ready)(struct cli_results *results), int (*tell)(struct cli_results *results));
+
+/* In words. */
+void cli_study_results_print(const struct cli_results *results);
+void cli_needs_results_print(const struct cli_results *results);
+
+/* 1: the reference, and with it every error of a study, is trusted up to the end of the run. */
+int32_t cli_study_trusts_all(const hooke_measurement *study);
+
+#endif
