@@ -44,7 +44,8 @@ static int32_t judge_displaced(struct hk_needs *needs, const struct hk_needs_tri
   return HOOKE_OK;
 }
 
-int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
+/* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
+static int32_t run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   hooke_system *made = NULL;
   struct hk_variant_map map;
   struct hk_needs_path fine = {0};
@@ -65,6 +66,14 @@ int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   row->measured = status == HOOKE_OK;
   if (!row->measured) row->cost = hk_needs_no_cost;
   return status == HOOKE_UNSUITED ? note_failure(row, status) : status; /* the method may not know bodies */
+}
+
+/* Selects the springs whose force never exceeds `force` [N]; returns their number. */
+static int64_t mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row) {
+  int64_t count = 0;
+  for (int64_t s = 0; s < needs->system->springs->count; s++)
+    count += row->variant.spring[s] = needs->largest_force[s] <= force;
+  return count;
 }
 
 /* 1 if the springs are those of one group, which has a row of its own, or all springs. */
@@ -92,11 +101,11 @@ static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   for (int64_t s = 0; s < needs->system->springs->count; s++)
     most = fmax(most, needs->largest_force[s]);
   for (int k = 0; k < IDLE_SHARES; k++) {
-    const int64_t count = hk_needs_mark_idle(needs, idle_shares[k] * most, row);
+    const int64_t count = mark_idle(needs, idle_shares[k] * most, row);
     if (count == 0 || count == tried || is_known(needs, row, count)) continue;
     tried = count;
     name_idle(row, idle_shares[k] * most, count);
-    const int32_t status = hk_needs_run_row(needs, row);
+    const int32_t status = run_row(needs, row);
     if (status != HOOKE_OK || row->needed == 0.0) return status;
   }
   return HOOKE_OK;
@@ -112,7 +121,7 @@ int32_t hk_needs_run_rows(struct hk_needs *needs) {
     struct hk_needs_row *row = &needs->row[k];
     const int32_t idle = strcmp(row->kind, "idle") == 0;
     needs->under_way = row->without;
-    const int32_t status = idle ? run_idle(needs, row) : hk_needs_run_row(needs, row);
+    const int32_t status = idle ? run_idle(needs, row) : run_row(needs, row);
     needs->pieces_done++;
     if (idle && !row->measured && !row->note[0] && status == HOOKE_OK) drop_row(needs, k--);
     if (status != HOOKE_OK) return status;

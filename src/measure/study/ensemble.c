@@ -1,10 +1,11 @@
-#include "measure/study/ensemble.h"
+/* Ensembles: where small differences grow too much for a motion to be computed to its end, means and spreads
+ * over many indistinguishable starts still can be. */
+#include "measure/study/study.h"
 
 #include "core/clock.h"
 #include "core/memory.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "measure/study/study.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -156,19 +157,15 @@ static int32_t run_member(struct member *member) {
   const struct hk_listener listener = {
       .on_progress = tell, .on_frame = see_frame, .on_start = displace, .ctx = member};
   const struct hk_study *study = member->study;
-  struct hk_frames none;
+  struct hk_frames none = {.system = study->system};
   hooke_options *options = NULL;
   member->count = 0;
   hk_watched_series_clear(member->series);
   int32_t status = source_options(study, member->source, &options);
-  if (status == HOOKE_OK) {
-    status = hk_frames_create(study->system, 0, &none);
-    if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL);
-    hk_frames_release(&none);
-  }
+  if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL);
   hooke_options_destroy(options);
   if (status == HOOKE_OK && member->count > 0) keep_member(member);
-  if (status != HOOKE_DIVERGED && status != HOOKE_SOLVER_FAILED && status != HOOKE_STEP_LIMIT) return status;
+  if (!hk_trial_gave_up(status)) return status;
   member->source->failed++;
   return HOOKE_OK;
 }

@@ -48,7 +48,9 @@ HOOKE_COUNTER(count_orders, struct hk_study, is_made(it) ? it->method_count : 0)
 
 /* ---- the recommendation ---- */
 
-double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive) {
+/* The value of a row, if its method takes its steps from a tolerance (`adaptive` 1) or not (0); else NaN. The
+ * method -1 is that of the reference. */
+static double setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive) {
   const char *name = method < 0 ? study->reference.method : study->method[method];
   return adaptive == hooke_method_is_adaptive(name) ? value : NAN;
 }
@@ -56,9 +58,9 @@ double hk_study_setting(const struct hk_study *study, int32_t method, double val
 HOOKE_READER(const char *, recommended_method, struct hk_study,
              it->recommendation.method < 0 ? NULL : it->method[it->recommendation.method])
 HOOKE_READER(double, recommended_step, struct hk_study,
-             hk_study_setting(it, it->recommendation.method, it->recommendation.value, 0))
+             setting(it, it->recommendation.method, it->recommendation.value, 0))
 HOOKE_READER(double, recommended_rtol, struct hk_study,
-             hk_study_setting(it, it->recommendation.method, it->recommendation.value, 1))
+             setting(it, it->recommendation.method, it->recommendation.value, 1))
 
 double hk_study_trusted_until(const struct hk_study *study) {
   return hk_reference_time(&study->reference, study->reference.trusted, study->duration);
@@ -172,7 +174,7 @@ static double bias_of(const struct hk_study *study, int64_t row) {
 
 static double setting_of(const struct hk_study *study, int64_t row, int32_t adaptive) {
   const struct hk_ensemble_source *source = source_of(study, row);
-  return hk_study_setting(study, source->method, source->value, adaptive);
+  return setting(study, source->method, source->value, adaptive);
 }
 
 static const char *method_of(const struct hk_study *study, int64_t row) {

@@ -102,9 +102,6 @@ int32_t hk_inquiry_survey(struct hk_inquiry *inquiry, struct hk_node_blocks *blo
 /* 1 if the model itself gains energy: at much smaller steps, too. */
 int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains);
 
-/* Finds the limiting springs and force of a violation, and a suggestion. */
-int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry);
-
 /* The last state within all bounds. */
 const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry);
 
