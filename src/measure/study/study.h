@@ -45,14 +45,20 @@ struct hk_study_recommendation {
   char note[512];
 };
 
+/* Over the members that have a quantity: their number, mean, and sum of squares about it. */
+struct hk_statistic {
+  int64_t members;
+  double mean, squares;
+};
+
 /* A source of motion for all members: the method of the reference, or a method of the study with one step or
  * tolerance. */
 struct hk_ensemble_source {
   int32_t method; /* of the study; -1: the reference */
   double value;   /* step or rtol */
-  int64_t finished, failed;
+  int64_t failed;
   uint64_t random;
-  double *sample; /* a row of quantities for each member that finished */
+  struct hk_statistic *statistic; /* of each quantity */
 };
 
 struct hk_ensemble {

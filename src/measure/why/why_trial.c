@@ -118,19 +118,13 @@ static int32_t watch_time(double done, const char *method, void *ctx) {
 
 /* Maximum memory of a run by a method [bytes]. */
 static double bytes_of_trial(const struct hk_trials *trials, const char *method) {
-  static const struct {
-    const char *method;
-    double numbers; /* a particle: vectors of its solver, and matrices of neighbours */
-  } heavy[] = {{"cvode-bdf", 300.0}, {"cvode-adams", 100.0}};
   const hooke_integrator *run = trials->inquiry->run;
   const double n = (double)trials->inquiry->system->particle_count;
-  /* the state, the motion, and the last states as far as 16 MB have them */
   const struct hk_method *row = hk_method_find(method);
-  double numbers = row && row->solved ? 300.0 : 25.0;
-  const double recent = fmin(16e6, 9.0 * 6.0 * n * sizeof(double));
-  for (size_t k = 0; k < sizeof heavy / sizeof heavy[0]; k++) {
-    if (strcmp(method, heavy[k].method) == 0) numbers = heavy[k].numbers;
-  }
+  const int solves = (row && row->solved) || strcmp(method, "cvode-bdf") == 0;
+  /* a particle: vectors of a solver, and matrices of neighbours; else the state and the motion */
+  const double numbers = strcmp(method, "cvode-adams") == 0 ? 100.0 : solves ? 300.0 : 25.0;
+  const double recent = fmin(16e6, 9.0 * 6.0 * n * sizeof(double)); /* the last states */
   if (strcmp(method, run->method->name) == 0)
     return (double)hooke_integrator_count(run, "memory_bytes") + 6.0 * n * sizeof(double);
   return numbers * n * sizeof(double) + recent;
