@@ -145,6 +145,76 @@ static int32_t tell(struct hk_cost *cost, double done, const char *what) {
   return hk_measurement_tell(cost->measurement, done, what);
 }
 
+/* ---- the time of a step ---- */
+
+/* A block is long against the clock's resolution and short against disturbances of the machine. Loading and
+ * checking the state is not timed; a few steps a block are worth it. */
+static const double BLOCK = 1e-3; /* [s] */
+enum { FEWEST_STEPS = 4, MOST_STEPS = 1000, FEWEST_ROUNDS = 2, BLOCKS_OF_ROUND = 3 };
+
+/* An integrator with a state, and the time of a step in its shortest blocks [ns]. */
+struct timed {
+  hooke_integrator *integrator;
+  hooke_state *state;
+  double best[2]; /* of two series; infinite before the first block */
+};
+
+/* timed_release() has to follow, after a failure too. */
+static int32_t timed_create(const hooke_system *system, const hooke_options *run, struct timed *timed) {
+  *timed = (struct timed){.best = {INFINITY, INFINITY}};
+  const int32_t status = hooke_integrator_create(system, run, &timed->integrator);
+  return status == HOOKE_OK ? hooke_state_create(system, &timed->state) : status;
+}
+
+static void timed_release(struct timed *timed) {
+  hooke_integrator_destroy(timed->integrator);
+  hooke_state_destroy(timed->state);
+  memset(timed, 0, sizeof *timed);
+}
+
+/* One block; `nanoseconds` of a step, infinite if none was taken. A run that diverges has taken its steps
+ * nevertheless. */
+static int32_t run_block(struct timed *timed, const hooke_state *start, int64_t steps, double *nanoseconds) {
+  hooke_integrator *it = timed->integrator;
+  int32_t status = hooke_state_copy(start, timed->state);
+  const double seconds = hooke_integrator_number(it, "wall_seconds");
+  const int64_t before = hooke_integrator_count(it, "steps");
+  if (status == HOOKE_OK) status = hooke_integrator_step(it, timed->state, steps);
+  const int64_t taken = hooke_integrator_count(it, "steps") - before;
+  *nanoseconds = taken > 0 ? 1e9 * (hooke_integrator_number(it, "wall_seconds") - seconds) / (double)taken
+                           : (double)INFINITY;
+  return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
+}
+
+static int32_t time_block(struct timed *timed, int series, const hooke_state *start, int64_t steps) {
+  double nanoseconds;
+  const int32_t status = run_block(timed, start, steps, &nanoseconds);
+  timed->best[series] = fmin(timed->best[series], nanoseconds);
+  return status;
+}
+
+/* Runs blocks of `full`, `lean` and `full` again in turn, each from `start`, for about `seconds`, two rounds
+ * at least. Both series of `full` are kept, whose difference measures the noise, and the first of `lean`.
+ * Times stay infinite if the method can take no step. HOOKE_STOPPED by a callback; failures of the method are
+ * not failures here. */
+static int32_t timed_compare(struct timed *full, struct timed *lean, const hooke_state *start,
+                             double seconds) {
+  const double begun = hk_clock_seconds();
+  double first;
+  int32_t status = run_block(full, start, FEWEST_STEPS, &first);
+  const double block = fmin(BLOCK, seconds / (BLOCKS_OF_ROUND * FEWEST_ROUNDS));
+  const double wanted = ceil(block / (1e-9 * first));
+  const int64_t steps = (int64_t)fmax(FEWEST_STEPS, fmin(MOST_STEPS, wanted));
+  full->best[0] = full->best[1] = INFINITY;
+  for (int64_t round = 0; status == HOOKE_OK; round++) {
+    if (round >= FEWEST_ROUNDS && hk_clock_seconds() - begun > seconds) break;
+    status = time_block(full, 0, start, steps);
+    if (status == HOOKE_OK) status = time_block(lean, 0, start, steps);
+    if (status == HOOKE_OK) status = time_block(full, 1, start, steps);
+  }
+  return status;
+}
+
 /* ---- measuring ---- */
 
 /* Repeats the last progress report. */
@@ -186,18 +256,18 @@ static int32_t choose_step(struct hk_cost *cost, const hooke_state *state) {
   return hooke_options_set_number(cost->run, "step", step);
 }
 
-static double memory_of(const hooke_system *system, const struct hk_timed *timed) {
+static double memory_of(const hooke_system *system, const struct timed *timed) {
   const int64_t state = (2 * hooke_state_size(timed->state) + 1) * (int64_t)sizeof(double);
   return (double)(hooke_system_count(system, "memory") + state +
                   hooke_integrator_count(timed->integrator, "memory_bytes"));
 }
 
-static int32_t time_row(struct hk_cost *cost, struct hk_timed *full, struct hk_timed *lean,
+static int32_t time_row(struct hk_cost *cost, struct timed *full, struct timed *lean,
                         const hooke_state *state, struct hk_cost_row *row) {
   if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
   const double fraction =
       TIMING_SHARE * hooke_options_number(cost->options, "budget") / (double)cost->chosen_count;
-  const int32_t status = hk_timed_compare(full, lean, state, fmin(MOST_SECONDS, fraction));
+  const int32_t status = timed_compare(full, lean, state, fmin(MOST_SECONDS, fraction));
   const double with = 0.5 * (full->best[0] + full->best[1]), without = lean->best[0];
   if (!isfinite(with) || !isfinite(without)) return status;
   row->nanoseconds = fmax(0.0, with - without);
@@ -223,21 +293,21 @@ static int32_t make_without(const struct hk_cost *cost, const struct hk_cost_row
   return status;
 }
 
-static int32_t measure_row(struct hk_cost *cost, struct hk_timed *full, const hooke_system *system,
+static int32_t measure_row(struct hk_cost *cost, struct timed *full, const hooke_system *system,
                            const hooke_state *state, struct hk_cost_row *row) {
   const struct hk_force_row *force = hk_force_find(row->kind);
   const int32_t limits = force == NULL || force->elements;
-  struct hk_timed lean;
-  int32_t status = hk_timed_create(system, cost->run, &lean);
+  struct timed lean;
+  int32_t status = timed_create(system, cost->run, &lean);
   if (status == HOOKE_OK) row->memory = fmax(0.0, cost->memory - memory_of(system, &lean));
   row->limit = cost->limit;
   if (status == HOOKE_OK && limits) status = find_limit(cost, system, state, &row->limit);
   if (status == HOOKE_OK) status = time_row(cost, full, &lean, state, row);
-  hk_timed_release(&lean);
+  timed_release(&lean);
   return status;
 }
 
-static int32_t find_row(struct hk_cost *cost, struct hk_timed *full, const hooke_state *state,
+static int32_t find_row(struct hk_cost *cost, struct timed *full, const hooke_state *state,
                         struct hk_cost_row *row) {
   hooke_system *lean = NULL;
   int32_t status = make_without(cost, row, &lean);
@@ -247,8 +317,7 @@ static int32_t find_row(struct hk_cost *cost, struct hk_timed *full, const hooke
 }
 
 /* Measures the selected rows, until the budget is spent: the rest stays unknown. */
-static int32_t find_rows(struct hk_cost *cost, struct hk_timed *full, const hooke_state *state,
-                         double begun) {
+static int32_t find_rows(struct hk_cost *cost, struct timed *full, const hooke_state *state, double begun) {
   const double budget = hooke_options_number(cost->options, "budget");
   int32_t status = HOOKE_OK;
   for (int64_t k = 0, done = 0; k < cost->row_count && status == HOOKE_OK; k++) {
@@ -265,7 +334,7 @@ static int32_t find_rows(struct hk_cost *cost, struct hk_timed *full, const hook
 static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_cost *cost = m->object;
   hooke_system *whole = NULL;
-  struct hk_timed full = {0};
+  struct timed full = {0};
   const double begun = hk_clock_seconds();
   forget(cost);
   cost->budget = hk_budget_of(hooke_options_number(cost->options, "budget"), tell_limits, cost);
@@ -273,10 +342,10 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (status == HOOKE_OK) status = find_first_limit(cost, state);
   if (status == HOOKE_OK) status = choose_step(cost, state);
   if (status == HOOKE_OK) status = make_without(cost, NULL, &whole);
-  if (status == HOOKE_OK) status = hk_timed_create(whole, cost->run, &full);
+  if (status == HOOKE_OK) status = timed_create(whole, cost->run, &full);
   if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);
   if (status == HOOKE_OK) status = find_rows(cost, &full, state, begun);
-  hk_timed_release(&full);
+  timed_release(&full);
   hooke_system_destroy(whole);
   return status;
 }

@@ -97,8 +97,6 @@ struct hk_needs {
 
 /* Adds a row for every ingredient of the system. */
 int32_t hk_needs_list(struct hk_needs *needs);
-/* Selects for an idle row the springs whose force never exceeds `force` [N]; returns their number. */
-int64_t hk_needs_mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row);
 
 /* ---- needs_run.c, needs_step.c ---- */
 
@@ -154,9 +152,6 @@ int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial,
  * the wanted error, at the steps of their costs; infinity if it does not finish. */
 int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *trial,
                           const struct hk_needs_cost *cost, double *error);
-/* Minimum wall times of two runs that finished, repeated in turns so that both see the same machine. */
-int32_t hk_needs_time_in_turns(struct hk_needs *needs, const struct hk_needs_trial trial[2],
-                               struct hk_needs_cost *const cost[2]);
 /* Sets the step or tolerances of a cost in options of a run. */
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
 
@@ -166,8 +161,6 @@ int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
 int32_t hk_needs_run_full(struct hk_needs *needs);
 /* 1 if the motion is too small to show anything. */
 int32_t hk_needs_rests(const struct hk_needs *needs);
-/* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
-int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row);
 int32_t hk_needs_run_rows(struct hk_needs *needs);
 /* Number of finished rows; the others are queued behind them. */
 int64_t hk_needs_known_rows(const struct hk_needs *needs);

@@ -1,8 +1,9 @@
-/* The table: one run for every ingredient. */
+/* The table: the full scene, with its method and its step, and one run for every ingredient. */
 #include "measure/needs/needs.h"
 
 #include "core/print.h"
 #include "core/status.h"
+#include "measure/recommend/pick.h"
 #include "model/force/spring.h"
 
 #include <math.h>
@@ -12,6 +13,83 @@
 /* Fractions of the largest force in the scene below which springs may be idle, the largest first. */
 static const double idle_shares[] = {1e-2, 1e-3, 1e-4, 1e-6};
 enum { IDLE_SHARES = sizeof idle_shares / sizeof idle_shares[0] };
+
+static const double LEAST_JUDGED = 0.05; /* of the duration: less is not significant */
+
+/* ---- the full scene ---- */
+
+int32_t hk_needs_tell_pick(double done, const char *what, void *ctx) {
+  (void)what;
+  return hk_needs_tell(ctx, done);
+}
+
+static int32_t refuse_pick(const struct hk_pick *pick) {
+  if (pick->best.method == NULL)
+    return hk_fail(HOOKE_UNSUITED, "method", "no method has a step that is stable here");
+  return hk_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
+                 pick->want, pick->best.method, pick->best.value, pick->best.error);
+}
+
+/* Without a method in the options of the run, chooses as 'run --want' would. */
+static int32_t pick_method(struct hk_needs *needs) {
+  struct hk_pick pick;
+  if (hooke_options_is_set(needs->run, "method")) return HOOKE_OK;
+  needs->under_way = "picking a method";
+  int32_t status = hk_pick_run(&pick, needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want, 0,
+                               NULL, hk_needs_tell_pick, needs);
+  if (status == HOOKE_OK && !pick.met) status = refuse_pick(&pick);
+  if (status == HOOKE_OK) status = hk_trial_set_value(needs->run, pick.best.method, pick.best.value);
+  needs->method_picked = status == HOOKE_OK;
+  hk_pick_release(&pick);
+  return status == HOOKE_NOT_BUILT ? HOOKE_OK : status; /* then the default of the option */
+}
+
+static int32_t refuse_full(const struct hk_needs *needs) {
+  return hk_fail(
+      HOOKE_BAD_VALUE, "want",
+      "%s, %g m: no step that was tried holds the full scene by %s to a tenth of it over a time worth "
+      "judging; take a larger want, a shorter duration or another method",
+      "the want", needs->want, hooke_options_text(needs->run, "method"));
+}
+
+static void say_how_it_moves(struct hk_needs *needs) {
+  needs->moved = hk_needs_moved(needs, &needs->path);
+  if (hk_needs_rests(needs)) {
+    hk_print(needs->note, sizeof needs->note,
+             "nothing moves: the watched positions stay within %.2g m of where they begin, under a "
+             "thousandth of what is wanted; whether a motion needs what changes nothing here cannot be told",
+             needs->moved);
+  } else if (needs->moved <= needs->want) {
+    hk_print(needs->note, sizeof needs->note,
+             "the watched positions move by %.2g m in all, less than is wanted, so that a scene which "
+             "stands still would do; take a smaller want to learn what moves them",
+             needs->moved);
+  }
+}
+
+int32_t hk_needs_run_full(struct hk_needs *needs) {
+  if (needs->path.position) return HOOKE_OK;
+  needs->pieces += 2;
+  int32_t status = pick_method(needs);
+  needs->pieces_done++;
+  const struct hk_needs_trial trial = {needs->system, NULL};
+  needs->under_way = "the full scene";
+  if (status == HOOKE_OK) status = hk_needs_measure(needs, &trial, &needs->full, &needs->path);
+  needs->pieces_done++;
+  const double least = 1.0 + LEAST_JUDGED * (double)needs->frame_count;
+  if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))
+    status = refuse_full(needs);
+  if (status == HOOKE_OK) {
+    say_how_it_moves(needs);
+  } else {
+    hk_needs_path_release(&needs->path);
+    hk_needs_path_release(&needs->displaced);
+    needs->judged = needs->frame_count;
+  }
+  return status;
+}
+
+/* ---- rows ---- */
 
 /* A failure that concerns this variant alone becomes a note. */
 static int32_t note_failure(struct hk_needs_row *row, int32_t status) {
@@ -44,7 +122,8 @@ static int32_t judge_displaced(struct hk_needs *needs, const struct hk_needs_tri
   return HOOKE_OK;
 }
 
-int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
+/* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
+static int32_t run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   hooke_system *made = NULL;
   struct hk_variant_map map;
   struct hk_needs_path fine = {0};
@@ -65,6 +144,14 @@ int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   row->measured = status == HOOKE_OK;
   if (!row->measured) row->cost = hk_needs_no_cost;
   return status == HOOKE_UNSUITED ? note_failure(row, status) : status; /* the method may not know bodies */
+}
+
+/* Selects the springs whose force never exceeds `force` [N]; returns their number. */
+static int64_t mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row) {
+  int64_t count = 0;
+  for (int64_t s = 0; s < needs->system->springs->count; s++)
+    count += row->variant.spring[s] = needs->largest_force[s] <= force;
+  return count;
 }
 
 /* 1 if the springs are those of one group, which has a row of its own, or all springs. */
@@ -92,11 +179,11 @@ static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   for (int64_t s = 0; s < needs->system->springs->count; s++)
     most = fmax(most, needs->largest_force[s]);
   for (int k = 0; k < IDLE_SHARES; k++) {
-    const int64_t count = hk_needs_mark_idle(needs, idle_shares[k] * most, row);
+    const int64_t count = mark_idle(needs, idle_shares[k] * most, row);
     if (count == 0 || count == tried || is_known(needs, row, count)) continue;
     tried = count;
     name_idle(row, idle_shares[k] * most, count);
-    const int32_t status = hk_needs_run_row(needs, row);
+    const int32_t status = run_row(needs, row);
     if (status != HOOKE_OK || row->needed == 0.0) return status;
   }
   return HOOKE_OK;
@@ -112,7 +199,7 @@ int32_t hk_needs_run_rows(struct hk_needs *needs) {
     struct hk_needs_row *row = &needs->row[k];
     const int32_t idle = strcmp(row->kind, "idle") == 0;
     needs->under_way = row->without;
-    const int32_t status = idle ? run_idle(needs, row) : hk_needs_run_row(needs, row);
+    const int32_t status = idle ? run_idle(needs, row) : run_row(needs, row);
     needs->pieces_done++;
     if (idle && !row->measured && !row->note[0] && status == HOOKE_OK) drop_row(needs, k--);
     if (status != HOOKE_OK) return status;

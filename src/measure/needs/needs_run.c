@@ -10,11 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { TURNS = 20 };
 static const double DISPLACEMENT = 0.01; /* of the wanted error: who can live with that has no exact start */
 static const uint64_t SEED = 1;          /* of the displaced start */
 static const double RESTS = 1e-3;        /* of the wanted error: a smaller motion shows nothing */
-static const double TURNS_TAKE = 0.2;    /* [s]: time for repeating two runs in turns */
 
 int32_t hk_needs_tell(struct hk_needs *needs, double fraction) {
   const double done = ((double)needs->pieces_done + fraction) / fmax(1.0, (double)needs->pieces);
@@ -44,11 +42,14 @@ void hk_needs_path_release(struct hk_needs_path *path) {
   memset(path, 0, sizeof *path);
 }
 
-/* Largest distance of a watched position at two frames; NaN if one is. */
-static double distance_of(const struct hk_needs *needs, const double *a, const double *b) {
+/* Largest distance of a watched position, of `a` at a frame and of `b` at another; NaN if one is. */
+static double distance_at(const struct hk_needs *needs, const struct hk_needs_path *a, int64_t frame,
+                          const struct hk_needs_path *b, int64_t other) {
+  const int64_t size = 3 * needs->watch_count;
+  const double *x = a->position + frame * size, *y = b->position + other * size;
   double most = 0.0;
-  for (int64_t k = 0; k < 3 * needs->watch_count; k += 3) {
-    const double dx = a[k] - b[k], dy = a[k + 1] - b[k + 1], dz = a[k + 2] - b[k + 2];
+  for (int64_t k = 0; k < size; k += 3) {
+    const double dx = x[k] - y[k], dy = x[k + 1] - y[k + 1], dz = x[k + 2] - y[k + 2];
     const double square = (dx * dx + dy * dy) + dz * dz;
     if (!(square <= most)) most = square;
     if (isnan(most)) break;
@@ -56,17 +57,11 @@ static double distance_of(const struct hk_needs *needs, const double *a, const d
   return sqrt(most);
 }
 
-static double distance_at(const struct hk_needs *needs, const struct hk_needs_path *a,
-                          const struct hk_needs_path *b, int64_t frame) {
-  const int64_t at = frame * 3 * needs->watch_count;
-  return distance_of(needs, a->position + at, b->position + at);
-}
-
 double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_path *a,
                          const struct hk_needs_path *b) {
   double most = 0.0;
   for (int64_t f = 0; f < needs->judged && f < a->recorded && f < b->recorded; f++) {
-    const double distance = distance_at(needs, a, b, f);
+    const double distance = distance_at(needs, a, f, b, f);
     if (!(distance <= most)) most = distance;
     if (isnan(most)) break;
   }
@@ -76,7 +71,7 @@ double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_pat
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path) {
   double most = 0.0;
   for (int64_t f = 1; f < needs->judged && f < path->recorded; f++)
-    most = fmax(most, distance_of(needs, path->position, path->position + f * 3 * needs->watch_count));
+    most = fmax(most, distance_at(needs, path, 0, path, f));
   return most;
 }
 
@@ -88,7 +83,7 @@ int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path
                         const struct hk_needs_path *b, double bound) {
   int64_t frames = 0;
   while (frames < needs->judged && frames < a->recorded && frames < b->recorded &&
-         distance_at(needs, a, b, frames) <= bound) {
+         distance_at(needs, a, frames, b, frames) <= bound) {
     frames++;
   }
   return frames;
@@ -178,16 +173,12 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   const struct hk_listener listener = {
       .on_progress = see_progress, .on_frame = see_frame, .on_start = see_start, .ctx = recorder};
   struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN};
-  struct hk_frames none;
+  struct hk_frames none = {.system = recorder->trial->system};
   if (recorder->path) recorder->path->recorded = 0;
   recorder->needs->runs++;
   *finished = 0;
   int32_t status = judge_begin(recorder, options);
-  if (status == HOOKE_OK) status = hk_frames_create(recorder->trial->system, 0, &none);
-  if (status == HOOKE_OK) {
-    status = hk_frames_run(&none, options, &listener, &taken);
-    hk_frames_release(&none);
-  }
+  if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, &taken);
   cost->wall_seconds = taken.wall_seconds;
   cost->force_evaluations = taken.force_evaluations;
   cost->work = taken.work;
@@ -195,25 +186,5 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   *finished = status == HOOKE_OK;
   const int32_t judged = judge_end(recorder, *finished);
   if (judged != HOOKE_OK) return judged;
-  return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT ? HOOKE_OK
-                                                                                                 : status;
-}
-
-int32_t hk_needs_time_in_turns(struct hk_needs *needs, const struct hk_needs_trial trial[2],
-                               struct hk_needs_cost *const cost[2]) {
-  hooke_options *options = NULL;
-  double spent = 0.0;
-  int32_t status = hooke_options_copy(needs->run, &options);
-  for (int k = 0; k < 2 * TURNS && spent < TURNS_TAKE && status == HOOKE_OK; k++) {
-    struct hk_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
-    struct hk_needs_cost again;
-    int32_t finished;
-    status = hk_needs_set_step(cost[k % 2], options);
-    if (status == HOOKE_OK) status = hk_needs_run_once(&recorder, options, &finished, &again);
-    if (status != HOOKE_OK) break;
-    cost[k % 2]->wall_seconds = fmin(cost[k % 2]->wall_seconds, again.wall_seconds);
-    spent += again.wall_seconds;
-  }
-  hooke_options_destroy(options);
-  return status;
+  return hk_trial_gave_up(status) ? HOOKE_OK : status;
 }

@@ -25,6 +25,12 @@ static const double MARGIN = 4.0; /* of the step's error, if only a part of the 
 enum { REPEATS = 20, HALVINGS = 3 };
 static const double SHORT = 0.02; /* [s]: time for repeating runs */
 
+struct attempt {
+  struct hk_needs_path path;
+  struct hk_needs_cost cost;
+  int32_t finished;
+};
+
 /* Steps are unit / value, tolerances 10^-value. */
 struct search {
   struct hk_needs_recorder recorder;
@@ -38,9 +44,7 @@ struct search {
   int64_t frames;
   int32_t stalls;
   int32_t was_judged; /* 1: the times of runs have the judging in them */
-  struct hk_needs_path path[2];
-  struct hk_needs_cost cost[2];
-  int32_t finished[2];
+  struct attempt run[2];
 };
 
 static double finer(const struct search *search, double value) {
@@ -54,15 +58,14 @@ static int32_t is_shortened(const struct search *search) {
 }
 
 static int32_t run_at(struct search *search, double value, int32_t which) {
-  struct hk_needs_cost *cost = &search->cost[which];
-  cost->step = search->adaptive ? NAN : search->recorder.needs->unit / value;
-  cost->rtol = search->adaptive ? 1.0 / pow(10.0, value) : NAN;
-  cost->atol = cost->rtol * search->ratio;
-  search->recorder.path = &search->path[which];
-  const int32_t status = hk_needs_set_step(cost, search->options);
-  return status == HOOKE_OK
-             ? hk_needs_run_once(&search->recorder, search->options, &search->finished[which], cost)
-             : status;
+  struct attempt *run = &search->run[which];
+  run->cost.step = search->adaptive ? NAN : search->recorder.needs->unit / value;
+  run->cost.rtol = search->adaptive ? 1.0 / pow(10.0, value) : NAN;
+  run->cost.atol = run->cost.rtol * search->ratio;
+  search->recorder.path = &run->path;
+  const int32_t status = hk_needs_set_step(&run->cost, search->options);
+  if (status != HOOKE_OK) return status;
+  return hk_needs_run_once(&search->recorder, search->options, &run->finished, &run->cost);
 }
 
 static int32_t is_exhausted(const struct search *search) {
@@ -72,19 +75,19 @@ static int32_t is_exhausted(const struct search *search) {
 
 /* Number of frames up to which the two runs stay within `bound` of each other. */
 static int64_t agreed(const struct search *search, double bound) {
-  return hk_needs_agreed(search->recorder.needs, &search->path[0], &search->path[1],
+  return hk_needs_agreed(search->recorder.needs, &search->run[0].path, &search->run[1].path,
                          bound / DIFFERENCE_FACTOR);
 }
 
 /* 1 if the step is not yet as small as that of the full system. */
 static int32_t is_coarser_than_full(const struct search *search) {
-  const struct hk_needs_cost *full = &search->recorder.needs->full, *own = &search->cost[0];
+  const struct hk_needs_cost *full = &search->recorder.needs->full, *own = &search->run[0].cost;
   if (search->recorder.trial->map == NULL) return 0;
   return search->adaptive ? own->rtol > full->rtol : own->step > full->step;
 }
 
 static int32_t has_finished(const struct search *search) {
-  return search->finished[0] && search->finished[1];
+  return search->run[0].finished && search->run[1].finished;
 }
 
 /* 1 while steps may be so coarse that the whole motion is wrong and halving them shows no difference. */
@@ -106,13 +109,9 @@ static int32_t has_stalled(struct search *search, double error, int64_t frames) 
 }
 
 static void swap_runs(struct search *search) {
-  const struct hk_needs_path path = search->path[0];
-  const struct hk_needs_cost cost = search->cost[0];
-  search->path[0] = search->path[1];
-  search->cost[0] = search->cost[1];
-  search->finished[0] = search->finished[1];
-  search->path[1] = path;
-  search->cost[1] = cost;
+  const struct attempt first = search->run[0];
+  search->run[0] = search->run[1];
+  search->run[1] = first;
 }
 
 /* 1 if the error of a variant exceeds the wanted one for any step, and is known to a tenth or with a step as
@@ -120,7 +119,7 @@ static void swap_runs(struct search *search) {
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const struct hk_needs *needs = search->recorder.needs;
   if (search->recorder.trial->map == NULL) return 0;
-  const double distance = hk_needs_distance(needs, &needs->path, &search->path[1]);
+  const double distance = hk_needs_distance(needs, &needs->path, &search->run[1].path);
   if (!(distance - error > needs->want)) return 0;
   return error <= CERTAIN * distance || !is_coarser_than_full(search);
 }
@@ -134,7 +133,8 @@ static int32_t find_step(struct search *search) {
     status = run_at(search, finer(search, search->value), 1);
     if (status != HOOKE_OK) break;
     if (has_finished(search)) {
-      const double error = DIFFERENCE_FACTOR * hk_needs_distance(needs, &search->path[0], &search->path[1]);
+      const double error =
+          DIFFERENCE_FACTOR * hk_needs_distance(needs, &search->run[0].path, &search->run[1].path);
       if (has_stalled(search, error, agreed(search, bound)) || error <= bound) break;
       if (is_needed_for_certain(search, error)) break;
     } else {
@@ -148,11 +148,6 @@ static int32_t find_step(struct search *search) {
   return status;
 }
 
-static int32_t tell_limit(double done, const char *what, void *needs) {
-  (void)what;
-  return hk_needs_tell(needs, done);
-}
-
 /* A callback that stops here stops the run after it, too. */
 static double step_limit(struct hk_needs *needs, const hooke_system *system) {
   const char *method = hooke_options_text(needs->run, "method");
@@ -160,7 +155,7 @@ static double step_limit(struct hk_needs *needs, const hooke_system *system) {
   double limit = NAN;
   if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
   const double *q = hooke_state_position(state);
-  if (hk_limit_predict(system, q, NULL, method, 1e-3, tell_limit, needs, &limit) != HOOKE_OK &&
+  if (hk_limit_predict(system, q, NULL, method, 1e-3, hk_needs_tell_pick, needs, &limit) != HOOKE_OK &&
       hooke_step_bound(system, method, q, &limit) != HOOKE_OK) {
     limit = NAN;
   }
@@ -224,9 +219,9 @@ static int32_t judge_full(struct search *search, double limit, struct hk_needs_p
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
   if (search->recorder.trial->map || search->error <= bound) return HOOKE_OK;
   needs->judged = agreed(search, bound / MARGIN);
-  needs->own_error = FINE_FACTOR * hk_needs_distance(needs, &search->path[0], &search->path[1]);
-  hand_over(&search->path[1], fine);
-  int32_t status = hk_needs_path_create(needs, &search->path[1]);
+  needs->own_error = FINE_FACTOR * hk_needs_distance(needs, &search->run[0].path, &search->run[1].path);
+  hand_over(&search->run[1].path, fine);
+  int32_t status = hk_needs_path_create(needs, &search->run[1].path);
   if (status == HOOKE_OK) status = begin_search(search, limit);
   return status == HOOKE_OK ? find_step(search) : status;
 }
@@ -239,13 +234,13 @@ static int32_t start(struct search *search, double limit) {
     status =
         hooke_options_set_number(search->options, "duration", (double)(needs->judged - 1) * needs->every);
   for (int k = 0; k < 2 && status == HOOKE_OK; k++)
-    status = hk_needs_path_create(needs, &search->path[k]);
+    status = hk_needs_path_create(needs, &search->run[k].path);
   return status;
 }
 
 static void end(struct search *search) {
   for (int k = 0; k < 2; k++)
-    hk_needs_path_release(&search->path[k]);
+    hk_needs_path_release(&search->run[k].path);
   hooke_options_destroy(search->options);
 }
 
@@ -257,7 +252,7 @@ static struct search new_search(struct hk_needs *needs, const struct hk_needs_tr
 
 static void fill_cost(const struct search *search, double limit, struct hk_needs_cost *cost) {
   const hooke_system *system = search->recorder.trial->system;
-  *cost = search->cost[0];
+  *cost = search->run[0].cost;
   cost->step_error = NAN;
   cost->step_limit = limit;
   cost->unlimited = isinf(limit);
@@ -279,47 +274,40 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
   fill_cost(&search, limit, cost);
   if (finished) cost->step_error = search.error;
   if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
-  if (status == HOOKE_OK && finished && fine->position == NULL) hand_over(&search.path[1], fine);
+  if (status == HOOKE_OK && finished && fine->position == NULL) hand_over(&search.run[1].path, fine);
   end(&search);
   return status;
 }
 
 /* ---- from a displaced start ---- */
 
-/* A run with the step of `cost`. */
-static int32_t run_displaced(struct search *search, const struct hk_needs_cost *cost,
-                             struct hk_needs_path *path, int32_t *finished) {
+/* A run with the step of `cost`, and its path. */
+static int32_t run_displaced(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                             const struct hk_needs_cost *cost, struct hk_needs_path *path,
+                             int32_t *finished) {
+  struct search search = new_search(needs, trial);
   struct hk_needs_cost taken;
-  search->recorder.path = path;
-  search->recorder.displaced = 1;
-  int32_t status = hk_needs_set_step(cost, search->options);
-  if (status == HOOKE_OK) status = hk_needs_run_once(&search->recorder, search->options, finished, &taken);
-  search->recorder.displaced = 0;
-  return status;
-}
-
-/* The full system, once. */
-static int32_t displace_full(struct hk_needs *needs) {
-  const struct hk_needs_trial trial = {needs->system, NULL};
-  struct search search = new_search(needs, &trial);
-  int32_t finished = 0;
-  if (needs->displaced.position) return HOOKE_OK;
   int32_t status = start(&search, NAN);
-  if (status == HOOKE_OK) status = hk_needs_path_create(needs, &needs->displaced);
-  if (status == HOOKE_OK) status = run_displaced(&search, &needs->full, &needs->displaced, &finished);
+  search.recorder.path = &search.run[0].path;
+  search.recorder.displaced = 1;
+  if (status == HOOKE_OK) status = hk_needs_set_step(cost, search.options);
+  if (status == HOOKE_OK) status = hk_needs_run_once(&search.recorder, search.options, finished, &taken);
+  if (status == HOOKE_OK) hand_over(&search.run[0].path, path);
   end(&search);
   return status;
 }
 
 int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *trial,
                           const struct hk_needs_cost *cost, double *error) {
-  struct search search = new_search(needs, trial);
-  int32_t finished = 0;
-  int32_t status = displace_full(needs);
-  if (status == HOOKE_OK) status = start(&search, NAN);
-  if (status == HOOKE_OK) status = run_displaced(&search, cost, &search.path[0], &finished);
-  *error = finished ? hk_needs_distance(needs, &needs->displaced, &search.path[0]) : INFINITY;
-  end(&search);
+  const struct hk_needs_trial full = {needs->system, NULL};
+  struct hk_needs_path own = {0};
+  int32_t finished = 0, status = HOOKE_OK;
+  if (needs->displaced.position == NULL)
+    status = run_displaced(needs, &full, &needs->full, &needs->displaced, &finished);
+  finished = 0;
+  if (status == HOOKE_OK) status = run_displaced(needs, trial, cost, &own, &finished);
+  *error = finished ? hk_needs_distance(needs, &needs->displaced, &own) : INFINITY;
+  hk_needs_path_release(&own);
   return status;
 }
 
@@ -328,8 +316,8 @@ int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *t
 /* NaN for a run that did not finish, or whose step or energy is not sound. */
 static double error_of(const struct search *search, int32_t which) {
   const struct hk_needs *needs = search->recorder.needs;
-  if (!search->finished[which] || !search->recorder.sound) return NAN;
-  return hk_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
+  if (!search->run[which].finished || !search->recorder.sound) return NAN;
+  return hk_needs_distance(needs, &needs->path, &search->run[which].path) + needs->own_error;
 }
 
 /* Bisects towards `failed`, which is too coarse, and keeps the coarsest sufficient run at index 0. */
@@ -381,7 +369,7 @@ int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial,
   int32_t finished = *error <= needs->want;
   if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
   if (status == HOOKE_OK && finished)
-    hand_over(&search.path[0], path);
+    hand_over(&search.run[0].path, path);
   else
     *error = NAN;
   end(&search);

@@ -87,15 +87,11 @@ static int32_t try_quick(struct hk_pick *pick, const char *method, double most) 
   const int adaptive = hooke_method_is_adaptive(method);
   const struct hk_listener listener = {.on_progress = tell_quickest, .most_work = most, .ctx = pick};
   struct hk_run_cost cost = {.work = 0.0};
-  struct hk_frames none;
+  struct hk_frames none = {.system = pick->system};
   hooke_options *options = NULL;
   if (!hk_pick_allows(pick, method)) return HOOKE_OK;
   int32_t status = hk_pick_options(pick->run, method, adaptive ? QUICK_TOLERANCE : pick->unit, &options);
-  if (status == HOOKE_OK) status = hk_frames_create(pick->system, 0, &none);
-  if (status == HOOKE_OK) {
-    status = hk_frames_run(&none, options, &listener, &cost);
-    hk_frames_release(&none);
-  }
+  if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, &cost);
   hooke_options_destroy(options);
   pick->work += cost.work;
   if (status == HOOKE_OK) pick->quickest = fmin(pick->quickest, cost.work);

@@ -1,10 +1,11 @@
-#include "measure/study/ensemble.h"
+/* Ensembles: where small differences grow too much for a motion to be computed to its end, means and spreads
+ * over many indistinguishable starts still can be. */
+#include "measure/study/study.h"
 
 #include "core/clock.h"
 #include "core/memory.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "measure/study/study.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -32,8 +33,8 @@ static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ense
   const uint64_t seed = (uint64_t)hooke_options_number(study->options, "seed");
   *source = (struct hk_ensemble_source){.method = method, .value = value};
   source->random = seed_of(seed, method < 0 ? "reference" : study->method[method]);
-  source->sample = hk_new(ensemble->members * ensemble->quantities.count, sizeof(double));
-  if (source->sample == NULL) return HOOKE_NO_MEMORY;
+  source->statistic = hk_new(ensemble->quantities.count, sizeof *source->statistic);
+  if (source->statistic == NULL) return HOOKE_NO_MEMORY;
   ensemble->source_count++;
   return HOOKE_OK;
 }
@@ -90,7 +91,7 @@ static int32_t create(const struct hk_study *study, struct hk_ensemble *ensemble
 void hk_ensemble_release(struct hk_ensemble *ensemble) {
   if (ensemble == NULL) return;
   for (int64_t k = 0; k < ensemble->source_count; k++)
-    hk_free(ensemble->source[k].sample);
+    hk_free(ensemble->source[k].statistic);
   hk_free(ensemble->source);
   hk_watched_release(&ensemble->quantities);
   hk_free(ensemble);
@@ -127,18 +128,22 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
   return 0;
 }
 
-/* Means over the frames, and periods. */
+/* Means over the frames, and periods, into a running mean and sum of squares (Welford 1962). */
 static void keep_member(const struct member *member) {
   struct hk_ensemble *ensemble = member->ensemble;
-  struct hk_ensemble_source *source = member->source;
-  double *sample = source->sample + source->finished++ * ensemble->quantities.count;
   for (int64_t k = 0; k < ensemble->quantities.count; k++) {
-    const double *value = hk_watched_series_of(member->series, k);
+    const double *at = hk_watched_series_of(member->series, k);
+    struct hk_statistic *statistic = &member->source->statistic[k];
     double sum = 0.0;
     for (int64_t f = 0; f < member->count; f++)
-      sum += value[f];
-    sample[k] = ensemble->quantities.item[k].is_period ? hk_watched_period(member->count, member->time, value)
-                                                       : sum / (double)member->count;
+      sum += at[f];
+    const double value = ensemble->quantities.item[k].is_period
+                             ? hk_watched_period(member->count, member->time, at)
+                             : sum / (double)member->count;
+    if (isnan(value)) continue;
+    const double from_mean = value - statistic->mean;
+    statistic->mean += from_mean / (double)++statistic->members;
+    statistic->squares += from_mean * (value - statistic->mean);
   }
   ensemble->from = member->time[0];
   ensemble->until = member->time[member->count - 1];
@@ -156,19 +161,15 @@ static int32_t run_member(struct member *member) {
   const struct hk_listener listener = {
       .on_progress = tell, .on_frame = see_frame, .on_start = displace, .ctx = member};
   const struct hk_study *study = member->study;
-  struct hk_frames none;
+  struct hk_frames none = {.system = study->system};
   hooke_options *options = NULL;
   member->count = 0;
   hk_watched_series_clear(member->series);
   int32_t status = source_options(study, member->source, &options);
-  if (status == HOOKE_OK) {
-    status = hk_frames_create(study->system, 0, &none);
-    if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL);
-    hk_frames_release(&none);
-  }
+  if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL);
   hooke_options_destroy(options);
   if (status == HOOKE_OK && member->count > 0) keep_member(member);
-  if (status != HOOKE_DIVERGED && status != HOOKE_SOLVER_FAILED && status != HOOKE_STEP_LIMIT) return status;
+  if (!hk_trial_gave_up(status)) return status;
   member->source->failed++;
   return HOOKE_OK;
 }

@@ -57,27 +57,24 @@ static int near_limit(const struct hk_study *study, int32_t method, double coars
   return coarsest >= 0.5 * study->safe_step[method] && study->safe_step[method] < study->unit;
 }
 
-/* "a", "a and b", "a, b and c" */
-static void add_cause(char *list, size_t size, int *count, int applies, const char *cause) {
-  const size_t length = strlen(list);
-  if (!applies) return;
-  snprintf(list + length, size - length, "%s%s", (*count)++ > 0 ? ", or " : "", cause);
-}
-
 static void list_causes(const struct hk_study *study, int32_t method, double coarsest, char *list,
                         size_t size) {
   const hooke_system *system = study->system;
-  int count = 0;
+  const struct {
+    int applies;
+    const char *cause;
+  } rows[] = {
+      {pulls_only(system), "springs that only pull have a kink"},
+      {hk_system_groups_of(system, &hk_force_altitude) > 0, "altitude springs jump between altitudes"},
+      {system->force != NULL, "the force callback may not be smooth enough"},
+      {has_table(system), "a drive by a table bends at its samples"},
+      {hk_system_calls_back(system) & HOOKE_CALLS_DRIVE, "the drive callback may not be smooth enough"},
+      {near_limit(study, method, coarsest), "steps are near the limit of stability"},
+      {1, "steps do not resolve the motion yet"},
+  };
   list[0] = '\0';
-  add_cause(list, size, &count, pulls_only(system), "springs that only pull have a kink");
-  add_cause(list, size, &count, hk_system_groups_of(system, &hk_force_altitude) > 0,
-            "altitude springs jump between altitudes");
-  add_cause(list, size, &count, system->force != NULL, "the force callback may not be smooth enough");
-  add_cause(list, size, &count, has_table(system), "a drive by a table bends at its samples");
-  add_cause(list, size, &count, hk_system_calls_back(system) & HOOKE_CALLS_DRIVE,
-            "the drive callback may not be smooth enough");
-  add_cause(list, size, &count, near_limit(study, method, coarsest), "steps are near the limit of stability");
-  add_cause(list, size, &count, 1, "steps do not resolve the motion yet");
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
+    if (rows[k].applies) hk_append(list, size, "%s%s", list[0] ? ", or " : "", rows[k].cause);
 }
 
 static void explain(const struct hk_study *study, int32_t method, struct hk_study_order *order,

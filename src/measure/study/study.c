@@ -152,7 +152,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   study->begun = hk_clock_seconds();
   if (hooke_options_number(study->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
   if (!study->once) status = hk_study_find_safe_steps(study);
-  if (status == HOOKE_OK) status = hk_study_prepare_guesses(study);
+  hk_study_prepare_guesses(study);
   if (status == HOOKE_OK) status = make_reference(study);
   if (study->reference.trusted == study->reference.frames.count) study->budget = budget;
   if (status == HOOKE_OK) status = hk_study_run_ladders(study);

@@ -4,7 +4,7 @@
 #define HOOKE_MEASURE_STUDY_STUDY_H
 
 #include "measure/measurement.h"
-#include "measure/study/ensemble.h"
+#include "measure/quantity/watched.h"
 #include "measure/trial/method_list.h"
 #include "measure/trial/reference.h"
 
@@ -45,6 +45,31 @@ struct hk_study_recommendation {
   char note[512];
 };
 
+/* Over the members that have a quantity: their number, mean, and sum of squares about it. */
+struct hk_statistic {
+  int64_t members;
+  double mean, squares;
+};
+
+/* A source of motion for all members: the method of the reference, or a method of the study with one step or
+ * tolerance. */
+struct hk_ensemble_source {
+  int32_t method; /* of the study; -1: the reference */
+  double value;   /* step or rtol */
+  int64_t failed;
+  uint64_t random;
+  struct hk_statistic *statistic; /* of each quantity */
+};
+
+struct hk_ensemble {
+  struct hk_watched_list quantities; /* kinetic, potential, energy, and the watched quantities */
+  int64_t members;                   /* of each source */
+  double noise;                      /* root mean square displacement of a free particle at the start [m] */
+  double from, until;                /* of the means over time [s] */
+  int64_t source_count;
+  struct hk_ensemble_source *source; /* the reference first */
+};
+
 struct hk_study {
   const hooke_measurement *measurement;
   const hooke_system *system;
@@ -69,7 +94,6 @@ struct hk_study {
 
   const char *under_way;
   double told;                           /* largest reported fraction */
-  double evaluation;                     /* of a force evaluation, approximate [s] */
   double fixed_rows;                     /* of the ladders, approximate [s] */
   double adaptive_rows;                  /* number of rows */
   double work_ahead;                     /* wall time of the rows to come [s] */
@@ -87,8 +111,6 @@ int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method);
 
 /* The k-th value of a method's ladder, the coarsest first: a step, or a tolerance; NaN past the last. */
 double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k);
-/* The step nearest to `step` that divides frames and duration evenly. */
-double hk_study_fitting_step(const struct hk_study *study, double step);
 /* Finds the safe step of each method. */
 int32_t hk_study_find_safe_steps(struct hk_study *study);
 /* Finds `unit` and checks the caller's ladders. */
@@ -101,22 +123,19 @@ int32_t hk_study_check_ladder(struct hk_study *study);
 int32_t hk_study_tell_reference(double fraction, void *ctx);
 int32_t hk_study_tell(double fraction, void *ctx);
 int32_t hk_study_tell_row(double fraction, void *ctx);
-/* Times a force evaluation at the start, and counts the rows of the ladders. */
-int32_t hk_study_prepare_guesses(struct hk_study *study);
+/* Guesses the work of an evaluation of the forces, and counts the rows of the ladders. */
+void hk_study_prepare_guesses(struct hk_study *study);
 /* Rough prediction of the time of a row [s], for a method without rows so far. */
 double hk_study_guess(const struct hk_study *study, int32_t method, double value);
 
 /* ---- rows ---- */
 
-/* One value of a method: run once for its error; then, if that was short, repeated for its time; or both. The
- * row's trial must be released. Only the first may be called from several threads at a time. */
-int32_t hk_study_run_row(const struct hk_study *study, int32_t method, double value,
-                         const struct hk_listener *listener, struct hk_study_row *row);
+/* Options of the run of a row; the caller destroys them in either case. */
 int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value, hooke_options **out);
-/* Options of the run of a row, or of the reference (-1). */
+/* The same by number, or those of the reference (-1). */
 int32_t hk_study_run_options(const struct hk_study *study, int64_t row, hooke_options **out);
-int32_t hk_study_time_row(struct hk_study *study, struct hk_study_row *row);
-/* A row that the deadline ended has no status, and the study is marked as late. */
+/* One value of a method: run for its error and repeated for its time; the row's trial must be released. A row
+ * that the deadline ended has no status, and the study is marked as late. */
 int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row);
 
 /* Runs all rows, level by level, until the deadline. */
@@ -141,11 +160,15 @@ int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_stu
 /* Least-squares fit of log error against log step for a method (order.c). */
 void hk_study_fit_order(struct hk_study *study, int32_t method);
 
-/* ---- tables ---- */
+/* ---- the ensemble (ensemble.c) ---- */
 
-/* The value of a row, if its method takes its steps from a tolerance (`adaptive` 1) or not (0); else NaN. The
- * method -1 is that of the reference. */
-double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive);
+/* Runs the members of a study whose rows are complete, of all sources in turn, until all are done or the
+ * deadline is reached. Does nothing if no ensemble is requested, or if the reference is trusted to the end.
+ */
+int32_t hk_ensemble_run(struct hk_study *study);
+void hk_ensemble_release(struct hk_ensemble *ensemble);
+
+/* ---- tables ---- */
 
 extern const struct hk_table hk_study_tables[];
 

@@ -23,7 +23,8 @@ static int32_t points_of(const struct hk_study *study) {
   return (int32_t)hooke_options_number(study->options, "points");
 }
 
-double hk_study_fitting_step(const struct hk_study *study, double step) {
+/* The step nearest to `step` that divides frames and duration evenly. */
+static double fitting_step(const struct hk_study *study, double step) {
   return study->unit / fmax(1.0, ceil(study->unit / step * (1.0 - 1e-12)));
 }
 
@@ -52,7 +53,7 @@ int32_t hk_study_find_safe_steps(struct hk_study *study) {
     double step = study->unit;
     if (hk_study_is_adaptive(study, m)) continue;
     status = safe_step(study, study->method[m], hooke_state_position(state), &step);
-    study->safe_step[m] = hk_study_fitting_step(study, fmin(study->unit, step));
+    study->safe_step[m] = fitting_step(study, fmin(study->unit, step));
   }
   hooke_state_destroy(state);
   return status;
@@ -61,8 +62,7 @@ int32_t hk_study_find_safe_steps(struct hk_study *study) {
 /* From twice the safe step, which may still be stable, since the bound is not sharp. */
 static double fixed_ladder(const struct hk_study *study, int32_t method, int32_t k) {
   const double safe = study->safe_step[method];
-  const double start =
-      safe < study->unit ? hk_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
+  const double start = safe < study->unit ? fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
   const int32_t above = start > safe;
   const double step = k == 0 ? start : study->unit / (round(study->unit / safe) * exp2((double)(k - above)));
   return k < points_of(study) + above && study->duration / step <= MOST_STEPS ? step : NAN;
@@ -105,7 +105,7 @@ static int32_t check_steps(const struct hk_study *study) {
     if (hk_step_is_whole(study->every / step) && hk_step_is_whole(study->duration / step)) continue;
     char where[64], fitting[HOOKE_NUMBER_SIZE];
     snprintf(where, sizeof where, "steps[%lld]", (long long)k);
-    hk_number_print(hk_study_fitting_step(study, step), fitting);
+    hk_number_print(fitting_step(study, step), fitting);
     return hk_fail(
         HOOKE_BAD_VALUE, where,
         "every %.6g s and duration %.6g s are not whole multiples of %.6g s; a step near it that fits is %s",

@@ -2,7 +2,7 @@
 #include "measure/study/study.h"
 
 #include "core/clock.h"
-#include "core/memory.h"
+#include "measure/counted_work/work.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -12,24 +12,8 @@ static const double EVALUATIONS_OF_STEP = 3.0; /* cost of a step: several evalua
 static const double SHARE_OF_REFERENCE = 0.06; /* time of a row by tolerance over that of the reference */
 static const double SHARE_OF_SEARCH = 0.1;     /* added by the search for a recommendation */
 
-static int32_t time_evaluation(struct hk_study *study) {
-  hooke_state *state = NULL;
-  double *force = hk_new(3 * hooke_system_particle_count(study->system), sizeof(double));
-  int32_t status = force ? hooke_state_create(study->system, &state) : HOOKE_NO_MEMORY;
-  study->evaluation = INFINITY;
-  for (int k = 0; k < 3 && status == HOOKE_OK; k++) {
-    const double begun = hk_clock_seconds();
-    status = hooke_system_force(study->system, hooke_state_time(state), hooke_state_position(state),
-                                hooke_state_velocity(state), force);
-    study->evaluation = fmin(study->evaluation, hk_clock_seconds() - begun);
-  }
-  hooke_state_destroy(state);
-  hk_free(force);
-  return status;
-}
-
 static double guess_fixed(const struct hk_study *study, double step) {
-  return EVALUATIONS_OF_STEP * study->evaluation * study->duration / step;
+  return EVALUATIONS_OF_STEP * hk_work_of_evaluation(study->system) * study->duration / step;
 }
 
 double hk_study_guess(const struct hk_study *study, int32_t method, double value) {
@@ -37,10 +21,9 @@ double hk_study_guess(const struct hk_study *study, int32_t method, double value
                                              : guess_fixed(study, value);
 }
 
-int32_t hk_study_prepare_guesses(struct hk_study *study) {
-  const int32_t status = time_evaluation(study);
+void hk_study_prepare_guesses(struct hk_study *study) {
   study->told = study->fixed_rows = study->adaptive_rows = 0.0;
-  for (int32_t m = 0; m < study->method_count && status == HOOKE_OK; m++) {
+  for (int32_t m = 0; m < study->method_count; m++) {
     for (int32_t k = 0; !isnan(hk_study_ladder(study, m, k)); k++) {
       if (hk_study_is_adaptive(study, m))
         study->adaptive_rows += 1.0;
@@ -48,7 +31,6 @@ int32_t hk_study_prepare_guesses(struct hk_study *study) {
         study->fixed_rows += guess_fixed(study, hk_study_ladder(study, m, k));
     }
   }
-  return status;
 }
 
 static int32_t tell(struct hk_study *study, double spent, double ahead) {

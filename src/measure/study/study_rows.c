@@ -1,4 +1,5 @@
-/* The ladders of a study, level by level; on several threads the rows of a level run in parallel. */
+/* The rows of a study: each a run for its error, repeated for its time; the ladders, level by level; on
+ * several threads the rows of a level run in parallel. */
 #include "measure/study/study.h"
 
 #include "core/clock.h"
@@ -17,10 +18,104 @@
 /* With a wanted error, the search gets this fraction of a budget, or so many times the run of the reference,
  * but at most this fraction of the remaining time. */
 static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
-static const double REPEATS = 4.0, REPEAT_SECONDS = 0.1; /* short rows are repeated, for their time */
+static const double REPEATS = 4.0; /* of a short row, for its time */
+
+/* A short run is repeated until its time is steady or this much has been spent on it, and this share of a
+ * budget. */
+static const double REPEAT_SECONDS = 0.1, REPEAT_SHARE = 0.005;
+static const double STEADY = 1.03;
+enum { MOST_REPEATS = 9 };
 
 /* Fraction of the remaining time for a first row, whose time is unknown: others must have their turn. */
 static const double UNKNOWN_SHARE = 0.1;
+
+/* ---- a row ---- */
+
+int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value,
+                             hooke_options **out) {
+  int32_t status = hooke_options_copy(study->run, out);
+  if (status == HOOKE_OK && study->once && value == hk_study_ladder(study, method, 0))
+    status = hooke_options_set_text(*out, "method", study->method[method]);
+  else if (status == HOOKE_OK)
+    status = hk_trial_set_value(*out, study->method[method], value);
+  /* rows in parallel, each on its own thread */
+  return status == HOOKE_OK && !study->once ? hooke_options_set_number(*out, "threads", 1) : status;
+}
+
+int32_t hk_study_run_options(const struct hk_study *study, int64_t row, hooke_options **out) {
+  struct hk_reference r = study->reference;
+  if (row >= 0) return hk_study_row_options(study, study->row[row].method, study->row[row].value, out);
+  r.extent = r.run_extent;
+  return hk_reference_options(study->run, r.method, r.rtol, &r, out);
+}
+
+static int compare_seconds(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* The first run warms up; it counts only if it is the only one. */
+static int32_t repeat_for_time(struct hk_study *study, const hooke_options *options,
+                               const struct hk_listener *listener, struct hk_study_row *row) {
+  double seconds[MOST_REPEATS], spent = row->trial.wall_seconds;
+  int32_t count = 0, status = HOOKE_OK;
+  const struct hk_reference *r = &study->reference;
+  const double most = fmin(REPEAT_SECONDS, REPEAT_SHARE * study->budget);
+  while (status == HOOKE_OK && count < MOST_REPEATS && spent < most) {
+    status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
+    seconds[count++] = row->trial.wall_seconds;
+    spent += row->trial.wall_seconds;
+    qsort(seconds, (size_t)count, sizeof seconds[0], compare_seconds);
+    if (count >= 3 && seconds[1] <= STEADY * seconds[0]) break;
+  }
+  if (count == 0) return status;
+  row->repeats = count;
+  row->timed_alone = 1;
+  row->wall_median = seconds[count / 2];
+  row->trial.wall_seconds = seconds[0];
+  return status;
+}
+
+/* One value of a method, for its error; several threads may do so at a time. */
+static int32_t run_row(const struct hk_study *study, int32_t method, double value,
+                       const struct hk_listener *listener, struct hk_study_row *row) {
+  const struct hk_reference *r = &study->reference;
+  hooke_options *options = NULL;
+  *row = (struct hk_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
+  int32_t status = hk_study_row_options(study, method, value, &options);
+  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &row->trial);
+  if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
+  row->wall_median = row->trial.wall_seconds;
+  hooke_options_destroy(options);
+  return status;
+}
+
+/* Then, if that was short, repeated for its time. */
+static int32_t time_row(struct hk_study *study, struct hk_study_row *row) {
+  const struct hk_listener listener = {.on_progress = hk_study_tell, .ctx = study};
+  hooke_options *options = NULL;
+  if (study->once || strcmp(row->trial.status, "finished") != 0) return HOOKE_OK;
+  study->under_way = study->method[row->method];
+  int32_t status = hk_study_row_options(study, row->method, row->value, &options);
+  if (status == HOOKE_OK) status = repeat_for_time(study, options, &listener, row);
+  hooke_options_destroy(options);
+  return status;
+}
+
+int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row) {
+  const struct hk_listener listener = {.on_progress = hk_study_tell_row, .ctx = study};
+  study->under_way = study->method[method];
+  study->late = 0;
+  const int32_t status = run_row(study, method, value, &listener, row);
+  if (status == HOOKE_STOPPED && study->late) {
+    hk_trial_release(&row->trial);
+    study->budget_spent = 1;
+    return HOOKE_OK;
+  }
+  return status == HOOKE_OK ? time_row(study, row) : status;
+}
+
+/* ---- times of rows ---- */
 
 /* Predicted time of the next row of a method [s]: that of its last finished row, scaled by the steps; NaN
  * before the first. */
@@ -87,7 +182,7 @@ static void *work(void *ctx) {
     struct job *job = &level->job[k];
     const struct hk_listener listener = {.on_progress = asked_to_stop, .ctx = job};
     job->deadline = deadline_of(job, level->study);
-    job->status = hk_study_run_row(level->study, job->method, job->value, &listener, &job->row);
+    job->status = run_row(level->study, job->method, job->value, &listener, &job->row);
     job->row.timed_alone = 0;
     if (job->status != HOOKE_OK) snprintf(job->message, sizeof job->message, "%s", hooke_last_error());
   }
@@ -132,7 +227,7 @@ static int32_t run_side_by_side(struct level *level, int32_t threads) {
     } else if (job->status != HOOKE_OK)
       status = hk_fail(job->status, NULL, "%s", job->message);
     else if (job->row.trial.status)
-      status = hk_study_time_row(level->study, &job->row);
+      status = time_row(level->study, &job->row);
   }
   return status;
 }

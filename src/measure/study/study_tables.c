@@ -48,7 +48,9 @@ HOOKE_COUNTER(count_orders, struct hk_study, is_made(it) ? it->method_count : 0)
 
 /* ---- the recommendation ---- */
 
-double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive) {
+/* The value of a row, if its method takes its steps from a tolerance (`adaptive` 1) or not (0); else NaN. The
+ * method -1 is that of the reference. */
+static double setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive) {
   const char *name = method < 0 ? study->reference.method : study->method[method];
   return adaptive == hooke_method_is_adaptive(name) ? value : NAN;
 }
@@ -56,9 +58,9 @@ double hk_study_setting(const struct hk_study *study, int32_t method, double val
 HOOKE_READER(const char *, recommended_method, struct hk_study,
              it->recommendation.method < 0 ? NULL : it->method[it->recommendation.method])
 HOOKE_READER(double, recommended_step, struct hk_study,
-             hk_study_setting(it, it->recommendation.method, it->recommendation.value, 0))
+             setting(it, it->recommendation.method, it->recommendation.value, 0))
 HOOKE_READER(double, recommended_rtol, struct hk_study,
-             hk_study_setting(it, it->recommendation.method, it->recommendation.value, 1))
+             setting(it, it->recommendation.method, it->recommendation.value, 1))
 
 double hk_study_trusted_until(const struct hk_study *study) {
   return hk_reference_time(&study->reference, study->reference.trusted, study->duration);
@@ -135,44 +137,36 @@ static const struct hk_watched *quantity_of(const struct hk_study *study, int64_
   return &study->ensemble->quantities.item[row % count_quantities(study)];
 }
 
-/* Number of members that have a quantity, their mean, and their spread (standard deviation) about it. */
-struct sample {
-  int64_t members;
-  double mean, spread;
-};
+static const struct hk_statistic *statistic_of(const struct hk_study *study, int64_t row) {
+  return &source_of(study, row)->statistic[row % count_quantities(study)];
+}
 
-static struct sample sample_of(const struct hk_study *study, int64_t row) {
-  const int64_t inner = count_quantities(study);
-  const struct hk_ensemble_source *s = source_of(study, row);
-  struct sample sample = {.members = 0, .mean = NAN, .spread = NAN};
-  double mean = 0.0, square = 0.0; /* running mean and variance (Welford 1962) */
-  for (int64_t k = 0; k < s->finished; k++) {
-    const double value = s->sample[k * inner + row % inner];
-    if (isnan(value)) continue;
-    const double from_mean = value - mean;
-    mean += from_mean / (double)++sample.members;
-    square += from_mean * (value - mean);
-  }
-  if (s->failed) return sample;
-  if (sample.members > 0) sample.mean = mean;
-  if (sample.members > 1) sample.spread = sqrt(square / (double)(sample.members - 1));
-  return sample;
+static double mean_of(const struct hk_study *study, int64_t row) {
+  const struct hk_statistic *own = statistic_of(study, row);
+  return source_of(study, row)->failed || own->members == 0 ? NAN : own->mean;
+}
+
+/* Standard deviation. */
+static double spread_of(const struct hk_study *study, int64_t row) {
+  const struct hk_statistic *own = statistic_of(study, row);
+  if (source_of(study, row)->failed || own->members < 2) return NAN;
+  return sqrt(own->squares / (double)(own->members - 1));
 }
 
 /* Difference of the mean from the reference's, in standard errors of that difference. */
 static double bias_of(const struct hk_study *study, int64_t row) {
-  const int64_t inner = count_quantities(study);
-  const struct sample own = sample_of(study, row), other = sample_of(study, row % inner);
-  const double variance =
-      own.spread * own.spread / (double)own.members + other.spread * other.spread / (double)other.members;
-  const double difference = own.mean - other.mean;
-  if (row < inner) return NAN;
+  const int64_t other = row % count_quantities(study);
+  const double spread = spread_of(study, row), others = spread_of(study, other);
+  const double variance = spread * spread / (double)statistic_of(study, row)->members +
+                          others * others / (double)statistic_of(study, other)->members;
+  const double difference = mean_of(study, row) - mean_of(study, other);
+  if (row == other) return NAN;
   return difference == 0.0 && variance == 0.0 ? 0.0 : difference / sqrt(variance);
 }
 
 static double setting_of(const struct hk_study *study, int64_t row, int32_t adaptive) {
   const struct hk_ensemble_source *source = source_of(study, row);
-  return hk_study_setting(study, source->method, source->value, adaptive);
+  return setting(study, source->method, source->value, adaptive);
 }
 
 static const char *method_of(const struct hk_study *study, int64_t row) {
@@ -186,9 +180,9 @@ HOOKE_READER(const char *, statistic_quantity, struct hk_study, quantity_of(it, 
 HOOKE_READER(const char *, statistic_unit, struct hk_study, hk_watched_unit(quantity_of(it, row)))
 HOOKE_READER(double, statistic_step, struct hk_study, setting_of(it, row, 0))
 HOOKE_READER(double, statistic_rtol, struct hk_study, setting_of(it, row, 1))
-HOOKE_READER(double, statistic_members, struct hk_study, (double)sample_of(it, row).members)
-HOOKE_READER(double, mean, struct hk_study, sample_of(it, row).mean)
-HOOKE_READER(double, spread, struct hk_study, sample_of(it, row).spread)
+HOOKE_READER(double, statistic_members, struct hk_study, (double)statistic_of(it, row)->members)
+HOOKE_READER(double, mean, struct hk_study, mean_of(it, row))
+HOOKE_READER(double, spread, struct hk_study, spread_of(it, row))
 HOOKE_READER(double, bias, struct hk_study, bias_of(it, row))
 
 /* ---- the tables ---- */

@@ -52,7 +52,7 @@ struct hk_run_cost {
 };
 
 /* Runs and records every frame, as a reference for trials; any outcome but success is returned. `cost` may be
- * NULL. */
+ * NULL. Frames that have nothing but a system record none, and need no release. */
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
                       const struct hk_listener *listener, struct hk_run_cost *cost);
 

@@ -99,15 +99,8 @@ int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *b
 /* The same at the states that the run kept. */
 int32_t hk_inquiry_survey(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks);
 
-/* The limit of `method` at q, if there is memory and time for it; otherwise the bound, and `known` is 0. */
-int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char *method, double accuracy,
-                         double *limit, int32_t *known);
-
 /* 1 if the model itself gains energy: at much smaller steps, too. */
 int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains);
-
-/* Finds the limiting springs and force of a violation, and a suggestion. */
-int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry);
 
 /* The last state within all bounds. */
 const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry);

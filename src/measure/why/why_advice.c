@@ -1,5 +1,7 @@
 /* Suggestions: changes of the run, the likeliest first, each tried on a run of its own before it is given. */
 #include "integrate/method.h"
+#include "measure/counted_work/work.h"
+#include "measure/limit/limit_predict.h"
 #include "measure/recommend/soundness.h"
 #include "measure/why/why_trial.h"
 
@@ -13,6 +15,7 @@
 
 static const double TOO_LONG = 1e5; /* times the work of a trial: a run of impractical length */
 static const double ACCURACY = 1e-3;
+static const double PASSES = 2.0; /* of a bound */
 enum { HANDY_TRIES = 9, SHORT_RUN = 1000, SHORT_FRAME = 10 };
 
 /* ---- steps that fit ---- */
@@ -42,87 +45,80 @@ static const char *method_of(const struct hk_trials *trials) {
   return trials->inquiry->run->method->name;
 }
 
-/* The largest step known to be stable by `method`: what is known of the run; of others at the start, and
- * where the step was found too large. */
-static int32_t stable_step(struct hk_trials *trials, const char *method, double *limit) {
-  struct hk_inquiry *inquiry = trials->inquiry;
-  const struct hk_violation *violation = &inquiry->violation;
-  double later = INFINITY;
-  int32_t known;
-  if (strcmp(method, method_of(trials)) == 0 && !isnan(violation->bound) &&
-      (violation->found || inquiry->large)) {
-    *limit = violation->found && !isnan(violation->limit) ? violation->limit : violation->bound;
-    return HOOKE_OK;
-  }
-  hk_budget_lend(&inquiry->budget, 0.3);
-  int32_t status = hk_inquiry_limit(inquiry, trials->first->q, method, ACCURACY, limit, &known);
-  if (status == HOOKE_OK && violation->found)
-    status = hk_inquiry_limit(inquiry, violation->q, method, ACCURACY, &later, &known);
-  hk_inquiry_end_part(inquiry, "what else to do");
-  *limit = fmin(*limit, later);
-  return status;
+/* The limit of `method` at q, if there is memory and time for it; otherwise the bound. */
+static int32_t find_limit(struct hk_inquiry *inquiry, const double *q, const char *method, double *limit) {
+  int32_t status = HOOKE_STOPPED;
+  if (!inquiry->large)
+    status = hk_limit_predict_within(inquiry->system, q, NULL, method, NULL, NULL, ACCURACY,
+                                     inquiry->memory_limit - inquiry->memory_used, &inquiry->budget, limit);
+  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
+  *limit = 0.0;
+  const double work = PASSES * hk_work_of_pass(inquiry->system);
+  if (!hk_budget_has(&inquiry->budget, work)) return HOOKE_OK;
+  hk_budget_spend(&inquiry->budget, work);
+  return hooke_step_bound(inquiry->system, method, q, limit);
 }
 
-static int32_t set_step(const struct hk_trials *trials, hooke_options *run, double step, int shorter) {
-  int32_t status = step == trials->step ? HOOKE_OK : hooke_options_set_number(run, "step", step);
-  if (status == HOOKE_OK && shorter) status = hooke_options_set_number(run, "duration", SHORT_RUN * step);
-  if (status == HOOKE_OK && shorter && !isnan(trials->every))
-    status = hooke_options_set_number(run, "every", SHORT_FRAME * step);
-  return status;
+/* The largest step known to be stable by `method`: what is known of the run; of others at the start, and
+ * where the step was found too large. */
+static double stable_step(struct hk_trials *trials, const char *method) {
+  struct hk_inquiry *inquiry = trials->inquiry;
+  const struct hk_violation *violation = &inquiry->violation;
+  double limit = 0.0, later = INFINITY;
+  if (strcmp(method, method_of(trials)) == 0 && !isnan(violation->bound) &&
+      (violation->found || inquiry->large))
+    return violation->found && !isnan(violation->limit) ? violation->limit : violation->bound;
+  hk_budget_lend(&inquiry->budget, 0.3);
+  trials->status = find_limit(inquiry, trials->first->q, method, &limit);
+  if (trials->status == HOOKE_OK && violation->found)
+    trials->status = find_limit(inquiry, violation->q, method, &later);
+  hk_inquiry_end_part(inquiry, "what else to do");
+  return fmin(limit, later);
 }
 
 /* A run of the same method or another, with steps up to `limit`; a shorter one if the whole would take days.
  * Without a run if no step fits. */
-static int32_t change_step(const struct hk_trials *trials, const char *method, double limit,
-                           const char *why_so, struct hk_change *change) {
+static void change_step(struct hk_trials *trials, const char *method, double limit, const char *why_so,
+                        struct hk_change *change) {
   const int other = strcmp(method, method_of(trials)) != 0;
   change->run = NULL;
-  if (!(limit > 0.0)) return HOOKE_OK;
+  if (!(limit > 0.0)) return;
   if (isinf(limit) && isnan(trials->step)) limit = trials->duration / SHORT_RUN;
   const double most = isnan(trials->step) ? limit : fmin(limit, trials->step);
   double step = hk_handy_step(trials->step, most, trials->every, trials->duration);
-  if (!(step > 0.0) || (!other && step == trials->step)) return HOOKE_OK;
-  int32_t status = hk_change_begin(change, other ? "method" : "step");
+  if (!(step > 0.0) || (!other && step == trials->step)) return;
+  hk_change_begin(trials, change, other ? "method" : "step");
   const int too_long = trials->inquiry->squares > 0.0 ||
                        !(trials->duration / step * trials->size <= TOO_LONG * HOOKE_TRIAL_WORK);
   if (too_long) step = hk_handy_step(NAN, most, NAN, NAN);
-  if (status == HOOKE_OK && other) status = hooke_options_set_text(change->run, "method", method);
-  if (status == HOOKE_OK) status = set_step(trials, change->run, step, too_long);
-  if (status != HOOKE_OK) hk_change_drop(change);
+  if (other) hk_change_method(change, method);
+  if (step != trials->step) hk_change_number(change, "step", step);
+  if (too_long) hk_change_number(change, "duration", SHORT_RUN * step);
+  if (too_long && !isnan(trials->every)) hk_change_number(change, "every", SHORT_FRAME * step);
   hk_change_say(change, "%s%s%sa step of %.6g s%s%s", other ? "the method " : "", other ? method : "",
                 other ? ", with " : "", step, why_so,
                 too_long ? ", for a run that is as short as such steps make it" : "");
-  return status;
 }
 
-static int32_t offer_step(struct hk_trials *trials, const char *method, double limit, const char *why_so,
-                          int32_t *taken) {
+static int32_t offer_step(struct hk_trials *trials, const char *method, double limit, const char *why_so) {
   struct hk_change change;
-  const int32_t status = change_step(trials, method, limit, why_so, &change);
-  *taken = 0;
-  return status == HOOKE_OK && change.run ? hk_trials_offer(trials, &change, taken) : status;
+  change_step(trials, method, limit, why_so, &change);
+  return hk_trials_offer(trials, &change);
 }
 
 /* The same method at a fraction of its limit, then at smaller and smaller steps. */
-static int32_t offer_smaller(struct hk_trials *trials, double limit, const char *why_so) {
-  int32_t taken = 0, status = HOOKE_OK;
-  for (int k = 0; k < 4 && !taken && status == HOOKE_OK; k++) {
-    status = offer_step(trials, method_of(trials), limit, k == 0 ? why_so : "", &taken);
+static void offer_smaller(struct hk_trials *trials, double limit, const char *why_so) {
+  for (int k = 0; k < 4 && !offer_step(trials, method_of(trials), limit, k == 0 ? why_so : ""); k++)
     limit *= k == 0 ? 0.5 : 0.25;
-  }
-  return status;
 }
 
-static int32_t offer_fixed(struct hk_trials *trials, const char *method) {
-  double limit = 0.0;
-  int32_t taken;
-  int32_t status = stable_step(trials, method, &limit);
-  if (status != HOOKE_OK) return status;
+static void offer_fixed(struct hk_trials *trials, const char *method) {
+  if (trials->status != HOOKE_OK) return;
+  const double limit = stable_step(trials, method);
   trials->backed = trials->inquiry->violation.found;
-  status = offer_step(trials, method, hk_soundness_limit_share * limit,
-                      isinf(limit) ? ": it is stable at every step" : ", which is stable", &taken);
+  offer_step(trials, method, hk_soundness_limit_share * limit,
+             isinf(limit) ? ": it is stable at every step" : ", which is stable");
   trials->backed = 0;
-  return status;
 }
 
 /* Rounded to two digits, for display. */
@@ -133,53 +129,47 @@ static double rounded(double value) {
   return hk_number_parse(text, (int64_t)strlen(text), &read) == HOOKE_NUMBER_FINE ? read : value;
 }
 
-static int32_t offer_adaptive(struct hk_trials *trials, const char *method, double looser) {
+static void offer_adaptive(struct hk_trials *trials, const char *method, double looser) {
   struct hk_change change;
-  int32_t taken;
   const hooke_options *run = trials->inquiry->run->options;
   const int other = strcmp(method, method_of(trials)) != 0;
   const double rtol = rounded(looser * hooke_options_number(run, "rtol")),
                atol = rounded(looser * hooke_options_number(run, "atol"));
-  if (!hooke_method_is_built(method) || rtol > 0.1) return HOOKE_OK;
-  int32_t status = hk_change_begin(&change, other ? "method" : "rtol");
-  if (status == HOOKE_OK && other) status = hooke_options_set_text(change.run, "method", method);
-  if (status == HOOKE_OK && looser > 1.0) status = hooke_options_set_number(change.run, "rtol", rtol);
-  if (status == HOOKE_OK && looser > 1.0) status = hooke_options_set_number(change.run, "atol", atol);
-  if (status == HOOKE_OK && looser > 1.0)
-    status = hooke_options_set_number(change.run, "atol_velocity", atol);
-  if (status != HOOKE_OK) {
-    hk_change_drop(&change);
-    return status;
+  if (!hooke_method_is_built(method) || rtol > 0.1) return;
+  hk_change_begin(trials, &change, other ? "method" : "rtol");
+  if (other) hk_change_method(&change, method);
+  if (looser > 1.0) {
+    hk_change_number(&change, "rtol", rtol);
+    hk_change_number(&change, "atol", atol);
+    hk_change_number(&change, "atol_velocity", atol);
   }
   if (other)
     hk_change_say(&change, "the method %s, which chooses its steps itself", method);
   else
     hk_change_say(&change, "looser tolerances, %g times", looser);
-  return hk_trials_offer(trials, &change, &taken);
+  hk_trials_offer(trials, &change);
 }
 
 /* As many steps as needed. */
-static int32_t offer_more_steps(struct hk_trials *trials) {
+static void offer_more_steps(struct hk_trials *trials) {
   struct hk_change change;
-  int32_t taken;
-  int64_t steps = -1;
-  int32_t status = hk_change_begin(&change, "max_steps");
-  if (status == HOOKE_OK) status = hooke_options_set_number(change.run, "max_steps", 9e15);
-  if (status == HOOKE_OK) status = hk_trials_count_steps(trials, &change, &steps);
-  if (status == HOOKE_OK && steps > 0) {
-    status = hooke_options_set_number(change.run, "max_steps", ceil(1.25 * (double)steps));
+  struct hk_trial trial;
+  hk_change_begin(trials, &change, "max_steps");
+  hk_change_number(&change, "max_steps", 9e15);
+  hk_trials_try(trials, trials->inquiry->system, &change, &trial);
+  const int64_t steps = trial.finished && !trials->late ? trial.steps : 0;
+  if (steps > 0) {
+    hk_change_number(&change, "max_steps", ceil(1.25 * (double)steps));
     hk_change_say(&change, "more steps: the whole run takes %lld", (long long)steps);
-    if (status == HOOKE_OK) return hk_trials_offer(trials, &change, &taken);
+    hk_trials_offer(trials, &change);
   }
   hk_change_drop(&change);
-  return status;
 }
 
 /* The run up to its last good time. */
-static int32_t offer_shorter(struct hk_trials *trials) {
+static void offer_shorter(struct hk_trials *trials) {
   const struct hk_inquiry *inquiry = trials->inquiry;
   struct hk_change change;
-  int32_t taken;
   const double step = trials->step, begun = inquiry->run->t0;
   double duration = isnan(step) ? *hk_inquiry_last(inquiry)->t - begun : (double)inquiry->last_step * step;
   if (inquiry->bad_value.found && inquiry->bad_value.time - begun < duration) {
@@ -187,128 +177,105 @@ static int32_t offer_shorter(struct hk_trials *trials) {
                            : floor((inquiry->bad_value.time - begun) / step - 1.0) * step;
   }
   if (isnan(step)) duration *= 0.9;
-  if (!(duration > 0.0) || duration >= trials->duration) return HOOKE_OK;
-  int32_t status = hk_change_begin(&change, "duration");
-  if (status == HOOKE_OK) status = hooke_options_set_number(change.run, "duration", duration);
-  if (status == HOOKE_OK && !isnan(trials->every) && trials->every > duration)
-    status = hooke_options_set_number(change.run, "every", isnan(step) ? duration : step);
-  if (status != HOOKE_OK) {
-    hk_change_drop(&change);
-    return status;
-  }
+  if (!(duration > 0.0) || duration >= trials->duration) return;
+  hk_change_begin(trials, &change, "duration");
+  hk_change_number(&change, "duration", duration);
+  if (!isnan(trials->every) && trials->every > duration)
+    hk_change_number(&change, "every", isnan(step) ? duration : step);
   hk_change_say(&change, "a run that ends before the trouble, at t = %.6g s, to look at how it gets there",
                 begun + duration);
-  return hk_trials_offer(trials, &change, &taken);
+  hk_trials_offer(trials, &change);
 }
 
 /* ---- suggestions by cause ---- */
 
-static int32_t offer_others(struct hk_trials *trials) {
+static void offer_others(struct hk_trials *trials) {
   const hooke_system *system = trials->inquiry->system;
   const char *const fixed[] = {hk_method_of_euler(system), "verlet", "tr-bdf2", "backward-euler"};
   const char *const adaptive[] = {"cvode-adams", "cvode-bdf"};
   const char *mine = method_of(trials);
-  int32_t status = HOOKE_OK;
-  for (int k = 0; k < 4 && status == HOOKE_OK; k++) {
-    if (strcmp(mine, fixed[k]) != 0 && hk_method_suits(fixed[k], system))
-      status = offer_fixed(trials, fixed[k]);
-  }
-  for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
+  for (int k = 0; k < 4; k++)
+    if (strcmp(mine, fixed[k]) != 0 && hk_method_suits(fixed[k], system)) offer_fixed(trials, fixed[k]);
+  for (int k = 0; k < 2; k++)
     if (strcmp(mine, adaptive[k]) != 0 && hk_method_suits(adaptive[k], system))
-      status = offer_adaptive(trials, adaptive[k], 1.0);
-  }
-  return status;
+      offer_adaptive(trials, adaptive[k], 1.0);
 }
 
-static int32_t offer_for_step(struct hk_trials *trials) {
-  const struct hk_violation *violation = &trials->inquiry->violation;
+static void offer_for_step(struct hk_trials *trials) {
+  const struct hk_inquiry *inquiry = trials->inquiry;
   const char *mine = method_of(trials);
-  double limit = 0.5 * trials->step;
-  int32_t status = HOOKE_OK;
-  const int above = violation->found || !isnan(violation->bound);
-  if (above) status = stable_step(trials, mine, &limit);
+  const int above = inquiry->violation.found || !isnan(inquiry->violation.bound);
+  const double limit = above ? hk_soundness_limit_share * stable_step(trials, mine) : 0.5 * trials->step;
   trials->backed = above;
-  if (status == HOOKE_OK && limit > 0.0)
-    status = offer_smaller(trials, (above ? hk_soundness_limit_share : 1.0) * limit,
-                           above ? ", below the limit" : "");
+  if (limit > 0.0) offer_smaller(trials, limit, above ? ", below the limit" : "");
   trials->backed = 0;
-  const int implicit = hk_participation_is_drag(trials->inquiry->force) ||
-                       trials->inquiry->force == HOOKE_PARTICIPATION_DAMPING;
-  if (status == HOOKE_OK && implicit && strcmp(mine, "verlet") != 0) status = offer_fixed(trials, "verlet");
-  return status == HOOKE_OK ? offer_others(trials) : status;
+  const int implicit =
+      hk_participation_is_drag(inquiry->force) || inquiry->force == HOOKE_PARTICIPATION_DAMPING;
+  if (implicit && strcmp(mine, "verlet") != 0) offer_fixed(trials, "verlet");
+  offer_others(trials);
 }
 
-static int32_t offer_for_collapse(struct hk_trials *trials) {
-  int32_t status = HOOKE_OK;
-  if (!isnan(trials->step))
-    status = offer_smaller(trials, 0.25 * trials->step, ", with which it jumps less far");
-  return status == HOOKE_OK ? offer_others(trials) : status;
+static void offer_for_collapse(struct hk_trials *trials) {
+  if (!isnan(trials->step)) offer_smaller(trials, 0.25 * trials->step, ", with which it jumps less far");
+  offer_others(trials);
 }
 
-static int32_t offer_for_solver(struct hk_trials *trials) {
-  int32_t status = HOOKE_OK;
-  if (trials->inquiry->run->outcome == HOOKE_STEP_LIMIT) status = offer_more_steps(trials);
-  if (status == HOOKE_OK && !isnan(trials->step)) {
-    status = offer_smaller(trials, 0.5 * trials->step, ", which is easier to solve");
-  } else {
-    static const double looser[] = {10.0, 100.0, 1e3, 1e4};
-    for (int k = 0; k < 4 && status == HOOKE_OK; k++)
-      status = offer_adaptive(trials, method_of(trials), looser[k]);
-  }
-  return status == HOOKE_OK ? offer_others(trials) : status;
+static void offer_for_solver(struct hk_trials *trials) {
+  static const double looser[] = {10.0, 100.0, 1e3, 1e4};
+  if (trials->inquiry->run->outcome == HOOKE_STEP_LIMIT) offer_more_steps(trials);
+  if (!isnan(trials->step)) offer_smaller(trials, 0.5 * trials->step, ", which is easier to solve");
+  for (int k = 0; k < 4 && isnan(trials->step); k++)
+    offer_adaptive(trials, method_of(trials), looser[k]);
+  offer_others(trials);
 }
 
 /* No step cures it; damping does, and perhaps the damping of a method. */
-static int32_t offer_for_gain(struct hk_trials *trials) {
-  int32_t status = offer_shorter(trials);
-  if (status == HOOKE_OK) status = hk_trials_try_damping(trials);
-  if (status == HOOKE_OK) status = offer_fixed(trials, "backward-euler");
-  return status == HOOKE_OK ? offer_adaptive(trials, "cvode-bdf", 1.0) : status;
+static void offer_for_gain(struct hk_trials *trials) {
+  offer_shorter(trials);
+  hk_trials_try_damping(trials);
+  offer_fixed(trials, "backward-euler");
+  offer_adaptive(trials, "cvode-bdf", 1.0);
 }
 
-/* While the squares of moving particles are finite. */
-static int32_t offer_for_squares(struct hk_trials *trials) {
-  int32_t taken;
-  if (isnan(trials->step)) return HOOKE_OK;
-  return offer_step(trials, method_of(trials), trials->inquiry->squares,
-                    ", by which nothing moves beyond numbers that have squares", &taken);
+/* A step while the squares of moving particles are finite, where these overflow. */
+static void offer_for_overflow(struct hk_trials *trials) {
+  const double squares = trials->inquiry->squares;
+  if (!(squares > 0.0))
+    offer_for_step(trials);
+  else if (!isnan(trials->step))
+    offer_step(trials, method_of(trials), squares,
+               ", by which nothing moves beyond numbers that have squares");
 }
 
 /* A known limit gives a step even where no trial of one below it ran on: something else goes wrong as well.
  */
-static int32_t give_step(struct hk_trials *trials) {
+static void give_step(struct hk_trials *trials) {
   const struct hk_why *why = trials->inquiry->why;
   struct hk_change change;
-  if (!(why->limit > 0.0) || isinf(why->limit)) return HOOKE_OK;
-  for (int64_t k = 0; k < why->advice_count; k++) {
-    if (strcmp(why->advice[k].option, "step") == 0) return HOOKE_OK;
-  }
-  const int32_t status = change_step(trials, method_of(trials), hk_soundness_limit_share * why->limit,
-                                     ", below the limit", &change);
-  if (status == HOOKE_OK && change.run)
-    hk_trials_take(trials, &change, ", which is not enough (tried: the run ends early with it, too)");
-  return status;
+  if (!(why->limit > 0.0) || isinf(why->limit)) return;
+  for (int64_t k = 0; k < why->advice_count; k++)
+    if (strcmp(why->advice[k].option, "step") == 0) return;
+  change_step(trials, method_of(trials), hk_soundness_limit_share * why->limit, ", below the limit", &change);
+  hk_trials_take(trials, &change, ", which is not enough (tried: the run ends early with it, too)");
 }
 
-static int32_t offer_all(struct hk_trials *trials) {
+static void offer_all(struct hk_trials *trials) {
+  static const struct {
+    const char *cause;
+    void (*offer)(struct hk_trials *trials);
+  } rows[] = {{"force-not-finite", NULL}, /* no other step or method makes it finite */
+              {"collapsed-spring", offer_for_collapse},
+              {"solver-failed", offer_for_solver},
+              {"never-stable", offer_others},
+              {"model-gains-energy", offer_for_gain},
+              {"overflow", offer_for_overflow}};
   const struct hk_why *why = trials->inquiry->why;
-  int32_t status;
-  if (strcmp(why->cause, "force-not-finite") == 0)
-    status = HOOKE_OK; /* no other step or method makes it finite */
-  else if (strcmp(why->cause, "collapsed-spring") == 0)
-    status = offer_for_collapse(trials);
-  else if (strcmp(why->cause, "solver-failed") == 0)
-    status = offer_for_solver(trials);
-  else if (strcmp(why->cause, "never-stable") == 0)
-    status = offer_others(trials);
-  else if (strcmp(why->cause, "model-gains-energy") == 0)
-    status = offer_for_gain(trials);
-  else if (strcmp(why->cause, "overflow") == 0 && trials->inquiry->squares > 0.0)
-    status = offer_for_squares(trials);
-  else
-    status = offer_for_step(trials);
-  if (status == HOOKE_OK && why->advice_count == 0) status = offer_shorter(trials);
-  return status == HOOKE_OK ? give_step(trials) : status;
+  void (*offer)(struct hk_trials *) = offer_for_step;
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
+    if (strcmp(why->cause, rows[k].cause) == 0) offer = rows[k].offer;
+  if (offer) offer(trials);
+  if (why->advice_count == 0) offer_shorter(trials);
+  give_step(trials);
 }
 
 /* ---- the scene ---- */
@@ -343,10 +310,10 @@ static void advise_scene(struct hk_inquiry *inquiry) {
 
 int32_t hk_inquiry_advise(struct hk_inquiry *inquiry) {
   struct hk_trials trials;
-  int32_t status = hk_trials_begin(inquiry, &trials);
-  if (status == HOOKE_OK && trials.duration > 0.0) status = offer_all(&trials);
+  hk_trials_begin(inquiry, &trials);
+  if (trials.status == HOOKE_OK && trials.duration > 0.0) offer_all(&trials);
   hk_trials_release(&trials);
   hk_inquiry_end_part(inquiry, "what else to do");
-  if (status == HOOKE_OK) advise_scene(inquiry);
-  return status;
+  if (trials.status == HOOKE_OK) advise_scene(inquiry);
+  return trials.status;
 }

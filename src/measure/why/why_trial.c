@@ -22,18 +22,17 @@ static double work_of_run(const hooke_integrator *run, double size) {
 
 /* The start of the run: the kept one, else the system's own. If a trial could not reach the failure from
  * there, the earliest of the last good states. */
-static int32_t find_first(struct hk_trials *trials) {
+static void find_first(struct hk_trials *trials) {
   const hooke_integrator *run = trials->inquiry->run;
   const hooke_state *oldest = hk_recent_state(&run->recent, run->recent.count - 1, NULL);
   trials->late = work_of_run(run, trials->size) > 0.5 * HOOKE_TRIAL_WORK && *oldest->t > run->t0;
   trials->first = trials->late ? oldest : run->recent.first;
-  if (trials->first) return HOOKE_OK;
-  const int32_t status = hooke_state_create(trials->inquiry->system, &trials->initial);
+  if (trials->first) return;
+  trials->status = hooke_state_create(trials->inquiry->system, &trials->initial);
   trials->first = run->t0 == 0.0 ? trials->initial : oldest;
-  return status;
 }
 
-int32_t hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials) {
+void hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials) {
   const hooke_integrator *run = inquiry->run;
   const hooke_system *system = inquiry->system;
   const struct hk_schedule *s = &run->schedule;
@@ -47,18 +46,25 @@ int32_t hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials) {
   /* a callback of a script costs far more than springs */
   trials->size =
       (double)(system->particle_count + hk_system_member_count(system) + 50 + (system->force ? 1000 : 0));
-  return find_first(trials);
+  find_first(trials);
 }
 
 void hk_trials_release(struct hk_trials *trials) {
   hooke_state_destroy(trials->initial);
 }
 
-int32_t hk_change_begin(struct hk_change *change, const char *option) {
+void hk_change_begin(struct hk_trials *trials, struct hk_change *change, const char *option) {
+  *change = (struct hk_change){.status = &trials->status};
   snprintf(change->option, sizeof change->option, "%s", option);
-  change->words[0] = '\0';
-  change->run = NULL;
-  return hk_options_create(&hk_run_options, &change->run);
+  if (trials->status == HOOKE_OK) trials->status = hk_options_create(&hk_run_options, &change->run);
+}
+
+void hk_change_method(struct hk_change *change, const char *method) {
+  if (*change->status == HOOKE_OK) *change->status = hooke_options_set_text(change->run, "method", method);
+}
+
+void hk_change_number(struct hk_change *change, const char *name, double value) {
+  if (*change->status == HOOKE_OK) *change->status = hooke_options_set_number(change->run, name, value);
 }
 
 void hk_change_say(struct hk_change *change, const char *format, ...) {
@@ -112,19 +118,13 @@ static int32_t watch_time(double done, const char *method, void *ctx) {
 
 /* Maximum memory of a run by a method [bytes]. */
 static double bytes_of_trial(const struct hk_trials *trials, const char *method) {
-  static const struct {
-    const char *method;
-    double numbers; /* a particle: vectors of its solver, and matrices of neighbours */
-  } heavy[] = {{"cvode-bdf", 300.0}, {"cvode-adams", 100.0}};
   const hooke_integrator *run = trials->inquiry->run;
   const double n = (double)trials->inquiry->system->particle_count;
-  /* the state, the motion, and the last states as far as 16 MB have them */
   const struct hk_method *row = hk_method_find(method);
-  double numbers = row && row->solved ? 300.0 : 25.0;
-  const double recent = fmin(16e6, 9.0 * 6.0 * n * sizeof(double));
-  for (size_t k = 0; k < sizeof heavy / sizeof heavy[0]; k++) {
-    if (strcmp(method, heavy[k].method) == 0) numbers = heavy[k].numbers;
-  }
+  const int solves = (row && row->solved) || strcmp(method, "cvode-bdf") == 0;
+  /* a particle: vectors of a solver, and matrices of neighbours; else the state and the motion */
+  const double numbers = strcmp(method, "cvode-adams") == 0 ? 100.0 : solves ? 300.0 : 25.0;
+  const double recent = fmin(16e6, 9.0 * 6.0 * n * sizeof(double)); /* the last states */
   if (strcmp(method, run->method->name) == 0)
     return (double)hooke_integrator_count(run, "memory_bytes") + 6.0 * n * sizeof(double);
   return numbers * n * sizeof(double) + recent;
@@ -186,17 +186,16 @@ static int32_t can_try(const struct hk_trials *trials, const hooke_options *opti
   return hk_inquiry_has_memory(inquiry, bytes, "trials of what to do");
 }
 
-int32_t hk_trials_try(struct hk_trials *trials, const hooke_system *system, const struct hk_change *change,
-                      struct hk_trial *trial) {
+void hk_trials_try(struct hk_trials *trials, const hooke_system *system, const struct hk_change *change,
+                   struct hk_trial *trial) {
   hooke_options *options = NULL;
   *trial = (struct hk_trial){.reached = -INFINITY};
-  int32_t status = changed_options(trials, change, &options);
-  trial->tried = status == HOOKE_OK && can_try(trials, options);
-  if (trial->tried) status = try_run(trials, system, options, trial);
-  if (trial->tried && status == HOOKE_OK)
+  if (trials->status == HOOKE_OK) trials->status = changed_options(trials, change, &options);
+  trial->tried = trials->status == HOOKE_OK && can_try(trials, options);
+  if (trial->tried) trials->status = try_run(trials, system, options, trial);
+  if (trial->tried && trials->status == HOOKE_OK)
     proves(trials, trial->reached, trial->finished, trial->proof, sizeof trial->proof);
   hooke_options_destroy(options);
-  return status;
 }
 
 /* ---- advice ---- */
@@ -223,6 +222,10 @@ static int is_known(const struct hk_trials *trials, const struct hk_change *chan
 
 void hk_trials_take(struct hk_trials *trials, struct hk_change *change, const char *proof) {
   struct hk_why *why = trials->inquiry->why;
+  if (change->run == NULL || trials->status != HOOKE_OK) {
+    hk_change_drop(change);
+    return;
+  }
   struct hk_why_advice *advice = &why->advice[why->advice_count++];
   advice->run = change->run;
   change->run = NULL;
@@ -234,29 +237,20 @@ void hk_trials_take(struct hk_trials *trials, struct hk_change *change, const ch
     snprintf(advice->value, sizeof advice->value, "%s", hooke_options_text(advice->run, change->option));
 }
 
-int32_t hk_trials_offer(struct hk_trials *trials, struct hk_change *change, int32_t *taken) {
+int32_t hk_trials_offer(struct hk_trials *trials, struct hk_change *change) {
   const struct hk_inquiry *inquiry = trials->inquiry;
-  int32_t status = HOOKE_OK;
-  *taken = 0;
-  if (inquiry->why->advice_count < ENOUGH && trials->count < MOST_TRIALS && !is_known(trials, change)) {
-    struct hk_trial trial;
-    status = hk_trials_try(trials, inquiry->system, change, &trial);
+  struct hk_trial trial = {.proof = ""};
+  if (change->run && inquiry->why->advice_count < ENOUGH && trials->count < MOST_TRIALS &&
+      !is_known(trials, change)) {
+    hk_trials_try(trials, inquiry->system, change, &trial);
     /* another method is worth the trial of a third one */
     const int32_t cut = !trial.tried || inquiry->budget.spent || strcmp(change->option, "step") == 0;
     if (!trial.proof[0] && trials->backed && cut && !trial.failed) {
       snprintf(trial.proof, sizeof trial.proof, " (not tried%s, for want of %s)",
                trial.tried ? " to its end" : "", trial.tried || inquiry->budget.spent ? "time" : "memory");
     }
-    *taken = status == HOOKE_OK && trial.proof[0];
-    if (*taken) hk_trials_take(trials, change, trial.proof);
+    if (trial.proof[0]) hk_trials_take(trials, change, trial.proof);
   }
   hk_change_drop(change);
-  return status;
-}
-
-int32_t hk_trials_count_steps(struct hk_trials *trials, const struct hk_change *change, int64_t *steps) {
-  struct hk_trial trial;
-  const int32_t status = hk_trials_try(trials, trials->inquiry->system, change, &trial);
-  *steps = trial.finished && !trials->late ? trial.steps : -1;
-  return status;
+  return trials->status == HOOKE_OK && trial.proof[0];
 }

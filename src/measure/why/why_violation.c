@@ -3,7 +3,6 @@
 #include "measure/why/why.h"
 
 #include "core/status.h"
-#include "measure/counted_work/work.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
 
@@ -11,7 +10,6 @@
 #include <string.h>
 
 static const double LIMIT_ACCURACY = 1e-4, LEAST_RISE = 2e-3;
-static const double PASSES = 2.0; /* of a bound */
 enum { MOST_TRIES = 12, MOST_TURNS = 60, MORE_TURNS = 12 };
 
 static const char *method_of(const struct hk_inquiry *inquiry) {
@@ -134,21 +132,4 @@ static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *b
 
 int32_t hk_inquiry_survey(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
   return inquiry->large ? survey_large(inquiry, blocks) : survey_small(inquiry, blocks);
-}
-
-/* ---- limits ---- */
-
-int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char *method, double accuracy,
-                         double *limit, int32_t *known) {
-  int32_t status = HOOKE_STOPPED;
-  if (!inquiry->large)
-    status = hk_limit_predict_within(inquiry->system, q, NULL, method, NULL, NULL, accuracy,
-                                     inquiry->memory_limit - inquiry->memory_used, &inquiry->budget, limit);
-  *known = status == HOOKE_OK && !isnan(*limit);
-  if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
-  *limit = 0.0;
-  const double work = PASSES * hk_work_of_pass(inquiry->system);
-  if (!hk_budget_has(&inquiry->budget, work)) return HOOKE_OK;
-  hk_budget_spend(&inquiry->budget, work);
-  return hooke_step_bound(inquiry->system, method, q, limit);
 }
