@@ -20,26 +20,27 @@ enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 /* Springs have loops of their own, drag is on the diagonal, and constant forces multiply by themselves. */
 enum { OWN = HOOKE_LOOPED | HOOKE_CONSTANT | HOOKE_UNIFORM };
 
-static int32_t read_linear_solver(struct hk_reduced *reduced) {
+/* Allocates memory for the numbers of `whole` in advance, and counts it. HOOKE_NO_MEMORY. */
+static int32_t reserve_whole(struct hk_reduced *reduced) {
+  const int64_t before = hk_factor_memory(reduced->whole);
+  const int32_t status = hk_factor_reserve(reduced->whole);
+  reduced->integrator->own_memory += hk_factor_memory(reduced->whole) - before;
+  return status;
+}
+
+/* The factor's memory, where it is used, ahead of all steps. */
+static int32_t read_linear_solver(struct hk_reduced *reduced, int32_t kind) {
   const hooke_integrator *it = reduced->integrator;
   const char *word = hooke_options_text(it->options, "linear_solver");
-  if (strcmp(word, "gmres") == 0)
+  if (kind == HOOKE_REDUCED_GENERAL && strcmp(word, "gmres") == 0)
     return hk_fail(
         HOOKE_UNSUITED, "linear_solver",
         "%s has no plain gmres, which is for the methods of SUNDIALS; allowed: auto, blocks, direct",
         it->method->name);
   reduced->direct = strcmp(word, "direct") == 0;
-  if (reduced->direct && !hk_factor_is_built())
-    return hk_fail(HOOKE_NOT_BUILT, "linear_solver",
-                   "\"direct\" needs CHOLMOD, which this build is without; take auto");
-  return HOOKE_OK;
-}
-
-/* The factor's memory ahead of all steps. */
-static int32_t prepare_direct(struct hk_reduced *reduced) {
-  if (!reduced->direct) return HOOKE_OK;
-  const int32_t status = hk_reduced_prepare_whole(reduced);
-  return status == HOOKE_OK && reduced->whole ? hk_reduced_reserve_whole(reduced) : status;
+  int32_t status = hk_factor_require(it->options);
+  if (status == HOOKE_OK && reduced->direct) status = hk_reduced_prepare_whole(reduced);
+  return status == HOOKE_OK && reduced->whole ? reserve_whole(reduced) : status;
 }
 
 int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_more_unknowns *more,
@@ -79,9 +80,7 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_mo
   reduced->place = hk_part(&block, size);
   reduced->moved = hk_part(&block, size);
   reduced->krylov = hk_part(&block, size * vectors);
-  if (kind != HOOKE_REDUCED_GENERAL) return HOOKE_OK;
-  const int32_t status = read_linear_solver(reduced);
-  return status == HOOKE_OK ? prepare_direct(reduced) : status;
+  return symmetric ? HOOKE_OK : read_linear_solver(reduced, kind);
 }
 
 void hk_reduced_release(struct hk_reduced *reduced) {
@@ -345,7 +344,8 @@ static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double t
   return status;
 }
 
-static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const double *b, double tolerance,
+/* To this residual or, where `absolute` is a number, to an error (hk_solve_positive). */
+static int32_t solve_by_blocks(struct hk_reduced *reduced, const double *b, double tolerance, double absolute,
                                int64_t limit, double *x, struct hk_solution *solution) {
   const int64_t size = reduced->size;
   const struct hk_operator a = {size, apply, reduced};
@@ -353,8 +353,11 @@ static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const 
   divide_blocks(reduced, reduced->right);
   const double scale = scale_of(size, reduced->right);
   multiply(size, scale, reduced->right);
-  const int32_t status = (symmetric ? hk_solve_symmetric : hk_solve_general)(
-      &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
+  const int32_t status =
+      isnan(absolute) ? (reduced->symmetric ? hk_solve_symmetric : hk_solve_general)(
+                            &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution)
+                      : hk_solve_positive(&a, reduced->right, tolerance, scale * absolute, limit,
+                                          reduced->krylov, reduced->unknown, solution);
   reduced->integrator->count.linear_iterations += solution->iterations;
   divide_blocks_transposed(reduced, reduced->unknown, x);
   multiply(size, 1.0 / scale, x);
@@ -366,22 +369,14 @@ static int64_t limit_of(const struct hk_reduced *reduced) {
   return fraction < MOST_ITERATIONS ? fraction : MOST_ITERATIONS;
 }
 
-/* With the factor of S at this place, or by blocks where it proves not positive. */
-static int32_t solve_direct(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
-                            double *x, struct hk_solution *solution) {
-  if (reduced->whole_state != HOOKE_WHOLE_IN_USE) {
-    const int32_t positive = hk_reduced_factorise(reduced);
-    if (positive < 0) return positive;
-  }
-  return reduced->whole_state == HOOKE_WHOLE_IN_USE
-             ? solve_whole(reduced, b, tolerance, limit, x, solution)
-             : solve_by_blocks(reduced, 0, b, tolerance, limit, x, solution);
-}
-
+/* With the factor of S at this place, if that is asked for and S proves positive. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution) {
-  if (reduced->direct && reduced->whole) return solve_direct(reduced, b, tolerance, limit, x, solution);
-  return solve_by_blocks(reduced, reduced->symmetric, b, tolerance, limit, x, solution);
+  int32_t whole = reduced->direct && reduced->whole;
+  if (whole && reduced->whole_state != HOOKE_WHOLE_IN_USE) whole = hk_reduced_factorise(reduced);
+  if (whole < 0) return whole;
+  return whole ? solve_whole(reduced, b, tolerance, limit, x, solution)
+               : solve_by_blocks(reduced, b, tolerance, NAN, limit, x, solution);
 }
 
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
@@ -397,22 +392,10 @@ void hk_reduced_project(struct hk_reduced *reduced) {
 
 int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
                            double *x, struct hk_solution *solution) {
-  const int64_t size = reduced->size;
-  if (reduced->direct && reduced->whole) {
-    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, limit_of(reduced), x, solution);
-    solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
-    return status;
-  }
-  const struct hk_operator a = {size, apply, reduced};
-  memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  divide_blocks(reduced, reduced->right);
-  const double scale = scale_of(size, reduced->right);
-  multiply(size, scale, reduced->right);
-  const int32_t status = hk_solve_positive(&a, reduced->right, relative, scale * absolute, limit_of(reduced),
-                                           reduced->krylov, reduced->unknown, solution);
-  reduced->integrator->count.linear_iterations += solution->iterations;
-  divide_blocks_transposed(reduced, reduced->unknown, x);
-  multiply(size, 1.0 / scale, x);
+  if (!reduced->direct || !reduced->whole)
+    return solve_by_blocks(reduced, b, relative, absolute, limit_of(reduced), x, solution);
+  const int32_t status = hk_reduced_solve(reduced, b, DIRECT_RESIDUAL, x, solution);
+  solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
   return status;
 }
 
@@ -443,15 +426,8 @@ int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced) {
   return HOOKE_OK;
 }
 
-int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced) {
-  const int64_t before = hk_factor_memory(reduced->whole);
-  const int32_t status = hk_factor_reserve(reduced->whole);
-  reduced->integrator->own_memory += hk_factor_memory(reduced->whole) - before;
-  return status;
-}
-
 int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
-  const int32_t status = hk_reduced_reserve_whole(reduced);
+  const int32_t status = reserve_whole(reduced);
   if (status != HOOKE_OK) return status;
   const struct hk_factor_parts parts = {&reduced->tangent, reduced->element, reduced->alpha, reduced->beta};
   reduced->integrator->count.factor_products += (int64_t)hk_factor_products(reduced->whole);

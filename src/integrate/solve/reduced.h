@@ -76,8 +76,6 @@ int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double toler
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
-/* Allocates memory for the numbers of `whole` in advance, and counts it. HOOKE_NO_MEMORY. */
-int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced);
 /* Factorises S where it was last set; solutions are scaled by it until it is dropped. 1; 0 if it is not
  * positive; HOOKE_NO_MEMORY. */
 int32_t hk_reduced_factorise(struct hk_reduced *reduced);

@@ -67,20 +67,22 @@ int32_t hk_unknowns_have_products(const hooke_integrator *it) {
 
 /* ---- between y and all particles ---- */
 
-void hk_unknowns_gather(const struct hk_unknowns *u, const double *const all[3], double *some) {
+void hk_unknowns_gather(const struct hk_unknowns *u, const double *all, ptrdiff_t stride, double *some) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(some + a * u->free_count + s->unknown, all[a] + s->particle, (size_t)s->count * sizeof(double));
+      memcpy(some + a * u->free_count + s->unknown, all + a * stride + s->particle,
+             (size_t)s->count * sizeof(double));
     }
   }
 }
 
-void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double *const all[3]) {
+void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double *all, ptrdiff_t stride) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(all[a] + s->particle, some + a * u->free_count + s->unknown, (size_t)s->count * sizeof(double));
+      memcpy(all + a * stride + s->particle, some + a * u->free_count + s->unknown,
+             (size_t)s->count * sizeof(double));
     }
   }
 }
@@ -100,8 +102,9 @@ static void spread_to_rows(const struct hk_unknowns *u, const double *some, doub
 }
 
 void hk_unknowns_take(const hooke_integrator *it, const struct hk_unknowns *u, double *y) {
-  hk_unknowns_gather(u, (const double *const *)it->motion->q, y);
-  if (u->has_v) hk_unknowns_gather(u, (const double *const *)it->motion->v, y + 3 * u->free_count);
+  const ptrdiff_t stride = hk_motion_stride(it->motion);
+  hk_unknowns_gather(u, it->motion->q[0], stride, y);
+  if (u->has_v) hk_unknowns_gather(u, it->motion->v[0], stride, y + 3 * u->free_count);
   hk_movers_read(it->system, it->motion, y + 6 * u->free_count);
 }
 
@@ -131,10 +134,15 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
 
 /* ---- the right-hand side ---- */
 
-int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
-  hk_unknowns_spread(u, y, it->motion->q);
-  if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
+void hk_unknowns_give(const hooke_integrator *it, const struct hk_unknowns *u, const double *y) {
+  const ptrdiff_t stride = hk_motion_stride(it->motion);
+  hk_unknowns_spread(u, y, it->motion->q[0], stride);
+  if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v[0], stride);
   hk_movers_write(it->system, it->motion, y + 6 * u->free_count);
+}
+
+int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
+  hk_unknowns_give(it, u, y);
   return hk_integrator_hold(it, t);
 }
 
