@@ -5,7 +5,7 @@
 #if HOOKE_HAVE_SUNDIALS
 
 #include "core/status.h"
-#include "integrate/solve/sundials_linear.h"
+#include "integrate/solve/sundials_problem.h"
 
 #include <arkode/arkode_arkstep.h>
 #include <float.h>

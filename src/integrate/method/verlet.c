@@ -146,7 +146,11 @@ static int32_t solve(hooke_integrator *it) {
   hk_reduced_set(&own->reduced, hk_integrator_next_time(it), 0.0, it->schedule.step / 2.0);
   struct hk_solution solution;
   int32_t status = hk_reduced_solve(&own->reduced, own->right, tolerance, own->change, &solution);
-  if (status == HOOKE_OK && !solution.converged) status = hk_reduced_fail(&own->reduced, &solution);
+  if (status == HOOKE_OK && !solution.converged)
+    status = hk_fail(HOOKE_SOLVER_FAILED, NULL,
+                     "%s could not solve the linear equations of the step from t = %.6g s: the residual is "
+                     "%.3g of the right-hand side after %lld iterations; take a smaller step",
+                     it->method->name, it->t, solution.residual, (long long)solution.iterations);
   for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
     for (int64_t p = 0; p < m->n; p++)
       m->v[a][p] += own->change[a * m->n + p];

@@ -397,33 +397,25 @@ int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const str
 
 /* ---- solutions ---- */
 
-void hk_factor_forward(struct hk_factor *factor, double *x) {
-  hk_triangle_forward(&factor->triangle, x);
-}
-
-void hk_factor_backward(struct hk_factor *factor, double *x) {
-  const size_t bytes = (size_t)factor->matrix.size * sizeof(double);
-  memcpy(factor->vector, x, bytes);
-  hk_triangle_backward(&factor->triangle, factor->vector);
-  memcpy(x, factor->vector, bytes);
-}
-
-void hk_factor_gather(const struct hk_factor *factor, const double *all, double *ordered) {
+void hk_factor_forward(const struct hk_factor *factor, const double *all, double *ordered) {
   const int64_t n = factor->system->particle_count;
   for (int64_t k = 0; k < factor->free_count; k++) {
     for (int a = 0; a < 3; a++)
       ordered[3 * k + a] = all[a * n + factor->particle[k]];
   }
+  hk_triangle_forward(&factor->triangle, ordered);
 }
 
-void hk_factor_spread(const struct hk_factor *factor, const double *ordered, double *all) {
+void hk_factor_backward(const struct hk_factor *factor, const double *ordered, double *all) {
   const int64_t n = factor->system->particle_count;
+  memcpy(factor->vector, ordered, (size_t)factor->matrix.size * sizeof(double));
+  hk_triangle_backward(&factor->triangle, factor->vector);
   for (int64_t k = 0; k < factor->system->constrained_count; k++) {
     for (int a = 0; a < 3; a++)
       all[a * n + factor->system->constrained_particle[k]] = 0.0;
   }
   for (int64_t k = 0; k < factor->free_count; k++) {
     for (int a = 0; a < 3; a++)
-      all[a * n + factor->particle[k]] = ordered[3 * k + a];
+      all[a * n + factor->particle[k]] = factor->vector[3 * k + a];
   }
 }

@@ -8,10 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Measured nanoseconds; only their ratios count: a product for each spring and each element of another force,
- * a vector operation for each number, a solve with a factor for each of its numbers, a factor for each of its
- * multiplications. */
-static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
 /* Of S with its factor: what rounding leaves. */
 static const double DIRECT_RESIDUAL = 1e-10;
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
@@ -301,28 +297,23 @@ static void multiply(int64_t size, double factor, double *x) {
     x[k] *= factor;
 }
 
-/* x = L^-1 x and x = L^-T x, counted. */
-static void forward(struct hk_reduced *reduced, double *x) {
+/* ordered = L^-1 x and x = L^-T ordered, counted. */
+static void forward(struct hk_reduced *reduced, const double *x, double *ordered) {
   reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
-  hk_factor_forward(reduced->whole, x);
+  hk_factor_forward(reduced->whole, x, ordered);
 }
 
-static void backward(struct hk_reduced *reduced, double *x) {
+static void backward(struct hk_reduced *reduced, const double *ordered, double *x) {
   reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
-  hk_factor_backward(reduced->whole, x);
+  hk_factor_backward(reduced->whole, ordered, x);
 }
 
 /* Multiplies by the factor on either side; `unknown` is in its order. */
 static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
   struct hk_reduced *reduced = ctx;
-  const size_t bytes = (size_t)reduced->integrator->size * sizeof(double);
-  double *x = reduced->place, *product = reduced->moved;
-  memcpy(product, unknown, bytes);
-  backward(reduced, product);
-  hk_factor_spread(reduced->whole, product, x);
-  const int32_t status = hk_reduced_multiply(reduced, x, product);
-  hk_factor_gather(reduced->whole, product, out);
-  forward(reduced, out);
+  backward(reduced, unknown, reduced->place);
+  const int32_t status = hk_reduced_multiply(reduced, reduced->place, reduced->moved);
+  forward(reduced, reduced->moved, out);
   return status;
 }
 
@@ -331,15 +322,13 @@ static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double t
   hooke_integrator *it = reduced->integrator;
   const struct hk_operator a = {3 * (it->system->particle_count - it->system->constrained_count), apply_whole,
                                 reduced};
-  hk_factor_gather(reduced->whole, b, reduced->right);
-  forward(reduced, reduced->right);
+  forward(reduced, b, reduced->right);
   const double scale = scale_of(a.size, reduced->right);
   multiply(a.size, scale, reduced->right);
   const int32_t status =
       hk_solve_general(&a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
   it->count.linear_iterations += solution->iterations;
-  backward(reduced, reduced->unknown);
-  hk_factor_spread(reduced->whole, reduced->unknown, x);
+  backward(reduced, reduced->unknown, x);
   multiply(it->size, 1.0 / scale, x);
   return status;
 }
@@ -440,21 +429,6 @@ void hk_reduced_drop_factor(struct hk_reduced *reduced) {
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) reduced->whole_state = HOOKE_WHOLE_READY;
 }
 
-double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors) {
-  const hooke_integrator *it = reduced->integrator;
-  return products *
-             (OF_SPRING * (double)it->system->springs->count + OF_ELEMENT * (double)reduced->element_count) +
-         vectors * OF_UNKNOWN * (double)it->size;
-}
-
-double hk_reduced_cost_of_solve(const struct hk_reduced *reduced) {
-  return OF_NUMBER * (double)hk_factor_numbers(reduced->whole);
-}
-
-double hk_reduced_cost_of_factor(const struct hk_reduced *reduced) {
-  return OF_PRODUCT * hk_factor_products(reduced->whole);
-}
-
 /* ---- few iterations, for an error in a given norm ---- */
 
 int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const double *bv, double *out) {
@@ -482,10 +456,8 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
 /* x = S^-1 x, as far as S is factorised. */
 static void divide(struct hk_reduced *reduced, double *x) {
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
-    hk_factor_gather(reduced->whole, x, reduced->unknown);
-    forward(reduced, reduced->unknown);
-    backward(reduced, reduced->unknown);
-    hk_factor_spread(reduced->whole, reduced->unknown, x);
+    forward(reduced, x, reduced->unknown);
+    backward(reduced, reduced->unknown, x);
     return;
   }
   memcpy(reduced->unknown, x, (size_t)reduced->size * sizeof(double));
@@ -519,13 +491,4 @@ int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const d
       (spaces * HOOKE_MINIMAL_SPACE * (HOOKE_MINIMAL_SPACE + 1) + rest * (rest + 1)) / 2;
   hk_divide(size, x, weight, x);
   return status;
-}
-
-int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution) {
-  const hooke_integrator *it = reduced->integrator;
-  return hk_fail(
-      HOOKE_SOLVER_FAILED, NULL,
-      "%s could not solve the linear equations of the step from t = %.6g s: the residual is %.3g of the "
-      "right-hand side after %lld iterations; take a smaller step",
-      it->method->name, it->t, solution->residual, (long long)solution->iterations);
 }

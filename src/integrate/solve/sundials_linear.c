@@ -1,19 +1,26 @@
-/* A solver "with the matrix embedded": it is called at every Newton iteration and finds state and gamma by
- * itself, so that its products are always current. S is kept as long as that costs fewer iterations than a
- * new factor. */
+/* The linear equations (1 - gamma J) (dq, dv) = (b_q, b_v) of an implicit method of SUNDIALS, solved through
+ * the 3n equations of integrate/solve/reduced.h with exact products, by GMRES in the norm of the method's
+ * error weights: by a solver "with the matrix embedded", which is called at every Newton iteration
+ * and finds state and gamma by itself, so that its products are always current. S is kept as long as that
+ * costs fewer iterations than a new factor. */
 #if HOOKE_HAVE_SUNDIALS
 
-#include "integrate/solve/sundials_linear.h"
+#include "integrate/solve/sundials_problem.h"
 
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <string.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
+/* Measured nanoseconds; only their ratios count: a product for each spring and each element of another force,
+ * a vector operation for each number, a solve with a factor for each of its numbers, a factor for each of its
+ * multiplications. */
+static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
 /* Vector operations of an iteration of GMRES, and for each vector of its space. */
 static const double VECTORS = 10.0, VECTORS_OF_SPACE = 1.0;
 /* Solves of a Newton correction with a current factor. */
@@ -68,14 +75,20 @@ static int32_t renew(struct solver *s, int due) {
 }
 
 static double cost_by_blocks(const struct solver *s, double iterations) {
-  const double space = fmin(iterations, HOOKE_MINIMAL_SPACE);
-  return iterations * hk_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
+  const double vectors = VECTORS + VECTORS_OF_SPACE * fmin(iterations, HOOKE_MINIMAL_SPACE);
+  return iterations * ((OF_SPRING * (double)s->integrator->system->springs->count +
+                        OF_ELEMENT * (double)s->reduced.element_count) +
+                       vectors * OF_UNKNOWN * (double)s->integrator->size);
+}
+
+static double cost_of_solve(const struct solver *s) {
+  return OF_NUMBER * (double)hk_factor_numbers(s->reduced.whole);
 }
 
 /* The savings of a new factor would have reached its cost. This is decided after the fact, and so costs at
  * most twice the best choice. */
 static int is_due(const struct solver *s) {
-  return s->excess > hk_reduced_cost_of_factor(&s->reduced);
+  return s->excess > OF_PRODUCT * hk_factor_products(s->reduced.whole);
 }
 
 /* Decides whether the next solves should use a new factor; by counts alone, so that runs repeat to the bit.
@@ -85,14 +98,14 @@ static int32_t learn(struct solver *s, const struct hk_solution *solution) {
   s->solves++;
   if (s->direct) {
     if (s->solves == 1) s->fresh = iterations;
-    s->excess += fmax(0.0, iterations - s->fresh) * hk_reduced_cost_of_solve(&s->reduced);
+    s->excess += fmax(0.0, iterations - s->fresh) * cost_of_solve(s);
     return HOOKE_OK;
   }
   s->by_blocks_alone += iterations;
   if (!s->may_be_direct || (solution->converged && s->by_blocks_alone < MANY)) return HOOKE_OK;
   const int32_t status = hk_reduced_prepare_whole(&s->reduced);
   if (status != HOOKE_OK || s->reduced.whole == NULL) return status;
-  s->excess += cost_by_blocks(s, iterations) - SOLVES_OF_FACTOR * hk_reduced_cost_of_solve(&s->reduced);
+  s->excess += cost_by_blocks(s, iterations) - SOLVES_OF_FACTOR * cost_of_solve(s);
   s->excess = fmax(0.0, s->excess);
   s->direct = !solution->converged || is_due(s);
   if (s->direct) s->solves = 0;

@@ -1,6 +1,6 @@
 #if HOOKE_HAVE_SUNDIALS
 
-#include "integrate/solve/sundials_linear.h"
+#include "integrate/solve/sundials_problem.h"
 #include "integrate/solve/sundials_vector.h"
 
 #include "core/memory.h"

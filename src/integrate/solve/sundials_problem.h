@@ -57,7 +57,20 @@ int32_t hk_sundials_advance(hooke_integrator *integrator, const char *solver, in
 /* A time ahead. Only the first step of a solver uses it, for its direction and size. */
 double hk_sundials_towards(const hooke_integrator *integrator);
 
-/* Callbacks; the context is the integrator. */
+/* ---- sundials_linear.c ---- */
+
+/* Creates own->linear as the option linear_solver says: GMRES of SUNDIALS on all unknowns for `gmres`, for
+ * first-order problems and if nothing is free. HOOKE_NO_MEMORY. */
+int32_t hk_sundials_linear_create(hooke_integrator *integrator);
+
+/* Forgets adaptations of earlier solves: a run restarts. */
+void hk_sundials_linear_begin(hooke_integrator *integrator);
+
+/* 1 if own->linear brings its own products. */
+int32_t hk_sundials_linear_is_own(const hooke_integrator *integrator);
+
+/* ---- callbacks; the context is the integrator ---- */
+
 int hk_sundials_slope(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
 int hk_sundials_product_setup(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
 int hk_sundials_product(N_Vector direction, N_Vector product, sunrealtype t, N_Vector y, N_Vector slope,
