@@ -3,7 +3,6 @@
 #define HOOKE_INTEGRATE_INTEGRATOR_H
 
 #include "core/table/option.h"
-#include "integrate/generalized.h"
 #include "integrate/method.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
@@ -91,6 +90,18 @@ struct hk_last_good {
 
 /* Of a run: at a checkpoint that was read, from which it has not gone on yet. */
 enum { HOOKE_NOT_BEGUN, HOOKE_BEGUN, HOOKE_AT_CHECKPOINT };
+
+/* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
+ * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the
+ * system scales by W. So all that takes a system takes these. */
+struct hk_generalized {
+  int64_t size;
+  hooke_force *force;
+  hooke_force_product *product; /* may be NULL */
+  void *ctx;
+  double *inverse_mass; /* those of all rows */
+  hooke_system *system; /* committed */
+};
 
 struct hooke_integrator {
   const struct hk_method *method;

@@ -172,13 +172,9 @@ void hk_body_stage_begin(struct hk_stage *stage) {
 void hk_body_stage_explicit(struct hk_stage *stage, double a, double *out) {
   struct hk_body_stage *bodies = &stage->body;
   hk_movers_push(system_of(stage), stage->reduced.integrator->motion, bodies->own, bodies->push);
-  for (int64_t k = 0; k < bodies->count; k++) {
-    const double *own = own_of(stage, k), *push = bodies->push + HOOKE_PUSH * k;
-    double slope[HOOKE_BODY_NUMBERS];
-    hk_body_slope(body_of(stage, k), own, push, slope);
-    for (int j = 0; j < HOOKE_BODY_NUMBERS; j++)
-      out[HOOKE_BODY_NUMBERS * k + j] = own[j] + a * slope[j];
-  }
+  hk_movers_slope(system_of(stage), bodies->own, bodies->push, out);
+  for (int64_t j = 0; j < HOOKE_BODY_NUMBERS * bodies->count; j++)
+    out[j] = bodies->own[j] + a * out[j];
 }
 
 void hk_body_stage_go_on(struct hk_stage *stage) {

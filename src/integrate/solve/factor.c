@@ -119,33 +119,25 @@ static struct slot find_place(const struct hk_factor *x, int64_t one, int64_t ot
   return (struct slot){column, low - start};
 }
 
-/* Pairs of particles in all other elements. */
-static int64_t other_pairs(const hooke_system *system) {
+/* Pairs of particles in all other elements, counted where `slot` is NULL. */
+static int64_t locate_others(const struct hk_factor *x, struct slot *slot) {
+  struct hk_elements at;
   int64_t count = 0;
-  struct hk_elements at;
-  hk_begin_elements(system, system->position, NULL, &at);
-  at.kinds = HOOKE_OTHERS;
-  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
-    count += e->count * (e->count - 1) / 2;
-  return count;
-}
-
-static void locate_others(const struct hk_factor *x, struct slot *slot) {
-  struct hk_elements at;
   hk_begin_elements(x->system, NULL, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 1; j < e->count; j++) {
-      for (int k = 0; k < j; k++)
-        *slot++ = find_place(x, e->particle[k], e->particle[j]);
+      for (int k = 0; k < j; k++, count++)
+        if (slot) slot[count] = find_place(x, e->particle[k], e->particle[j]);
     }
   }
+  return count;
 }
 
 static int locate_blocks(struct hk_factor *x) {
   const struct hk_springs *springs = x->system->springs;
   x->spring = take(x, springs->count, sizeof *x->spring);
-  x->pair = take(x, other_pairs(x->system), sizeof *x->pair);
+  x->pair = take(x, locate_others(x, NULL), sizeof *x->pair);
   if (x->spring == NULL || x->pair == NULL) return 0;
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];

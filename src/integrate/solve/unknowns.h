@@ -59,10 +59,9 @@ void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, 
 int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
 
-/* v' of the free particles (3 free_count) from the forces of the working copy; returns 0 times their sum,
- * which shows whether all are finite. */
-double hk_unknowns_accelerations(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
-                                 double *out);
+/* v' of the free particles (3 free_count) from the forces of the working copy. */
+void hk_unknowns_accelerations(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
+                               double *out);
 
 /* slope = phi(t, y), counted. */
 int hk_unknowns_slope(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
