@@ -173,13 +173,19 @@ static int32_t look(hooke_integrator *it, const double *y) {
 
 enum { LOW_ORDER = 2, BDF_ORDER = 5, ADAMS_ORDER = 12 };
 
+static const struct hk_sundials_solver solver = {"CVODE",
+                                                 CVodeFree,
+                                                 CVodeGetNumSteps,
+                                                 CVodeGetNumErrTestFails,
+                                                 CVodeGetNonlinSolvStats,
+                                                 CVodeGetNumLinIters};
+
 static int is_bdf(const hooke_integrator *it) {
   return it->method == &hk_cvode_bdf;
 }
 
 static void destroy(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
-  if (own->memory) CVodeFree(&own->memory);
   release_choice(own->choice);
   hk_sundials_release(it);
 }
@@ -221,12 +227,12 @@ static int32_t create(hooke_integrator *it) {
   int order;
   int32_t status = hk_sundials_order(it, 1, highest, &order);
   /* counts the part of the history that a run of middling order uses */
-  if (status == HOOKE_OK) status = hk_sundials_create(it, is_bdf(it), 10 + (highest + 2) / 2);
+  if (status == HOOKE_OK) status = hk_sundials_create(it, &solver, is_bdf(it), 10 + (highest + 2) / 2);
   if (status == HOOKE_OK && is_bdf(it)) status = create_choice(it);
   if (status != HOOKE_OK) return status;
   struct hk_sundials *own = it->own;
   const int flag = set_up(it, own, order);
-  return hk_sundials_created(it, "CVODE", flag == CV_SUCCESS, flag == CV_MEM_FAIL);
+  return hk_sundials_created(it, flag == CV_SUCCESS, flag == CV_MEM_FAIL);
 }
 
 static int32_t start(hooke_integrator *it, double t) {
@@ -258,22 +264,6 @@ static int32_t choose_order(hooke_integrator *it) {
   return start(it, it->t);
 }
 
-static void read_counts(hooke_integrator *it) {
-  struct hk_sundials *own = it->own;
-  long steps = 0, evaluations, setups, failures = 0, iterations = 0, convergence = 0, linear = 0;
-  int order, next_order;
-  sunrealtype first, last, next, now;
-  CVodeGetIntegratorStats(own->memory, &steps, &evaluations, &setups, &failures, &order, &next_order, &first,
-                          &last, &next, &now);
-  CVodeGetNonlinSolvStats(own->memory, &iterations, &convergence);
-  if (own->linear) CVodeGetNumLinIters(own->memory, &linear);
-  hk_sundials_count(it, (struct hk_counts){.steps = steps,
-                                           .error_test_failures = failures,
-                                           .nonlinear_iterations = iterations,
-                                           .nonlinear_failures = convergence,
-                                           .linear_iterations = linear});
-}
-
 static int32_t step(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
   if (own->choice && it->k > 0 && is_due(own->choice, it->t)) {
@@ -282,8 +272,7 @@ static int32_t step(hooke_integrator *it) {
   }
   sunrealtype reached = it->t;
   const int flag = CVode(own->memory, hk_sundials_towards(it), own->y, &reached, CV_ONE_STEP);
-  read_counts(it);
-  return hk_sundials_advance(it, "CVODE", flag, reached);
+  return hk_sundials_advance(it, flag, reached);
 }
 
 /* Before the first step y is still the initial value, and there is nothing to interpolate. */
