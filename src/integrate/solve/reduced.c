@@ -297,15 +297,29 @@ static void multiply(int64_t size, double factor, double *x) {
     x[k] *= factor;
 }
 
-/* ordered = L^-1 x and x = L^-T ordered, counted. */
-static void forward(struct hk_reduced *reduced, const double *x, double *ordered) {
-  reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
-  hk_factor_forward(reduced->whole, x, ordered);
+static int is_whole(const struct hk_reduced *reduced) {
+  return reduced->whole_state == HOOKE_WHOLE_IN_USE;
 }
 
-static void backward(struct hk_reduced *reduced, const double *ordered, double *x) {
-  reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
-  hk_factor_backward(reduced->whole, ordered, x);
+/* out = L^-1 x and out = L^-T x, by all of S in its order where that is factorised, which counts, else by
+ * blocks. */
+static void forward(struct hk_reduced *reduced, const double *x, double *out) {
+  if (is_whole(reduced)) {
+    reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
+    hk_factor_forward(reduced->whole, x, out);
+  } else {
+    memcpy(out, x, (size_t)reduced->size * sizeof(double));
+    divide_blocks(reduced, out);
+  }
+}
+
+static void backward(struct hk_reduced *reduced, const double *x, double *out) {
+  if (is_whole(reduced)) {
+    reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
+    hk_factor_backward(reduced->whole, x, out);
+  } else {
+    divide_blocks_transposed(reduced, x, out);
+  }
 }
 
 /* Multiplies by the factor on either side; `unknown` is in its order. */
@@ -317,39 +331,24 @@ static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
   return status;
 }
 
-static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
-                           double *x, struct hk_solution *solution) {
-  hooke_integrator *it = reduced->integrator;
-  const struct hk_operator a = {3 * (it->system->particle_count - it->system->constrained_count), apply_whole,
-                                reduced};
+/* To this residual or, where `absolute` is a number, to an error (hk_solve_positive). */
+static int32_t solve(struct hk_reduced *reduced, const double *b, double tolerance, double absolute,
+                     int64_t limit, double *x, struct hk_solution *solution) {
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t free_count = system->particle_count - system->constrained_count;
+  const int whole = is_whole(reduced);
+  const struct hk_operator a = {whole ? 3 * free_count : reduced->size, whole ? apply_whole : apply, reduced};
   forward(reduced, b, reduced->right);
   const double scale = scale_of(a.size, reduced->right);
   multiply(a.size, scale, reduced->right);
-  const int32_t status =
-      hk_solve_general(&a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
-  it->count.linear_iterations += solution->iterations;
-  backward(reduced, reduced->unknown, x);
-  multiply(it->size, 1.0 / scale, x);
-  return status;
-}
-
-/* To this residual or, where `absolute` is a number, to an error (hk_solve_positive). */
-static int32_t solve_by_blocks(struct hk_reduced *reduced, const double *b, double tolerance, double absolute,
-                               int64_t limit, double *x, struct hk_solution *solution) {
-  const int64_t size = reduced->size;
-  const struct hk_operator a = {size, apply, reduced};
-  memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  divide_blocks(reduced, reduced->right);
-  const double scale = scale_of(size, reduced->right);
-  multiply(size, scale, reduced->right);
   const int32_t status =
       isnan(absolute) ? (reduced->symmetric ? hk_solve_symmetric : hk_solve_general)(
                             &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution)
                       : hk_solve_positive(&a, reduced->right, tolerance, scale * absolute, limit,
                                           reduced->krylov, reduced->unknown, solution);
   reduced->integrator->count.linear_iterations += solution->iterations;
-  divide_blocks_transposed(reduced, reduced->unknown, x);
-  multiply(size, 1.0 / scale, x);
+  backward(reduced, reduced->unknown, x);
+  multiply(reduced->size, 1.0 / scale, x);
   return status;
 }
 
@@ -361,11 +360,9 @@ static int64_t limit_of(const struct hk_reduced *reduced) {
 /* With the factor of S at this place, if that is asked for and S proves positive. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution) {
-  int32_t whole = reduced->direct && reduced->whole;
-  if (whole && reduced->whole_state != HOOKE_WHOLE_IN_USE) whole = hk_reduced_factorise(reduced);
-  if (whole < 0) return whole;
-  return whole ? solve_whole(reduced, b, tolerance, limit, x, solution)
-               : solve_by_blocks(reduced, b, tolerance, NAN, limit, x, solution);
+  const int32_t positive =
+      reduced->direct && reduced->whole && !is_whole(reduced) ? hk_reduced_factorise(reduced) : 0;
+  return positive < 0 ? positive : solve(reduced, b, tolerance, NAN, limit, x, solution);
 }
 
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
@@ -382,7 +379,7 @@ void hk_reduced_project(struct hk_reduced *reduced) {
 int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
                            double *x, struct hk_solution *solution) {
   if (!reduced->direct || !reduced->whole)
-    return solve_by_blocks(reduced, b, relative, absolute, limit_of(reduced), x, solution);
+    return solve(reduced, b, relative, absolute, limit_of(reduced), x, solution);
   const int32_t status = hk_reduced_solve(reduced, b, DIRECT_RESIDUAL, x, solution);
   solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
   return status;
@@ -455,14 +452,8 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
 
 /* x = S^-1 x, as far as S is factorised. */
 static void divide(struct hk_reduced *reduced, double *x) {
-  if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
-    forward(reduced, x, reduced->unknown);
-    backward(reduced, reduced->unknown, x);
-    return;
-  }
-  memcpy(reduced->unknown, x, (size_t)reduced->size * sizeof(double));
-  divide_blocks(reduced, reduced->unknown);
-  divide_blocks_transposed(reduced, reduced->unknown, x);
+  forward(reduced, x, reduced->unknown);
+  backward(reduced, reduced->unknown, x);
 }
 
 static int32_t apply_weighed(void *ctx, const double *weighed, double *out) {
