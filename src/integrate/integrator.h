@@ -3,7 +3,6 @@
 #define HOOKE_INTEGRATE_INTEGRATOR_H
 
 #include "core/table/option.h"
-#include "integrate/generalized.h"
 #include "integrate/method.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
@@ -32,12 +31,14 @@ struct hk_schedule {
 };
 
 /* The standing of a run beside its state: everything that continuing it needs, and its counts. */
-struct hk_standing {
-  double t0, t;
-  double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
-  double wall_seconds;
-  int64_t k, frames; /* steps since t0, frames reported */
+#define HOOKE_STANDING                                                                                       \
+  double t0, t;                                    /* start and current time of the run */                   \
+  double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */                                    \
+  double wall_seconds;                                                                                       \
+  int64_t k, frames; /* steps since t0, frames reported */                                                   \
   struct hk_counts count;
+struct hk_standing {
+  HOOKE_STANDING
 };
 
 /* State of the last restart of an error-controlled run. */
@@ -90,6 +91,18 @@ struct hk_last_good {
 /* Of a run: at a checkpoint that was read, from which it has not gone on yet. */
 enum { HOOKE_NOT_BEGUN, HOOKE_BEGUN, HOOKE_AT_CHECKPOINT };
 
+/* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
+ * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the
+ * system scales by W. So all that takes a system takes these. */
+struct hk_generalized {
+  int64_t size;
+  hooke_force *force;
+  hooke_force_product *product; /* may be NULL */
+  void *ctx;
+  double *inverse_mass; /* those of all rows */
+  hooke_system *system; /* committed */
+};
+
 struct hooke_integrator {
   const struct hk_method *method;
   hooke_options *options;
@@ -118,17 +131,19 @@ struct hooke_integrator {
   int32_t exactly;          /* 1: verlet solves nearly to rounding, for a limit that is that of its formula */
   int32_t explicit_damping; /* 1: of verlet, which does not solve for the damping that there is */
 
-  double t0, t;   /* start and current time of the run */
-  double goal;    /* the next time needed by the run loop; a method that does not interpolate stops there */
-  int64_t k;      /* steps since t0 */
-  int64_t frames; /* reported since t0 */
-  int64_t point;  /* number of the next checkpoint, with error control */
+  union {
+    struct hk_standing standing;
+    struct {
+      HOOKE_STANDING
+    };
+  };
+  double goal;   /* the next time needed by the run loop; a method that does not interpolate stops there */
+  int64_t point; /* number of the next checkpoint, with error control */
   struct hk_restart restart; /* with error control and the option `checkpoint` */
   int32_t phase;             /* HOOKE_NOT_BEGUN: the numbers above are those of no run */
   struct hk_recent recent;   /* the newest is the last state that passed the check */
   struct hk_last_good good;
   hooke_state *shown; /* shown to observers and checks while the caller's state is stale; NULL before */
-  double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
   struct hk_energies energies; /* of the state that was last checked; system NULL: not known */
 
@@ -137,8 +152,6 @@ struct hooke_integrator {
   struct hk_checker checker;
   int32_t thorough; /* 1: every check includes the energy */
   struct hk_passages passages;
-  struct hk_counts count;
-  double wall_seconds;
   int32_t stop_value;
   int32_t outcome;   /* of the last run or steps, with its message */
   char message[512]; /* "" after success */
@@ -203,9 +216,8 @@ int32_t hk_integrator_require_particles(const hooke_integrator *integrator, cons
 int32_t hk_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hk_fixed_store(hooke_integrator *integrator, double t, hooke_state *state);
 
-/* Gets the standing of the integrator, and restores it, at `state`, as if the run had reached it itself;
- * knowledge of its first state stays. The failures of starting a run. */
-struct hk_standing hk_integrator_standing(const hooke_integrator *integrator);
+/* Restores a standing at `state`, as if the run had reached it itself; knowledge of its first state stays.
+ * The failures of starting a run. */
 int32_t hk_integrator_stand(hooke_integrator *integrator, const struct hk_standing *standing,
                             hooke_state *state);
 

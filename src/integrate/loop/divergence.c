@@ -70,7 +70,8 @@ int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
     it->scale0 = at.kinetic + at.elastic + least_energy(it, state);
     it->energy0 = at.kinetic + at.elastic;
   }
-  hk_recent_begin(&it->recent, state);
+  it->recent.count = 0;
+  hk_recent_keep(&it->recent, state, 0);
   it->good.t = *state->t;
   it->good.unkept = 0;
   return HOOKE_OK;

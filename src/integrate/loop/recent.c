@@ -44,11 +44,6 @@ void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first) {
   if (recent->first) hooke_state_copy(first, recent->first);
 }
 
-void hk_recent_begin(struct hk_recent *recent, const hooke_state *state) {
-  recent->count = 0;
-  hk_recent_keep(recent, state, 0);
-}
-
 hooke_state *hk_recent_next(struct hk_recent *recent, int64_t step) {
   const int32_t again = recent->count > 0 && recent->step[recent->newest] == step;
   if (!again) {

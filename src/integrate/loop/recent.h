@@ -24,8 +24,6 @@ int32_t hk_recent_extend(int64_t size, int32_t has_v, struct hk_recent *recent);
 void hk_recent_release(struct hk_recent *recent);
 int64_t hk_recent_memory(const struct hk_recent *recent);
 
-/* Clears all but the initial state, and starts with `state`. */
-void hk_recent_begin(struct hk_recent *recent, const hooke_state *state);
 /* The initial state of a run that continues from elsewhere; NULL: unknown. */
 void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first);
 /* Slot for the state after this step, for the caller to write; NULL: no space. A second state after the same

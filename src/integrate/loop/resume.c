@@ -7,7 +7,8 @@
 #include <string.h>
 
 int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *standing, hooke_state *state) {
-  const struct hk_standing s = *standing, before = hk_integrator_standing(it);
+  struct hk_standing s = *standing;
+  const struct hk_standing before = it->standing;
   it->count = s.count; /* a method continues counting from here */
   it->wall_seconds = s.wall_seconds;
   const int32_t status = hk_run_begin_later(it, state);
@@ -16,16 +17,13 @@ int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *stan
     it->wall_seconds = before.wall_seconds;
     return status;
   }
-  it->t0 = s.t0;
-  it->k = it->recent.step[it->recent.newest] = s.k;
-  it->frames = s.frames;
-  it->energy0 = s.energy0;
-  it->scale0 = s.scale0;
-  it->gravity0 = s.gravity0;
-  it->gravity_swing = s.gravity_swing;
+  s.t = it->t;
+  s.count = it->count;
+  it->standing = s;
+  it->recent.step[it->recent.newest] = s.k;
   if (!it->method->adaptive || isnan(it->schedule.checkpoint)) return HOOKE_OK;
   it->point = hk_run_first_after(it->t0, it->schedule.checkpoint, it->t);
-  it->restart.standing = hk_integrator_standing(it);
+  it->restart.standing = it->standing;
   return HOOKE_OK;
 }
 
@@ -33,7 +31,7 @@ int32_t hk_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const 
                                      hooke_state *state) {
   const struct hk_schedule *s = &it->schedule;
   const int64_t k = it->method->adaptive ? 0 : frame == s->frames - 1 ? s->steps : frame * s->frame_steps;
-  struct hk_standing standing = hk_integrator_standing(it); /* with the energies at the first frame */
+  struct hk_standing standing = it->standing; /* with the energies at the first frame */
   standing.t0 = *first->t;
   standing.t = *state->t;
   standing.k = standing.count.steps = k;
@@ -52,7 +50,7 @@ int32_t hk_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const 
 
 int32_t hk_integrator_place(hooke_integrator *to, const hooke_integrator *from, int64_t step,
                             hooke_state *state) {
-  struct hk_standing standing = hk_integrator_standing(from);
+  struct hk_standing standing = from->standing;
   standing.k = step;
   standing.frames = 0;
   standing.count = to->count;
@@ -72,8 +70,7 @@ int32_t hk_integrator_run_on(hooke_integrator *it, const hooke_state *first, hoo
   if (status == HOOKE_OK) {
     const int fixed = !it->method->adaptive;
     const int64_t step = fixed ? (int64_t)llround((*state->t - *start->t) / it->schedule.step) : 0;
-    const hooke_integrator begun = *it;
-    status = hk_integrator_place(it, &begun, step, state);
+    status = hk_integrator_place(it, it, step, state);
     hk_recent_set_first(&it->recent, start);
   }
   hooke_state_destroy(start);
@@ -104,8 +101,7 @@ int32_t hooke_integrator_resume(hooke_integrator *it, hooke_state *state) {
                      "read, nor a run with a fixed step stopped at this state");
   }
   if (status != HOOKE_OK) return status;
-  const struct hk_standing standing = hk_integrator_standing(it);
-  status = hk_integrator_stand(it, &standing, state);
+  status = hk_integrator_stand(it, &it->standing, state);
   if (status == HOOKE_OK && it->k == 0 && it->frames == 0) status = hk_divergence_check(it, state, 1);
   if (status == HOOKE_OK && is_frame_missing(it)) status = hk_run_report(it, state);
   if (status == HOOKE_OK) status = hk_run_to_end(it, state);

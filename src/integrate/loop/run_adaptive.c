@@ -41,7 +41,7 @@ int32_t hk_run_keep_restart(hooke_integrator *it, const hooke_state *state) {
     const int32_t status = hk_state_create_sized(hooke_state_size(state), state->has_v, &restart->state);
     if (status != HOOKE_OK) return status;
   }
-  restart->standing = hk_integrator_standing(it);
+  restart->standing = it->standing;
   return hooke_state_copy(state, restart->state);
 }
 

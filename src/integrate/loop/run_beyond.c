@@ -37,17 +37,13 @@ static void go_on(hooke_integrator *it, hooke_state *state, int64_t most) {
 }
 
 int32_t hk_run_beyond(hooke_integrator *it, hooke_state *state, int32_t status) {
-  const int64_t most = status == HOOKE_DIVERGED ? frames_wanted(it) : 0, k = it->k;
+  const int64_t most = status == HOOKE_DIVERGED ? frames_wanted(it) : 0;
   const hooke_state *good = hk_recent_state(&it->recent, 0, NULL);
   if (most == 0 || good == NULL) return status;
-  const struct hk_counts count = it->count;
-  const double t = it->t, wall_seconds = it->wall_seconds;
+  const struct hk_standing standing = it->standing;
   const int32_t stop_value = it->stop_value;
   go_on(it, state, most);
-  it->k = k;
-  it->t = t;
-  it->count = count;
-  it->wall_seconds = wall_seconds;
+  it->standing = standing;
   it->stop_value = stop_value;
   hooke_state_copy(good, state);
   return hk_fail(HOOKE_DIVERGED, NULL, "%s", it->message);

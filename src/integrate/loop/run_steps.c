@@ -10,19 +10,6 @@
 static const double LOOK = 1e-3; /* [s] between two clock readings */
 static const int64_t MOST_STRIDE = 1 << 20;
 
-struct hk_standing hk_integrator_standing(const hooke_integrator *it) {
-  return (struct hk_standing){.t0 = it->t0,
-                              .t = it->t,
-                              .k = it->k,
-                              .frames = it->frames,
-                              .energy0 = it->energy0,
-                              .scale0 = it->scale0,
-                              .gravity0 = it->gravity0,
-                              .gravity_swing = it->gravity_swing,
-                              .count = it->count,
-                              .wall_seconds = it->wall_seconds};
-}
-
 int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
   if (it->system == NULL || (it->system->drive_count == 0 && !it->system->overdamped)) return HOOKE_OK;
   hk_motion_load(it->system, it->motion, state->q, state->v);

@@ -5,7 +5,7 @@
 #if HOOKE_HAVE_SUNDIALS
 
 #include "core/status.h"
-#include "integrate/solve/sundials_linear.h"
+#include "integrate/solve/sundials_problem.h"
 
 #include <arkode/arkode_arkstep.h>
 #include <float.h>
@@ -17,11 +17,12 @@ enum { HIGHEST_ORDER_PREDICTOR = 1, MOST_FAILURES = 100 };
 static const ARKODE_DIRKTableID tables[] = {ARKODE_ESDIRK325L2SA_5_2_3, ARKODE_ESDIRK437L2SA_7_3_4,
                                             ARKODE_ESDIRK547L2SA2_7_4_5};
 
-static void destroy(hooke_integrator *it) {
-  struct hk_sundials *own = it->own;
-  if (own->memory) ARKodeFree(&own->memory);
-  hk_sundials_release(it);
-}
+static const struct hk_sundials_solver solver = {"ARKODE",
+                                                 ARKodeFree,
+                                                 ARKodeGetNumSteps,
+                                                 ARKodeGetNumErrTestFails,
+                                                 ARKodeGetNonlinSolvStats,
+                                                 ARKodeGetNumLinIters};
 
 static int where(void *memory, sunrealtype *t, sunrealtype *gamma, N_Vector *y) {
   N_Vector predicted, slope, start;
@@ -60,11 +61,11 @@ static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
 static int32_t create(hooke_integrator *it) {
   int order;
   int32_t status = hk_sundials_order(it, LOWEST_ORDER, HIGHEST_ORDER, &order);
-  if (status == HOOKE_OK) status = hk_sundials_create(it, 1, VECTORS);
+  if (status == HOOKE_OK) status = hk_sundials_create(it, &solver, 1, VECTORS);
   if (status != HOOKE_OK) return status;
   struct hk_sundials *own = it->own;
   const int flag = set_up(it, own, order);
-  return hk_sundials_created(it, "ARKODE", flag == ARK_SUCCESS, flag == ARK_MEM_FAIL);
+  return hk_sundials_created(it, flag == ARK_SUCCESS, flag == ARK_MEM_FAIL);
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
@@ -77,20 +78,6 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
                  own->message);
 }
 
-static void read_counts(hooke_integrator *it) {
-  struct hk_sundials *own = it->own;
-  long steps = 0, failures = 0, iterations = 0, convergence = 0, linear = 0;
-  ARKodeGetNumSteps(own->memory, &steps);
-  ARKodeGetNumErrTestFails(own->memory, &failures);
-  ARKodeGetNonlinSolvStats(own->memory, &iterations, &convergence);
-  ARKodeGetNumLinIters(own->memory, &linear);
-  hk_sundials_count(it, (struct hk_counts){.steps = steps,
-                                           .error_test_failures = failures,
-                                           .nonlinear_iterations = iterations,
-                                           .nonlinear_failures = convergence,
-                                           .linear_iterations = linear});
-}
-
 /* Steps end at the goal, where the run loop needs the solution: ARKODE's interpolants have a larger error
  * than its steps. */
 static int32_t step(hooke_integrator *it) {
@@ -99,8 +86,7 @@ static int32_t step(hooke_integrator *it) {
   int flag = ARKodeSetStopTime(own->memory, fmin(it->goal, DBL_MAX));
   if (flag == ARK_SUCCESS)
     flag = ARKodeEvolve(own->memory, hk_sundials_towards(it), own->y, &reached, ARK_ONE_STEP);
-  read_counts(it);
-  return hk_sundials_advance(it, "ARKODE", flag, reached);
+  return hk_sundials_advance(it, flag, reached);
 }
 
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
@@ -108,7 +94,7 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }
 
-static const struct hk_steps steps = {create, destroy, NULL, begin, step, store};
+static const struct hk_steps steps = {create, hk_sundials_release, NULL, begin, step, store};
 #define STEPS &steps
 
 #else

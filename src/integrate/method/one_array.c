@@ -40,9 +40,7 @@ static double *own_of(const struct hk_unknowns *u, double *y) {
 void hk_one_array_give(hooke_integrator *it, double *y) {
   const struct hk_unknowns *u = &it->array->unknowns;
   hk_movers_normalise(it->system, own_of(u, y));
-  hk_unknowns_spread(u, y, it->motion->q);
-  hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
-  hk_movers_write(it->system, it->motion, own_of(u, y));
+  hk_unknowns_give(it, u, y);
 }
 
 int32_t hk_one_array_push(hooke_integrator *it, double t, int32_t kept) {

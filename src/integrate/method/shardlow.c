@@ -5,7 +5,7 @@
  * momentum. What strong damping does to the order is in docs/notes/methods.md. */
 #include "core/memory.h"
 #include "core/status.h"
-#include "integrate/method/verlet_damping.h"
+#include "integrate/method/verlet.h"
 #include "model/sum/dampers.h"
 
 #include <stddef.h>

@@ -7,29 +7,22 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The start of the step, and the sum of the rates: components of q and v as in the motion. */
-struct own {
-  double *start, *sum;
-};
-
+/* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */
 static int32_t create(hooke_integrator *it) {
   if (it->array || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
-  struct own *own = hk_new(1, sizeof *own);
-  if (own == NULL) return HOOKE_NO_MEMORY;
-  it->own = own;
-  const int64_t size = 6 * hk_motion_stride(it->motion);
-  own->start = hk_new(2 * size, sizeof(double));
-  if (own->start == NULL) return HOOKE_NO_MEMORY;
-  own->sum = own->start + size;
-  it->own_memory += 2 * size * (int64_t)sizeof(double);
-  return HOOKE_OK;
+  const int64_t numbers = 12 * hk_motion_stride(it->motion);
+  it->own = hk_new(numbers, sizeof(double));
+  it->own_memory += numbers * (int64_t)sizeof(double);
+  return it->own ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 static void destroy(hooke_integrator *it) {
-  struct own *own = it->own;
-  hk_free(own->start);
-  hk_free(own);
+  hk_free(it->own);
   it->own = NULL;
+}
+
+static double *sum_of(const hooke_integrator *it) {
+  return (double *)it->own + 6 * hk_motion_stride(it->motion);
 }
 
 /* A stage is a step over this ahead; 0: at the start. */
@@ -100,7 +93,6 @@ static int32_t hold(hooke_integrator *it, int stage) {
 }
 
 static int32_t move(hooke_integrator *it, int stage) {
-  const struct own *own = it->own;
   const int last = it->method->stages.count - 1;
   const int32_t kind = last == 0      ? HOOKE_DRIFT_THEN_KICK
                        : stage == 0   ? HOOKE_FIRST_STAGE
@@ -109,7 +101,7 @@ static int32_t move(hooke_integrator *it, int stage) {
   const double kick = kick_of(it, stage);
   struct hk_move move;
   hk_integrator_move_of(it, kind, kick, kick, &move);
-  if (own) move.start = own->start, move.sum = own->sum;
+  if (it->own) move.start = it->own, move.sum = sum_of(it);
   return hk_integrator_move(it, stage_time(it, stage), &move);
 }
 
@@ -125,17 +117,16 @@ static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ct
 /* ---- an overdamped system: velocities are the rates, and those at the start are there ---- */
 
 static void move_positions(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  const struct own *own = it->own;
+  double *start = it->own, *sum = sum_of(it);
   struct hk_motion *m = it->motion;
   for (int a = 0; a < 3; a++) {
     const int64_t q = a * m->n + from; /* as hk_motion_save() has them */
-    move_numbers(it, *(const int *)ctx, count, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
+    move_numbers(it, *(const int *)ctx, count, m->v[a] + from, start + q, sum + q, m->q[a] + from);
   }
 }
 
 static int32_t step_overdamped(hooke_integrator *it) {
-  struct own *own = it->own;
-  hk_motion_save(it->motion, own->start);
+  hk_motion_save(it->motion, it->own);
   for (int stage = 0; stage < it->method->stages.count; stage++) {
     const int last = stage + 1 == it->method->stages.count;
     const double t = last ? hk_integrator_next_time(it) : stage_time(it, stage + 1);
@@ -144,7 +135,7 @@ static int32_t step_overdamped(hooke_integrator *it) {
     if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
     it->count.force_evaluations++;
     if (status != HOOKE_OK) {
-      hk_motion_restore(it->motion, own->start);
+      hk_motion_restore(it->motion, it->own);
       return status;
     }
   }
@@ -154,12 +145,11 @@ static int32_t step_overdamped(hooke_integrator *it) {
 static int32_t step(hooke_integrator *it) {
   if (it->array) return step_array(it);
   if (it->system->overdamped) return step_overdamped(it);
-  struct own *own = it->own;
   for (int stage = 0; stage < it->method->stages.count; stage++) {
     int32_t status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);
     if (status != HOOKE_OK) {
-      if (stage > 0) hk_integrator_each(it, put_back, own->start);
+      if (stage > 0) hk_integrator_each(it, put_back, it->own);
       return status;
     }
   }

@@ -20,17 +20,19 @@ void hk_body_moments(const struct hk_body *body, double moment[3]) {
     moment[k] = body->inertia[k] > 0.0 ? body->inertia[k] : largest;
 }
 
-void hk_body_kept(const struct hk_body *body, double kept[3]) {
-  for (int k = 0; k < 3; k++)
-    kept[k] = body->inertia[k] > 0.0 ? 1.0 : 0.0;
-}
-
 void hk_body_weigh(const double axes[3][3], const double weight[3], const double x[3], double out[3]) {
   double along[3];
   for (int k = 0; k < 3; k++)
     along[k] = weight[k] * ((axes[0][k] * x[0] + axes[1][k] * x[1]) + axes[2][k] * x[2]);
   for (int a = 0; a < 3; a++)
     out[a] = hk_dot3(axes[a], along);
+}
+
+void hk_body_project(const struct hk_body *body, const double axes[3][3], const double x[3], double out[3]) {
+  double kept[3];
+  for (int k = 0; k < 3; k++)
+    kept[k] = body->inertia[k] > 0.0 ? 1.0 : 0.0;
+  hk_body_weigh(axes, kept, x, out);
 }
 
 void hk_body_stage_clear(const struct hk_stage *stage, double *x) {
@@ -52,13 +54,11 @@ void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3]
 
 /* Motions of a particle by the six of its body, columns of t. */
 static void find_columns(const struct hk_body_tangent *tangent, const double *arm, double t[3][6]) {
-  double kept[3];
-  hk_body_kept(tangent->body, kept);
   memset(t, 0, 18 * sizeof(double));
   for (int j = 0; j < 3; j++) {
     const double unit[3] = {j == 0, j == 1, j == 2};
     double turn[3], swing[3];
-    hk_body_weigh(tangent->axes, kept, unit, turn);
+    hk_body_project(tangent->body, tangent->axes, unit, turn);
     hk_cross3(turn, arm, swing);
     t[j][j] = tangent->body->inverse_mass > 0.0 ? 1.0 : 0.0;
     for (int a = 0; a < 3; a++)
@@ -229,12 +229,11 @@ static void spread_change(const struct hk_stage *stage, int64_t k, const struct 
                           double *dv) {
   const hooke_system *system = stage->reduced.integrator->system;
   const struct hk_body_tangent *tangent = &stage->body.tangents.body[k];
-  double kept[3], w[3], dw[3], across[3], less[3];
-  hk_body_kept(tangent->body, kept);
-  hk_body_weigh(tangent->axes, kept, stage->body.rotation[k].w, w);
+  double w[3], dw[3], across[3], less[3];
+  hk_body_project(tangent->body, tangent->axes, stage->body.rotation[k].w, w);
   hk_cross3(change->turn, stage->body.rotation[k].w, across);
   hk_add3(-1.0, change->rotation, across);
-  hk_body_weigh(tangent->axes, kept, across, less);
+  hk_body_project(tangent->body, tangent->axes, across, less);
   hk_cross3(change->turn, w, dw);
   hk_add3(-1.0, less, dw);
   for (int64_t i = 0; i < tangent->body->count; i++) {
@@ -259,20 +258,19 @@ static void change_right(const struct hk_stage *stage, int64_t k, const double *
   const double *s = stage->body.rotation[k].spin, a = stage->at.a;
   const double mass = tangent->body->inverse_mass > 0.0 ? tangent->body->mass : 0.0;
   struct change change;
-  double kept[3], push[6], along[3], across[3];
+  double push[6], along[3], across[3];
   find_change(stage, k, x, &change);
-  hk_body_kept(tangent->body, kept);
   hk_body_stage_gather(stage, k, df, push);
   hk_body_turn_forces(tangent, 1.0, change.turn, push + 3);
   for (int c = 0; c < 3; c++)
     out[c] = mass * x[c] - a * push[c];
   hk_body_momentum(stage, k, x + 3, out + 3);
-  hk_body_weigh(tangent->axes, kept, s, along);
+  hk_body_project(tangent->body, tangent->axes, s, along);
   hk_cross3(change.turn, along, across);
   hk_add3(-1.0, across, out + 3);
   hk_cross3(change.turn, s, across);
   hk_add3(-a, push + 3, across);
-  hk_body_weigh(tangent->axes, kept, across, along);
+  hk_body_project(tangent->body, tangent->axes, across, along);
   hk_add3(1.0, along, out + 3);
 }
 
@@ -310,20 +308,18 @@ static int32_t multiply_positive(struct hk_stage *stage, const double *x, double
   for (int64_t k = 0; k < bodies->count; k++) {
     const struct hk_body_tangent *tangent = &bodies->tangents.body[k];
     const double *velocity = x + 3 * n + HOOKE_BODY_VELOCITIES * k;
-    double kept[3], turn[3];
-    hk_body_kept(tangent->body, kept);
-    hk_body_weigh(tangent->axes, kept, velocity + 3, turn);
+    double turn[3];
+    hk_body_project(tangent->body, tangent->axes, velocity + 3, turn);
     hk_body_spread(system, tangent, velocity, turn, to, 1);
   }
   const int32_t status = hk_reduced_multiply(&stage->reduced, bodies->dq, out);
   for (int64_t k = 0; k < bodies->count; k++) {
     const struct hk_body_tangent *tangent = &bodies->tangents.body[k];
     const int64_t at = 3 * n + HOOKE_BODY_VELOCITIES * k;
-    double push[6], kept[3];
-    hk_body_kept(tangent->body, kept);
+    double push[6];
     hk_body_stage_gather(stage, k, out, push);
     memcpy(out + at, push, 3 * sizeof(double));
-    hk_body_weigh(tangent->axes, kept, push + 3, out + at + 3);
+    hk_body_project(tangent->body, tangent->axes, push + 3, out + at + 3);
     add_inertia(stage, k, x + at + 3, out + at + 3);
   }
   return status;

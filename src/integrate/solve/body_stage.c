@@ -51,8 +51,6 @@ void hk_body_stage_release(struct hk_body_stage *body) {
   hk_free(body->own);
 }
 
-/* ---- axes ---- */
-
 /* ---- own coordinates ---- */
 
 static const hooke_system *system_of(const struct hk_stage *stage) {
@@ -174,13 +172,9 @@ void hk_body_stage_begin(struct hk_stage *stage) {
 void hk_body_stage_explicit(struct hk_stage *stage, double a, double *out) {
   struct hk_body_stage *bodies = &stage->body;
   hk_movers_push(system_of(stage), stage->reduced.integrator->motion, bodies->own, bodies->push);
-  for (int64_t k = 0; k < bodies->count; k++) {
-    const double *own = own_of(stage, k), *push = bodies->push + HOOKE_PUSH * k;
-    double slope[HOOKE_BODY_NUMBERS];
-    hk_body_slope(body_of(stage, k), own, push, slope);
-    for (int j = 0; j < HOOKE_BODY_NUMBERS; j++)
-      out[HOOKE_BODY_NUMBERS * k + j] = own[j] + a * slope[j];
-  }
+  hk_movers_slope(system_of(stage), bodies->own, bodies->push, out);
+  for (int64_t j = 0; j < HOOKE_BODY_NUMBERS * bodies->count; j++)
+    out[j] = bodies->own[j] + a * out[j];
 }
 
 void hk_body_stage_go_on(struct hk_stage *stage) {
@@ -195,16 +189,15 @@ void hk_body_stage_go_on(struct hk_stage *stage) {
 static void find_right(struct hk_stage *stage, int64_t k, const double *v) {
   const struct hk_body *body = body_of(stage, k);
   const double *from = origin_of(stage, k), *push = stage->body.push + 6 * k, *u = v + at_velocity(stage, k);
-  double *right = stage->right + at_velocity(stage, k), axes[3][3], kept[3], spin[3], p[3];
+  double *right = stage->right + at_velocity(stage, k), axes[3][3], spin[3], p[3];
   for (int c = 0; c < 3; c++) {
     right[c] = body->inverse_mass > 0.0
                    ? stage->at.a * push[c] - body->mass * (u[c] - from[HOOKE_BODY_VELOCITY + c])
                    : 0.0;
     spin[c] = from[HOOKE_BODY_SPIN + c] + stage->at.a * push[3 + c];
   }
-  hk_body_kept(body, kept);
   hk_body_axes(own_of(stage, k) + HOOKE_BODY_TURN, axes);
-  hk_body_weigh(axes, kept, spin, right + 3);
+  hk_body_project(body, axes, spin, right + 3);
   hk_body_momentum(stage, k, u + 3, p);
   hk_add3(-1.0, p, right + 3);
 }

@@ -81,9 +81,9 @@ void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3]
 void hk_body_turn_by(const double w[3], double h, const double change[3], double turn[3]);
 /* Moments of inertia, where those of axes that the body does not turn about are replaced. */
 void hk_body_moments(const struct hk_body *body, double moment[3]);
-/* 1 for axes that the body turns about, 0 for others. */
-void hk_body_kept(const struct hk_body *body, double kept[3]);
 /* out = the sum over the axes e of weight e (e.x). */
 void hk_body_weigh(const double axes[3][3], const double weight[3], const double x[3], double out[3]);
+/* out = P x, which lies in the axes that the body turns about. */
+void hk_body_project(const struct hk_body *body, const double axes[3][3], const double x[3], double out[3]);
 
 #endif

@@ -72,7 +72,7 @@ static void fill_blocks(const struct hk_factor *x, const struct hk_pattern *patt
 
 static int reorder(struct hk_factor *x, const struct hk_columns *blocks) {
   int32_t *order = hk_new(x->free_count, sizeof *order);
-  const int fine = order && hk_cholmod_order(blocks, order);
+  const int fine = order && hk_cholmod->order(blocks, order);
   for (int32_t k = 0; fine && k < x->free_count; k++)
     order[k] = x->particle[order[k]];
   for (int32_t k = 0; fine && k < x->free_count; k++) {
@@ -119,33 +119,25 @@ static struct slot find_place(const struct hk_factor *x, int64_t one, int64_t ot
   return (struct slot){column, low - start};
 }
 
-/* Pairs of particles in all other elements. */
-static int64_t other_pairs(const hooke_system *system) {
+/* Pairs of particles in all other elements, counted where `slot` is NULL. */
+static int64_t locate_others(const struct hk_factor *x, struct slot *slot) {
+  struct hk_elements at;
   int64_t count = 0;
-  struct hk_elements at;
-  hk_begin_elements(system, system->position, NULL, &at);
-  at.kinds = HOOKE_OTHERS;
-  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
-    count += e->count * (e->count - 1) / 2;
-  return count;
-}
-
-static void locate_others(const struct hk_factor *x, struct slot *slot) {
-  struct hk_elements at;
   hk_begin_elements(x->system, NULL, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 1; j < e->count; j++) {
-      for (int k = 0; k < j; k++)
-        *slot++ = find_place(x, e->particle[k], e->particle[j]);
+      for (int k = 0; k < j; k++, count++)
+        if (slot) slot[count] = find_place(x, e->particle[k], e->particle[j]);
     }
   }
+  return count;
 }
 
 static int locate_blocks(struct hk_factor *x) {
   const struct hk_springs *springs = x->system->springs;
   x->spring = take(x, springs->count, sizeof *x->spring);
-  x->pair = take(x, other_pairs(x->system), sizeof *x->pair);
+  x->pair = take(x, locate_others(x, NULL), sizeof *x->pair);
   if (x->spring == NULL || x->pair == NULL) return 0;
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];
@@ -159,7 +151,7 @@ static int locate_blocks(struct hk_factor *x) {
 }
 
 static void count_numbers(struct hk_factor *x) {
-  const int32_t *count = hk_cholmod_counts(x->cholmod);
+  const int32_t *count = hk_cholmod->counts(x->cholmod);
   for (int32_t k = 0; k < x->matrix.size; k++) {
     x->numbers += count[k];
     x->products += 0.5 * count[k] * count[k];
@@ -169,7 +161,7 @@ static void count_numbers(struct hk_factor *x) {
 /* Columns of a particle have the same rows below the diagonal, those of other particles as a whole. */
 static int begin_triangle(struct hk_factor *x) {
   struct hk_triangle *l = &x->triangle;
-  const int32_t *count = hk_cholmod_counts(x->cholmod);
+  const int32_t *count = hk_cholmod->counts(x->cholmod);
   l->count = x->free_count;
   l->begin = take(x, l->count + 1, sizeof *l->begin);
   for (int64_t k = 0; l->begin && k < l->count; k++)
@@ -190,20 +182,31 @@ static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_
   if (fine) fine = make_matrix(x, &blocks);
   hk_free(blocks.start);
   hk_free(blocks.row);
-  if (fine) fine = (x->cholmod = hk_cholmod_create(&x->matrix)) != NULL;
+  if (fine) fine = (x->cholmod = hk_cholmod->create(&x->matrix)) != NULL;
   if (!fine) return 0;
-  x->bytes += hk_cholmod_memory(x->cholmod);
+  x->bytes += hk_cholmod->memory(x->cholmod);
   count_numbers(x);
   return x->numbers <= (double)most ? 1 : -1;
 }
 
 int32_t hk_factor_is_built(void) {
-  return hk_cholmod_is_built();
+  return hk_cholmod != NULL;
 }
 
-/* `found` becomes 1 if there may be one, -1 if it has too many numbers. */
-static int32_t find(const hooke_system *system, int64_t most, struct hk_factor *x, int *found) {
+int32_t hk_factor_require(const hooke_options *options) {
+  if (hk_cholmod || strcmp(hooke_options_text(options, "linear_solver"), "direct") != 0) return HOOKE_OK;
+  return hk_fail(HOOKE_NOT_BUILT, "linear_solver",
+                 "direct needs CHOLMOD, which this build is without; take auto or blocks");
+}
+
+/* `found` becomes 1 if there may be one, -1 if it has too many numbers, or the build has none. */
+static int32_t find(const hooke_system *system, int64_t most, struct hk_factor **factor, int *found) {
   struct hk_pattern pattern;
+  *found = -1;
+  *factor = NULL;
+  if (hk_cholmod == NULL) return HOOKE_OK;
+  struct hk_factor *x = *factor = hk_new(1, sizeof *x);
+  if (x == NULL) return HOOKE_NO_MEMORY;
   x->system = system;
   x->particle = take(x, system->particle_count, sizeof *x->particle);
   x->position = take(x, system->particle_count, sizeof *x->position);
@@ -217,22 +220,17 @@ static int32_t find(const hooke_system *system, int64_t most, struct hk_factor *
 }
 
 int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor) {
-  int found = -1;
+  int found;
+  const int32_t status = find(system, most, factor, &found);
+  if (status == HOOKE_OK && found > 0) return HOOKE_OK;
+  hk_factor_destroy(*factor);
   *factor = NULL;
-  if (!hk_cholmod_is_built()) return HOOKE_OK;
-  struct hk_factor *x = hk_new(1, sizeof *x);
-  if (x == NULL) return HOOKE_NO_MEMORY;
-  const int32_t status = find(system, most, x, &found);
-  if (status == HOOKE_OK && found > 0)
-    *factor = x;
-  else
-    hk_factor_destroy(x);
   return status;
 }
 
 void hk_factor_destroy(struct hk_factor *x) {
   if (x == NULL) return;
-  hk_cholmod_destroy(x->cholmod);
+  hk_cholmod->destroy(x->cholmod);
   void *const blocks[] = {x->particle, x->position, x->matrix.start,   x->matrix.row,  x->matrix.number,
                           x->spring,   x->pair,     x->triangle.begin, x->triangle.row};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++)
@@ -252,13 +250,10 @@ static int64_t bytes_of_numbers(const struct hk_factor *x) {
 }
 
 int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *bytes) {
-  int found = -1;
-  *bytes = 0;
-  if (!hk_cholmod_is_built()) return HOOKE_OK;
-  struct hk_factor *x = hk_new(1, sizeof *x);
-  if (x == NULL) return HOOKE_NO_MEMORY;
-  const int32_t status = find(system, most, x, &found);
-  if (status == HOOKE_OK) *bytes = x->bytes + (found > 0 ? bytes_of_numbers(x) : 0);
+  struct hk_factor *x;
+  int found;
+  const int32_t status = find(system, most, &x, &found);
+  *bytes = status == HOOKE_OK && x ? x->bytes + (found > 0 ? bytes_of_numbers(x) : 0) : 0;
   hk_factor_destroy(x);
   return status;
 }
@@ -364,7 +359,7 @@ static void add_others(const struct hk_factor *x, const struct hk_factor_parts *
 
 /* Copies L block by block. 0 if a number on its diagonal is not finite. */
 static int32_t fill_triangle(struct hk_factor *x) {
-  const struct hk_columns l = hk_cholmod_factor(x->cholmod);
+  const struct hk_columns l = hk_cholmod->factor(x->cholmod);
   struct hk_triangle *to = &x->triangle;
   for (int64_t k = 0; k < to->count; k++) {
     const int32_t *row = l.row + l.start[3 * k] + 3;
@@ -388,39 +383,31 @@ int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const str
   add_diagonal(x, diagonal);
   add_springs(x, parts->tangent);
   add_others(x, parts);
-  const int32_t positive = hk_cholmod_compute(x->cholmod, &x->matrix);
+  const int32_t positive = hk_cholmod->compute(x->cholmod, &x->matrix);
   return positive == 1 ? fill_triangle(x) : positive;
 }
 
 /* ---- solutions ---- */
 
-void hk_factor_forward(struct hk_factor *factor, double *x) {
-  hk_triangle_forward(&factor->triangle, x);
-}
-
-void hk_factor_backward(struct hk_factor *factor, double *x) {
-  const size_t bytes = (size_t)factor->matrix.size * sizeof(double);
-  memcpy(factor->vector, x, bytes);
-  hk_triangle_backward(&factor->triangle, factor->vector);
-  memcpy(x, factor->vector, bytes);
-}
-
-void hk_factor_gather(const struct hk_factor *factor, const double *all, double *ordered) {
+void hk_factor_forward(const struct hk_factor *factor, const double *all, double *ordered) {
   const int64_t n = factor->system->particle_count;
   for (int64_t k = 0; k < factor->free_count; k++) {
     for (int a = 0; a < 3; a++)
       ordered[3 * k + a] = all[a * n + factor->particle[k]];
   }
+  hk_triangle_forward(&factor->triangle, ordered);
 }
 
-void hk_factor_spread(const struct hk_factor *factor, const double *ordered, double *all) {
+void hk_factor_backward(const struct hk_factor *factor, const double *ordered, double *all) {
   const int64_t n = factor->system->particle_count;
+  memcpy(factor->vector, ordered, (size_t)factor->matrix.size * sizeof(double));
+  hk_triangle_backward(&factor->triangle, factor->vector);
   for (int64_t k = 0; k < factor->system->constrained_count; k++) {
     for (int a = 0; a < 3; a++)
       all[a * n + factor->system->constrained_particle[k]] = 0.0;
   }
   for (int64_t k = 0; k < factor->free_count; k++) {
     for (int a = 0; a < 3; a++)
-      all[a * n + factor->particle[k]] = ordered[3 * k + a];
+      all[a * n + factor->particle[k]] = factor->vector[3 * k + a];
   }
 }

@@ -14,6 +14,8 @@
 struct hk_factor;
 
 int32_t hk_factor_is_built(void);
+/* HOOKE_NOT_BUILT if it is not, and the options of a run ask for it. */
+int32_t hk_factor_require(const hooke_options *options);
 
 /* Finds order and sizes if there are at most `most` numbers: HOOKE_OK with *factor NULL if there are more,
  * and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
@@ -41,12 +43,9 @@ struct hk_factor_parts {
 int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal,
                           const struct hk_factor_parts *parts);
 
-/* With S = L L^T: x = L^-1 x and x = L^-T x in the order of the factor, 3 numbers a free particle; and
- * conversion between that order and vectors of all particles, x, y and z apart, where constrained ones become
- * 0. */
-void hk_factor_forward(struct hk_factor *factor, double *x);
-void hk_factor_backward(struct hk_factor *factor, double *x);
-void hk_factor_gather(const struct hk_factor *factor, const double *all, double *ordered);
-void hk_factor_spread(const struct hk_factor *factor, const double *ordered, double *all);
+/* With S = L L^T: ordered = L^-1 all, and all = L^-T ordered, between vectors of all particles, x, y and z
+ * apart, where constrained ones become 0, and the order of the factor, 3 numbers a free particle. */
+void hk_factor_forward(const struct hk_factor *factor, const double *all, double *ordered);
+void hk_factor_backward(const struct hk_factor *factor, const double *ordered, double *all);
 
 #endif

@@ -39,11 +39,7 @@ static cholmod_sparse view(const struct hk_columns *matrix) {
                           .packed = 1};
 }
 
-int32_t hk_cholmod_is_built(void) {
-  return 1;
-}
-
-int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order) {
+static int32_t find_order(const struct hk_columns *matrix, int32_t *order) {
   cholmod_common common;
   cholmod_sparse sparse = view(matrix);
   start(&common, CHOLMOD_AMD);
@@ -56,33 +52,33 @@ int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order) {
   return fine;
 }
 
-struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix) {
-  struct hk_cholmod *x = hk_new(1, sizeof *x);
-  if (x == NULL) return NULL;
-  cholmod_sparse sparse = view(matrix);
-  start(&x->common, CHOLMOD_NATURAL);
-  x->factor = cholmod_analyze(&sparse, &x->common);
-  if (x->factor) return x;
-  hk_cholmod_destroy(x);
-  return NULL;
-}
-
-void hk_cholmod_destroy(struct hk_cholmod *x) {
+static void destroy(struct hk_cholmod *x) {
   if (x == NULL) return;
   cholmod_free_factor(&x->factor, &x->common);
   cholmod_finish(&x->common);
   hk_free(x);
 }
 
-int64_t hk_cholmod_memory(const struct hk_cholmod *x) {
+static struct hk_cholmod *create(const struct hk_columns *matrix) {
+  struct hk_cholmod *x = hk_new(1, sizeof *x);
+  if (x == NULL) return NULL;
+  cholmod_sparse sparse = view(matrix);
+  start(&x->common, CHOLMOD_NATURAL);
+  x->factor = cholmod_analyze(&sparse, &x->common);
+  if (x->factor) return x;
+  destroy(x);
+  return NULL;
+}
+
+static int64_t memory(const struct hk_cholmod *x) {
   return (int64_t)x->common.memory_usage;
 }
 
-const int32_t *hk_cholmod_counts(const struct hk_cholmod *x) {
+static const int32_t *counts(const struct hk_cholmod *x) {
   return x->factor->ColCount;
 }
 
-int32_t hk_cholmod_compute(struct hk_cholmod *x, const struct hk_columns *matrix) {
+static int32_t compute(struct hk_cholmod *x, const struct hk_columns *matrix) {
   cholmod_sparse sparse = view(matrix);
   const int fine = cholmod_factorize(&sparse, x->factor, &x->common);
   if (x->common.status == CHOLMOD_OUT_OF_MEMORY)
@@ -90,52 +86,15 @@ int32_t hk_cholmod_compute(struct hk_cholmod *x, const struct hk_columns *matrix
   return fine && x->common.status == CHOLMOD_OK;
 }
 
-struct hk_columns hk_cholmod_factor(const struct hk_cholmod *x) {
+static struct hk_columns factor(const struct hk_cholmod *x) {
   return (struct hk_columns){(int32_t)x->factor->n, x->factor->p, x->factor->i, x->factor->x};
 }
 
+static const struct hk_cholmod_calls calls = {find_order, create, destroy, memory, counts, compute, factor};
+const struct hk_cholmod_calls *const hk_cholmod = &calls;
+
 #else
 
-#include <stddef.h>
-
-int32_t hk_cholmod_is_built(void) {
-  return 0;
-}
-
-int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order) {
-  (void)matrix;
-  (void)order;
-  return 0;
-}
-
-struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix) {
-  (void)matrix;
-  return NULL;
-}
-
-void hk_cholmod_destroy(struct hk_cholmod *x) {
-  (void)x;
-}
-
-int64_t hk_cholmod_memory(const struct hk_cholmod *x) {
-  (void)x;
-  return 0;
-}
-
-const int32_t *hk_cholmod_counts(const struct hk_cholmod *x) {
-  (void)x;
-  return NULL;
-}
-
-int32_t hk_cholmod_compute(struct hk_cholmod *x, const struct hk_columns *matrix) {
-  (void)x;
-  (void)matrix;
-  return 0;
-}
-
-struct hk_columns hk_cholmod_factor(const struct hk_cholmod *x) {
-  (void)x;
-  return (struct hk_columns){0};
-}
+const struct hk_cholmod_calls *const hk_cholmod = 0;
 
 #endif

@@ -15,25 +15,22 @@ struct hk_columns {
 
 struct hk_cholmod;
 
-int32_t hk_cholmod_is_built(void);
+struct hk_cholmod_calls {
+  /* order[k]: the column that is eliminated as number k, to reduce fill-in (approximate minimum degree,
+   * Amestoy, Davis and Duff 1996). 0 without memory. */
+  int32_t (*order)(const struct hk_columns *matrix, int32_t *order);
+  /* For factors in the order of the matrix. NULL without memory. */
+  struct hk_cholmod *(*create)(const struct hk_columns *matrix);
+  void (*destroy)(struct hk_cholmod *cholmod);         /* NULL is allowed */
+  int64_t (*memory)(const struct hk_cholmod *cholmod); /* maximum bytes so far */
+  /* Number of nonzeros in each column of the factor. */
+  const int32_t *(*counts)(const struct hk_cholmod *cholmod);
+  /* 1; 0 if the matrix is not positive; HOOKE_NO_MEMORY. Non-finite numbers may be reported as either. */
+  int32_t (*compute)(struct hk_cholmod *cholmod, const struct hk_columns *matrix);
+  /* L of the last computation, L L^T the matrix; CHOLMOD's memory, valid until the next one. */
+  struct hk_columns (*factor)(const struct hk_cholmod *cholmod);
+};
 
-/* order[k]: the column that is eliminated as number k, to reduce fill-in (approximate minimum degree,
- * Amestoy, Davis and Duff 1996). 0 without memory. */
-int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order);
-
-/* For factors in the order of the matrix. NULL without memory. */
-struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix);
-void hk_cholmod_destroy(struct hk_cholmod *cholmod);
-
-int64_t hk_cholmod_memory(const struct hk_cholmod *cholmod); /* maximum bytes so far */
-
-/* Number of nonzeros in each column of the factor. */
-const int32_t *hk_cholmod_counts(const struct hk_cholmod *cholmod);
-
-/* 1; 0 if the matrix is not positive; HOOKE_NO_MEMORY. Non-finite numbers may be reported as either. */
-int32_t hk_cholmod_compute(struct hk_cholmod *cholmod, const struct hk_columns *matrix);
-
-/* L of the last computation, L L^T the matrix; CHOLMOD's memory, valid until the next one. */
-struct hk_columns hk_cholmod_factor(const struct hk_cholmod *cholmod);
+extern const struct hk_cholmod_calls *const hk_cholmod; /* NULL: this build is without it */
 
 #endif

@@ -8,10 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Measured nanoseconds; only their ratios count: a product for each spring and each element of another force,
- * a vector operation for each number, a solve with a factor for each of its numbers, a factor for each of its
- * multiplications. */
-static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
 /* Of S with its factor: what rounding leaves. */
 static const double DIRECT_RESIDUAL = 1e-10;
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
@@ -20,26 +16,27 @@ enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 /* Springs have loops of their own, drag is on the diagonal, and constant forces multiply by themselves. */
 enum { OWN = HOOKE_LOOPED | HOOKE_CONSTANT | HOOKE_UNIFORM };
 
-static int32_t read_linear_solver(struct hk_reduced *reduced) {
+/* Allocates memory for the numbers of `whole` in advance, and counts it. HOOKE_NO_MEMORY. */
+static int32_t reserve_whole(struct hk_reduced *reduced) {
+  const int64_t before = hk_factor_memory(reduced->whole);
+  const int32_t status = hk_factor_reserve(reduced->whole);
+  reduced->integrator->own_memory += hk_factor_memory(reduced->whole) - before;
+  return status;
+}
+
+/* The factor's memory, where it is used, ahead of all steps. */
+static int32_t read_linear_solver(struct hk_reduced *reduced, int32_t kind) {
   const hooke_integrator *it = reduced->integrator;
   const char *word = hooke_options_text(it->options, "linear_solver");
-  if (strcmp(word, "gmres") == 0)
+  if (kind == HOOKE_REDUCED_GENERAL && strcmp(word, "gmres") == 0)
     return hk_fail(
         HOOKE_UNSUITED, "linear_solver",
         "%s has no plain gmres, which is for the methods of SUNDIALS; allowed: auto, blocks, direct",
         it->method->name);
   reduced->direct = strcmp(word, "direct") == 0;
-  if (reduced->direct && !hk_factor_is_built())
-    return hk_fail(HOOKE_NOT_BUILT, "linear_solver",
-                   "\"direct\" needs CHOLMOD, which this build is without; take auto");
-  return HOOKE_OK;
-}
-
-/* The factor's memory ahead of all steps. */
-static int32_t prepare_direct(struct hk_reduced *reduced) {
-  if (!reduced->direct) return HOOKE_OK;
-  const int32_t status = hk_reduced_prepare_whole(reduced);
-  return status == HOOKE_OK && reduced->whole ? hk_reduced_reserve_whole(reduced) : status;
+  int32_t status = hk_factor_require(it->options);
+  if (status == HOOKE_OK && reduced->direct) status = hk_reduced_prepare_whole(reduced);
+  return status == HOOKE_OK && reduced->whole ? reserve_whole(reduced) : status;
 }
 
 int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_more_unknowns *more,
@@ -79,9 +76,7 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_mo
   reduced->place = hk_part(&block, size);
   reduced->moved = hk_part(&block, size);
   reduced->krylov = hk_part(&block, size * vectors);
-  if (kind != HOOKE_REDUCED_GENERAL) return HOOKE_OK;
-  const int32_t status = read_linear_solver(reduced);
-  return status == HOOKE_OK ? prepare_direct(reduced) : status;
+  return symmetric ? HOOKE_OK : read_linear_solver(reduced, kind);
 }
 
 void hk_reduced_release(struct hk_reduced *reduced) {
@@ -302,62 +297,58 @@ static void multiply(int64_t size, double factor, double *x) {
     x[k] *= factor;
 }
 
-/* x = L^-1 x and x = L^-T x, counted. */
-static void forward(struct hk_reduced *reduced, double *x) {
-  reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
-  hk_factor_forward(reduced->whole, x);
+static int is_whole(const struct hk_reduced *reduced) {
+  return reduced->whole_state == HOOKE_WHOLE_IN_USE;
 }
 
-static void backward(struct hk_reduced *reduced, double *x) {
-  reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
-  hk_factor_backward(reduced->whole, x);
+/* out = L^-1 x and out = L^-T x, by all of S in its order where that is factorised, which counts, else by
+ * blocks. */
+static void forward(struct hk_reduced *reduced, const double *x, double *out) {
+  if (is_whole(reduced)) {
+    reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
+    hk_factor_forward(reduced->whole, x, out);
+  } else {
+    memcpy(out, x, (size_t)reduced->size * sizeof(double));
+    divide_blocks(reduced, out);
+  }
+}
+
+static void backward(struct hk_reduced *reduced, const double *x, double *out) {
+  if (is_whole(reduced)) {
+    reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
+    hk_factor_backward(reduced->whole, x, out);
+  } else {
+    divide_blocks_transposed(reduced, x, out);
+  }
 }
 
 /* Multiplies by the factor on either side; `unknown` is in its order. */
 static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
   struct hk_reduced *reduced = ctx;
-  const size_t bytes = (size_t)reduced->integrator->size * sizeof(double);
-  double *x = reduced->place, *product = reduced->moved;
-  memcpy(product, unknown, bytes);
-  backward(reduced, product);
-  hk_factor_spread(reduced->whole, product, x);
-  const int32_t status = hk_reduced_multiply(reduced, x, product);
-  hk_factor_gather(reduced->whole, product, out);
-  forward(reduced, out);
+  backward(reduced, unknown, reduced->place);
+  const int32_t status = hk_reduced_multiply(reduced, reduced->place, reduced->moved);
+  forward(reduced, reduced->moved, out);
   return status;
 }
 
-static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
-                           double *x, struct hk_solution *solution) {
-  hooke_integrator *it = reduced->integrator;
-  const struct hk_operator a = {3 * (it->system->particle_count - it->system->constrained_count), apply_whole,
-                                reduced};
-  hk_factor_gather(reduced->whole, b, reduced->right);
-  forward(reduced, reduced->right);
+/* To this residual or, where `absolute` is a number, to an error (hk_solve_positive). */
+static int32_t solve(struct hk_reduced *reduced, const double *b, double tolerance, double absolute,
+                     int64_t limit, double *x, struct hk_solution *solution) {
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t free_count = system->particle_count - system->constrained_count;
+  const int whole = is_whole(reduced);
+  const struct hk_operator a = {whole ? 3 * free_count : reduced->size, whole ? apply_whole : apply, reduced};
+  forward(reduced, b, reduced->right);
   const double scale = scale_of(a.size, reduced->right);
   multiply(a.size, scale, reduced->right);
   const int32_t status =
-      hk_solve_general(&a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
-  it->count.linear_iterations += solution->iterations;
-  backward(reduced, reduced->unknown);
-  hk_factor_spread(reduced->whole, reduced->unknown, x);
-  multiply(it->size, 1.0 / scale, x);
-  return status;
-}
-
-static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const double *b, double tolerance,
-                               int64_t limit, double *x, struct hk_solution *solution) {
-  const int64_t size = reduced->size;
-  const struct hk_operator a = {size, apply, reduced};
-  memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  divide_blocks(reduced, reduced->right);
-  const double scale = scale_of(size, reduced->right);
-  multiply(size, scale, reduced->right);
-  const int32_t status = (symmetric ? hk_solve_symmetric : hk_solve_general)(
-      &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
+      isnan(absolute) ? (reduced->symmetric ? hk_solve_symmetric : hk_solve_general)(
+                            &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution)
+                      : hk_solve_positive(&a, reduced->right, tolerance, scale * absolute, limit,
+                                          reduced->krylov, reduced->unknown, solution);
   reduced->integrator->count.linear_iterations += solution->iterations;
-  divide_blocks_transposed(reduced, reduced->unknown, x);
-  multiply(size, 1.0 / scale, x);
+  backward(reduced, reduced->unknown, x);
+  multiply(reduced->size, 1.0 / scale, x);
   return status;
 }
 
@@ -366,22 +357,12 @@ static int64_t limit_of(const struct hk_reduced *reduced) {
   return fraction < MOST_ITERATIONS ? fraction : MOST_ITERATIONS;
 }
 
-/* With the factor of S at this place, or by blocks where it proves not positive. */
-static int32_t solve_direct(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
-                            double *x, struct hk_solution *solution) {
-  if (reduced->whole_state != HOOKE_WHOLE_IN_USE) {
-    const int32_t positive = hk_reduced_factorise(reduced);
-    if (positive < 0) return positive;
-  }
-  return reduced->whole_state == HOOKE_WHOLE_IN_USE
-             ? solve_whole(reduced, b, tolerance, limit, x, solution)
-             : solve_by_blocks(reduced, 0, b, tolerance, limit, x, solution);
-}
-
+/* With the factor of S at this place, if that is asked for and S proves positive. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution) {
-  if (reduced->direct && reduced->whole) return solve_direct(reduced, b, tolerance, limit, x, solution);
-  return solve_by_blocks(reduced, reduced->symmetric, b, tolerance, limit, x, solution);
+  const int32_t positive =
+      reduced->direct && reduced->whole && !is_whole(reduced) ? hk_reduced_factorise(reduced) : 0;
+  return positive < 0 ? positive : solve(reduced, b, tolerance, NAN, limit, x, solution);
 }
 
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
@@ -397,22 +378,10 @@ void hk_reduced_project(struct hk_reduced *reduced) {
 
 int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
                            double *x, struct hk_solution *solution) {
-  const int64_t size = reduced->size;
-  if (reduced->direct && reduced->whole) {
-    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, limit_of(reduced), x, solution);
-    solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
-    return status;
-  }
-  const struct hk_operator a = {size, apply, reduced};
-  memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  divide_blocks(reduced, reduced->right);
-  const double scale = scale_of(size, reduced->right);
-  multiply(size, scale, reduced->right);
-  const int32_t status = hk_solve_positive(&a, reduced->right, relative, scale * absolute, limit_of(reduced),
-                                           reduced->krylov, reduced->unknown, solution);
-  reduced->integrator->count.linear_iterations += solution->iterations;
-  divide_blocks_transposed(reduced, reduced->unknown, x);
-  multiply(size, 1.0 / scale, x);
+  if (!reduced->direct || !reduced->whole)
+    return solve(reduced, b, relative, absolute, limit_of(reduced), x, solution);
+  const int32_t status = hk_reduced_solve(reduced, b, DIRECT_RESIDUAL, x, solution);
+  solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
   return status;
 }
 
@@ -443,15 +412,8 @@ int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced) {
   return HOOKE_OK;
 }
 
-int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced) {
-  const int64_t before = hk_factor_memory(reduced->whole);
-  const int32_t status = hk_factor_reserve(reduced->whole);
-  reduced->integrator->own_memory += hk_factor_memory(reduced->whole) - before;
-  return status;
-}
-
 int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
-  const int32_t status = hk_reduced_reserve_whole(reduced);
+  const int32_t status = reserve_whole(reduced);
   if (status != HOOKE_OK) return status;
   const struct hk_factor_parts parts = {&reduced->tangent, reduced->element, reduced->alpha, reduced->beta};
   reduced->integrator->count.factor_products += (int64_t)hk_factor_products(reduced->whole);
@@ -462,21 +424,6 @@ int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
 
 void hk_reduced_drop_factor(struct hk_reduced *reduced) {
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) reduced->whole_state = HOOKE_WHOLE_READY;
-}
-
-double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors) {
-  const hooke_integrator *it = reduced->integrator;
-  return products *
-             (OF_SPRING * (double)it->system->springs->count + OF_ELEMENT * (double)reduced->element_count) +
-         vectors * OF_UNKNOWN * (double)it->size;
-}
-
-double hk_reduced_cost_of_solve(const struct hk_reduced *reduced) {
-  return OF_NUMBER * (double)hk_factor_numbers(reduced->whole);
-}
-
-double hk_reduced_cost_of_factor(const struct hk_reduced *reduced) {
-  return OF_PRODUCT * hk_factor_products(reduced->whole);
 }
 
 /* ---- few iterations, for an error in a given norm ---- */
@@ -505,16 +452,8 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
 
 /* x = S^-1 x, as far as S is factorised. */
 static void divide(struct hk_reduced *reduced, double *x) {
-  if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
-    hk_factor_gather(reduced->whole, x, reduced->unknown);
-    forward(reduced, reduced->unknown);
-    backward(reduced, reduced->unknown);
-    hk_factor_spread(reduced->whole, reduced->unknown, x);
-    return;
-  }
-  memcpy(reduced->unknown, x, (size_t)reduced->size * sizeof(double));
-  divide_blocks(reduced, reduced->unknown);
-  divide_blocks_transposed(reduced, reduced->unknown, x);
+  forward(reduced, x, reduced->unknown);
+  backward(reduced, reduced->unknown, x);
 }
 
 static int32_t apply_weighed(void *ctx, const double *weighed, double *out) {
@@ -543,13 +482,4 @@ int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const d
       (spaces * HOOKE_MINIMAL_SPACE * (HOOKE_MINIMAL_SPACE + 1) + rest * (rest + 1)) / 2;
   hk_divide(size, x, weight, x);
   return status;
-}
-
-int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution) {
-  const hooke_integrator *it = reduced->integrator;
-  return hk_fail(
-      HOOKE_SOLVER_FAILED, NULL,
-      "%s could not solve the linear equations of the step from t = %.6g s: the residual is %.3g of the "
-      "right-hand side after %lld iterations; take a smaller step",
-      it->method->name, it->t, solution->residual, (long long)solution->iterations);
 }

@@ -76,18 +76,10 @@ int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double toler
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
-/* Allocates memory for the numbers of `whole` in advance, and counts it. HOOKE_NO_MEMORY. */
-int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced);
 /* Factorises S where it was last set; solutions are scaled by it until it is dropped. 1; 0 if it is not
  * positive; HOOKE_NO_MEMORY. */
 int32_t hk_reduced_factorise(struct hk_reduced *reduced);
 void hk_reduced_drop_factor(struct hk_reduced *reduced);
-
-/* Costs, in common units: work by blocks for so many products and vector operations; solves with a factor of
- * S, and the factor itself, once it is allocated. */
-double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors);
-double hk_reduced_cost_of_solve(const struct hk_reduced *reduced);
-double hk_reduced_cost_of_factor(const struct hk_reduced *reduced);
 
 /* out = M (b_v + b_q/beta) - D b_q: the right-hand side of an implicit equation in z = dv + b_q/beta where
  * dq - beta dv = b_q and M (dv - beta (W K dq + W D dv)) = M b_v, for alpha = beta^2; then dq = beta z. */
@@ -112,9 +104,6 @@ double hk_reduced_trace(const struct hk_reduced *reduced);
 
 /* out = the matrix times x, which is 0 where a particle is constrained. */
 int32_t hk_reduced_multiply(struct hk_reduced *reduced, const double *x, double *out);
-
-/* HOOKE_SOLVER_FAILED, with the message, for a solution that did not converge. */
-int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution);
 
 /* out = (df/dq) dq + (df/dv) dv of all forces at the last set position; 3n each, x y z apart. */
 int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const double *dv, double *out);

@@ -1,19 +1,26 @@
-/* A solver "with the matrix embedded": it is called at every Newton iteration and finds state and gamma by
- * itself, so that its products are always current. S is kept as long as that costs fewer iterations than a
- * new factor. */
+/* The linear equations (1 - gamma J) (dq, dv) = (b_q, b_v) of an implicit method of SUNDIALS, solved through
+ * the 3n equations of integrate/solve/reduced.h with exact products, by GMRES in the norm of the method's
+ * error weights: by a solver "with the matrix embedded", which is called at every Newton iteration
+ * and finds state and gamma by itself, so that its products are always current. S is kept as long as that
+ * costs fewer iterations than a new factor. */
 #if HOOKE_HAVE_SUNDIALS
 
-#include "integrate/solve/sundials_linear.h"
+#include "integrate/solve/sundials_problem.h"
 
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <string.h>
 #include <sundials/sundials_linearsolver.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
+/* Measured nanoseconds; only their ratios count: a product for each spring and each element of another force,
+ * a vector operation for each number, a solve with a factor for each of its numbers, a factor for each of its
+ * multiplications. */
+static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
 /* Vector operations of an iteration of GMRES, and for each vector of its space. */
 static const double VECTORS = 10.0, VECTORS_OF_SPACE = 1.0;
 /* Solves of a Newton correction with a current factor. */
@@ -26,8 +33,8 @@ enum { MOST_ITERATIONS = 300 };
 
 struct solver {
   hooke_integrator *integrator;
-  int32_t direct_only, by_blocks; /* by the option; neither: chosen by cost */
-  struct hk_reduced reduced;
+  int32_t by_blocks;         /* by the option */
+  struct hk_reduced reduced; /* `direct` by it, too; neither: chosen by cost */
   N_Vector weight;
   double *numbers; /* the next five, for all particles: b_q, b_v or dv, right-hand side or z, weights of z */
   double *bq, *bv, *right, *z, *z_weight;
@@ -50,7 +57,7 @@ static const struct hk_unknowns *unknowns_of(const hooke_integrator *it) {
 
 static void forget(struct solver *s) {
   hk_reduced_drop_factor(&s->reduced);
-  s->direct = s->direct_only && s->reduced.whole;
+  s->direct = s->reduced.direct && s->reduced.whole;
   s->may_be_direct = !s->by_blocks;
   s->solves = 0;
   s->fresh = s->excess = s->by_blocks_alone = 0.0;
@@ -68,14 +75,20 @@ static int32_t renew(struct solver *s, int due) {
 }
 
 static double cost_by_blocks(const struct solver *s, double iterations) {
-  const double space = fmin(iterations, HOOKE_MINIMAL_SPACE);
-  return iterations * hk_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
+  const double vectors = VECTORS + VECTORS_OF_SPACE * fmin(iterations, HOOKE_MINIMAL_SPACE);
+  return iterations * ((OF_SPRING * (double)s->integrator->system->springs->count +
+                        OF_ELEMENT * (double)s->reduced.element_count) +
+                       vectors * OF_UNKNOWN * (double)s->integrator->size);
+}
+
+static double cost_of_solve(const struct solver *s) {
+  return OF_NUMBER * (double)hk_factor_numbers(s->reduced.whole);
 }
 
 /* The savings of a new factor would have reached its cost. This is decided after the fact, and so costs at
  * most twice the best choice. */
 static int is_due(const struct solver *s) {
-  return s->excess > hk_reduced_cost_of_factor(&s->reduced);
+  return s->excess > OF_PRODUCT * hk_factor_products(s->reduced.whole);
 }
 
 /* Decides whether the next solves should use a new factor; by counts alone, so that runs repeat to the bit.
@@ -85,14 +98,14 @@ static int32_t learn(struct solver *s, const struct hk_solution *solution) {
   s->solves++;
   if (s->direct) {
     if (s->solves == 1) s->fresh = iterations;
-    s->excess += fmax(0.0, iterations - s->fresh) * hk_reduced_cost_of_solve(&s->reduced);
+    s->excess += fmax(0.0, iterations - s->fresh) * cost_of_solve(s);
     return HOOKE_OK;
   }
   s->by_blocks_alone += iterations;
   if (!s->may_be_direct || (solution->converged && s->by_blocks_alone < MANY)) return HOOKE_OK;
   const int32_t status = hk_reduced_prepare_whole(&s->reduced);
   if (status != HOOKE_OK || s->reduced.whole == NULL) return status;
-  s->excess += cost_by_blocks(s, iterations) - SOLVES_OF_FACTOR * hk_reduced_cost_of_solve(&s->reduced);
+  s->excess += cost_by_blocks(s, iterations) - SOLVES_OF_FACTOR * cost_of_solve(s);
   s->excess = fmax(0.0, s->excess);
   s->direct = !solution->converged || is_due(s);
   if (s->direct) s->solves = 0;
@@ -101,53 +114,40 @@ static int32_t learn(struct solver *s, const struct hk_solution *solution) {
 
 /* ---- one solve ---- */
 
-/* Copies b to vectors of all particles, and the weights of z: |(gamma z, z)| in the weights of q and v. */
-static void take(struct solver *s, N_Vector b, double gamma) {
+/* Copies b to vectors of all particles, and the weights of z: |(gamma z, z)| in the weights of q and v. Of an
+ * overdamped system (M - gamma K) z = M b, with M its friction, and z is dq. */
+static int32_t take(struct solver *s, N_Vector b, double gamma) {
   const struct hk_unknowns *u = unknowns_of(s->integrator);
-  const int64_t n = s->integrator->system->particle_count, m = u->free_count;
-  double *const bq[3] = {s->bq, s->bq + n, s->bq + 2 * n}, *const bv[3] = {s->bv, s->bv + n, s->bv + 2 * n};
-  double *const weight[3] = {s->z_weight, s->z_weight + n, s->z_weight + 2 * n};
+  const hooke_system *system = s->integrator->system;
+  const int64_t n = system->particle_count, m = u->free_count;
   const double *w = N_VGetArrayPointer(s->weight), *from = N_VGetArrayPointer(b);
-  hk_unknowns_spread(u, from, bq);
-  hk_unknowns_spread(u, from + 3 * m, bv);
+  if (!u->has_v) {
+    hk_unknowns_spread(u, from, s->right, n);
+    hk_unknowns_spread(u, w, s->z_weight, n);
+    for (int64_t k = 0; k < 3 * n; k++)
+      s->right[k] *= system->constrained[k % n] ? 0.0 : system->inertia[k % n];
+    return HOOKE_OK;
+  }
+  hk_unknowns_spread(u, from, s->bq, n);
+  hk_unknowns_spread(u, from + 3 * m, s->bv, n);
   double *some = s->right; /* room for 3 m */
   for (int64_t k = 0; k < 3 * m; k++)
     some[k] = sqrt((gamma * w[k]) * (gamma * w[k]) + w[3 * m + k] * w[3 * m + k]);
-  hk_unknowns_spread(u, some, weight);
-}
-
-/* Of an overdamped system (M - gamma K) z = M b, with M its friction, and z is dq. */
-static void take_positions(struct solver *s, N_Vector b) {
-  const struct hk_unknowns *u = unknowns_of(s->integrator);
-  const hooke_system *system = s->integrator->system;
-  const int64_t n = system->particle_count;
-  double *const right[3] = {s->right, s->right + n, s->right + 2 * n};
-  double *const weight[3] = {s->z_weight, s->z_weight + n, s->z_weight + 2 * n};
-  hk_unknowns_spread(u, N_VGetArrayPointer(b), right);
-  hk_unknowns_spread(u, N_VGetArrayPointer(s->weight), weight);
-  for (int64_t k = 0; k < 3 * n; k++)
-    s->right[k] *= system->constrained[k % n] ? 0.0 : system->inertia[k % n];
-}
-
-static void give_positions(struct solver *s, N_Vector x) {
-  const int64_t n = s->integrator->system->particle_count;
-  const double *const z[3] = {s->z, s->z + n, s->z + 2 * n};
-  hk_unknowns_gather(unknowns_of(s->integrator), z, N_VGetArrayPointer(x));
+  hk_unknowns_spread(u, some, s->z_weight, n);
+  return hk_reduced_right(&s->reduced, s->bq, s->bv, s->right);
 }
 
 /* dq = gamma z, dv = z - b_q/gamma. */
 static void give(struct solver *s, double gamma, N_Vector x) {
   const struct hk_unknowns *u = unknowns_of(s->integrator);
-  const int64_t n = s->integrator->system->particle_count, m = u->free_count;
+  const int64_t n = s->integrator->system->particle_count;
   double *to = N_VGetArrayPointer(x);
-  for (int64_t k = 0; k < 3 * n; k++) {
+  for (int64_t k = 0; k < 3 * n && u->has_v; k++) {
     s->bv[k] = s->z[k] - s->bq[k] / gamma;
-    s->bq[k] = gamma * s->z[k];
+    s->z[k] *= gamma;
   }
-  const double *const dq[3] = {s->bq, s->bq + n, s->bq + 2 * n}, *const dv[3] = {s->bv, s->bv + n,
-                                                                                 s->bv + 2 * n};
-  hk_unknowns_gather(u, dq, to);
-  hk_unknowns_gather(u, dv, to + 3 * m);
+  hk_unknowns_gather(u, s->z, n, to);
+  if (u->has_v) hk_unknowns_gather(u, s->bv, n, to + 3 * u->free_count);
 }
 
 /* The largest ratio of a block of S to its mass. For soft directions the residual scaled by blocks is smaller
@@ -199,18 +199,10 @@ static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector 
   const int32_t has_v = own->unknowns.has_v;
   hk_reduced_set(&s->reduced, t, has_v ? gamma * gamma : gamma, has_v ? gamma : 0.0);
   struct hk_solution solution;
-  if (has_v) {
-    take(s, b, gamma);
-    status = hk_reduced_right(&s->reduced, s->bq, s->bv, s->right);
-  } else {
-    take_positions(s, b);
-  }
+  status = take(s, b, gamma);
   if (status == HOOKE_OK) status = find(s, tolerance, &solution);
   if (status != HOOKE_OK) return failed(own, status);
-  if (has_v)
-    give(s, gamma, x);
-  else
-    give_positions(s, x);
+  give(s, gamma, x);
   return solution.converged ? SUN_SUCCESS : SUNLS_CONV_FAIL;
 }
 
@@ -257,11 +249,8 @@ static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {
   for (int64_t k = 0; k < size; k++)
     s->z_weight[k] = 1.0;
   int32_t status = hk_reduced_create(it, HOOKE_REDUCED_MINIMAL, NULL, &s->reduced);
-  s->direct_only = strcmp(word, "direct") == 0;
   s->by_blocks = strcmp(word, "blocks") == 0;
-  it->may_factor = !s->direct_only && !s->by_blocks;
-  if (status == HOOKE_OK && s->direct_only) status = hk_reduced_prepare_whole(&s->reduced);
-  if (status == HOOKE_OK && s->reduced.whole) status = hk_reduced_reserve_whole(&s->reduced);
+  it->may_factor = !s->reduced.direct && !s->by_blocks;
   forget(s);
   return status;
 }
@@ -282,9 +271,8 @@ static int32_t create_own(hooke_integrator *it, const char *word, struct hk_sund
 int32_t hk_sundials_linear_create(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
   const char *word = hooke_options_text(it->options, "linear_solver");
-  if (strcmp(word, "direct") == 0 && !hk_factor_is_built())
-    return hk_fail(HOOKE_NOT_BUILT, "linear_solver",
-                   "direct needs CHOLMOD, which this build is without; take auto or blocks");
+  const int32_t status = hk_factor_require(it->options);
+  if (status != HOOKE_OK) return status;
   /* a space that holds every unknown is exact without it */
   const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
   if (hk_unknowns_have_products(it) && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&

@@ -1,6 +1,6 @@
 #if HOOKE_HAVE_SUNDIALS
 
-#include "integrate/solve/sundials_linear.h"
+#include "integrate/solve/sundials_problem.h"
 #include "integrate/solve/sundials_vector.h"
 
 #include "core/memory.h"
@@ -16,10 +16,12 @@ static int32_t no_memory(const hooke_integrator *it, int64_t size) {
                  (long long)size);
 }
 
-int32_t hk_sundials_create(hooke_integrator *it, int32_t implicit, int64_t vectors) {
+int32_t hk_sundials_create(hooke_integrator *it, const struct hk_sundials_solver *solver, int32_t implicit,
+                           int64_t vectors) {
   struct hk_sundials *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
+  own->solver = solver;
   const int32_t status = hk_unknowns_create(it, implicit, &own->unknowns);
   if (status != HOOKE_OK) return status;
   const int64_t size = own->unknowns.size;
@@ -34,12 +36,11 @@ int32_t hk_sundials_create(hooke_integrator *it, int32_t implicit, int64_t vecto
   return implicit ? hk_sundials_linear_create(it) : HOOKE_OK;
 }
 
-int32_t hk_sundials_created(const hooke_integrator *it, const char *solver, int32_t created,
-                            int32_t no_space) {
+int32_t hk_sundials_created(const hooke_integrator *it, int32_t created, int32_t no_space) {
   const struct hk_sundials *own = it->own;
   if (own->spare.taken || no_space) return no_memory(it, own->unknowns.size);
   if (created) return HOOKE_OK;
-  return hk_fail(HOOKE_SOLVER_FAILED, NULL, "%s could not be set up: %s", solver, own->message);
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL, "%s could not be set up: %s", own->solver->name, own->message);
 }
 
 int32_t hk_sundials_renew(hooke_integrator *it) {
@@ -56,6 +57,7 @@ int32_t hk_sundials_renew(hooke_integrator *it) {
 
 void hk_sundials_release(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
+  if (own->memory) own->solver->free(&own->memory);
   if (own->linear) SUNLinSolFree(own->linear);
   if (own->nonlinear) SUNNonlinSolFree(own->nonlinear);
   if (own->y) N_VDestroy(own->y);
@@ -91,13 +93,18 @@ void hk_sundials_load(hooke_integrator *it, const hooke_state *state) {
   own->message[0] = '\0';
 }
 
-void hk_sundials_count(hooke_integrator *it, struct hk_counts since) {
-  const struct hk_counts *before = &((const struct hk_sundials *)it->own)->before;
-  it->count.steps = before->steps + since.steps;
-  it->count.error_test_failures = before->error_test_failures + since.error_test_failures;
-  it->count.nonlinear_iterations = before->nonlinear_iterations + since.nonlinear_iterations;
-  it->count.nonlinear_failures = before->nonlinear_failures + since.nonlinear_failures;
-  it->count.linear_iterations = before->linear_iterations + since.linear_iterations;
+static void count(hooke_integrator *it) {
+  const struct hk_sundials *own = it->own;
+  long steps = 0, failures = 0, iterations = 0, unsolved = 0, linear = 0;
+  own->solver->steps(own->memory, &steps);
+  own->solver->error_test_failures(own->memory, &failures);
+  own->solver->nonlinear(own->memory, &iterations, &unsolved);
+  if (own->linear) own->solver->linear(own->memory, &linear);
+  it->count.steps = own->before.steps + steps;
+  it->count.error_test_failures = own->before.error_test_failures + failures;
+  it->count.nonlinear_iterations = own->before.nonlinear_iterations + iterations;
+  it->count.nonlinear_failures = own->before.nonlinear_failures + unsolved;
+  it->count.linear_iterations = own->before.linear_iterations + linear;
 }
 
 /* Not the end of a very long run: the solvers try no first step below 1e-14 of the interval, and one that is
@@ -117,21 +124,22 @@ static int complaint_length(const char *message) {
   return (int)length;
 }
 
-int32_t hk_sundials_advance(hooke_integrator *it, const char *solver, int flag, double reached) {
+int32_t hk_sundials_advance(hooke_integrator *it, int flag, double reached) {
   const struct hk_sundials *own = it->own;
+  count(it);
   if (it->stop_value != 0) return HOOKE_STOPPED;
   /* GMRES allocates its scratch before the first step; the number is that of ARKODE as well */
   if (own->spare.taken || own->no_memory || flag == CV_LINIT_FAIL) return no_memory(it, own->unknowns.size);
   if (flag < 0) {
     return hk_fail(HOOKE_SOLVER_FAILED, NULL,
-                   "%s gave up at t = %.6g s: %.*s; try other tolerances, or a fixed-step method", solver,
-                   it->t, complaint_length(own->message), own->message);
+                   "%s gave up at t = %.6g s: %.*s; try other tolerances, or a fixed-step method",
+                   own->solver->name, it->t, complaint_length(own->message), own->message);
   }
   if (!(reached > it->t)) {
     return hk_fail(HOOKE_SOLVER_FAILED, NULL,
                    "%s gave up at t = %.6g s: its step is too small to change the time; try looser "
                    "tolerances or a fixed-step method",
-                   solver, it->t);
+                   own->solver->name, it->t);
   }
   it->t = reached;
   return HOOKE_OK;

@@ -15,10 +15,19 @@ enum { HOOKE_KRYLOV_VECTORS = 30 };
 
 struct hk_order_choice;
 
+/* What is asked of a solver's memory, and its name for messages. */
+struct hk_sundials_solver {
+  const char *name;
+  void (*free)(void **memory);
+  int (*steps)(void *memory, long *count), (*error_test_failures)(void *memory, long *count);
+  int (*nonlinear)(void *memory, long *iterations, long *failures), (*linear)(void *memory, long *iterations);
+};
+
 struct hk_sundials {
+  const struct hk_sundials_solver *solver;
   struct hk_unknowns unknowns;
   SUNContext context;
-  void *memory; /* the solver's own; its method frees it */
+  void *memory; /* the solver's own */
   /* point of a Newton iteration: time, gamma and unknowns; a flag */
   int (*where)(void *memory, sunrealtype *t, sunrealtype *gamma, N_Vector *y);
   N_Vector y, tolerance;
@@ -34,14 +43,13 @@ struct hk_sundials {
 /* Creates integrator->own with context, vectors and tolerances. `implicit`: with a linear solver and space
  * for products of the derivative; `vectors`: number of vectors that the solver keeps in addition, for the
  * count of memory. HOOKE_NO_MEMORY. */
-int32_t hk_sundials_create(hooke_integrator *integrator, int32_t implicit, int64_t vectors);
+int32_t hk_sundials_create(hooke_integrator *integrator, const struct hk_sundials_solver *solver,
+                           int32_t implicit, int64_t vectors);
 /* Status of creating a solver: `created`, or `no_room` as it reported itself. HOOKE_NO_MEMORY,
  * HOOKE_SOLVER_FAILED. */
-int32_t hk_sundials_created(const hooke_integrator *integrator, const char *solver, int32_t created,
-                            int32_t no_space);
+int32_t hk_sundials_created(const hooke_integrator *integrator, int32_t created, int32_t no_space);
 /* Before a run: recreates the solver if the previous run lacked memory inside it. HOOKE_NO_MEMORY. */
 int32_t hk_sundials_renew(hooke_integrator *integrator);
-/* All but `memory`, which must be freed first. */
 void hk_sundials_release(hooke_integrator *integrator);
 
 /* Max_order of the options, `highest` if not given. HOOKE_BAD_VALUE. */
@@ -49,15 +57,27 @@ int32_t hk_sundials_order(const hooke_integrator *integrator, int lowest, int hi
 /* Accuracy of a linear solve, as a fraction of Newton's tolerance. */
 double hk_sundials_linear_share(const hooke_integrator *integrator);
 
-/* Loads a state for a solver that restarts; adds its counts; reads its new time, and fails if that has not
- * advanced. `solver` is its name for messages. */
+/* Loads a state for a solver that restarts; adds its counts, reads its new time, and fails if that has not
+ * advanced. */
 void hk_sundials_load(hooke_integrator *integrator, const hooke_state *state);
-void hk_sundials_count(hooke_integrator *integrator, struct hk_counts since);
-int32_t hk_sundials_advance(hooke_integrator *integrator, const char *solver, int flag, double reached);
+int32_t hk_sundials_advance(hooke_integrator *integrator, int flag, double reached);
 /* A time ahead. Only the first step of a solver uses it, for its direction and size. */
 double hk_sundials_towards(const hooke_integrator *integrator);
 
-/* Callbacks; the context is the integrator. */
+/* ---- sundials_linear.c ---- */
+
+/* Creates own->linear as the option linear_solver says: GMRES of SUNDIALS on all unknowns for `gmres`, for
+ * first-order problems and if nothing is free. HOOKE_NO_MEMORY. */
+int32_t hk_sundials_linear_create(hooke_integrator *integrator);
+
+/* Forgets adaptations of earlier solves: a run restarts. */
+void hk_sundials_linear_begin(hooke_integrator *integrator);
+
+/* 1 if own->linear brings its own products. */
+int32_t hk_sundials_linear_is_own(const hooke_integrator *integrator);
+
+/* ---- callbacks; the context is the integrator ---- */
+
 int hk_sundials_slope(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
 int hk_sundials_product_setup(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
 int hk_sundials_product(N_Vector direction, N_Vector product, sunrealtype t, N_Vector y, N_Vector slope,

@@ -67,16 +67,6 @@ static void run(N_Vector v, struct job *job) {
 
 /* ---- one vector from one or two ---- */
 
-static void some_linear_sum(const struct job *j, int64_t at, int64_t count, double *sum) {
-  (void)sum;
-  hk_linear_sum(count, j->a, j->x + at, j->b, j->y + at, j->z + at);
-}
-
-static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
-  run(z, &(struct job){
-             .some = some_linear_sum, .a = a, .x = numbers(x), .b = b, .y = numbers(y), .z = numbers(z)});
-}
-
 static void some_set(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
   for (int64_t k = at; k < at + count; k++)
@@ -99,15 +89,6 @@ static void product(N_Vector x, N_Vector y, N_Vector z) {
 
 static void quotient(N_Vector x, N_Vector y, N_Vector z) {
   run(z, &(struct job){some_of_two, .of_two = hk_divide, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
-}
-
-static void some_scale(const struct job *j, int64_t at, int64_t count, double *sum) {
-  (void)sum;
-  hk_scale(count, j->a, j->x + at, j->z + at);
-}
-
-static void scale(sunrealtype a, N_Vector x, N_Vector z) {
-  run(z, &(struct job){some_scale, .a = a, .x = numbers(x), .z = numbers(z)});
 }
 
 static void some_of_one(const struct job *j, int64_t at, int64_t count, double *sum) {
@@ -160,7 +141,7 @@ static sunrealtype mean_square(N_Vector x, N_Vector weight) {
   return sqrt(sum_of(x, weight, hk_sum_of_squares) / (double)size_of(x));
 }
 
-/* ---- several vectors at once ---- */
+/* ---- several vectors at once, or one as such ---- */
 
 static void some_combination(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
@@ -175,15 +156,24 @@ static int combination(int count, sunrealtype *c, N_Vector *x, N_Vector z) {
   return 0;
 }
 
-static void some_add_to_each(const struct job *j, int64_t at, int64_t count, double *sum) {
+static void scale(sunrealtype a, N_Vector x, N_Vector z) {
+  combination(1, &a, &x, z);
+}
+
+static void some_linear_sums(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
   for (int k = 0; k < j->vectors; k++)
-    hk_linear_sum(count, j->factor[k], j->x + at, 1.0, numbers(j->from[k]) + at, numbers(j->to[k]) + at);
+    hk_linear_sum(count, j->factor[k], j->x + at, j->b, numbers(j->from[k]) + at, numbers(j->to[k]) + at);
+}
+
+static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
+  run(z, &(struct job){some_linear_sums, .vectors = 1, .factor = &a, .x = numbers(x), .b = b, .from = &y,
+                       .to = &z});
 }
 
 static int add_to_each(int count, sunrealtype *a, N_Vector x, N_Vector *y, N_Vector *z) {
-  run(x, &(struct job){
-             .some = some_add_to_each, .vectors = count, .factor = a, .x = numbers(x), .from = y, .to = z});
+  run(x, &(struct job){some_linear_sums, .vectors = count, .factor = a, .x = numbers(x), .b = 1.0, .from = y,
+                       .to = z});
   return 0;
 }
 

@@ -67,20 +67,22 @@ int32_t hk_unknowns_have_products(const hooke_integrator *it) {
 
 /* ---- between y and all particles ---- */
 
-void hk_unknowns_gather(const struct hk_unknowns *u, const double *const all[3], double *some) {
+void hk_unknowns_gather(const struct hk_unknowns *u, const double *all, ptrdiff_t stride, double *some) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(some + a * u->free_count + s->unknown, all[a] + s->particle, (size_t)s->count * sizeof(double));
+      memcpy(some + a * u->free_count + s->unknown, all + a * stride + s->particle,
+             (size_t)s->count * sizeof(double));
     }
   }
 }
 
-void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double *const all[3]) {
+void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double *all, ptrdiff_t stride) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(all[a] + s->particle, some + a * u->free_count + s->unknown, (size_t)s->count * sizeof(double));
+      memcpy(all + a * stride + s->particle, some + a * u->free_count + s->unknown,
+             (size_t)s->count * sizeof(double));
     }
   }
 }
@@ -89,19 +91,17 @@ void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double 
 static void spread_to_rows(const struct hk_unknowns *u, const double *some, double *rows) {
   for (int64_t k = 0; k < u->stretch_count; k++) {
     const struct hk_stretch_of_free *s = &u->stretch[k];
-    const double *x = some + s->unknown, *y = x + u->free_count, *z = y + u->free_count;
-    double *row = rows + 3 * s->particle;
-    for (int64_t p = 0; p < s->count; p++, row += 3) {
-      row[0] = x[p];
-      row[1] = y[p];
-      row[2] = z[p];
+    for (int64_t p = 0; p < s->count; p++) {
+      for (int a = 0; a < 3; a++)
+        rows[3 * (s->particle + p) + a] = some[a * u->free_count + s->unknown + p];
     }
   }
 }
 
 void hk_unknowns_take(const hooke_integrator *it, const struct hk_unknowns *u, double *y) {
-  hk_unknowns_gather(u, (const double *const *)it->motion->q, y);
-  if (u->has_v) hk_unknowns_gather(u, (const double *const *)it->motion->v, y + 3 * u->free_count);
+  const ptrdiff_t stride = hk_motion_stride(it->motion);
+  hk_unknowns_gather(u, it->motion->q[0], stride, y);
+  if (u->has_v) hk_unknowns_gather(u, it->motion->v[0], stride, y + 3 * u->free_count);
   hk_movers_read(it->system, it->motion, y + 6 * u->free_count);
 }
 
@@ -131,52 +131,42 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
 
 /* ---- the right-hand side ---- */
 
-int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
-  hk_unknowns_spread(u, y, it->motion->q);
-  if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
+void hk_unknowns_give(const hooke_integrator *it, const struct hk_unknowns *u, const double *y) {
+  const ptrdiff_t stride = hk_motion_stride(it->motion);
+  hk_unknowns_spread(u, y, it->motion->q[0], stride);
+  if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v[0], stride);
   hk_movers_write(it->system, it->motion, y + 6 * u->free_count);
+}
+
+int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
+  hk_unknowns_give(it, u, y);
   return hk_integrator_hold(it, t);
 }
 
-double hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
+void hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
-  double sum = 0.0;
   for (int a = 0; a < 3; a++) {
     const double g = system->fall[a];
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
       double *to = out + a * u->free_count + s->unknown;
-      for (int64_t p = 0; p < s->count; p++) {
+      for (int64_t p = 0; p < s->count; p++)
         to[p] = system->falls ? w[p] * f[p] + g : w[p] * f[p];
-        sum += 0.0 * to[p];
-      }
     }
   }
-  return sum;
 }
 
-/* The same of the movers; y is that of the working copy. */
-static double slopes_of_movers(const hooke_integrator *it, const struct hk_unknowns *u, const double *y,
-                               double *slope) {
-  const double *own = y + 6 * u->free_count;
-  hk_movers_push(it->system, it->motion, own, u->push);
-  return hk_movers_slope(it->system, own, u->push, slope + 6 * u->free_count);
-}
-
-static int first_order_slope(hooke_integrator *it, double t, const double *x, double *slope) {
-  if (hk_integrator_rate(it, t, x, slope) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
-  double sum = 0.0;
-  for (int64_t k = 0; k < it->size; k++)
-    sum += 0.0 * slope[k];
-  return sum == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
+static int slope_is_finite(int64_t count, const double *slope) {
+  return hk_all_finite(count, slope) ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
 }
 
 int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y,
                       double *slope) {
   /* a solver may interpret a stop as a reason to try a smaller step */
   if (it->stop_value != 0) return HOOKE_SLOPE_STOPPED;
-  if (it->rate) return first_order_slope(it, t, y, slope);
+  if (it->rate && hk_integrator_rate(it, t, y, slope) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
+  if (it->rate) return slope_is_finite(it->size, slope);
   if (u->free_count == 0 && it->system->mover_count == 0) {
     slope[0] = 0.0;
     return HOOKE_SLOPE_FINE;
@@ -185,8 +175,11 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
     return HOOKE_SLOPE_STOPPED;
   const int64_t m = u->has_v ? u->free_count : 0;
   memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
-  const double sum = hk_unknowns_accelerations(it, u, slope + 3 * m) + slopes_of_movers(it, u, y, slope);
-  return sum == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
+  const double *own = y + 6 * u->free_count;
+  hk_unknowns_accelerations(it, u, slope + 3 * m);
+  hk_movers_push(it->system, it->motion, own, u->push);
+  hk_movers_slope(it->system, own, u->push, slope + 6 * u->free_count);
+  return slope_is_finite(u->size - 3 * m, slope + 3 * m);
 }
 
 /* ---- its derivative ---- */

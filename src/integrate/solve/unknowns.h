@@ -40,25 +40,28 @@ void hk_unknowns_load(hooke_integrator *integrator, const struct hk_unknowns *un
 int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y, hooke_state *state);
 
-/* From the working copy. */
+/* From the working copy, and to it. */
 void hk_unknowns_take(const hooke_integrator *integrator, const struct hk_unknowns *unknowns, double *y);
+void hk_unknowns_give(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
+                      const double *y);
 
 /* 1 if hk_unknowns_product() knows the derivative: not that of first-order problems and bodies. */
 int32_t hk_unknowns_have_products(const hooke_integrator *integrator);
 
-/* Three components of the free particles (3 free_count) from and to those of all (3 n); others are unchanged.
- */
-void hk_unknowns_gather(const struct hk_unknowns *unknowns, const double *const all[3], double *some);
-void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, double *const all[3]);
+/* Three components of the free particles (3 free_count) from and to those of all, a stride apart; others are
+ * unchanged. */
+void hk_unknowns_gather(const struct hk_unknowns *unknowns, const double *all, ptrdiff_t stride,
+                        double *some);
+void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, double *all,
+                        ptrdiff_t stride);
 
 /* Loads y and the constrained particles of time t into the working copy; returns a status. */
 int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
 
-/* v' of the free particles (3 free_count) from the forces of the working copy; returns 0 times their sum,
- * which shows whether all are finite. */
-double hk_unknowns_accelerations(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
-                                 double *out);
+/* v' of the free particles (3 free_count) from the forces of the working copy. */
+void hk_unknowns_accelerations(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
+                               double *out);
 
 /* slope = phi(t, y), counted. */
 int hk_unknowns_slope(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,

@@ -27,7 +27,7 @@ static int32_t find_place(const hooke_integrator *it, const hooke_state *state, 
                    "is missing: %s goes on from the times of this option alone; give one [s]",
                    it->method->name);
   }
-  *standing = it->method->adaptive ? it->restart.standing : hk_integrator_standing(it);
+  *standing = it->method->adaptive ? it->restart.standing : it->standing;
   *from = it->method->adaptive ? it->restart.state : state;
   const double t = standing->t;
   const int32_t status = hk_integrator_check_state(it, *from);

@@ -29,7 +29,7 @@ int32_t hk_why_start_keep(const hooke_integrator *run, struct hk_why_start *star
   const hooke_state *from = choose(run, &step);
   int32_t status = hk_state_create_sized(hk_integrator_numbers(run), 1, &start->state);
   if (status == HOOKE_OK) status = hooke_state_copy(from, start->state);
-  start->standing = hk_integrator_standing(run);
+  start->standing = run->standing;
   start->standing.k = step;
   start->standing.t = *from->t;
   start->standing.frames = 0;

@@ -138,15 +138,11 @@ void hk_movers_tolerance(const hooke_system *system, double position, double vel
   }
 }
 
-double hk_movers_slope(const hooke_system *system, const double *own, const double *push, double *slope) {
-  double sum = 0.0;
+void hk_movers_slope(const hooke_system *system, const double *own, const double *push, double *slope) {
   for (int64_t k = 0; k < system->mover_count; k++) {
     const struct hk_mover *m = &system->mover[k];
     m->row->slope(m->thing, own + m->at, push + HOOKE_PUSH * k, slope + m->at);
   }
-  for (int64_t k = 0; k < system->own_count; k++)
-    sum += 0.0 * slope[k];
-  return sum;
 }
 
 void hk_movers_accelerate(const hooke_system *system, const struct hk_motion *motion, double *out) {

@@ -99,9 +99,7 @@ void hk_movers_drift(const struct hooke_system *system, double h, double *own);
 void hk_movers_normalise(const struct hooke_system *system, double *own);
 void hk_movers_tolerance(const struct hooke_system *system, double position, double velocity,
                          double *tolerance);
-/* Returns 0 times their sum, which shows whether all are finite. */
-double hk_movers_slope(const struct hooke_system *system, const double *own, const double *push,
-                       double *slope);
+void hk_movers_slope(const struct hooke_system *system, const double *own, const double *push, double *slope);
 /* Accelerations of the particles of all movers at the forces and rows of the working copy. */
 void hk_movers_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out);
 /* Writes the rows (3n) of the particles of all movers anew, from their own coordinates. */
