@@ -128,7 +128,7 @@ def test_claims(hooke, write):
                                        f"{row['measured']:.6g} s")
     assert claims["changes"]["text"] == f"at t = 0 s, {answer.json['changes']['sentence']}"
     assert claims["note"]["text"] == f"backward-euler at t = 0 s: {answer.json['rows'][1]['note']}"
-    assert list(claims)[0] == "limit" and claims["limit"]["by"] == "eigenvalues and runs"
+    assert next(iter(claims)) == "limit" and claims["limit"]["by"] == "eigenvalues and runs"
     words = " ".join(hooke("limit", scene, "--methods", "symplectic-euler,backward-euler", "--predict").out.split())
     assert claims["limit"]["text"].split(", by runs")[0] in words and claims["changes"]["text"] in words
     late = hooke("limit", scene, "--methods", "symplectic-euler", "--budget", "1e-9", "--json")

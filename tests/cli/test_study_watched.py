@@ -80,5 +80,5 @@ def test_statistics_of_chaos(hooke, write, tmp_path):
     page = (tmp_path / "page.html").read_text()
     assert '"statistics":{"members":6,"from":' in page and '"watched":[{"quantity":"2.y","unit":"m"' in page
     out = hooke("study", scene, *words, "--ensemble", 2).out
-    assert "of 2 runs of each method" in out and "standard errors" in out
+    assert "of 2 runs of each method" in " ".join(out.split()) and "standard errors" in out
     assert "--ensemble 16" in hooke("study", scene, *words).out
