@@ -143,12 +143,9 @@ static int32_t find_stepped(hooke_system *system) {
 }
 
 static int32_t choose_forces(hooke_system *system) {
-  int32_t rows = 0;
-  while (hk_force_table(rows))
-    rows++;
-  system->force_row = hk_new(rows, sizeof(const struct hk_force_row *));
+  system->force_row = hk_new(HOOKE_FORCES, sizeof(const struct hk_force_row *));
   if (system->force_row == NULL) return HOOKE_NO_MEMORY;
-  for (int32_t k = 0; k < rows; k++) {
+  for (int32_t k = 0; k < HOOKE_FORCES; k++) {
     const struct hk_force_row *row = hk_force_table(k);
     if (hk_force_is_present(system, row)) system->force_row[system->force_row_count++] = row;
   }

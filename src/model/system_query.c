@@ -82,7 +82,7 @@ static int64_t derived_count(const hooke_system *system) {
 }
 
 static int64_t spring_memory(const hooke_system *system) {
-  return hk_springs_memory(system) + hk_tiled_spring_memory(system->tiled);
+  return hk_force_springs.memory(system) + hk_tiled_spring_memory(system->tiled);
 }
 
 static int64_t memory(const hooke_system *system) {

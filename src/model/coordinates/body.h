@@ -47,9 +47,6 @@ int32_t hk_system_add_body(struct hooke_system *system, const char *name, int64_
 /* Removes the bodies of parts from number `part` on. */
 void hk_system_remove_bodies(struct hooke_system *system, int64_t part);
 
-/* 1 if all `count` particles are in one body: a force between them does nothing. */
-int32_t hk_bodies_hold(const struct hk_bodies *bodies, int32_t count, const int32_t *particle);
-
 /* ---- for its row: the motion of one body ---- */
 
 void hk_body_read(const void *body, const double *const q[3], const double *const v[3], int64_t stride,

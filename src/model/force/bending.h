@@ -4,16 +4,14 @@
 
 #include "hooke/system.h"
 #include "kernel/bending_loops.h"
-#include "model/group.h"
+#include "model/sum/runs.h"
 
 /* All triples of a committed system, in their order. */
 struct hk_bending {
   int64_t count;
   int64_t run_count;
   struct hk_bending_run *run;
-  int64_t indexed_count, mixed_count; /* triples with individually stored particles or coefficient */
-  int32_t *particle[3];
-  double *coefficient;
+  struct hk_stored stored;
 };
 
 /* A triple, whatever run it is in: c/2 |x_0 - 2 x_1 + x_2|^2, c [N/m]. */
@@ -66,10 +64,5 @@ void hk_bending_add(const struct hk_bending *bending, double factor, const doubl
 /* For builders, as hk_system_add_springs(). */
 int32_t hk_system_add_bending(hooke_system *system, const struct hk_addition *added,
                               int64_t coefficient_count, const double *coefficient);
-
-/* Sorts groups into runs. HOOKE_NO_MEMORY leaves none. */
-int32_t hk_bending_commit(hooke_system *system, const struct hk_group *group, int64_t group_count);
-void hk_bending_release(hooke_system *system);
-int64_t hk_bending_memory(const hooke_system *system);
 
 #endif

@@ -137,9 +137,10 @@ static void add_columns(const hooke_system *system, const struct hk_force_row *r
 static void add_blocks(const hooke_system *system, const struct hk_force_row *row, const double *q,
                        const double *v, double *unit, const struct hk_pattern *pattern, double *dfdq,
                        double *dfdv) {
-  if (row->add_blocks) row->add_blocks(system, q, v, pattern, dfdq, dfdv);
-  if (row->change) add_columns(system, row, q, v, unit, pattern, dfdq, dfdv);
-  if (row->add_blocks || row->change) return;
+  if (row->change) {
+    add_columns(system, row, q, v, unit, pattern, dfdq, dfdv);
+    return;
+  }
   struct hk_elements at;
   hk_begin_elements(system, q, v, &at);
   at.only = row;

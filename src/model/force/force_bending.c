@@ -1,10 +1,13 @@
 /* Bending: U = c/2 |d|^2 with d = x_a - 2 x_b + x_c for every triple; forces are linear in the positions. */
 
+#include "core/memory.h"
 #include "core/sum.h"
+#include "kernel/spring/spring_loops.h"
 #include "model/check_value.h"
 #include "model/system.h"
 
 #include <stddef.h>
+#include <string.h>
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
@@ -52,6 +55,42 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 
 /* ---- from groups ---- */
 
+static void add_run(hooke_system *system, const struct hk_piece *piece) {
+  struct hk_bending *bending = &system->rest->bending;
+  struct hk_bending_run *run = &bending->run[bending->run_count++];
+  int32_t *const *particle = piece->group->particle;
+  run->first = bending->count;
+  run->count = piece->count;
+  run->shape = (piece->indexed ? HOOKE_BENDING_INDEXED : 0) | (piece->mixed ? HOOKE_BENDING_MIXED : 0);
+  run->start = particle[0][piece->from];
+  run->offset = particle[1][piece->from] - run->start;
+  run->coefficient = piece->group->number[HOOKE_KAPPA][piece->from];
+  memcpy(run->particle, piece->particle, sizeof run->particle);
+  run->coefficients = piece->number[HOOKE_KAPPA];
+  run->loop = hk_spring_set(0)->bending[run->shape];
+  bending->count += piece->count;
+}
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  struct hk_bending *bending = &system->rest->bending;
+  memset(bending, 0, sizeof *bending);
+  return hk_runs_commit(system, &hk_force_bending, group, count, &bending->stored, (void **)&bending->run,
+                        sizeof *bending->run, add_run);
+}
+
+static void release(hooke_system *system) {
+  struct hk_bending *bending = &system->rest->bending;
+  hk_free(bending->run);
+  hk_stored_release(&bending->stored);
+  memset(bending, 0, sizeof *bending);
+}
+
+static int64_t memory(const hooke_system *system) {
+  const struct hk_bending *bending = &system->rest->bending;
+  return bending->run_count * (int64_t)sizeof *bending->run +
+         hk_stored_memory(&hk_force_bending, &bending->stored);
+}
+
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_triple triple;
   hk_check_whole(value, system->rest->bending.count);
@@ -81,9 +120,9 @@ const struct hk_force_row hk_force_bending = {.name = "bending",
                                               .width = {1},
                                               .member_particles = 3,
                                               .recall = recall,
-                                              .commit = hk_bending_commit,
-                                              .release = hk_bending_release,
-                                              .memory = hk_bending_memory,
+                                              .commit = commit,
+                                              .release = release,
+                                              .memory = memory,
                                               .check = check,
                                               .bytes = 60.0,
                                               .add = add,

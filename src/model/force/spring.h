@@ -6,7 +6,7 @@
 #include "kernel/spring/spring_body.h"
 #include "kernel/spring/spring_loops.h"
 #include "model/force/element.h"
-#include "model/group.h"
+#include "model/sum/runs.h"
 
 extern const struct hk_option_table hk_spring_options;
 
@@ -15,9 +15,7 @@ struct hk_springs {
   int64_t count;
   int64_t run_count;
   struct hk_run *run;
-  int64_t indexed_count, mixed_count; /* springs with individually stored ends or material */
-  int32_t *head, *tail;
-  double *kappa, *gamma, *rest_length;
+  struct hk_stored stored;
 };
 
 /* A spring, whatever run it is in. */
@@ -109,8 +107,6 @@ HOOKE_INLINE void hk_spring_slope_change(const struct hk_spring_slope *s, const 
     change[a] = s->isotropic ? s->b * dx[a] : pull * s->u[a] + s->b * (dx[a] - along * s->u[a]);
 }
 
-void hk_spring_slope_blocks(const struct hk_spring_slope *slope, double stiff[9], double damp[9]);
-
 /* A spring as an element. */
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
                        struct hk_element *out);
@@ -126,12 +122,5 @@ int32_t hk_springs_find_material(const hooke_system *system, const hooke_options
 /* Finds the run of a spring, and the spring. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
 struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number);
-
-/* Sorts the groups of a system into runs. HOOKE_NO_MEMORY leaves `springs` empty. */
-int32_t hk_springs_commit(hooke_system *system, const struct hk_group *group, int64_t group_count);
-void hk_springs_release(hooke_system *system);
-/* Replaces the material of runs by a lookup elsewhere. */
-void hk_springs_drop_material(struct hk_springs *springs);
-int64_t hk_springs_memory(const hooke_system *system);
 
 #endif
