@@ -4,11 +4,11 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/check_value.h"
-#include "model/coordinates/body_frame.h"
 #include "model/coordinates/body_tangent.h"
 #include "model/part_record.h"
 #include "model/state.h"
 #include "model/system.h"
+#include "model/vector3.h"
 #include "model/variant/variant.h"
 
 #include <math.h>

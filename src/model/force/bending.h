@@ -35,9 +35,6 @@ struct hk_triples {
   int64_t run, k;
 };
 
-/* Starts at triple `number`. */
-struct hk_triples hk_triples_from(const struct hk_bending *bending, int64_t number);
-
 static inline int hk_next_triple(struct hk_triples *at, struct hk_triple *triple) {
   if (at->run == at->bending->run_count) return 0;
   const struct hk_bending_run *run = &at->bending->run[at->run];
@@ -48,18 +45,6 @@ static inline int hk_next_triple(struct hk_triples *at, struct hk_triple *triple
   }
   return 1;
 }
-
-/* x_0 - 2 x_1 + x_2 of rows of x y z. */
-static inline void hk_triple_bend(const struct hk_triple *triple, const double *x, double bend[3]) {
-  for (int a = 0; a < 3; a++) {
-    bend[a] = (x[3 * triple->particle[0] + a] - 2.0 * x[3 * triple->particle[1] + a]) +
-              x[3 * triple->particle[2] + a];
-  }
-}
-
-/* f += factor times the forces at x; x, y and z apart. */
-void hk_bending_add(const struct hk_bending *bending, double factor, const double *const x[3],
-                    double *const f[3]);
 
 /* For builders, as hk_system_add_springs(). */
 int32_t hk_system_add_bending(hooke_system *system, const struct hk_addition *added,

@@ -245,11 +245,8 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
-  const struct hk_run *run = &system->springs->run[hk_springs_run(system->springs, first)];
   for (int64_t k = 0; k < to->count; k++) {
-    while (first + k >= run->first + run->count)
-      run++;
-    const struct hk_spring spring = hk_run_spring(run, first + k - run->first);
+    const struct hk_spring spring = hk_springs_find(system->springs, first + k);
     to->particle[0][k] = (int32_t)spring.head;
     to->particle[1][k] = (int32_t)spring.tail;
     to->number[HOOKE_KAPPA][k] = spring.kappa;
