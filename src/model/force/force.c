@@ -108,9 +108,11 @@ static void add_column(const hooke_system *system, const struct hk_force_row *ro
                        double *blocks) {
   struct hk_member_change change;
   if (blocks == NULL || !row->change(system, number, point, &change)) return;
-  for (int i = 0; i < 3 * change.count; i++)
-    blocks[9 * hk_pattern_block(pattern, change.particle[i / 3], j) + 3 * (i % 3) + a] +=
-        change.force[i / 3][i % 3];
+  for (int i = 0; i < change.count; i++) {
+    double *column = blocks + 9 * hk_pattern_block(pattern, change.particle[i], j) + a;
+    for (int b = 0; b < 3; b++)
+      column[3 * b] += change.force[i][b];
+  }
 }
 
 /* `unit` has 6n zeros. */
