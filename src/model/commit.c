@@ -56,13 +56,8 @@ static void trim_particles(hooke_system *system) {
     system->velocity = NULL;
   }
   if (system->rest->particle_capacity == n) return;
-  int32_t status = hk_grow((void **)&system->position, 3 * n, 3 * n, sizeof(double));
-  if (status == HOOKE_OK && system->velocity)
-    status = hk_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
-  if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, n, n, sizeof(double));
+  hk_system_resize(system, n, n);
   if (!system->overdamped) system->inertia = system->mass;
-  if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, n, n, sizeof(uint8_t));
-  if (status == HOOKE_OK) system->rest->particle_capacity = n;
 }
 
 static int32_t fill_particles(hooke_system *system) {
@@ -143,12 +138,9 @@ static int32_t find_stepped(hooke_system *system) {
 }
 
 static int32_t choose_forces(hooke_system *system) {
-  int32_t rows = 0;
-  while (hk_force_table(rows))
-    rows++;
-  system->force_row = hk_new(rows, sizeof(const struct hk_force_row *));
+  system->force_row = hk_new(HOOKE_FORCES, sizeof(const struct hk_force_row *));
   if (system->force_row == NULL) return HOOKE_NO_MEMORY;
-  for (int32_t k = 0; k < rows; k++) {
+  for (int32_t k = 0; k < HOOKE_FORCES; k++) {
     const struct hk_force_row *row = hk_force_table(k);
     if (hk_force_is_present(system, row)) system->force_row[system->force_row_count++] = row;
   }
@@ -164,8 +156,7 @@ static void forget_own(hooke_system *system) {
   system->force_row_count = 0;
 }
 
-/* Reopens the system after a failure midway. */
-static void undo(hooke_system *system) {
+void hk_system_undo(hooke_system *system) {
   hk_overdamped_undo(system);
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);
@@ -203,7 +194,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status == HOOKE_OK) status = find_stepped(system);
   if (status != HOOKE_OK) {
-    undo(system);
+    hk_system_undo(system);
     return status;
   }
   for (int64_t g = 0; g < system->group_count; g++)

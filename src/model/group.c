@@ -66,12 +66,11 @@ static int acts(const struct hk_group *group, int64_t k) {
 
 /* 1 if all particles of a member are in one body. */
 static int is_inside(const struct hk_group *group, int64_t k, const struct hk_bodies *bodies) {
-  const int32_t count = group->force->member_particles;
-  int32_t particle[HOOKE_MEMBER_PARTICLES];
-  if (bodies->of == NULL || count < 2) return 0;
-  for (int32_t j = 0; j < count; j++)
-    particle[j] = group->particle[j][k];
-  return hk_bodies_hold(bodies, count, particle);
+  const int32_t body = bodies->of ? bodies->of[group->particle[0][k]] : -1;
+  int inside = body >= 0 && group->force->member_particles > 1;
+  for (int32_t j = 1; j < group->force->member_particles && inside; j++)
+    inside = bodies->of[group->particle[j][k]] == body;
+  return inside;
 }
 
 void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
@@ -93,45 +92,6 @@ void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
 void hk_group_take_back(struct hk_group *group) {
   group->count += group->dropped;
   group->dropped = group->inside = 0;
-}
-
-/* ---- runs ---- */
-
-/* A shorter stretch is not worth a loop of its own. */
-enum { SHORTEST_RUN = 8 };
-
-/* 1 if the particles of member k are so far apart as a run has them: any two, or three at equal distances. */
-static int is_even(const struct hk_group *g, int64_t k) {
-  int even = 1;
-  for (int e = 2; e < g->force->member_particles; e++) {
-    const int32_t offset = g->particle[e][k] - g->particle[e - 1][k];
-    even &= offset > 0 && offset == g->particle[1][k] - g->particle[0][k];
-  }
-  return even;
-}
-
-/* Number of members from k on whose particles advance by one. */
-static int64_t stretch_at(const struct hk_group *g, int64_t k) {
-  int64_t end = k + 1;
-  for (int advances = is_even(g, k); advances && end < g->count; end += advances) {
-    for (int e = 0; e < g->force->member_particles; e++)
-      advances &= g->particle[e][end] == g->particle[e][end - 1] + 1;
-  }
-  return end - k;
-}
-
-void hk_group_cut(const struct hk_group *g,
-                  void (*add)(void *ctx, const struct hk_group *g, int64_t from, int64_t count, int indexed),
-                  void *ctx) {
-  int64_t pending = 0; /* first member not yet in a run */
-  for (int64_t k = 0, length; k < g->count; k += length) {
-    length = stretch_at(g, k);
-    if (length < SHORTEST_RUN) continue;
-    if (k > pending) add(ctx, g, pending, k - pending, 1);
-    add(ctx, g, k, length, 0);
-    pending = k + length;
-  }
-  if (g->count > pending) add(ctx, g, pending, g->count - pending, 1);
 }
 
 /* ---- the table ---- */

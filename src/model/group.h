@@ -50,13 +50,6 @@ int32_t hk_group_resists(const struct hk_group *group);
 void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies);
 void hk_group_take_back(struct hk_group *group);
 
-/* Cuts the members, in their order, into runs: long stretches along which all particles advance by one, and
- * what is between them, whose particles are looked up (`indexed`). */
-void hk_group_cut(const struct hk_group *group,
-                  void (*add)(void *ctx, const struct hk_group *group, int64_t from, int64_t count,
-                              int indexed),
-                  void *ctx);
-
 /* What a call adds (group_add.c): `particles` of every member, and options unless the force has none. */
 struct hk_addition {
   const struct hk_force_row *force;

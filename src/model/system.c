@@ -30,6 +30,7 @@ int32_t hooke_system_create(hooke_system **system) {
 }
 
 static void release_model(hooke_system *system) {
+  hk_system_undo(system);
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_release(&system->group[k]);
   for (int64_t k = 0; k < system->part_count; k++)
@@ -37,47 +38,38 @@ static void release_model(hooke_system *system) {
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
   hk_movers_release(system);
-  hk_strided_batches_release(system->strided);
-  hk_forces_release(system);
-  hk_tiled_release(system->tiled);
-  hk_free(system->position);
-  hk_free(system->velocity);
-  hk_overdamped_undo(system);
-  hk_free(system->mass);
-  hk_free(system->constrained);
-  hk_free(system->inverse_mass);
-  hk_free(system->constrained_particle);
-  hk_free(system->group);
-  hk_free(system->part);
   hk_system_drop_derived(system, 0);
-  hk_free(system->rest->derived);
-  hk_free(system->drive);
+  void *const block[] = {system->position,      system->velocity, system->mass,
+                         system->constrained,   system->group,    system->part,
+                         system->rest->derived, system->drive,    system->rest->input};
+  for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
+    hk_free(block[k]);
 }
 
 void hooke_system_destroy(hooke_system *system) {
   if (system == NULL) return;
-  if (!system->borrows) {
-    release_model(system);
-    hk_free(system->rest->input);
-  }
+  if (!system->borrows) release_model(system);
   hk_free(system->span);
   hk_free(system->pin);
   hk_free(system->force_row);
   hk_handle_free(system);
 }
 
-/* Ensures capacity for `count` more particles in every particle array. */
-static int32_t reserve_particles(hooke_system *system, int64_t count) {
-  int64_t used = system->particle_count, needed = used + count;
-  if (needed <= system->rest->particle_capacity) return HOOKE_OK;
-  int64_t capacity = used == 0 ? needed : needed + needed / 2;
+int32_t hk_system_resize(hooke_system *system, int64_t used, int64_t capacity) {
   int32_t status = hk_grow((void **)&system->position, 3 * used, 3 * capacity, sizeof(double));
-  if (status == HOOKE_OK)
+  if (status == HOOKE_OK && (system->velocity || system->rest->particle_capacity == 0))
     status = hk_grow((void **)&system->velocity, 3 * used, 3 * capacity, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, used, capacity, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, used, capacity, sizeof(uint8_t));
   if (status == HOOKE_OK) system->rest->particle_capacity = capacity;
   return status;
+}
+
+/* Ensures capacity for `count` more particles. */
+static int32_t reserve_particles(hooke_system *system, int64_t count) {
+  const int64_t used = system->particle_count, needed = used + count;
+  if (needed <= system->rest->particle_capacity) return HOOKE_OK;
+  return hk_system_resize(system, used, used == 0 ? needed : needed + needed / 2);
 }
 
 static int32_t check_mass(const hooke_system *system, int64_t count, int64_t mass_count, const double *mass) {

@@ -55,6 +55,13 @@ int32_t hk_overdamped_check_forces(const hooke_system *system);
 int32_t hk_overdamped_begin(hooke_system *system);
 void hk_overdamped_undo(hooke_system *system);
 
+/* Reopens a system after a failure of commit midway: releases all that commit makes. */
+void hk_system_undo(hooke_system *system);
+
+/* Memory for so many particles, of which `used` are kept; there may be no velocities any more.
+ * HOOKE_NO_MEMORY. */
+int32_t hk_system_resize(hooke_system *system, int64_t used, int64_t capacity);
+
 /* HOOKE_BAD_CALL unless the system is still open (the second: committed). */
 int32_t hk_system_require_open(const hooke_system *system);
 int32_t hk_system_require_committed(const hooke_system *system);

@@ -65,24 +65,8 @@ static int64_t inside_bodies(const hooke_system *system) {
   return count;
 }
 
-static int64_t body_count(const hooke_system *system) {
-  return system->bodies->count;
-}
-
-static int64_t idle_count(const hooke_system *system) {
-  return system->idle_count;
-}
-
-static int64_t force_count(const hooke_system *system) {
-  return system->force_row_count;
-}
-
-static int64_t derived_count(const hooke_system *system) {
-  return system->rest->derived_count;
-}
-
 static int64_t spring_memory(const hooke_system *system) {
-  return hk_springs_memory(system) + hk_tiled_spring_memory(system->tiled);
+  return hk_force_springs.memory(system) + hk_tiled_spring_memory(system->tiled);
 }
 
 static int64_t memory(const hooke_system *system) {
@@ -107,14 +91,19 @@ int64_t hooke_system_count(const hooke_system *system, const char *what) {
   static const struct {
     const char *name;
     int64_t (*count)(const hooke_system *system);
-  } counts[] = {{"free", free_count},       {"idle", idle_count},
-                {"forces", force_count},    {"dropped_springs", dropped_springs},
-                {"derived", derived_count}, {"blocks", hk_system_block_count},
-                {"memory", memory},         {"spring_memory", spring_memory},
-                {"bodies", body_count},     {"inside_bodies", inside_bodies}};
-  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+  } counts[] = {{"free", free_count}, {"dropped_springs", dropped_springs}, {"blocks", hk_system_block_count},
+                {"memory", memory},   {"spring_memory", spring_memory},     {"inside_bodies", inside_bodies}};
+  const struct {
+    const char *name;
+    int64_t count;
+  } known[] = {{"idle", system->idle_count},
+               {"forces", system->force_row_count},
+               {"derived", system->rest->derived_count},
+               {"bodies", system->bodies->count}};
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
     if (strcmp(counts[k].name, what) == 0) return counts[k].count(system);
-  }
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+    if (strcmp(known[k].name, what) == 0) return known[k].count;
   const struct hk_force_row *force = hk_force_find(what);
   return force && force->member_particles > 0 ? hk_system_members_of(system, force) : -1;
 }

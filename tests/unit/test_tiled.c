@@ -121,7 +121,7 @@ static void check_material(const hooke_system *system, const struct canonical *c
   assert_int_equal(tiled->kappa != NULL, of_its_own);
   assert_int_equal(tiled->rest_length != NULL, of_its_own || material != ONE_LENGTH);
   assert_in_range(tiled->kinds, 1, of_its_own ? 2 : groups);
-  assert_int_equal(system->springs->mixed_count, 0);
+  assert_int_equal(system->springs->stored.mixed, 0);
   for (int64_t s = 0; s < c->spring_count; s++)
     assert_true(c->kappa[s] > 0.0 && c->rest_length[s] >= 0.05);
 }

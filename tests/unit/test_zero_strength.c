@@ -163,8 +163,8 @@ static void check_same_forces(const hooke_system *found, const hooke_system *exp
 static void check_same_runs(const struct hk_springs *found, const struct hk_springs *expected) {
   assert_int_equal(found->count, expected->count);
   assert_int_equal(found->run_count, expected->run_count);
-  assert_int_equal(found->indexed_count, expected->indexed_count);
-  assert_int_equal(found->mixed_count, expected->mixed_count);
+  assert_int_equal(found->stored.indexed, expected->stored.indexed);
+  assert_int_equal(found->stored.mixed, expected->stored.mixed);
   for (int64_t r = 0; r < expected->run_count; r++) {
     const struct hk_run *a = &found->run[r], *b = &expected->run[r];
     assert_true(a->loop == b->loop);

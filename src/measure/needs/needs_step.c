@@ -257,7 +257,7 @@ static void fill_cost(const struct search *search, double limit, struct hk_needs
   cost->step_limit = limit;
   cost->unlimited = isinf(limit);
   cost->springs = (double)hooke_system_count(system, "springs");
-  cost->indexed = system->springs->indexed_count;
+  cost->indexed = system->springs->stored.indexed;
   cost->particles = (double)hooke_system_particle_count(system);
 }
 

@@ -15,8 +15,10 @@
 
 static void see_spring(struct hk_linearised *lin, int64_t k, const struct hk_spring *spring, const double *q,
                        double scale) {
+  struct hk_spring taut = *spring; /* one that only pulls may become so at any time */
   struct hk_stretch s;
-  hk_spring_stretch_taut(spring, q, &s);
+  taut.pull_only = 0;
+  hk_spring_stretch(&taut, q, NULL, &s);
   const double slight = HOOKE_STRETCH_ROUNDING * spring->kappa * s.length;
   for (int a = 0; a < 3; a++)
     lin->u[a][k] = s.direction[a];

@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/coordinates/body_frame.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
 

@@ -4,11 +4,11 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/check_value.h"
-#include "model/coordinates/body_frame.h"
 #include "model/coordinates/body_tangent.h"
 #include "model/part_record.h"
 #include "model/state.h"
 #include "model/system.h"
+#include "model/vector3.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
@@ -114,14 +114,6 @@ int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t co
 }
 
 /* ---- commit ---- */
-
-int32_t hk_bodies_hold(const struct hk_bodies *bodies, int32_t count, const int32_t *particle) {
-  const int32_t body = bodies->of ? bodies->of[particle[0]] : -1;
-  int32_t held = body >= 0;
-  for (int32_t k = 1; k < count && held; k++)
-    held = bodies->of[particle[k]] == body;
-  return held;
-}
 
 /* The place of a body in a scene: bodies of parts are not in its list. */
 static int32_t at_body(int32_t status, const struct hk_bodies *bodies, int64_t k) {

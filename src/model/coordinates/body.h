@@ -47,9 +47,6 @@ int32_t hk_system_add_body(struct hooke_system *system, const char *name, int64_
 /* Removes the bodies of parts from number `part` on. */
 void hk_system_remove_bodies(struct hooke_system *system, int64_t part);
 
-/* 1 if all `count` particles are in one body: a force between them does nothing. */
-int32_t hk_bodies_hold(const struct hk_bodies *bodies, int32_t count, const int32_t *particle);
-
 /* ---- for its row: the motion of one body ---- */
 
 void hk_body_read(const void *body, const double *const q[3], const double *const v[3], int64_t stride,
@@ -78,7 +75,21 @@ void hk_body_turn(const double w[3], double h, const double from[4], double turn
 /* The body's axes in space by its quaternion: m[i][k] is component i of axis k. */
 void hk_body_axes(const double turn[4], double m[3][3]);
 
-/* For commit: the directions e1, e2, e3 of three points: that of `ab`, that of `ac` perpendicular to it, and
+/* ---- for commit, and the initial velocities (body_frame.c) ---- */
+
+/* Finds mass, inertia, axes and the three particles of the rule; leaves `moves` 0 if it is held or driven.
+ * HOOKE_BAD_VALUE for particles that coincide, and if some are driven but not all; HOOKE_NO_MEMORY. */
+int32_t hk_body_commit(struct hooke_system *system, struct hk_body *body);
+/* Pins all particles of a body that is held still by some of them. */
+void hk_body_pin_if_still(struct hooke_system *system, const struct hk_body *body);
+
+/* Sets velocity and angular momentum of own coordinates to those of the initial velocities. */
+void hk_body_fit(const struct hooke_system *system, const struct hk_body *body, double *own);
+
+/* Makes a symmetric matrix m diagonal; the rows of `axis` become its eigenvectors. */
+void hk_body_diagonalise(double m[3][3], double axis[3][3]);
+
+/* The directions e1, e2, e3 of three points: that of `ab`, that of `ac` perpendicular to it, and
  * their cross product. Of points in a line (rank 1) the second is perpendicular in some way, and rank 0 has
  * the axes of space. */
 void hk_body_triad(int32_t rank, const double ab[3], const double ac[3], double e[3][3]);

@@ -1,9 +1,11 @@
 /* The frame of a rigid body: its point, its axes, and the three particles that tell where they are. */
-#include "model/coordinates/body_frame.h"
+#include "model/coordinates/body.h"
 
 #include "core/memory.h"
 #include "core/status.h"
 #include "core/sum.h"
+#include "model/particles.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>

@@ -127,12 +127,6 @@ static void find_rotation(const struct hk_body *body, const double d[3][3], cons
   hk_add3(hk_dot3(v[1], across) / hk_dot3(across, across), n, w);
 }
 
-/* out = the sum over k of x[k] e[k]. */
-static void combine(const double e[3][3], const double x[3], double out[3]) {
-  for (int a = 0; a < 3; a++)
-    out[a] = (x[0] * e[0][a] + x[1] * e[1][a]) + x[2] * e[2][a];
-}
-
 void hk_body_read(const void *thing, const double *const all_q[3], const double *const all_v[3],
                   int64_t stride, double *own) {
   const struct hk_body *body = thing;
@@ -142,7 +136,7 @@ void hk_body_read(const void *thing, const double *const all_q[3], const double 
   hk_body_triad(body->rank, q[1], q[2], e);
   for (int i = 0; i < 3; i++) {
     const double column[3] = {e[0][i], e[1][i], e[2][i]};
-    combine(body->triad, column, m[i]);
+    to_body(body->triad, column, m[i]);
   }
   set_turn(m, own);
   hk_body_axes(own + HOOKE_BODY_TURN, m);
@@ -164,10 +158,11 @@ void hk_body_read_rows(const struct hk_body *body, const double *q, const double
                own);
 }
 
-static void find_angular_velocity(const struct hk_body *body, const double m[3][3], const double *own,
-                                  double w[3]) {
+/* The angular velocity of an angular momentum, or what a torque changes it by. */
+static void divide_by_inertia(const struct hk_body *body, const double m[3][3], const double *spin,
+                              double w[3]) {
   double turn[3];
-  to_body(m, own + HOOKE_BODY_SPIN, turn);
+  to_body(m, spin, turn);
   for (int k = 0; k < 3; k++)
     turn[k] = body->inertia[k] > 0.0 ? turn[k] / body->inertia[k] : 0.0;
   to_space(m, turn, w);
@@ -178,7 +173,7 @@ void hk_body_write(const struct hooke_system *system, const void *thing, const d
   const struct hk_body *body = thing;
   double m[3][3], w[3], arm[3], swing[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
-  find_angular_velocity(body, m, own, w);
+  divide_by_inertia(body, m, own + HOOKE_BODY_SPIN, w);
   for (int64_t k = 0; k < body->count; k++) {
     const int64_t p = body->particle[k], at = stride * p;
     if (system->constrained[p]) continue;
@@ -257,14 +252,11 @@ void hk_body_accelerate(const struct hooke_system *system, const void *thing, co
   const struct hk_body *body = thing;
   double m[3][3], w[3], gyration[3], turning[3], arm[3], swing[3], inward[3], change[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
-  find_angular_velocity(body, m, own, w);
+  divide_by_inertia(body, m, own + HOOKE_BODY_SPIN, w);
   hk_cross3(w, own + HOOKE_BODY_SPIN, gyration);
   for (int a = 0; a < 3; a++)
     turning[a] = push[3 + a] - gyration[a];
-  to_body(m, turning, change);
-  for (int k = 0; k < 3; k++)
-    change[k] = body->inertia[k] > 0.0 ? change[k] / body->inertia[k] : 0.0;
-  to_space(m, change, turning);
+  divide_by_inertia(body, m, turning, turning);
   for (int64_t k = 0; k < body->count; k++) {
     const int64_t p = body->particle[k];
     if (system->constrained[p]) continue;
@@ -311,7 +303,7 @@ void hk_body_drift(const void *thing, double h, double *own) {
 void hk_body_slope(const void *body, const double *own, const double *push, double *slope) {
   double m[3][3], w[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
-  find_angular_velocity(body, m, own, w);
+  divide_by_inertia(body, m, own + HOOKE_BODY_SPIN, w);
   const double rotation[4] = {0.0, 0.5 * w[0], 0.5 * w[1], 0.5 * w[2]};
   multiply(rotation, own + HOOKE_BODY_TURN, slope + HOOKE_BODY_TURN);
   for (int a = 0; a < 3; a++) {

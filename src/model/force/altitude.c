@@ -102,16 +102,3 @@ int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_
     status = find_rest(system, hooke_options_number(options, "rest_scale"), &group, k);
   return hk_group_end(system, status, &group);
 }
-
-/* ---- queries ---- */
-
-int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length) {
-  const int32_t status = hk_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
-  for (int64_t k = 0; k < system->altitudes->count; k++) {
-    struct hk_tautness tautness;
-    const int32_t found = hk_tautness_find(&system->altitudes->tetrahedron[k], q, NULL, &tautness);
-    length[k] = found ? tautness.altitude.length : 0.0;
-  }
-  return HOOKE_OK;
-}

@@ -27,14 +27,6 @@ struct hk_tautness {
 int32_t hk_tautness_find(const struct hk_tetrahedron *tetrahedron, const double *q, const double *v,
                          struct hk_tautness *tautness);
 
-/* Its derivative along dq and dv: of u, the weights and the tension. */
-struct hk_tautness_change {
-  double u[3], weight[4], tension;
-};
-void hk_tautness_differentiate(const struct hk_tetrahedron *tetrahedron, const struct hk_tautness *tautness,
-                               const double *q, const double *v, const double *dq, const double *dv,
-                               struct hk_tautness_change *change);
-
 /* Rest lengths and orientation of a tetrahedron with corners x, rest lengths times `scale`. HOOKE_BAD_VALUE,
  * with the particles, if it is flat. */
 int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *tetrahedron);

@@ -3,16 +3,14 @@
 #include "model/force/force.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 void hk_begin_elements(const hooke_system *system, const double *q, const double *v, struct hk_elements *at) {
+  memset(at, 0, offsetof(struct hk_elements, element));
   at->system = system;
   at->q = q;
   at->v = v;
-  at->only = NULL;
-  at->force = NULL;
-  at->kinds = at->by_number = at->next = 0;
-  at->batches = at->done = at->first = at->count = at->k = 0;
 }
 
 static int is_wanted(const struct hk_elements *at, const struct hk_force_row *force) {

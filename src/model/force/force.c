@@ -108,9 +108,11 @@ static void add_column(const hooke_system *system, const struct hk_force_row *ro
                        double *blocks) {
   struct hk_member_change change;
   if (blocks == NULL || !row->change(system, number, point, &change)) return;
-  for (int i = 0; i < 3 * change.count; i++)
-    blocks[9 * hk_pattern_block(pattern, change.particle[i / 3], j) + 3 * (i % 3) + a] +=
-        change.force[i / 3][i % 3];
+  for (int i = 0; i < change.count; i++) {
+    double *column = blocks + 9 * hk_pattern_block(pattern, change.particle[i], j) + a;
+    for (int b = 0; b < 3; b++)
+      column[3 * b] += change.force[i][b];
+  }
 }
 
 /* `unit` has 6n zeros. */
@@ -137,9 +139,10 @@ static void add_columns(const hooke_system *system, const struct hk_force_row *r
 static void add_blocks(const hooke_system *system, const struct hk_force_row *row, const double *q,
                        const double *v, double *unit, const struct hk_pattern *pattern, double *dfdq,
                        double *dfdv) {
-  if (row->add_blocks) row->add_blocks(system, q, v, pattern, dfdq, dfdv);
-  if (row->change) add_columns(system, row, q, v, unit, pattern, dfdq, dfdv);
-  if (row->add_blocks || row->change) return;
+  if (row->change) {
+    add_columns(system, row, q, v, unit, pattern, dfdq, dfdv);
+    return;
+  }
   struct hk_elements at;
   hk_begin_elements(system, q, v, &at);
   at.only = row;

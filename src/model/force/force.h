@@ -80,9 +80,6 @@ struct hk_force_row {
                     struct hk_member_change *out);
   /* out += (df/dq) dq + (df/dv) dv */
   int32_t (*add_product)(const hooke_system *system, const struct hk_point *point, double *out);
-  /* adds df/dq and df/dv to 3x3 blocks; either may be NULL */
-  void (*add_blocks)(const hooke_system *system, const double *q, const double *v,
-                     const struct hk_pattern *pattern, double *dfdq, double *dfdv);
   /* number of elements (NULL: in a force with groups an element is a member), and those from number `first`
    * on: see element.h */
   int64_t (*count)(const hooke_system *system);

@@ -1,11 +1,13 @@
 /* Springs. Derivative of f = -T u with T = kappa (r - l0) + gamma v.u, u = x/r, P = I - u u^T:
  *   df/dx = -(u (kappa u + gamma P v / r)^T + (T/r) P)     df/dv = -gamma u u^T */
 
+#include "core/memory.h"
 #include "core/sum.h"
 #include "model/sum/spring_batch.h"
 #include "model/check_value.h"
 #include "model/force/force.h"
 #include "model/sum/tiled.h"
+#include "model/vector3.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -92,15 +94,6 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return hk_sum_value(&sum);
 }
 
-void hk_spring_slope_blocks(const struct hk_spring_slope *s, double stiff[9], double damp[9]) {
-  for (int k = 0; k < 9; k++) {
-    const int a = k / 3, b = k % 3;
-    const double one = a == b ? 1.0 : 0.0;
-    stiff[k] = s->isotropic ? s->b * one : s->u[a] * s->c[b] + s->b * (one - s->u[a] * s->u[b]);
-    damp[k] = s->isotropic ? 0.0 : s->gamma * s->u[a] * s->u[b];
-  }
-}
-
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   const struct hk_derivative_rows rows = {point->q, point->v, point->dq, point->dv, out};
   for (int64_t r = 0; r < system->springs->run_count; r++)
@@ -108,35 +101,23 @@ static int32_t add_product(const hooke_system *system, const struct hk_point *po
   return 0;
 }
 
-static void add_pair(const struct hk_pattern *pattern, int64_t i, int64_t j, const double block[9],
-                     double *blocks) {
-  if (blocks == NULL) return;
-  double *ii = blocks + 9 * hk_pattern_block(pattern, i, i),
-         *ij = blocks + 9 * hk_pattern_block(pattern, i, j);
-  double *ji = blocks + 9 * hk_pattern_block(pattern, j, i),
-         *jj = blocks + 9 * hk_pattern_block(pattern, j, j);
-  for (int a = 0; a < 9; a++) {
-    ii[a] -= block[a];
-    ij[a] += block[a];
-    ji[a] += block[a];
-    jj[a] -= block[a];
+static int32_t change(const hooke_system *system, int64_t number, const struct hk_point *point,
+                      struct hk_member_change *out) {
+  const struct hk_spring spring = hk_springs_find(system->springs, number);
+  const int64_t i = 3 * spring.head, j = 3 * spring.tail;
+  struct hk_spring_slope s;
+  double dx[3], dv[3];
+  out->count = 2;
+  out->particle[0] = (int32_t)spring.head;
+  out->particle[1] = (int32_t)spring.tail;
+  if (!hk_spring_slope_find(&spring, point->q, point->v, &s)) return 0;
+  for (int a = 0; a < 3; a++) {
+    dx[a] = point->dq[i + a] - point->dq[j + a];
+    dv[a] = point->dv[i + a] - point->dv[j + a];
   }
-}
-
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  for (int64_t r = 0; r < system->springs->run_count; r++) {
-    const struct hk_run *run = &system->springs->run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
-      struct hk_spring_slope s;
-      double stiff[9], damp[9];
-      if (!hk_spring_slope_find(&spring, q, v, &s)) continue;
-      hk_spring_slope_blocks(&s, stiff, damp);
-      add_pair(pattern, spring.head, spring.tail, stiff, dfdq);
-      add_pair(pattern, spring.head, spring.tail, damp, dfdv);
-    }
-  }
+  hk_spring_slope_change(&s, dx, dv, out->force[1]);
+  hk_scale3(-1.0, out->force[1], out->force[0]);
+  return 1;
 }
 
 /* ---- elements ---- */
@@ -203,6 +184,53 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 
 /* ---- from groups ---- */
 
+static void add_run(hooke_system *system, const struct hk_piece *piece) {
+  struct hk_springs *springs = system->springs;
+  struct hk_run *run = &springs->run[springs->run_count++];
+  int32_t *const *particle = piece->group->particle;
+  double *const *number = piece->group->number;
+  const int64_t from = piece->from;
+  int damped = 0;
+  for (int64_t k = from; k < from + piece->count && !damped; k++)
+    damped = number[HOOKE_GAMMA][k] != 0.0;
+  run->first = springs->count;
+  run->count = piece->count;
+  run->shape = (piece->indexed ? HOOKE_RUN_INDEXED : 0) | (piece->mixed ? HOOKE_RUN_MIXED : 0) |
+               (damped ? HOOKE_RUN_DAMPED : 0) | (piece->group->pull_only ? HOOKE_RUN_PULL_ONLY : 0);
+  run->start = particle[0][from];
+  run->offset = particle[1][from] - run->start;
+  run->kappa = number[HOOKE_KAPPA][from];
+  run->gamma = number[HOOKE_GAMMA][from];
+  run->rest_length = number[HOOKE_REST_LENGTH][from];
+  run->head = piece->particle[0];
+  run->tail = piece->particle[1];
+  run->kappas = piece->number[HOOKE_KAPPA];
+  run->gammas = piece->number[HOOKE_GAMMA];
+  run->rest_lengths = piece->number[HOOKE_REST_LENGTH];
+  run->loop = hk_spring_set(0)->loop[run->shape];
+  run->undamped_loop = hk_spring_set(0)->loop[run->shape & ~HOOKE_RUN_DAMPED];
+  springs->count += piece->count;
+}
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  struct hk_springs *springs = system->springs;
+  memset(springs, 0, sizeof *springs);
+  return hk_runs_commit(system, &hk_force_springs, group, count, &springs->stored, (void **)&springs->run,
+                        sizeof *springs->run, add_run);
+}
+
+static void release(hooke_system *system) {
+  hk_free(system->springs->run);
+  hk_stored_release(&system->springs->stored);
+  memset(system->springs, 0, sizeof *system->springs);
+}
+
+static int64_t memory(const hooke_system *system) {
+  const struct hk_springs *springs = system->springs;
+  return springs->run_count * (int64_t)sizeof *springs->run +
+         hk_stored_memory(&hk_force_springs, &springs->stored);
+}
+
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_spring_batch batch;
   hk_check_whole(value, system->springs->count);
@@ -217,11 +245,8 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
-  const struct hk_run *run = &system->springs->run[hk_springs_run(system->springs, first)];
   for (int64_t k = 0; k < to->count; k++) {
-    while (first + k >= run->first + run->count)
-      run++;
-    const struct hk_spring spring = hk_run_spring(run, first + k - run->first);
+    const struct hk_spring spring = hk_springs_find(system->springs, first + k);
     to->particle[0][k] = (int32_t)spring.head;
     to->particle[1][k] = (int32_t)spring.tail;
     to->number[HOOKE_KAPPA][k] = spring.kappa;
@@ -240,9 +265,9 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .width = {1, 1, 1},
                                               .member_particles = 2,
                                               .recall = recall,
-                                              .commit = hk_springs_commit,
-                                              .release = hk_springs_release,
-                                              .memory = hk_springs_memory,
+                                              .commit = commit,
+                                              .release = release,
+                                              .memory = memory,
                                               .check = check,
                                               .bytes = 50.0,
                                               .add = add,
@@ -250,7 +275,7 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .energy = energy,
                                               .heat = heat,
                                               .add_product = add_product,
-                                              .add_blocks = add_blocks,
+                                              .change = change,
                                               .elements = elements,
                                               .stored_elements = stored_elements,
                                               .add_stiffness = add_stiffness};

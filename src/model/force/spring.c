@@ -43,12 +43,6 @@ struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t numbe
   return hk_run_spring(run, number - run->first);
 }
 
-void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch) {
-  struct hk_spring taut = *spring;
-  taut.pull_only = 0;
-  hk_spring_stretch(&taut, q, NULL, stretch);
-}
-
 /* ---- adding a group ---- */
 
 static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {

@@ -6,7 +6,8 @@
 #include "kernel/spring/spring_body.h"
 #include "kernel/spring/spring_loops.h"
 #include "model/force/element.h"
-#include "model/group.h"
+#include "model/sum/runs.h"
+#include "model/vector3.h"
 
 extern const struct hk_option_table hk_spring_options;
 
@@ -15,9 +16,7 @@ struct hk_springs {
   int64_t count;
   int64_t run_count;
   struct hk_run *run;
-  int64_t indexed_count, mixed_count; /* springs with individually stored ends or material */
-  int32_t *head, *tail;
-  double *kappa, *gamma, *rest_length;
+  struct hk_stored stored;
 };
 
 /* A spring, whatever run it is in. */
@@ -28,15 +27,13 @@ struct hk_spring {
 };
 
 static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
-  const struct hk_material material = hk_run_material(run, k);
-  struct hk_spring spring;
-  spring.head = hk_run_head(run, k);
-  spring.tail = hk_run_tail(run, k);
-  spring.kappa = material.kappa;
-  spring.gamma = material.gamma;
-  spring.rest_length = material.rest_length;
-  spring.pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
-  return spring;
+  const struct hk_material m = hk_run_material(run, k);
+  return (struct hk_spring){hk_run_head(run, k),
+                            hk_run_tail(run, k),
+                            m.kappa,
+                            m.gamma,
+                            m.rest_length,
+                            (run->shape & HOOKE_RUN_PULL_ONLY) != 0};
 }
 
 /* A spring at given ends: length, direction (zeros if it has none), tension and rate of stretch; v may be
@@ -66,9 +63,6 @@ HOOKE_INLINE void hk_spring_stretch(const struct hk_spring *spring, const double
   stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : elastic;
 }
 
-/* The same at rest and with tension: a spring that only pulls may become taut at any time. */
-void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch);
-
 /* Derivative of the force on the first end: -(stiffness dx + damping dv) with df/dx = -(u c^T + b (I - u
  * u^T)) and df/dv = -gamma u u^T. Returns 0 if it is zero. */
 struct hk_spring_slope {
@@ -97,19 +91,13 @@ HOOKE_INLINE int32_t hk_spring_slope_find(const struct hk_spring *spring, const 
   return 1;
 }
 
-HOOKE_INLINE double hk_dot_of_rows(const double *a, const double *b) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
 HOOKE_INLINE void hk_spring_slope_change(const struct hk_spring_slope *s, const double dx[3],
                                          const double dv[3], double change[3]) {
-  const double along = s->isotropic ? 0.0 : hk_dot_of_rows(s->u, dx);
-  const double pull = s->isotropic ? 0.0 : hk_dot_of_rows(s->c, dx) + s->gamma * hk_dot_of_rows(s->u, dv);
+  const double along = s->isotropic ? 0.0 : hk_dot3(s->u, dx);
+  const double pull = s->isotropic ? 0.0 : hk_dot3(s->c, dx) + s->gamma * hk_dot3(s->u, dv);
   for (int a = 0; a < 3; a++)
     change[a] = s->isotropic ? s->b * dx[a] : pull * s->u[a] + s->b * (dx[a] - along * s->u[a]);
 }
-
-void hk_spring_slope_blocks(const struct hk_spring_slope *slope, double stiff[9], double damp[9]);
 
 /* A spring as an element. */
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
@@ -126,12 +114,5 @@ int32_t hk_springs_find_material(const hooke_system *system, const hooke_options
 /* Finds the run of a spring, and the spring. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
 struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number);
-
-/* Sorts the groups of a system into runs. HOOKE_NO_MEMORY leaves `springs` empty. */
-int32_t hk_springs_commit(hooke_system *system, const struct hk_group *group, int64_t group_count);
-void hk_springs_release(hooke_system *system);
-/* Replaces the material of runs by a lookup elsewhere. */
-void hk_springs_drop_material(struct hk_springs *springs);
-int64_t hk_springs_memory(const hooke_system *system);
 
 #endif

@@ -198,9 +198,9 @@ static void look_up_in_batches(struct hk_springs *springs, struct hk_strided_bat
     run->of_batches = strided->material;
     run->kappas = run->gammas = run->rest_lengths = NULL;
   }
-  if (springs->mixed_count > 0) {
+  if (springs->stored.mixed > 0) {
     strided->memory += springs->count;
-    hk_springs_drop_material(springs);
+    hk_stored_drop_numbers(&springs->stored);
     return;
   }
   hk_free(strided->batch_of);

@@ -283,7 +283,7 @@ static int32_t move_material(struct maker *maker) {
     }
     if (run->shape & HOOKE_RUN_MIXED) point_to_tiled(tiled, &tiled->kind[maker->kind_of[r]], run);
   }
-  hk_springs_drop_material(springs);
+  hk_stored_drop_numbers(&springs->stored);
   return HOOKE_OK;
 }
 
@@ -291,7 +291,7 @@ static int32_t move_material(struct maker *maker) {
 
 static int may_pay(const struct hk_springs *springs, int64_t particle_count) {
   return springs->count >= (particle_count <= HOOKE_TILE ? LEAST_SPRINGS : LEAST_STORED) &&
-         (double)(springs->count - springs->indexed_count) <= MOST_IN_RUNS * (double)springs->count;
+         (double)(springs->count - springs->stored.indexed) <= MOST_IN_RUNS * (double)springs->count;
 }
 
 static int32_t make(struct maker *maker, const double *inverse_mass) {

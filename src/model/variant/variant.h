@@ -95,10 +95,6 @@ int32_t hk_variant_constrain(struct hk_variant_maker *maker);
  * whose springs differ. */
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first);
-/* Adds a group that no part adds; `first` is the number of its first member. Members keep their numbers, but
- * for springs whose options are known. */
-int32_t hk_variant_keep_group(const struct hk_variant_maker *maker, const struct hk_group *group,
-                              int64_t first);
 /* HOOKE_UNSUITED if particles are renumbered, for a force (`what`) that knows them by their numbers. */
 int32_t hk_variant_require_numbers(const struct hk_variant_maker *maker, const char *what);
 
