@@ -89,7 +89,7 @@ def test_keys(found):
     assert answer["judged_until"] == pytest.approx(0.2)
     assert set(answer["full"]) == COST | {"own_error", "moved"} and answer["full"]["step_error"] <= 3e-4
     assert answer["full"]["own_error"] <= answer["full"]["step_error"] and answer["full"]["moved"] > 0.03
-    assert [claim["key"] for claim in answer["claims"]][0] == "lean" and {claim["of"] for claim in answer["claims"]} == {"whole"}
+    assert next(claim["key"] for claim in answer["claims"]) == "lean" and {claim["of"] for claim in answer["claims"]} == {"whole"}
     assert all(set(row) == COST | {"without", "kind", "error", "needed", "left_out", "note"} for row in answer["rows"])
     assert set(answer["lean"]) == COST | {"scene", "without", "error", "full", "times_less", "other_method", "other_seconds",
                                            "note", "command"}

@@ -3,7 +3,6 @@
 import csv
 import json
 import math
-import re
 import shlex
 import time
 from pathlib import Path

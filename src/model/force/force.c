@@ -139,6 +139,10 @@ static void add_columns(const hooke_system *system, const struct hk_force_row *r
 static void add_blocks(const hooke_system *system, const struct hk_force_row *row, const double *q,
                        const double *v, double *unit, const struct hk_pattern *pattern, double *dfdq,
                        double *dfdv) {
+  if (row->add_blocks) {
+    row->add_blocks(system, q, v, pattern, dfdq, dfdv);
+    return;
+  }
   if (row->change) {
     add_columns(system, row, q, v, unit, pattern, dfdq, dfdv);
     return;

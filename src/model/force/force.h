@@ -78,6 +78,9 @@ struct hk_force_row {
    * say */
   int32_t (*change)(const hooke_system *system, int64_t number, const struct hk_point *point,
                     struct hk_member_change *out);
+  /* adds df/dq and df/dv to 3x3 blocks, either of which may be NULL, quicker than from changes or elements */
+  void (*add_blocks)(const hooke_system *system, const double *q, const double *v,
+                     const struct hk_pattern *pattern, double *dfdq, double *dfdv);
   /* out += (df/dq) dq + (df/dv) dv */
   int32_t (*add_product)(const hooke_system *system, const struct hk_point *point, double *out);
   /* number of elements (NULL: in a force with groups an element is a member), and those from number `first`

@@ -101,23 +101,41 @@ static int32_t add_product(const hooke_system *system, const struct hk_point *po
   return 0;
 }
 
-static int32_t change(const hooke_system *system, int64_t number, const struct hk_point *point,
-                      struct hk_member_change *out) {
-  const struct hk_spring spring = hk_springs_find(system->springs, number);
-  const int64_t i = 3 * spring.head, j = 3 * spring.tail;
-  struct hk_spring_slope s;
-  double dx[3], dv[3];
-  out->count = 2;
-  out->particle[0] = (int32_t)spring.head;
-  out->particle[1] = (int32_t)spring.tail;
-  if (!hk_spring_slope_find(&spring, point->q, point->v, &s)) return 0;
-  for (int a = 0; a < 3; a++) {
-    dx[a] = point->dq[i + a] - point->dq[j + a];
-    dv[a] = point->dv[i + a] - point->dv[j + a];
+/* Adds a block and its mirror images where ends i and j meet. */
+static void add_pair(const struct hk_pattern *pattern, int64_t i, int64_t j, const double block[9],
+                     double *blocks) {
+  if (blocks == NULL) return;
+  double *ii = blocks + 9 * hk_pattern_block(pattern, i, i),
+         *ij = blocks + 9 * hk_pattern_block(pattern, i, j);
+  double *ji = blocks + 9 * hk_pattern_block(pattern, j, i),
+         *jj = blocks + 9 * hk_pattern_block(pattern, j, j);
+  for (int a = 0; a < 9; a++) {
+    ii[a] -= block[a];
+    ij[a] += block[a];
+    ji[a] += block[a];
+    jj[a] -= block[a];
   }
-  hk_spring_slope_change(&s, dx, dv, out->force[1]);
-  hk_scale3(-1.0, out->force[1], out->force[0]);
-  return 1;
+}
+
+static void add_blocks(const hooke_system *system, const double *q, const double *v,
+                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
+    for (int64_t n = 0; n < run->count; n++) {
+      const struct hk_spring spring = hk_run_spring(run, n);
+      struct hk_spring_slope s;
+      double stiff[9], damp[9];
+      if (!hk_spring_slope_find(&spring, q, v, &s)) continue;
+      for (int k = 0; k < 9; k++) {
+        const int a = k / 3, b = k % 3;
+        const double one = a == b ? 1.0 : 0.0;
+        stiff[k] = s.isotropic ? s.b * one : s.u[a] * s.c[b] + s.b * (one - s.u[a] * s.u[b]);
+        damp[k] = s.isotropic ? 0.0 : s.gamma * s.u[a] * s.u[b];
+      }
+      add_pair(pattern, spring.head, spring.tail, stiff, dfdq);
+      add_pair(pattern, spring.head, spring.tail, damp, dfdv);
+    }
+  }
 }
 
 /* ---- elements ---- */
@@ -275,7 +293,7 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .energy = energy,
                                               .heat = heat,
                                               .add_product = add_product,
-                                              .change = change,
+                                              .add_blocks = add_blocks,
                                               .elements = elements,
                                               .stored_elements = stored_elements,
                                               .add_stiffness = add_stiffness};
