@@ -10,7 +10,7 @@ import re
 NUMBER = r"[-+]?(?:\d+(?:\.\d*)?(?:e[-+]?\d+)?|nan|inf)"
 WORD = re.compile(rf"[(<]?({NUMBER})[,;:.)]*")
 COLUMN = re.compile(r"(?:wall time|ns a|time \[ns\])(?=  |\s*$)")  # of times, aligned to the right
-TIMED = re.compile(rf"(?:wall time|took|its\s+runs|it\s+takes|takes|takes up\s+to|there\s+in|scene\s+takes)\s+({NUMBER})|\(({NUMBER}) times less|({NUMBER}) % longer")
+TIMED = re.compile(rf"(?:wall time|\(median|took|its\s+runs|it\s+takes|takes|takes up\s+to|there\s+in|scene\s+takes)\s+({NUMBER})|\(({NUMBER}) times less|({NUMBER}) % longer")
 SUNDIALS = re.compile(r"\s*(?:(?:cvode|arkode)-|floor )")
 CLOSE, LOOSE = 5e-3, 2.0
 
