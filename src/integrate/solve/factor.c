@@ -189,10 +189,6 @@ static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_
   return x->numbers <= (double)most ? 1 : -1;
 }
 
-int32_t hk_factor_is_built(void) {
-  return hk_cholmod != NULL;
-}
-
 int32_t hk_factor_require(const hooke_options *options) {
   if (hk_cholmod || strcmp(hooke_options_text(options, "linear_solver"), "direct") != 0) return HOOKE_OK;
   return hk_fail(HOOKE_NOT_BUILT, "linear_solver",

@@ -13,8 +13,7 @@
 
 struct hk_factor;
 
-int32_t hk_factor_is_built(void);
-/* HOOKE_NOT_BUILT if it is not, and the options of a run ask for it. */
+/* HOOKE_NOT_BUILT if the build has none, and the options of a run ask for it. */
 int32_t hk_factor_require(const hooke_options *options);
 
 /* Finds order and sizes if there are at most `most` numbers: HOOKE_OK with *factor NULL if there are more,

@@ -324,14 +324,17 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 
 /* ---- refining ---- */
 
+int32_t hk_estimate_knows_all(const struct hk_estimate *e) {
+  return e->known_until >= e->begin + e->duration * (1.0 - 1e-9);
+}
+
 double hk_estimate_met(const struct hk_estimate *e) {
-  const double end = e->begin + e->duration;
   if (isnan(e->want)) return NAN;
   if (is_out_of_reach(e) && e->error - 2.0 * e->pick.reference.agreement <= e->want) return NAN;
   if (e->error > e->want || (e->options && !isnan(e->error) && !hk_soundness_holds(&e->soundness)))
     return 0.0;
   if (e->soundness.unknown_limit) return NAN;
-  return e->error <= e->want && e->known_until >= end - 1e-9 * e->duration ? 1.0 : NAN;
+  return e->error <= e->want && hk_estimate_knows_all(e) ? 1.0 : NAN;
 }
 
 /* Next finer step or tolerance of the same method. */

@@ -50,6 +50,8 @@ extern const struct hk_table hk_estimate_tables[];
 /* What it says of the error of the run (estimate_claims.c). */
 void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
+/* 1 if its error is known to the end of the run. */
+int32_t hk_estimate_knows_all(const struct hk_estimate *estimate);
 /* 1 if the run meets the wanted error, 0 if not, NaN if that is unknown or none is wanted. */
 double hk_estimate_met(const struct hk_estimate *estimate);
 

@@ -21,9 +21,8 @@ static const char *source_of(const char *by) {
 }
 
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
-  const int whole = e->known_until >= e->begin + e->duration * (1.0 - 1e-9);
   if (e->by)
-    hk_claim(claims, "error", whole ? HOOKE_OF_WHOLE : HOOKE_OF_PART, e->by,
+    hk_claim(claims, "error", hk_estimate_knows_all(e) ? HOOKE_OF_WHOLE : HOOKE_OF_PART, e->by,
              "the error is at most %.3g m until t = %.6g s, of any particle (root mean square %.2g m), %s",
              e->error, e->known_until, e->rms, source_of(e->by));
   else

@@ -150,6 +150,8 @@ int32_t hk_study_find_margin(struct hk_study *study);
 /* Time up to which errors are known [s]; NaN without a reference. And 1 if that is the whole run. */
 double hk_study_trusted_until(const struct hk_study *study);
 int32_t hk_study_trusts_all(const struct hk_study *study);
+/* The error of the recommendation [m] less what the reference is known to, 0 at least; NaN if not known. */
+double hk_study_least_error(const struct hk_study *study);
 /* 1 if there is a recommendation: a run that meets the want or, in a complete study, the closest one. */
 int32_t hk_study_recommends(const struct hk_study *study);
 /* 1 unless the want is met as far as errors are known, and they are not known to the end. */

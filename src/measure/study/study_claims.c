@@ -78,10 +78,10 @@ static void tell_change(const struct teller *t, const char *key, const char *cha
 
 static void tell_margin(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
-  const double fraction = r->margin.limit_share, agreement = t->study->reference.agreement;
+  const double fraction = r->margin.limit_share;
   say(t, "margin", t->of, "reference",
       "that error%s lies between %.3g and %.3g m, by what the reference is known to", t->where,
-      fmax(0.0, r->error - agreement), r->error + agreement);
+      hk_study_least_error(t->study), r->error + t->study->reference.agreement);
   if (fraction > 0.0 && !isinf(fraction))
     say(t, "stability", HOOKE_OF_PART, "limit", "its step is %.2g of the largest stable one at the start",
         fraction);

@@ -87,12 +87,12 @@ HOOKE_READER(const char *, command, struct hk_study,
 /* ---- its margin ---- */
 
 /* fmax() would take an unknown number for 0. */
-static double least_error(const struct hk_study *study) {
+double hk_study_least_error(const struct hk_study *study) {
   const double least = study->recommendation.error - study->reference.agreement;
   return isnan(study->recommendation.error) ? NAN : fmax(0.0, least);
 }
 
-HOOKE_READER(double, error_low, struct hk_study, least_error(it))
+HOOKE_READER(double, error_low, struct hk_study, hk_study_least_error(it))
 HOOKE_READER(double, error_high, struct hk_study, it->recommendation.error + it->reference.agreement)
 
 /* ---- watched quantities ---- */

@@ -48,15 +48,10 @@ int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t
 
 /* Starts at triple `number`. */
 static struct hk_triples triples_from(const struct hk_bending *bending, int64_t number) {
-  int64_t low = 0, high = bending->run_count - 1;
-  while (low < high) {
-    const int64_t middle = low + (high - low + 1) / 2;
-    if (bending->run[middle].first <= number)
-      low = middle;
-    else
-      high = middle - 1;
-  }
-  return (struct hk_triples){bending, low, bending->run_count > 0 ? number - bending->run[low].first : 0};
+  if (bending->run_count == 0) return (struct hk_triples){bending, 0, 0};
+  const struct hk_bending_run *run = bending->run;
+  const int64_t found = hk_runs_find(&run->first, bending->run_count, sizeof *run, number);
+  return (struct hk_triples){bending, found, number - run[found].first};
 }
 
 /* f += factor times the forces at x; x, y and z apart. */

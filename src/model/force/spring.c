@@ -27,15 +27,7 @@ static const struct hk_option_row spring_rows[] = {
 const struct hk_option_table hk_spring_options = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};
 
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number) {
-  int64_t low = 0, high = springs->run_count - 1;
-  while (low < high) {
-    const int64_t middle = low + (high - low + 1) / 2;
-    if (springs->run[middle].first <= number)
-      low = middle;
-    else
-      high = middle - 1;
-  }
-  return low;
+  return hk_runs_find(&springs->run->first, springs->run_count, sizeof *springs->run, number);
 }
 
 struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number) {

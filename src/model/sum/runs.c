@@ -126,3 +126,15 @@ int32_t hk_runs_commit(hooke_system *system, const struct hk_force_row *force, c
     cut(&sorter, &group[g]);
   return HOOKE_OK;
 }
+
+int64_t hk_runs_find(const int64_t *first, int64_t count, size_t size, int64_t number) {
+  int64_t low = 0, high = count - 1;
+  while (low < high) {
+    const int64_t middle = low + (high - low + 1) / 2;
+    if (*(const int64_t *)(const void *)((const char *)first + (size_t)middle * size) <= number)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  return low;
+}

@@ -31,4 +31,8 @@ typedef void hk_run_add(hooke_system *system, const struct hk_piece *piece);
 int32_t hk_runs_commit(hooke_system *system, const struct hk_force_row *force, const struct hk_group *group,
                        int64_t count, struct hk_stored *stored, void **run, size_t size, hk_run_add *add);
 
+/* The run of member `number`: the last of `count` runs, `size` bytes apart, that begins with it or before it.
+ * `first`: the member of that name of the first run; 0 without any. */
+int64_t hk_runs_find(const int64_t *first, int64_t count, size_t size, int64_t number);
+
 #endif
