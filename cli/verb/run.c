@@ -22,13 +22,14 @@ static const char MAY_BE_GIVEN[] = "resume threads final no-why json quiet help"
 static double state_energy(struct cli_run *run) {
   const hooke_system *system = run->setup.system;
   const double *q = hooke_state_position(run->setup.state), *v = hooke_state_velocity(run->setup.state);
+  const double t = hooke_state_time(run->setup.state);
   double scale = hooke_system_energy(system, "kinetic", q, v);
   for (int64_t k = 0; hooke_system_force_name(system, k); k++) {
-    const double energy = hooke_system_energy(system, hooke_system_force_name(system, k), q, v);
+    const double energy = hooke_system_energy_at(system, hooke_system_force_name(system, k), t, q, v);
     if (!isnan(energy)) scale += fabs(energy); /* drag and callbacks have none */
   }
   run->energy_scale = fmax(run->energy_scale, scale);
-  return hooke_system_energy(system, "total", q, v);
+  return hooke_system_energy_at(system, "total", t, q, v);
 }
 
 /* ---- running ---- */

@@ -270,20 +270,26 @@ HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, do
 
 /* df/dq and df/dv as sparse 3x3 blocks, callbacks left out, in compressed rows: row_start (n + 1), column
  * (count, ascending within a row, the diagonal always there), and blocks of 9 in row order, `count` being
- * hooke_system_count(system, "blocks"). Either block array may be NULL. */
+ * hooke_system_count(system, "blocks"). Either block array may be NULL. The first function is of time 0. */
 HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start,
                                                   int64_t *column);
 HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                                  double *dfdq, double *dfdv);
+HOOKE_API int32_t hooke_system_derivative_blocks_at(const hooke_system *system, double t, const double *q,
+                                                    const double *v, double *dfdq, double *dfdv);
 
 /* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "gravity" (the
  * sum of -m g.q); "potential", their sum; "total". The kinetic energy needs v alone, the others q alone;
  * arrays that are not needed may be NULL. A callback has no energy. NaN for another word. Sums are
- * compensated (Neumaier 1974). They overflow to infinity. */
+ * compensated (Neumaier 1974). They overflow to infinity. The first function is of time 0. */
 HOOKE_API double hooke_system_energy(const hooke_system *system, const char *what, const double *q,
                                      const double *v);
-/* Power that damping and drag turn into heat [W], >= 0. */
+HOOKE_API double hooke_system_energy_at(const hooke_system *system, const char *what, double t,
+                                        const double *q, const double *v);
+/* Power that damping and drag turn into heat [W], >= 0. The first function is of time 0. */
 HOOKE_API double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v);
+HOOKE_API double hooke_system_dissipated_power_at(const hooke_system *system, double t, const double *q,
+                                                  const double *v);
 /* Momentum [kg m/s] and angular momentum about the origin [kg m^2/s] of the free particles, 3 numbers; zeros
  * before commit. */
 HOOKE_API void hooke_system_momentum(const hooke_system *system, const double *v, double *momentum);

@@ -15,7 +15,7 @@ int32_t hk_system_calls_back(const hooke_system *system) {
   int32_t calls = system->force ? HOOKE_CALLS_FORCE : 0;
   if (system->force && system->force_product) calls |= HOOKE_CALLS_DERIVATIVE;
   for (int64_t g = 0; g < system->drive_count; g++)
-    if (system->drive[g].kind == HOOKE_DRIVE_CALLBACK) calls |= HOOKE_CALLS_DRIVE;
+    if (system->drive[g].callback) calls |= HOOKE_CALLS_DRIVE;
   return calls;
 }
 

@@ -30,16 +30,11 @@ static void add_drives(const hooke_system *system, uint32_t *value) {
   hk_check_whole(value, system->drive_count);
   for (int64_t k = 0; k < system->drive_count; k++) {
     const struct hk_drive_group *drive = &system->drive[k];
-    hk_check_whole(value, drive->kind);
+    hk_check_whole(value, drive->callback != NULL);
     hk_check_whole(value, drive->count);
     hk_check_add(value, drive->particle, drive->count, sizeof *drive->particle);
     hk_check_add(value, drive->origin, 3 * drive->count, sizeof(double));
-    hk_check_add(value, drive->amplitude, 3, sizeof(double));
-    hk_check_add(value, &drive->frequency, 1, sizeof(double));
-    hk_check_add(value, &drive->phase, 1, sizeof(double));
-    hk_check_whole(value, drive->samples);
-    hk_check_add(value, drive->time, drive->samples, sizeof(double));
-    hk_check_add(value, drive->displacement, 3 * drive->samples, sizeof(double));
+    hk_course_check(&drive->course, value);
   }
 }
 

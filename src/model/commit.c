@@ -79,7 +79,7 @@ static int32_t fill_particles(hooke_system *system) {
 
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   struct hk_elements at;
-  hk_begin_elements(system, NULL, NULL, &at);
+  hk_begin_elements(system, 0.0, NULL, NULL, &at);
   at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++)

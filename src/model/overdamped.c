@@ -63,7 +63,7 @@ int32_t hk_overdamped_check(const hooke_system *system) {
 int32_t hk_overdamped_check_forces(const hooke_system *system) {
   if (!system->overdamped || !hk_system_is_damped(system, ~HOOKE_UNIFORM)) return HOOKE_OK;
   struct hk_elements at;
-  hk_begin_elements(system, system->position, NULL, &at);
+  hk_begin_elements(system, 0.0, system->position, NULL, &at);
   at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (e->c_along == 0.0 && e->c_across == 0.0) continue;

@@ -82,7 +82,7 @@ static int64_t memory(const hooke_system *system) {
            system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
   for (int64_t k = 0; k < system->drive_count; k++) {
-    bytes += system->drive[k].count * 28 + system->drive[k].samples * 56;
+    bytes += system->drive[k].count * 28 + system->drive[k].course.samples * 56;
   }
   return bytes;
 }

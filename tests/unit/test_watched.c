@@ -35,7 +35,7 @@ static void check_form(struct hk_watched_list *list, const char *text, const cha
   assert_int_equal(list->count, count + 1);
   assert_int_equal(hk_watched_find(list, text), count);
   assert_string_equal(hk_watched_unit(&list->item[count]), unit);
-  const double found = hk_watched_value(&list->item[count], list->system, q, v);
+  const double found = hk_watched_value(&list->item[count], list->system, 0.0, q, v);
   if (!(fabs(found - value) <= 1e-12 * (1.0 + fabs(value))))
     check_failed("%s is %.17g, expected %.17g", text, found, value);
 }
@@ -175,7 +175,7 @@ static double tension(const hooke_system *system, double r, double rate) {
   const double q[] = {0, 0, 0, r, 0, 0}, v[] = {0, 0, 0, rate, 0, 0};
   struct hk_watched watched = {.kind = HOOKE_WATCHED_TENSION,
                                .spring = hk_run_spring(&system->springs->run[0], 0)};
-  return hk_watched_value(&watched, system, q, v);
+  return hk_watched_value(&watched, system, 0.0, q, v);
 }
 
 static double energy(const hooke_system *system, double r) {

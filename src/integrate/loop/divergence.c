@@ -27,7 +27,7 @@
 static const double RISE = 100.0, ROUNDING = 1e-12;
 
 static int has_energy_bound(const hooke_integrator *it) {
-  return it->system && it->system->force == NULL && it->system->drive_count == 0;
+  return it->system && it->system->force == NULL && !hk_system_takes_work(it->system);
 }
 
 int32_t hk_all_finite(int64_t count, const double *value) {

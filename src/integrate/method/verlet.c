@@ -233,7 +233,7 @@ static double larger(double along, double across, double over) {
 /* Stiffness and damping of all elements but drag at every particle, 2n. */
 static void add_rows(const hooke_system *system, double *stiffness, double *damping) {
   struct hk_elements at;
-  hk_begin_elements(system, system->position, NULL, &at);
+  hk_begin_elements(system, 0.0, system->position, NULL, &at);
   at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     const double k = larger(e->k_along, e->k_across, e->over), c = larger(e->c_along, e->c_across, e->over);

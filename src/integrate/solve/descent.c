@@ -61,7 +61,8 @@ static double slack_of(const struct hk_descent *descent, const struct hk_motion 
 
 double hk_descent_energy(struct hk_descent *descent, const hooke_integrator *it) {
   if (take_rows(it->motion, descent->rows)) return descent->energy;
-  const struct hk_energies at = hk_state_energies(&(hooke_state){.q = descent->rows}, it->system);
+  double t = it->t;
+  const struct hk_energies at = hk_state_energies(&(hooke_state){.t = &t, .q = descent->rows}, it->system);
   descent->energy = at.potential;
   descent->slack = slack_of(descent, it->motion, descent->stiffness, at.elastic);
   return descent->energy;

@@ -123,7 +123,7 @@ static struct slot find_place(const struct hk_factor *x, int64_t one, int64_t ot
 static int64_t locate_others(const struct hk_factor *x, struct slot *slot) {
   struct hk_elements at;
   int64_t count = 0;
-  hk_begin_elements(x->system, NULL, NULL, &at);
+  hk_begin_elements(x->system, 0.0, NULL, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 1; j < e->count; j++) {
@@ -346,7 +346,7 @@ static void add_others(const struct hk_factor *x, const struct hk_factor_parts *
         slot = add_element(x, kept++, parts, slot);
       continue;
     }
-    hk_begin_elements(x->system, x->system->position, NULL, &at);
+    hk_begin_elements(x->system, 0.0, x->system->position, NULL, &at);
     at.only = force;
     for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
       slot = add_element(x, e, parts, slot);

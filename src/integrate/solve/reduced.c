@@ -104,7 +104,7 @@ static void add_element(const struct hk_element *e, double alpha, double beta, d
 static void add_others(const struct hk_reduced *reduced, double *const block[6]) {
   const hooke_system *system = reduced->integrator->system;
   struct hk_elements at;
-  hk_begin_elements(system, system->position, NULL, &at);
+  hk_begin_elements(system, 0.0, system->position, NULL, &at);
   at.kinds = HOOKE_CONSTANT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     add_element(e, reduced->alpha, reduced->beta, block);
@@ -142,7 +142,7 @@ static void see_elements(struct hk_reduced *reduced) {
   struct hk_element *kept = reduced->element;
   struct hk_elements at;
   if (reduced->element_count == 0) return;
-  hk_begin_elements(system, reduced->rows, reduced->rows + 3 * system->particle_count, &at);
+  hk_begin_elements(system, reduced->t, reduced->rows, reduced->rows + 3 * system->particle_count, &at);
   at.kinds = HOOKE_KEPT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     *kept = *e;

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
+#include "model/force/force.h"
 
 #include <float.h>
 #include <math.h>
@@ -475,7 +476,7 @@ static double time_of(const hooke_integrator *it, int64_t part) {
 static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts) {
   hooke_integrator *it = stage->reduced.integrator;
   const double end = time_of(it, done + parts);
-  const int guarded = stage->descent.rows != NULL && it->system->drive_count == 0;
+  const int guarded = stage->descent.rows != NULL && !hk_system_takes_work(it->system);
   const double energy = guarded ? hk_descent_energy(&stage->descent, it) : 0.0, slack = stage->descent.slack;
   hk_stage_save(stage, stage->start);
   int32_t status = parts == FINEST_SPLIT ? HOOKE_OK : hk_integrator_drive(it, end);

@@ -47,7 +47,9 @@ struct frames {
 static double energy_of(const hooke_system *system, const hooke_state *state) {
   const double *q = hooke_state_position((hooke_state *)state),
                *v = hooke_state_velocity((hooke_state *)state);
-  return hooke_system_energy(system, "kinetic", NULL, v) + hooke_system_energy(system, "potential", q, NULL) -
+  const double t = hooke_state_time(state);
+  return hooke_system_energy(system, "kinetic", NULL, v) +
+         hooke_system_energy_at(system, "potential", t, q, NULL) -
          hooke_system_energy(system, "gravity", q, NULL);
 }
 

@@ -276,20 +276,26 @@ static void add_bodies(struct writer *to, const struct hk_scene_list *list) {
   }
 }
 
+static void add_course(struct hk_text *text, const struct hk_course *course, const char *amplitude,
+                       const char *values) {
+  const int32_t columns = course->width > 1 ? course->width : 0;
+  hk_text_word(text, "motion", course->samples > 0 ? "table" : "harmonic");
+  if (course->samples > 0) {
+    add_numbers(text, "time", course->samples, 0, course->time);
+    add_numbers(text, values, course->width * course->samples, columns, course->value);
+  } else {
+    add_numbers(text, amplitude, course->width, 0, course->amplitude);
+    hk_text_number(text, "frequency", course->frequency);
+    hk_text_number(text, "phase", course->phase);
+  }
+}
+
 static void add_drives(struct writer *to, const struct hk_scene_list *list) {
   struct hk_text *text = &to->json;
   for (int64_t k = 0; k < to->system->drive_count; k++) {
     const struct hk_drive_group *drive = &to->system->drive[k];
     open_member(to, list, NULL, drive->count, &drive->particle);
-    hk_text_word(text, "motion", drive->kind == HOOKE_DRIVE_TABLE ? "table" : "harmonic");
-    if (drive->kind == HOOKE_DRIVE_TABLE) {
-      add_numbers(text, "time", drive->samples, 0, drive->time);
-      add_numbers(text, "position", 3 * drive->samples, 3, drive->displacement);
-    } else {
-      add_numbers(text, "amplitude", 3, 0, drive->amplitude);
-      hk_text_number(text, "frequency", drive->frequency);
-      hk_text_number(text, "phase", drive->phase);
-    }
+    add_course(text, &drive->course, "amplitude", "position");
     hk_text_close(text, '}');
   }
 }

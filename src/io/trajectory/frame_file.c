@@ -57,7 +57,7 @@ static void observe(const hooke_system *system, const hooke_state *state,
   value[0][0] = energies.kinetic;
   value[1][0] = energies.potential;
   value[2][0] = value[0][0] + value[1][0];
-  value[3][0] = hooke_system_dissipated_power(system, q, v);
+  value[3][0] = hooke_system_dissipated_power_at(system, hooke_state_time(state), q, v);
   hooke_system_momentum(system, v, value[4]);
   hooke_system_angular_momentum(system, q, v, value[5]);
 }

@@ -50,8 +50,8 @@ static void add_reversing(struct slice *s, const hooke_state *state, double step
   for (int k = 0; k < 4; k++)
     least = fmin(least, s->power[k]);
   if (s->steps < 3) return;
-  const double reversing =
-      hooke_system_dissipated_power(s->system, hooke_state_position(state), s->difference[3]);
+  const double reversing = hooke_system_dissipated_power_at(s->system, hooke_state_time(state),
+                                                            hooke_state_position(state), s->difference[3]);
   s->reversing += step * fmin(least, reversing);
 }
 

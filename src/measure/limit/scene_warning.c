@@ -93,7 +93,7 @@ static void look_at_parts(struct looking *l) {
 static double largest_rounding(const hooke_system *system, const double *v) {
   struct hk_elements at;
   double stiffest = 0.0, lightest = 0.0;
-  hk_begin_elements(system, system->position, v, &at);
+  hk_begin_elements(system, 0.0, system->position, v, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     double far = 0.0;
     for (int j = 0; j < e->count; j++)
@@ -110,7 +110,7 @@ static int32_t look_at_motion(struct looking *l) {
   const hooke_system *system = l->system;
   const int64_t n = 3 * system->particle_count;
   double *v = l->motion, *a = l->motion + n, largest = 0.0;
-  if (n == 0 || system->drive_count > 0 || system->force) return HOOKE_OK;
+  if (n == 0 || hk_system_takes_work(system) || system->force) return HOOKE_OK;
   for (int64_t k = 0; system->velocity && k < n; k++)
     if (system->velocity[k] != 0.0) return HOOKE_OK;
   const int32_t status = hooke_system_acceleration(system, 0.0, system->position, v, a);

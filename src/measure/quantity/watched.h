@@ -56,8 +56,8 @@ const char *hk_watched_unit(const struct hk_watched *watched);
 /* Value at positions q and velocities v (rows); for a period the value of its quantity. Tension is the force
  * along the spring, including damping: positive where it pulls its ends together, 0 where a spring that only
  * pulls is slack. */
-double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, const double *q,
-                        const double *v);
+double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, double t,
+                        const double *q, const double *v);
 
 /* Mean time between upward passages of a series through its mean, each found by cubic interpolation. A
  * passage counts if the series was below the mean by a tenth of its largest deviation since the last one. NaN
@@ -83,7 +83,7 @@ static inline double *hk_watched_series_of(const struct hk_watched_series *serie
 }
 
 /* Records the values at a frame. */
-void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, const double *q,
+void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, double t, const double *q,
                             const double *v);
 
 /* Sets the differences to `factor` times the largest one over the first `frames` frames at `time`; for a

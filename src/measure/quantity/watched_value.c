@@ -13,18 +13,18 @@ const char *hk_watched_unit(const struct hk_watched *watched) {
   return watched->is_period ? "s" : unit[watched->kind];
 }
 
-double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, const double *q,
-                        const double *v) {
+double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, double t,
+                        const double *q, const double *v) {
   struct hk_stretch s;
   switch (watched->kind) {
   case HOOKE_WATCHED_COORDINATE:
     return q[3 * watched->particle + watched->axis];
   case HOOKE_WATCHED_ENERGY:
-    return hooke_system_energy(system, "total", q, v);
+    return hooke_system_energy_at(system, "total", t, q, v);
   case HOOKE_WATCHED_KINETIC:
     return hooke_system_energy(system, "kinetic", NULL, v);
   case HOOKE_WATCHED_POTENTIAL:
-    return hooke_system_energy(system, "potential", q, NULL);
+    return hooke_system_energy_at(system, "potential", t, q, NULL);
   default:
     break;
   }
@@ -126,11 +126,11 @@ void hk_watched_series_clear(struct hk_watched_series *series) {
     series->value[k] = NAN; /* and the figures behind them */
 }
 
-void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, const double *q,
+void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, double t, const double *q,
                             const double *v) {
   for (int64_t k = 0; k < count_of(series); k++)
     hk_watched_series_of(series, k)[frame] =
-        hk_watched_value(&series->list->item[k], series->list->system, q, v);
+        hk_watched_value(&series->list->item[k], series->list->system, t, q, v);
 }
 
 /* The start alone says nothing. */

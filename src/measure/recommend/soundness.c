@@ -5,6 +5,7 @@
 #include "measure/counted_work/work.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,7 +16,7 @@ enum { LEAST_STATES = 8 };
 static const double SIGNIFICANT = 3.0; /* standard errors */
 
 static int is_driven(const hooke_system *system) {
-  return system->force != NULL || system->drive_count > 0;
+  return system->force != NULL || hk_system_takes_work(system);
 }
 
 static int32_t make_states(struct hk_soundness *s) {

@@ -124,7 +124,7 @@ static void keep_spring(struct making *making, struct hk_twin *twin, int64_t num
 /* Other springs are springs in the twin, and drag is drag. */
 static void keep_others(struct making *making, struct hk_twin *twin) {
   struct hk_elements at;
-  hk_begin_elements(making->system, making->q, NULL, &at);
+  hk_begin_elements(making->system, 0.0, making->q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (hk_element_moves(making->system->constrained, e)) keep_element(making, twin, e);

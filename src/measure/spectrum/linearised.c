@@ -103,7 +103,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
   if (lin->element == NULL || lin->along == NULL) return HOOKE_NO_MEMORY;
   lin->beside = lin->along + most;
   struct hk_elements at;
-  hk_begin_elements(lin->system, q, NULL, &at);
+  hk_begin_elements(lin->system, 0.0, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (!hk_element_moves(lin->system->constrained, e)) continue;
@@ -120,7 +120,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
 /* Adds the rows of the other forces at q, of their stiffness or of their damping. */
 static void add_rows(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   struct hk_elements at;
-  hk_begin_elements(lin->system, q, NULL, &at);
+  hk_begin_elements(lin->system, 0.0, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
@@ -348,7 +348,7 @@ static double others_energy(const struct hk_linearised *lin, const double *x) {
   const double *const from[3] = {x, x + n, x + 2 * n}, a = lin->constant_k, b = lin->constant_c;
   double sum = a > 0.0 ? a * hk_rigid_energy(&lin->rigid, from, 1) : 0.0;
   struct hk_elements at;
-  hk_begin_elements(lin->system, lin->system->position, NULL, &at);
+  hk_begin_elements(lin->system, 0.0, lin->system->position, NULL, &at);
   at.kinds = HOOKE_CONSTANT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     sum += hk_element_energy(e, a * e->k_along + b * e->c_along, a * e->k_across + b * e->c_across, 1, from);

@@ -31,7 +31,7 @@ const char *hk_naming_words(const hooke_system *system, const struct hk_force_ro
   struct hk_element e;
   char particles[80];
   const char *group = hk_naming_group(system, force, number);
-  force->elements(system, system->position, NULL, number, 1, &e);
+  force->elements(system, 0.0, system->position, NULL, number, 1, &e);
   list_particles(&e, particles, sizeof particles);
   if (force->title == NULL)
     hk_print(text, HOOKE_NAMING_SIZE, "spring %lld (%s%s%.80s)", (long long)number, particles,
@@ -55,7 +55,7 @@ int64_t hk_naming_heaviest(const hooke_system *system, const struct hk_force_row
   double most = -1.0;
   int64_t found = -1;
   struct hk_elements at;
-  hk_begin_elements(system, system->position, NULL, &at);
+  hk_begin_elements(system, 0.0, system->position, NULL, &at);
   at.by_number = 1;
   at.only = only;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {

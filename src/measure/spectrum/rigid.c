@@ -17,7 +17,7 @@ static const double POSITION_ROUNDING = 1e-14;
 static void find_strengths(const hooke_system *system, const double *q, double *strength) {
   struct hk_elements at;
   if (system->bodies->of == NULL) return;
-  hk_begin_elements(system, q, NULL, &at);
+  hk_begin_elements(system, 0.0, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++) {
       const int32_t body = system->bodies->of[e->particle[j]];

@@ -123,8 +123,8 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
   (void)step;
   if (frame < member->first || member->count >= member->series->frames) return 0;
   member->time[member->count] = hooke_state_time(state);
-  hk_watched_series_keep(member->series, member->count++, hooke_state_position(state),
-                         hooke_state_velocity(state));
+  hk_watched_series_keep(member->series, member->count++, hooke_state_time(state),
+                         hooke_state_position(state), hooke_state_velocity(state));
   return 0;
 }
 

@@ -48,7 +48,7 @@ static int pulls_only(const hooke_system *system) {
 
 static int has_table(const hooke_system *system) {
   for (int64_t d = 0; d < system->drive_count; d++)
-    if (system->drive[d].kind == HOOKE_DRIVE_TABLE) return 1;
+    if (system->drive[d].course.samples > 0) return 1;
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "measure/trial/balance.h"
 
 #include "core/memory.h"
+#include "model/force/force.h"
 #include "model/particles.h"
 
 #include <float.h>
@@ -9,22 +10,22 @@
 
 static const double FACTOR = 4.0; /* twice the first-order value */
 
-static double largest_energy(const hooke_system *system, const double *q, const double *v) {
+static double largest_energy(const hooke_system *system, double t, const double *q, const double *v) {
   double sum = fabs(hooke_system_energy(system, "kinetic", NULL, v));
   for (int64_t k = 0; hooke_system_force_name(system, k); k++) {
-    const double energy = hooke_system_energy(system, hooke_system_force_name(system, k), q, NULL);
+    const double energy = hooke_system_energy_at(system, hooke_system_force_name(system, k), t, q, NULL);
     if (!isnan(energy)) sum += fabs(energy); /* drag and callbacks have none */
   }
   return sum;
 }
 
-/* Power of driven particles and dissipated power, at a state. */
+/* Power of drives and of what else does work from outside, and dissipated power, at a state. */
 static int32_t find_powers(const struct hk_balance *balance, const hooke_state *state, double *in,
                            double *out) {
   const hooke_system *system = balance->system;
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
-  *out = balance->dissipated_power(system, q, v);
-  *in = 0.0;
+  *out = balance->dissipated_power(system, hooke_state_time(state), q, v);
+  *in = hk_forces_power(system, hooke_state_time(state), q, v);
   if (balance->force == NULL) return HOOKE_OK;
   const int32_t status = hooke_system_force(system, hooke_state_time(state), q, v, balance->force);
   for (int64_t p = 0; status == HOOKE_OK && p < system->particle_count; p++) {
@@ -36,15 +37,15 @@ static int32_t find_powers(const struct hk_balance *balance, const hooke_state *
 }
 
 int32_t hk_balance_begin(struct hk_balance *balance, const hooke_system *system, const hooke_state *state) {
-  *balance = (struct hk_balance){.system = system, .dissipated_power = hooke_system_dissipated_power};
+  *balance = (struct hk_balance){.system = system, .dissipated_power = hooke_system_dissipated_power_at};
   if (system->drive_count > 0) {
     balance->force = hk_new(3 * system->particle_count, sizeof(double));
     if (balance->force == NULL) return HOOKE_NO_MEMORY;
   }
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
-  balance->energy = hooke_system_energy(system, "total", q, v);
-  balance->scale = largest_energy(system, q, v);
   balance->time = hooke_state_time(state);
+  balance->energy = hooke_system_energy_at(system, "total", balance->time, q, v);
+  balance->scale = largest_energy(system, balance->time, q, v);
   return find_powers(balance, state, &balance->power_in, &balance->power_out);
 }
 
@@ -64,9 +65,10 @@ int32_t hk_balance_step(struct hk_balance *balance, const hooke_state *state) {
 
 void hk_balance_close(struct hk_balance *balance, const hooke_state *state) {
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
-  const double energy = hooke_system_energy(balance->system, "total", q, v);
+  const double t = hooke_state_time(state);
+  const double energy = hooke_system_energy_at(balance->system, "total", t, q, v);
   balance->residual = ((energy - balance->energy) - balance->work) + balance->heat;
-  balance->scale = fmax(balance->scale, largest_energy(balance->system, q, v));
+  balance->scale = fmax(balance->scale, largest_energy(balance->system, t, q, v));
   balance->scale = fmax(balance->scale, fabs(balance->work) + balance->heat);
 }
 

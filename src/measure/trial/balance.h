@@ -1,7 +1,8 @@
-/* The energy balance along a run: the work of driven particles is the change of energy plus the heat of
- * damping and drag,
+/* The energy balance along a run: the work from outside is the change of energy plus the heat of damping and
+ * drag,
  *
- *   E(t) - E(a) = W - D,   W = integral of -(force of the springs on driven particles . their velocity),
+ *   E(t) - E(a) = W - D,   W = integral of -(force of the springs on driven particles . their velocity), and
+ *                              of the power of forces that follow time, as loads and wind do,
  *                          D = integral of hooke_system_dissipated_power(),
  *
  * with E of hooke_system_energy(), which excludes constrained particles. The integrals are sums over steps by
@@ -14,7 +15,7 @@
 
 struct hk_balance {
   const hooke_system *system;
-  double (*dissipated_power)(const hooke_system *system, const double *q, const double *v);
+  double (*dissipated_power)(const hooke_system *system, double t, const double *q, const double *v);
   double energy, work, heat; /* [J]: at the start; since then */
   double residual, scale;    /* [J] at the last state: the residual; the largest of the energies so far */
   double time, power_in, power_out;

@@ -38,8 +38,9 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
   const int64_t f = frames->recorded++;
   const double *q = hooke_state_position(state);
   frames->time[f] = hooke_state_time(state);
-  frames->energy[f] = hooke_system_energy(frames->system, "total", q, hooke_state_velocity(state));
-  hk_watched_series_keep(&frames->watched, f, q, hooke_state_velocity(state));
+  frames->energy[f] =
+      hooke_system_energy_at(frames->system, "total", frames->time[f], q, hooke_state_velocity(state));
+  hk_watched_series_keep(&frames->watched, f, frames->time[f], q, hooke_state_velocity(state));
   if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
 }
 

@@ -86,9 +86,10 @@ static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   trial->rounding = rounding;
   trial->error_at[f] = fmax(rounding, hk_frames_distance(run->reference, f, q, &largest));
   trial->error_max_at[f] = fmax(rounding, largest);
-  trial->drift_at[f] = hooke_system_energy(run->reference->system, "total", q, hooke_state_velocity(state)) -
+  trial->drift_at[f] = hooke_system_energy_at(run->reference->system, "total", hooke_state_time(state), q,
+                                              hooke_state_velocity(state)) -
                        run->reference->energy[f];
-  hk_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
+  hk_watched_series_keep(&trial->watched, f, hooke_state_time(state), q, hooke_state_velocity(state));
   trial->error = fmax(trial->error, trial->error_at[f]);
   trial->error_max = fmax(trial->error_max, trial->error_max_at[f]);
   trial->error_final = trial->error_at[f];

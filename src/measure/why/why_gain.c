@@ -7,6 +7,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "model/force/altitude.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,7 +21,7 @@ enum { FINER_TRIES = 2, DAMPING_TRIES = 4 };
 
 static int32_t may_gain(const struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
-  return system->altitudes->count > 0 && system->force == NULL && system->drive_count == 0;
+  return system->altitudes->count > 0 && system->force == NULL && !hk_system_takes_work(system);
 }
 
 /* ---- at smaller steps ---- */

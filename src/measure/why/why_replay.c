@@ -83,7 +83,7 @@ static int32_t probe_create(const hooke_system *system, struct hk_bad_value *bad
   if (probe->drive == NULL || probe->drive_ctx == NULL) return HOOKE_NO_MEMORY;
   for (int64_t g = 0; g < system->drive_count; g++) {
     probe->drive[g] = system->drive[g];
-    if (system->drive[g].kind != HOOKE_DRIVE_CALLBACK) continue;
+    if (!system->drive[g].callback) continue;
     probe->drive_ctx[g] = (struct spied_drive){probe, &system->drive[g]};
     probe->drive[g].callback = probe_drive;
     probe->drive[g].ctx = &probe->drive_ctx[g];

@@ -1,67 +1,21 @@
 #include "model/force/drive.h"
 
 #include "core/memory.h"
-#include "core/sine.h"
 #include "core/status.h"
 #include "model/system.h"
 
-#include <math.h>
 #include <string.h>
 
 void hk_drive_release(struct hk_drive_group *drive) {
   hk_free(drive->particle);
   hk_free(drive->origin);
-  hk_free(drive->time);
-  hk_free(drive->displacement);
-  hk_free(drive->slope);
-}
-
-/* ---- motion ---- */
-
-static void harmonic_displacement(const struct hk_drive_group *drive, double t, double *d, double *rate) {
-  const double two_pi = 6.28318530717958647693;
-  double sine, cosine;
-  hk_sine_of_turns(drive->frequency * t + drive->phase / two_pi, &sine, &cosine);
-  for (int a = 0; a < 3; a++) {
-    d[a] = drive->amplitude[a] * sine;
-    rate[a] = drive->amplitude[a] * (two_pi * drive->frequency) * cosine;
-  }
-}
-
-static void table_displacement(const struct hk_drive_group *drive, double t, double *d, double *rate) {
-  const double *time = drive->time;
-  const int64_t last = drive->samples - 1;
-  if (t <= time[0] || t >= time[last]) {
-    memcpy(d, drive->displacement + (t <= time[0] ? 0 : 3 * last), 3 * sizeof(double));
-    rate[0] = rate[1] = rate[2] = 0.0;
-    return;
-  }
-  int64_t low = 0, high = last;
-  while (high - low > 1) {
-    int64_t middle = low + (high - low) / 2;
-    if (time[middle] <= t)
-      low = middle;
-    else
-      high = middle;
-  }
-  /* cubic Hermite on [time[low], time[high]] */
-  const double width = time[high] - time[low], s = (t - time[low]) / width;
-  for (int a = 0; a < 3; a++) {
-    const double p0 = drive->displacement[3 * low + a], p1 = drive->displacement[3 * high + a];
-    const double m0 = width * drive->slope[3 * low + a], m1 = width * drive->slope[3 * high + a];
-    const double c2 = 3.0 * (p1 - p0) - 2.0 * m0 - m1, c3 = 2.0 * (p0 - p1) + m0 + m1;
-    d[a] = p0 + s * (m0 + s * (c2 + s * c3));
-    rate[a] = (m0 + s * (2.0 * c2 + s * (3.0 * c3))) / width;
-  }
+  hk_course_release(&drive->course);
 }
 
 int32_t hk_drive_evaluate(const struct hk_drive_group *drive, double t, double *q, double *v) {
-  if (drive->kind == HOOKE_DRIVE_CALLBACK) return drive->callback(drive->count, t, q, v, drive->ctx);
+  if (drive->callback) return drive->callback(drive->count, t, q, v, drive->ctx);
   double d[3], rate[3];
-  if (drive->kind == HOOKE_DRIVE_HARMONIC)
-    harmonic_displacement(drive, t, d, rate);
-  else
-    table_displacement(drive, t, d, rate);
+  hk_course_at(&drive->course, t, d, rate);
   for (int64_t k = 0; k < drive->count; k++) {
     for (int a = 0; a < 3; a++) {
       q[3 * k + a] = drive->origin[3 * k + a] + d[a];
@@ -72,26 +26,6 @@ int32_t hk_drive_evaluate(const struct hk_drive_group *drive, double t, double *
 }
 
 /* ---- building ---- */
-
-/* Slope at every sample of the parabola through it and its neighbours (at the ends: through the first or last
- * three). */
-static void find_slopes(struct hk_drive_group *drive) {
-  const int64_t m = drive->samples;
-  for (int64_t k = 0; k < m; k++) {
-    for (int a = 0; a < 3; a++) {
-      const double *p = drive->displacement + a, *t = drive->time;
-      int64_t i = k == 0 ? 1 : k == m - 1 ? m - 2 : k;
-      if (m == 2) {
-        drive->slope[3 * k + a] = (p[3] - p[0]) / (t[1] - t[0]);
-        continue;
-      }
-      double h0 = t[i] - t[i - 1], h1 = t[i + 1] - t[i];
-      double s0 = (p[3 * i] - p[3 * (i - 1)]) / h0, s1 = (p[3 * (i + 1)] - p[3 * i]) / h1;
-      double curve = (s1 - s0) / (h0 + h1); /* half the second derivative */
-      drive->slope[3 * k + a] = s0 + curve * (h0 + 2.0 * (t[k] - t[i]));
-    }
-  }
-}
 
 /* Appends a drive and marks its particles; on failure the system is unchanged. */
 static int32_t append_drive(hooke_system *system, struct hk_drive_group drive, const int64_t *particles) {
@@ -149,49 +83,27 @@ int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const i
   if (status == HOOKE_OK) status = hk_require_finite("frequency", 1, 1, &frequency);
   if (status == HOOKE_OK) status = hk_require_finite("phase", 1, 1, &phase);
   if (status != HOOKE_OK) return status;
-  struct hk_drive_group drive = {
-      .kind = HOOKE_DRIVE_HARMONIC, .count = count, .frequency = frequency, .phase = phase};
-  memcpy(drive.amplitude, amplitude, sizeof drive.amplitude);
+  struct hk_drive_group drive = {.count = count,
+                                 .course = {.width = 3, .frequency = frequency, .phase = phase}};
+  memcpy(drive.course.amplitude, amplitude, sizeof drive.course.amplitude);
   return append_drive(system, drive, particles);
-}
-
-static int32_t check_table(int64_t samples, const double *time, const double *displacement) {
-  if (samples < 2) {
-    return hk_fail(HOOKE_BAD_VALUE, "time", "%lld samples; a table needs 2 or more", (long long)samples);
-  }
-  for (int64_t k = 0; k < samples; k++) {
-    if (!isfinite(time[k]) || (k > 0 && !(time[k] > time[k - 1]))) {
-      hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; times are finite and ascend", time[k]);
-      return hk_fail_within(HOOKE_BAD_VALUE, "time[%lld]", (long long)k);
-    }
-  }
-  return hk_require_finite("position", samples, 3, displacement);
 }
 
 int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int64_t *particles,
                                  int64_t samples, const double *time, const double *displacement) {
   int32_t status = check_driven(system, count, particles);
-  if (status == HOOKE_OK) status = check_table(samples, time, displacement);
   if (status != HOOKE_OK) return status;
-  struct hk_drive_group drive = {.kind = HOOKE_DRIVE_TABLE, .count = count, .samples = samples};
-  drive.time = hk_new(samples, sizeof(double));
-  drive.displacement = hk_new(3 * samples, sizeof(double));
-  drive.slope = hk_new(3 * samples, sizeof(double));
-  if (drive.time == NULL || drive.displacement == NULL || drive.slope == NULL) {
-    hk_drive_release(&drive);
-    return HOOKE_NO_MEMORY;
-  }
-  memcpy(drive.time, time, (size_t)samples * sizeof(double));
-  memcpy(drive.displacement, displacement, (size_t)(3 * samples) * sizeof(double));
-  find_slopes(&drive);
-  return append_drive(system, drive, particles);
+  struct hk_drive_group drive = {.count = count, .course = {.width = 3}};
+  status = hk_course_set_table(&drive.course, "position", samples, time, displacement, hk_parabolic_slopes);
+  if (status == HOOKE_OK) return append_drive(system, drive, particles);
+  hk_drive_release(&drive);
+  return status;
 }
 
 int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const int64_t *particles,
                                     hooke_drive *callback, void *ctx) {
   int32_t status = check_driven(system, count, particles);
   if (status != HOOKE_OK) return status;
-  struct hk_drive_group drive = {
-      .kind = HOOKE_DRIVE_CALLBACK, .count = count, .callback = callback, .ctx = ctx};
+  struct hk_drive_group drive = {.count = count, .callback = callback, .ctx = ctx};
   return append_drive(system, drive, particles);
 }

@@ -3,18 +3,14 @@
 #define HOOKE_MODEL_FORCE_DRIVE_H
 
 #include "hooke/system.h"
-
-enum hk_drive_kind { HOOKE_DRIVE_HARMONIC, HOOKE_DRIVE_TABLE, HOOKE_DRIVE_CALLBACK };
+#include "model/course.h"
 
 struct hk_drive_group {
-  enum hk_drive_kind kind;
   int64_t count;
   int32_t *particle;
-  double *origin; /* initial positions, 3 count */
-  double amplitude[3], frequency, phase;
-  int64_t samples;
-  double *time, *displacement, *slope; /* samples, 3 samples, 3 samples */
-  hooke_drive *callback;
+  double *origin;          /* initial positions, 3 count */
+  struct hk_course course; /* displacement */
+  hooke_drive *callback;   /* in place of it; NULL: none */
   void *ctx;
 };
 

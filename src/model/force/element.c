@@ -6,9 +6,11 @@
 #include <stddef.h>
 #include <string.h>
 
-void hk_begin_elements(const hooke_system *system, const double *q, const double *v, struct hk_elements *at) {
+void hk_begin_elements(const hooke_system *system, double t, const double *q, const double *v,
+                       struct hk_elements *at) {
   memset(at, 0, offsetof(struct hk_elements, element));
   at->system = system;
+  at->t = t;
   at->q = q;
   at->v = v;
 }
@@ -28,7 +30,7 @@ static int32_t fill(struct hk_elements *at) {
     const int64_t left = hk_force_count(at->system, force) - at->done;
     at->first = at->done;
     at->count = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
-    if (at->count > 0) force->elements(at->system, at->q, at->v, at->first, at->count, at->element);
+    if (at->count > 0) force->elements(at->system, at->t, at->q, at->v, at->first, at->count, at->element);
   }
   at->batches += at->count > 0;
   return at->count > 0;

@@ -27,14 +27,15 @@ struct hk_element {
   double elastic;
 };
 
-/* A walk over elements: for (hk_begin_elements(system, q, v, &at); (e = hk_next_element(&at)) != NULL;) With
- * positions q and velocities v (rows), elements are those of the forces there; slack ones are 0. Without v
- * (NULL) they are those of small displacements from rest: springs that only pull count as taut, and a spring
- * of no length is stiff and damped in all directions. k_across is negative where a spring is compressed.
- * Without q and v only particles are set. */
+/* A walk over elements: for (hk_begin_elements(system, t, q, v, &at); (e = hk_next_element(&at)) != NULL;)
+ * With positions q and velocities v (rows), elements are those of the forces there; slack ones are 0. Without
+ * v (NULL) they are those of small displacements from rest: springs that only pull count as taut, and a
+ * spring of no length is stiff and damped in all directions. k_across is negative where a spring is
+ * compressed. Without q and v only particles are set. Forces are those of time t. */
 enum { HOOKE_ELEMENTS = 64 };
 struct hk_elements {
   const struct hooke_system *system;
+  double t;
   const double *q, *v;
   int32_t kinds;                   /* of forces (see force.h); 0: all */
   const struct hk_force_row *only; /* NULL: the same; otherwise this force alone */
@@ -47,7 +48,7 @@ struct hk_elements {
   int64_t place[3];                 /* of a force with another memory order */
   struct hk_element element[HOOKE_ELEMENTS];
 };
-void hk_begin_elements(const struct hooke_system *system, const double *q, const double *v,
+void hk_begin_elements(const struct hooke_system *system, double t, const double *q, const double *v,
                        struct hk_elements *at);
 int32_t hk_fill_elements(struct hk_elements *at);
 

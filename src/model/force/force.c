@@ -83,7 +83,7 @@ static int32_t add_product(const hooke_system *system, const struct hk_force_row
                                                                                          point->dv + 2};
   double *const to[3] = {out, out + 1, out + 2};
   struct hk_elements at;
-  hk_begin_elements(system, point->q, point->v, &at);
+  hk_begin_elements(system, point->t, point->q, point->v, &at);
   at.only = row;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     hk_element_multiply(e, -e->k_along / e->over, -e->k_across / e->over, 3, dq, to);
@@ -116,12 +116,12 @@ static void add_column(const hooke_system *system, const struct hk_force_row *ro
 }
 
 /* `unit` has 6n zeros. */
-static void add_columns(const hooke_system *system, const struct hk_force_row *row, const double *q,
+static void add_columns(const hooke_system *system, const struct hk_force_row *row, double t, const double *q,
                         const double *v, double *unit, const struct hk_pattern *pattern, double *dfdq,
                         double *dfdv) {
   const double *none = unit + 3 * system->particle_count;
-  const struct hk_point displaced = {.q = q, .v = v, .dq = unit, .dv = none},
-                        pushed = {.q = q, .v = v, .dq = none, .dv = unit};
+  const struct hk_point displaced = {.t = t, .q = q, .v = v, .dq = unit, .dv = none},
+                        pushed = {.t = t, .q = q, .v = v, .dq = none, .dv = unit};
   struct hk_member_change member;
   const int64_t count = hk_force_count(system, row);
   for (int64_t k = 0; k < count; k++) {
@@ -136,19 +136,19 @@ static void add_columns(const hooke_system *system, const struct hk_force_row *r
   }
 }
 
-static void add_blocks(const hooke_system *system, const struct hk_force_row *row, const double *q,
+static void add_blocks(const hooke_system *system, const struct hk_force_row *row, double t, const double *q,
                        const double *v, double *unit, const struct hk_pattern *pattern, double *dfdq,
                        double *dfdv) {
   if (row->add_blocks) {
-    row->add_blocks(system, q, v, pattern, dfdq, dfdv);
+    row->add_blocks(system, t, q, v, pattern, dfdq, dfdv);
     return;
   }
   if (row->change) {
-    add_columns(system, row, q, v, unit, pattern, dfdq, dfdv);
+    add_columns(system, row, t, q, v, unit, pattern, dfdq, dfdv);
     return;
   }
   struct hk_elements at;
-  hk_begin_elements(system, q, v, &at);
+  hk_begin_elements(system, t, q, v, &at);
   at.only = row;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     add_block(pattern, e, e->k_along, e->k_across, dfdq);
@@ -191,6 +191,11 @@ int32_t hooke_system_derivative_product(const hooke_system *system, double t, co
 
 int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                        double *dfdq, double *dfdv) {
+  return hooke_system_derivative_blocks_at(system, 0.0, q, v, dfdq, dfdv);
+}
+
+int32_t hooke_system_derivative_blocks_at(const hooke_system *system, double t, const double *q,
+                                          const double *v, double *dfdq, double *dfdv) {
   struct hk_pattern pattern;
   int32_t status = hk_system_require_committed(system);
   if (status == HOOKE_OK) status = hk_pattern_create(system, &pattern);
@@ -200,7 +205,7 @@ int32_t hooke_system_derivative_blocks(const hooke_system *system, const double 
   if (dfdq) memset(dfdq, 0, bytes);
   if (dfdv) memset(dfdv, 0, bytes);
   for (int32_t k = 0; k < system->force_row_count && unit; k++)
-    add_blocks(system, system->force_row[k], q, v, unit, &pattern, dfdq, dfdv);
+    add_blocks(system, system->force_row[k], t, q, v, unit, &pattern, dfdq, dfdv);
   hk_pattern_release(&pattern);
   hk_free(unit);
   return unit ? HOOKE_OK : HOOKE_NO_MEMORY;

@@ -72,22 +72,26 @@ struct hk_force_row {
    * the first of them, -1 for a point */
   int64_t (*passed)(const hooke_system *system, const double *before, const double *now, int64_t ends[2]);
   /* potential energy [J], and power dissipated as heat [W] */
-  double (*energy)(const hooke_system *system, const double *q);
-  double (*heat)(const hooke_system *system, const double *q, const double *v);
+  double (*energy)(const hooke_system *system, double t, const double *q);
+  double (*heat)(const hooke_system *system, double t, const double *q, const double *v);
+  /* for forces that may do work which is no change of their energy, as what is prescribed in time does: 1 if
+   * they do; the power of it [W] */
+  int32_t (*does_work)(const hooke_system *system);
+  double (*power)(const hooke_system *system, double t, const double *q, const double *v);
   /* change of the forces of member `number` along dq and dv; 0 if there is none, which the particles still
    * say */
   int32_t (*change)(const hooke_system *system, int64_t number, const struct hk_point *point,
                     struct hk_member_change *out);
   /* adds df/dq and df/dv to 3x3 blocks, either of which may be NULL, quicker than from changes or elements */
-  void (*add_blocks)(const hooke_system *system, const double *q, const double *v,
+  void (*add_blocks)(const hooke_system *system, double t, const double *q, const double *v,
                      const struct hk_pattern *pattern, double *dfdq, double *dfdv);
   /* out += (df/dq) dq + (df/dv) dv */
   int32_t (*add_product)(const hooke_system *system, const struct hk_point *point, double *out);
   /* number of elements (NULL: in a force with groups an element is a member), and those from number `first`
    * on: see element.h */
   int64_t (*count)(const hooke_system *system);
-  void (*elements)(const hooke_system *system, const double *q, const double *v, int64_t first, int64_t count,
-                   struct hk_element *out);
+  void (*elements)(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
+                   int64_t count, struct hk_element *out);
   /* the next ones in a faster memory order, and their number; NULL or -1: that is the order of their numbers
    */
   int64_t (*stored_elements)(struct hk_elements *at);
@@ -129,6 +133,10 @@ int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds);
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
 /* Number of elements of the forces of these kinds. */
 int64_t hk_elements_of(const hooke_system *system, int32_t kinds);
+
+/* 1 if work is done on a system from outside, by drives or by forces; power of the latter at a state [W]. */
+int32_t hk_system_takes_work(const hooke_system *system);
+double hk_forces_power(const hooke_system *system, double t, const double *q, const double *v);
 
 /* 1 if a committed system has the force; its elements. */
 int32_t hk_force_is_present(const hooke_system *system, const struct hk_force_row *row);

@@ -121,7 +121,8 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   return HOOKE_OK;
 }
 
-static double energy(const hooke_system *system, const double *q) {
+static double energy(const hooke_system *system, double t, const double *q) {
+  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t k = 0; k < system->altitudes->count; k++) {
     const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
@@ -132,7 +133,8 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-static double heat(const hooke_system *system, const double *q, const double *v) {
+static double heat(const hooke_system *system, double t, const double *q, const double *v) {
+  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t k = 0; k < system->altitudes->count; k++) {
     const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
@@ -164,8 +166,9 @@ static int32_t change(const hooke_system *system, int64_t number, const struct h
   return 1;
 }
 
-static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
+  (void)t;
   for (int64_t k = 0; k < wanted; k++) {
     struct hk_tetrahedron t = system->altitudes->tetrahedron[first + k];
     struct hk_tautness s;

@@ -129,7 +129,8 @@ static struct hk_spring spring_of(const struct anchor *a, const double *q, const
   return (struct hk_spring){0, 1, a->kappa, a->gamma, a->rest_length, 0};
 }
 
-static double energy(const hooke_system *system, const double *q) {
+static double energy(const hooke_system *system, double t, const double *q) {
+  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   const struct anchor *all = anchors_of(system), *end = all + count_of(system);
   for (const struct anchor *a = all; a < end; a++) {
@@ -157,8 +158,9 @@ static int32_t change(const hooke_system *system, int64_t number, const struct h
   return 1;
 }
 
-static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
+  (void)t;
   for (int64_t k = 0; k < wanted; k++) {
     double x[6], u[6];
     const struct anchor *a = anchors_of(system) + first + k;

@@ -76,7 +76,8 @@ static void find_bend(const struct hk_triple *triple, const double *x, double be
   }
 }
 
-static double energy(const hooke_system *system, const double *q) {
+static double energy(const hooke_system *system, double t, const double *q) {
+  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   struct hk_triple triple;
   for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &triple);) {
@@ -87,9 +88,9 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  (void)q, (void)v;
+  (void)t, (void)q, (void)v;
   struct hk_triples at = triples_from(&system->rest->bending, first);
   struct hk_triple triple;
   for (int64_t k = 0; k < wanted && hk_next_triple(&at, &triple); k++) {

@@ -43,9 +43,9 @@ static int64_t count(const hooke_system *system) {
   return system->particle_count;
 }
 
-static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  (void)q, (void)v;
+  (void)t, (void)q, (void)v;
   for (int64_t k = 0; k < wanted; k++) {
     const double c = system->constrained[first + k] ? 0.0 : system->drag;
     out[k] = (struct hk_element){.count = 1,

@@ -9,7 +9,8 @@ static int32_t present(const hooke_system *system) {
   return system->has_gravity;
 }
 
-static double energy(const hooke_system *system, const double *q) {
+static double energy(const hooke_system *system, double t, const double *q) {
+  (void)t;
   const double *g = system->gravity, *mass = system->mass;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {

@@ -52,7 +52,8 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   return HOOKE_OK;
 }
 
-static double energy(const hooke_system *system, const double *q) {
+static double energy(const hooke_system *system, double t, const double *q) {
+  (void)t;
   const struct hk_linear *linear = &system->rest->linear;
   struct hk_sum sum = {0.0, 0.0};
   for (const struct hk_element *e = linear->element; e < linear->element + linear->count; e++) {
@@ -67,9 +68,9 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  (void)q, (void)v;
+  (void)t, (void)q, (void)v;
   memcpy(out, system->rest->linear.element + first, (size_t)wanted * sizeof *out);
   for (int64_t k = 0; k < wanted; k++)
     out[k].pull_only = 0;

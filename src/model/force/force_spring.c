@@ -51,7 +51,8 @@ static int64_t passed(const hooke_system *system, const double *before, const do
   return count;
 }
 
-static double energy(const hooke_system *system, const double *q) {
+static double energy(const hooke_system *system, double t, const double *q) {
+  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   double length[HOOKE_SPRING_BATCH], stored[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
@@ -77,7 +78,8 @@ static void find_heat_of_cables(const struct hk_spring_batch *batch, const doubl
   }
 }
 
-static double heat(const hooke_system *system, const double *q, const double *v) {
+static double heat(const hooke_system *system, double t, const double *q, const double *v) {
+  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   double lost[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
@@ -117,8 +119,9 @@ static void add_pair(const struct hk_pattern *pattern, int64_t i, int64_t j, con
   }
 }
 
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
+static void add_blocks(const hooke_system *system, double t, const double *q, const double *v,
                        const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
+  (void)t;
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const struct hk_run *run = &system->springs->run[r];
     for (int64_t n = 0; n < run->count; n++) {
@@ -162,8 +165,9 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
   out->elastic = s.elastic;
 }
 
-static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
+  (void)t;
   const struct hk_run *run = &system->springs->run[hk_springs_run(system->springs, first)];
   for (int64_t k = 0; k < wanted; k++) {
     while (first + k >= run->first + run->count)

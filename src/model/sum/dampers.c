@@ -342,7 +342,7 @@ static void damp_force(const struct hk_dampers *d, const struct hk_force_row *ro
     const int64_t left = count - done, some = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
     const int64_t first = backwards ? left - some : done;
     memset(element, 0, sizeof element);
-    row->elements(d->system, d->rows, NULL, first, some, element);
+    row->elements(d->system, 0.0, d->rows, NULL, first, some, element);
     /* an anchor of no length has no direction, and brakes nothing there */
     for (int64_t k = 0; k < some && row->members; k++)
       element[k].c_across = 0.0;

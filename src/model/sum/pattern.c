@@ -15,7 +15,7 @@ static int compare_columns(const void *a, const void *b) {
 /* Both directions of every pair of particles of an element: counts them, or stores them at `next`. */
 static void visit_pairs(const struct hooke_system *system, int64_t *count, int64_t *column, int64_t *next) {
   struct hk_elements at;
-  hk_begin_elements(system, NULL, NULL, &at);
+  hk_begin_elements(system, 0.0, NULL, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int k = 0; k < e->count * e->count; k++) {
       const int32_t row = e->particle[k / e->count], other = e->particle[k % e->count];

@@ -51,15 +51,12 @@ static void carry_over(const struct hk_variant_maker *maker, const int64_t *how,
 
 static int32_t add_drive(hooke_system *made, const struct hk_drive_group *drive, int64_t count,
                          const int64_t *particle) {
-  switch (drive->kind) {
-  case HOOKE_DRIVE_HARMONIC:
-    return hooke_system_drive_harmonic(made, count, particle, drive->amplitude, drive->frequency,
-                                       drive->phase);
-  case HOOKE_DRIVE_TABLE:
-    return hooke_system_drive_table(made, count, particle, drive->samples, drive->time, drive->displacement);
-  case HOOKE_DRIVE_CALLBACK:
-    break;
-  }
+  const struct hk_course *course = &drive->course;
+  if (!drive->callback && course->samples > 0)
+    return hooke_system_drive_table(made, count, particle, course->samples, course->time, course->value);
+  if (!drive->callback)
+    return hooke_system_drive_harmonic(made, count, particle, course->amplitude, course->frequency,
+                                       course->phase);
   if (count != drive->count) {
     return hk_fail(HOOKE_UNSUITED, NULL, "a drive callback moves %lld particles, which would become %lld",
                    (long long)drive->count, (long long)count);
@@ -78,7 +75,7 @@ static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, int6
     list[count++] = to;
     how[to] = FREE;
   }
-  for (int64_t p = 0; p < maker->made->particle_count && drive->kind != HOOKE_DRIVE_CALLBACK; p++) {
+  for (int64_t p = 0; p < maker->made->particle_count && !drive->callback; p++) {
     if (how[p] == DRIVEN + d) list[count++] = p;
   }
   return count;

@@ -245,9 +245,9 @@ class Queries(Problem):
         """Kinetic energy of the free particles [J]."""
         return float(lib.hooke_system_energy(self._committed(), b"kinetic", None, self._argument(v, "v")))
 
-    def spring_energy(self, q: Any) -> float:
-        """Energy of the springs [J]."""
-        return float(lib.hooke_system_energy(self._committed(), b"springs", self._argument(q, "q"), None))
+    def spring_energy(self, q: Any, t: float = 0.0) -> float:
+        """Energy of the springs at time t [J]."""
+        return float(lib.hooke_system_energy_at(self._committed(), b"springs", t, self._argument(q, "q"), None))
 
     def bending_energy(self, q: Any) -> float:
         """Energy of bending [J]."""
@@ -261,17 +261,19 @@ class Queries(Problem):
         """The sum of -m g.q over the free particles [J]."""
         return float(lib.hooke_system_energy(self._committed(), b"gravity", self._argument(q, "q"), None))
 
-    def potential_energy(self, q: Any) -> float:
-        """Energy of springs, bending, altitude springs and gravity [J]."""
-        return float(lib.hooke_system_energy(self._committed(), b"potential", self._argument(q, "q"), None))
+    def potential_energy(self, q: Any, t: float = 0.0) -> float:
+        """Energy of all forces that have one, at time t [J]."""
+        return float(lib.hooke_system_energy_at(self._committed(), b"potential", t, self._argument(q, "q"), None))
 
-    def energy(self, q: Any, v: Any) -> float:
-        """Total energy [J]. A force callback has no energy."""
-        return float(lib.hooke_system_energy(self._committed(), b"total", self._argument(q, "q"), self._argument(v, "v")))
+    def energy(self, q: Any, v: Any, t: float = 0.0) -> float:
+        """Total energy at time t [J]. A force callback has no energy."""
+        at = (self._argument(q, "q"), self._argument(v, "v"))
+        return float(lib.hooke_system_energy_at(self._committed(), b"total", t, *at))
 
-    def dissipated_power(self, q: Any, v: Any) -> float:
-        """Power that damping and drag dissipate as heat [W]."""
-        return float(lib.hooke_system_dissipated_power(self._committed(), self._argument(q, "q"), self._argument(v, "v")))
+    def dissipated_power(self, q: Any, v: Any, t: float = 0.0) -> float:
+        """Power that damping and drag dissipate as heat at time t [W]."""
+        at = (self._argument(q, "q"), self._argument(v, "v"))
+        return float(lib.hooke_system_dissipated_power_at(self._committed(), t, *at))
 
     def momentum(self, v: Any) -> FloatArray:
         """Momentum of the free particles (3,) [kg m/s]."""
