@@ -66,7 +66,7 @@ function open({ text, changes, method, step }) {
   live.use(method || by, step || live.step);
   restartWatch();
   return { is: "opened", method: method || by, step: live.step, ends: net.ends, marks: net.held, strain: net.strain,
-    bodies: bodiesOf(parsed, live.groups(), net.ends, files), gravity: parsed.gravity || [0, 0, 0],
+    bodies: bodiesOf(parsed, live, files), gravity: parsed.gravity || [0, 0, 0],
     frames: states.map((q) => packFrame(q, net, net.strain)), bounds: live.bounds, energies: live.energies };
 }
 

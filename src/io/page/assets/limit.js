@@ -68,9 +68,8 @@ function drawReach(h) {
     ({ x: h * modes.frequency[k], y: h * modes.decay[k], mode: k }));
   const regions = data.rows.filter((row) => row.reach)
     .map((row) => region(row.method, fromOrigin(pairs(row.reach))));
-  const critical = { label: "critical damping", role: "critical", data: [{ x: 0, y: 0 }, { x: 100, y: 100 }],
-    borderColor: "#6b7680", backgroundColor: "#6b7680", borderWidth: 1.5, borderDash: [7, 4], pointRadius: 0,
-    pointHitRadius: 0, pointStyle: "line", order: 2 };
+  const critical = plain("critical damping", [{ x: 0, y: 0 }, { x: 100, y: 100 }], "#6b7680",
+    { role: "critical", borderWidth: 1.5, borderDash: [7, 4], order: 2 });
   const chart = drawEqual("reach", [...regions, critical, ...pointsOf(list)],
     [`h \u03c9, step times frequency, h = ${words(h, 6)} s`, "h d, step times damping"],
     { left: -0.1, right: 3.2, bottom: -0.1, top: 3.2 }, describeMode, place);
@@ -92,7 +91,7 @@ function drawStability(key) {
   const says = [["stable", "stable by"], ["limit", "just at the limit of"], ["open", "not decided for"],
     ["grows", "blows up by"]]
     .filter(([verdict]) => named(verdict) !== "").map(([verdict, text]) => `${text} ${named(verdict)}`);
-  document.getElementById("stepped").textContent = `With that step: ${says.join("; ")}.`;
+  at("stepped").textContent = `With that step: ${says.join("; ")}.`;
   drawPlane(step);
   drawReach(step);
 }

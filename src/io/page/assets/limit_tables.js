@@ -6,7 +6,7 @@
 function writeUnbounded() {
   const names = data.rows.filter((row) => !row.reach && row.predicted === "none").map((row) => row.method);
   if (names.length === 0) return;
-  document.getElementById("unbounded").textContent = `No line: ${names.join(", ")}, which no eigenvalue limits.`;
+  at("unbounded").textContent = `No line: ${names.join(", ")}, which no eigenvalue limits.`;
 }
 
 /* ---- tables ---- */
@@ -28,7 +28,7 @@ function writeRows() {
 }
 
 function writeAbout() {
-  document.getElementById("about-head").textContent = "The scene";
+  at("about-head").textContent = "The scene";
   fact("about", "time", `${words(data.time, 6)} s`);
   fact("about", "fastest motion", `${words(data.frequency_max, 6)} rad/s`);
   fact("about", "fastest damping", `${words(data.rate_max, 6)} 1/s`);
@@ -48,10 +48,8 @@ writeBlame();
 writeRows();
 writeAbout();
 writeMachine();
-document.getElementById("stability").hidden = modeCount === 0 || steps.length === 0;
-if (modeCount > 0 && steps.length > 0) {
+if (reveal("stability", modeCount > 0 && steps.length > 0)) {
   const first = steps.find((one) => one.key === "scene") || steps.find((one) => one.key === data.blamed) || steps[0];
   choice("step", steps.map((one) => [one.key, [one.label]]), first.key, drawStability);
 }
-document.getElementById("mode").hidden = listed.length === 0;
-if (listed.length > 0) startPicture();
+if (reveal("mode", listed.length > 0)) startPicture();

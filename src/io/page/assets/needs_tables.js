@@ -47,7 +47,7 @@ function writePictured() {
 }
 
 function writeAbout() {
-  document.getElementById("about-head").textContent = "The scene";
+  at("about-head").textContent = "The scene";
   fact("about", "wanted", `${words(want, 6)} m`);
   fact("about", "particles", whole(data.particles));
   fact("about", "watched", whole(data.watched));
@@ -63,17 +63,15 @@ function writeAbout() {
 
 /* ---- whole ---- */
 
-const show = (id, is) => { document.getElementById(id).hidden = !is; return is; };
-
 writeLead("needs", "What this scene needs for the wanted error.");
 writeAbout();
 writeMachine();
-if (show("changed", data.rows.length > 0)) drawChanges();
-if (show("cost", data.rows.length > 0))
+if (reveal("changed", data.rows.length > 0)) drawChanges();
+if (reveal("cost", data.rows.length > 0))
   choice("measure", Object.entries(MEASURES).map(([key, [label]]) => [key, [label]]), "wall_seconds", drawCosts);
-if (show("laid", Boolean(picture) && leftOut.length > 0)) {
+if (reveal("laid", Boolean(picture) && leftOut.length > 0)) {
   writePictured();
-  choice("view", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), firstView(), drawPicture);
+  choice("view", VIEW_CHOICES, firstView(), drawPicture);
 }
-if (show("resolution", data.parts.length > 0)) writeParts();
-if (show("all", ran && (data.rows.length > 0 || Boolean(lean)))) writeRows();
+if (reveal("resolution", data.parts.length > 0)) writeParts();
+if (reveal("all", ran && (data.rows.length > 0 || Boolean(lean)))) writeRows();

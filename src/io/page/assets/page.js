@@ -1,8 +1,8 @@
 "use strict";
 /* Common parts of all pages: numbers as words, colours of methods, diagrams by Chart.js, tables. The data are
- * those of the element #data, in SI units. Text is set as text, never as markup. */
+ * those of the element #data, in SI units. */
 
-const data = JSON.parse(document.getElementById("data").textContent);
+const data = JSON.parse(at("data").textContent);
 const methods = [...new Set(data.rows.map((row) => row.method))];
 
 /* ---- numbers as words ---- */
@@ -18,7 +18,6 @@ function words(value, digits = 3) {
   const [head, exponent] = value.toExponential(digits - 1).split("e");
   return (Number(head) === 1 ? "" : `${Number(head)}\u00b7`) + power(Number(exponent));
 }
-const whole = (value) => (value === null ? "\u2013" : value.toLocaleString("en-US", { maximumFractionDigits: 0 }));
 
 /* ---- appearance of methods ---- */
 
@@ -31,7 +30,6 @@ const markOf = (method) => MARKS[methods.indexOf(method) % MARKS.length];
 /* ---- charts ---- */
 
 /* Light or dark, as the reader has it; a page is drawn anew where that changes. */
-const styleOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const [INK, PAPER, EDGE, GRID, GRID_MAJOR] = ["--ink", "--paper", "--edge", "--grid", "--grid-major"].map(styleOf);
 const POINT = INK;
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
@@ -63,6 +61,10 @@ const tell = {
   },
 };
 
+/* A line without marks. */
+const plain = (label, points, colour, more) => ({ label, data: points, borderColor: colour, backgroundColor: colour, borderWidth: 2,
+  pointRadius: 0, pointHitRadius: 0, pointStyle: "line", ...more });
+
 function legendLabels(chart) {
   return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((label) => {
     const line = chart.data.datasets[label.datasetIndex];
@@ -73,7 +75,7 @@ function legendLabels(chart) {
 }
 
 function draw(id, lines, x, y, describe) {
-  const canvas = document.getElementById(id);
+  const canvas = at(id);
   const old = Chart.getChart(canvas);
   if (old) old.destroy();
   return new Chart(canvas, {
@@ -95,7 +97,7 @@ function draw(id, lines, x, y, describe) {
 
 /* Buttons of which one is pressed, `first` initially; calls `show` with its key. */
 function choice(id, options, first, show) {
-  const box = document.getElementById(id);
+  const box = at(id);
   const press = (key) => {
     for (const button of box.children) button.setAttribute("aria-pressed", String(button.dataset.key === key));
     show(key);
@@ -148,24 +150,24 @@ function logAxis(title, range) {
 
 /* ---- words and tables ---- */
 
-function element(kind, text, options = {}) {
-  const made = Object.assign(document.createElement(kind), options);
-  if (text !== undefined) made.textContent = text;
-  return made;
+/* Returns whether it is shown. */
+function reveal(id, is) {
+  at(id).hidden = !is;
+  return is;
 }
 
 function fact(list, name, value) {
   if (value === null || value === undefined || value === "") return;
-  document.getElementById(list).append(element("dt", name), element("dd", value));
+  at(list).append(element("dt", name), element("dd", value));
 }
 
 /* The head of the page: its title, the line below it, and what the results say. */
 function writeLead(kind, lead) {
   document.title = `hooke ${kind}: ${data.scene}`;
-  document.getElementById("scene").textContent = data.scene;
-  document.getElementById("lead").textContent = lead;
-  const box = document.getElementById("claims"), claims = data.claims || [];
-  box.hidden = claims.length === 0;
+  at("scene").textContent = data.scene;
+  at("lead").textContent = lead;
+  const box = at("claims"), claims = data.claims || [];
+  reveal("claims", claims.length > 0);
   for (const claim of claims) {
     const line = element("p", claim.text, { className: claim.of });
     line.dataset.key = claim.key;
@@ -208,7 +210,7 @@ function writeTable(id, rows, columns, classOf = () => "") {
     const said = say(row);
     return said instanceof Node ? said : element("td", said, { className });
   }))));
-  document.getElementById(id).append(head, body);
+  at(id).append(head, body);
 }
 
 const FACTS = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",

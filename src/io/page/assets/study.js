@@ -26,10 +26,8 @@ function timeAxis() {
 
 /* ---- lines ---- */
 
-const level = (label, value, colour, range) => ({
-  label, data: range.map((x) => ({ x, y: value })), borderColor: colour, backgroundColor: colour, borderWidth: 1.5,
-  borderDash: [7, 4], pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 5,
-});
+const level = (label, value, colour, range) => plain(label, range.map((x) => ({ x, y: value })), colour,
+  { borderWidth: 1.5, borderDash: [7, 4], order: 5 });
 
 function levels(range) {
   const list = [];
@@ -97,13 +95,12 @@ function slopeLine(method, rows) {
   if (!order || order.order === null || clear.length < 2) return [];
   const from = clear[clear.length - 1], to = clear[0].step;
   const at = (x) => ({ x, y: errorOf(from) * (x / from.step) ** order.order });
-  return [{ label: "", role: "slope", data: [at(from.step / 1.4), at(to)], pointRadius: 0, pointHitRadius: 0,
-    borderColor: colourOf(method), borderWidth: 1.5, borderDash: [3, 4] }];
+  return [plain("", [at(from.step / 1.4), at(to)], colourOf(method), { role: "slope", borderWidth: 1.5, borderDash: [3, 4] })];
 }
 
 function drawConvergence() {
   const fixed = study.rows.filter((row) => row.step !== null);
-  document.getElementById("convergence").closest("section").hidden = fixed.length === 0;
+  at("convergence").closest("section").hidden = fixed.length === 0;
   if (fixed.length === 0) return;
   const across = ends(fixed.map((row) => row.step));
   const up = errorAxis(fixed);
@@ -134,16 +131,14 @@ function pick(method, how) {
 }
 
 function drawTimes(how) {
-  document.getElementById("picked").textContent = PICKS[how][1] +
+  at("picked").textContent = PICKS[how][1] +
     " Left the error, right how far the energy is from that of the reference; point at a line for its step or " +
     "tolerance." +
     (want === null ? "" : " The dashed line is what is wanted.");
   const rows = methods.map((method) => pick(method, how)).filter((row) => row !== undefined);
-  const lines = (what) => rows.map((row) => ({
-    label: row.method, borderColor: colourOf(row.method), backgroundColor: colourOf(row.method), borderWidth: 1.8,
-    pointStyle: "line", pointRadius: 0.5, pointHoverRadius: 4, pointHitRadius: 6,
-    data: study.time.map((x, k) => ({ x, y: row[what][k] > 0 ? row[what][k] : NaN, row })),
-  }));
+  const lines = (what) => rows.map((row) => plain(row.method,
+    study.time.map((x, k) => ({ x, y: row[what][k] > 0 ? row[what][k] : NaN, row })), colourOf(row.method),
+    { borderWidth: 1.8, pointRadius: 0.5, pointHoverRadius: 4, pointHitRadius: 6 }));
   const draws = (id, what, title, extra) => {
     const list = lines(what);
     const seen = list.flatMap((line) => line.data.map((point) => point.y)).filter((y) => y > 0);
