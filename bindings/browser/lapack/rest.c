@@ -62,36 +62,13 @@ int32_t disnan_(const double *x) {
   return isnan(*x);
 }
 
-int32_t dlaisnan_(const double *a, const double *b) {
-  return *a != *b;
-}
-
 double dlamch_(const char *what, int32_t length) {
+  static const char words[] = "ESBPNRMULO";
+  static const double values[] = {DBL_EPSILON / 2, DBL_MIN, FLT_RADIX,   DBL_EPSILON, DBL_MANT_DIG, 1.0,
+                                  DBL_MIN_EXP,     DBL_MIN, DBL_MAX_EXP, DBL_MAX};
+  const char *word = strchr(words, *what & ~32); /* in capitals */
   (void)length;
-  switch (*what & ~32) { /* in capitals */
-  case 'E':
-    return DBL_EPSILON / 2;
-  case 'S':
-    return DBL_MIN;
-  case 'B':
-    return FLT_RADIX;
-  case 'P':
-    return DBL_EPSILON;
-  case 'N':
-    return DBL_MANT_DIG;
-  case 'R':
-    return 1.0;
-  case 'M':
-    return DBL_MIN_EXP;
-  case 'U':
-    return DBL_MIN;
-  case 'L':
-    return DBL_MAX_EXP;
-  case 'O':
-    return DBL_MAX;
-  default:
-    return 0.0;
-  }
+  return word && *word ? values[word - words] : 0.0;
 }
 
 /* scale^2 sum = old scale^2 sum + the squares of x, without overflow. */

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 CALLED = ["dgeev", "dsyev", "dsyevx", "dstev"]
-REST = {"disnan", "dlaisnan", "xerbla"}
+REST = {"disnan", "xerbla"}
 
 
 def source_of(sources: Path, name: str) -> Path | None:
