@@ -123,8 +123,7 @@ const COST_KINDS = { full: ["the full scene", FULL], ...KINDS, lean: ["the lean 
 function costAxis(title, values) {
   const high = Math.max(...values), low = Math.min(...values);
   if (high > 30 * low) return logAxis(title, logRange(values));
-  return { type: "linear", min: 0, max: 1.18 * high, title: { display: true, text: title }, grid: { color: GRID },
-    ticks: { includeBounds: false } };
+  return linearAxis(title, { min: 0, max: 1.18 * high, ticks: { includeBounds: false } });
 }
 
 function drawCosts(key) {

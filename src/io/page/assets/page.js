@@ -112,7 +112,9 @@ function choice(id, options, first, show) {
   press(first);
 }
 
-/* ---- logarithmic axes ---- */
+/* ---- axes ---- */
+
+const linearAxis = (title, more) => ({ type: "linear", title: { display: true, text: title }, grid: { color: GRID }, ...more });
 
 /* The ends of a logarithmic axis, with a margin around the values. */
 function ends(values) {

@@ -35,7 +35,7 @@ const lineOf = (springs, at, label, colour, more) => plain(label,
 
 /* ---- one scale for both axes ---- */
 
-const axisOf = (title) => ({ type: "linear", title: { display: true, text: title }, ticks: { includeBounds: false },
+const axisOf = (title) => linearAxis(title, { ticks: { includeBounds: false },
   grid: { color: (context) => (context.tick && context.tick.value === 0 ? EDGE : GRID) } });
 
 /* Shows the box, and as much beside it as fits; calls `filled` when the edges are known. */

@@ -17,13 +17,6 @@ const rowsOf = (method) => study.rows.filter((row) => row.method === method);
 const errorOf = (row) => row.error_max ?? row.error;
 const finished = (row) => row.status === "finished" && row.error !== null;
 
-/* ---- axes ---- */
-
-function timeAxis() {
-  return { type: "linear", min: Math.min(0, ...study.time), max: Math.max(...study.time),
-    title: { display: true, text: "time [s]" }, grid: { color: GRID } };
-}
-
 /* ---- lines ---- */
 
 const level = (label, value, colour, range) => plain(label, range.map((x) => ({ x, y: value })), colour,
@@ -145,7 +138,7 @@ function drawTimes(how) {
     const high = Math.max(...seen, ...extra), low = Math.max(Math.min(...seen), high * 1e-16);
     const unnamed = what === "error_max_at" ? levels(study.time).map((line) => ({ ...line, label: "" })) : [];
     draw(id, [...list, ...unnamed],
-      timeAxis(), logAxis(title, ends([low, high])),
+      linearAxis("time [s]", { min: Math.min(0, ...study.time), max: Math.max(...study.time) }), logAxis(title, ends([low, high])),
       (item) => [setting(item.raw.row), `t = ${words(item.raw.x)} s: ${words(item.raw.y)}`]);
   };
   draws("error-over-time", "error_max_at", "error [m]", want === null ? [] : [want]);

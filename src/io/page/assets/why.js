@@ -193,8 +193,7 @@ const cursor = {
 };
 Chart.register(cursor);
 
-const timeAxis = (from, to) => ({ type: "linear", min: from, max: to, title: { display: true, text: "time [s]" },
-  grid: { color: GRID }, ticks: { maxRotation: 0 } });
+const timeAxis = (min, max) => linearAxis("time [s]", { min, max, ticks: { maxRotation: 0 } });
 const course = (label, points, colour, more) => plain(label, points, colour, { pointHitRadius: 4, ...more });
 
 function drawEnergy({ at, predicted }) {
