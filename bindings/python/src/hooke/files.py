@@ -8,7 +8,7 @@ import os
 import pathlib
 import warnings
 from collections.abc import Sequence
-from typing import Any, Protocol, Union
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from ._status import BadValue
 from ._types import FloatArray, Path
 from .options import Options
 from .scene import limits_of
+
+if TYPE_CHECKING:
+    from .results import Result
 
 
 def opened(path: Path) -> Handle:
@@ -41,15 +44,8 @@ def numbers(record: Handle, what: str) -> FloatArray:
     return found[:, 0] if columns.value == 1 else found
 
 
-class Written(Protocol):
-    """What has the file that it was written to in its `output`: the `Result` of a run."""
-
-    @property
-    def output(self) -> Path | None:
-        """The file; None if there is none."""
-
-
-Source = Union[Path, Written]
+#: A file, or the result of a run that was written to one.
+Source = Union[Path, "Result"]
 
 
 def view(
@@ -101,9 +97,7 @@ def write_companion(path: bytes) -> None:
 
 
 def _file_of(trajectory: Source) -> pathlib.Path:
-    if isinstance(trajectory, (str, os.PathLike)):
-        return pathlib.Path(os.fspath(trajectory))
-    output = getattr(trajectory, "output", None)
+    output = trajectory if isinstance(trajectory, (str, os.PathLike)) else getattr(trajectory, "output", None)
     if output is None:
         raise BadValue("trajectory: this run was not written to a file; run it with output=...")
     return pathlib.Path(os.fspath(output))

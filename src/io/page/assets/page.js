@@ -44,20 +44,13 @@ Chart.defaults.color = INK;
 const tell = {
   id: "tell",
   afterDraw(chart) {
-    const area = chart.chartArea;
-    let lines = 0, points = 0, outside = 0, crosses = 0, hollow = 0;
-    chart.data.datasets.forEach((line, k) => {
-      if (line.role !== undefined || line.pointRadius === 0 || !chart.isDatasetVisible(k)) return;
-      const seen = chart.getDatasetMeta(k).data.filter((point) => !point.skip);
-      lines += seen.length > 0;
-      points += seen.length;
-      crosses += seen.filter((point) => point.options.pointStyle === "crossRot").length;
-      hollow += seen.filter((point) => point.options.backgroundColor === PAPER).length;
-      outside += seen.filter((point) => point.x < area.left - 1 || point.x > area.right + 1 ||
-        point.y < area.top - 1 || point.y > area.bottom + 1).length;
-    });
-    const across = chart.options.scales.x.title.text;
-    Object.assign(chart.canvas.dataset, { across, lines, points, outside, crosses, hollow });
+    const { left, right, top, bottom } = chart.chartArea;
+    const lines = chart.data.datasets.map((line, k) => (line.role !== undefined || line.pointRadius === 0 || !chart.isDatasetVisible(k) ? []
+      : chart.getDatasetMeta(k).data.filter((point) => !point.skip))).filter((points) => points.length > 0);
+    const count = (is) => lines.flat().filter(is).length;
+    Object.assign(chart.canvas.dataset, { across: chart.options.scales.x.title.text, lines: lines.length, points: lines.flat().length,
+      outside: count(({ x, y }) => x < left - 1 || x > right + 1 || y < top - 1 || y > bottom + 1),
+      crosses: count(({ options }) => options.pointStyle === "crossRot"), hollow: count(({ options }) => options.backgroundColor === PAPER) });
   },
 };
 
@@ -103,10 +96,8 @@ function choice(id, options, first, show) {
     show(key);
   };
   for (const [key, [label]] of options) {
-    const button = document.createElement("button");
-    button.textContent = label;
+    const button = element("button", label, { onclick: () => press(key) });
     button.dataset.key = key;
-    button.onclick = () => press(key);
     box.append(button);
   }
   press(first);
