@@ -29,12 +29,8 @@ function writeRows() {
 
 function writeAbout() {
   at("about-head").textContent = "The scene";
-  fact("about", "time", `${words(data.time, 6)} s`);
-  fact("about", "fastest motion", `${words(data.frequency_max, 6)} rad/s`);
-  fact("about", "fastest damping", `${words(data.rate_max, 6)} 1/s`);
-  fact("about", "method", data.method);
-  fact("about", "step", data.step === null ? "" : `${words(data.step, 6)} s`);
-  fact("about", "limiting mode of", data.blamed);
+  facts("about", { "time [s]": data.time, "fastest motion [rad/s]": data.frequency_max, "fastest damping [1/s]": data.rate_max,
+    method: data.method, "step [s]": data.step, "limiting mode of": data.blamed });
   fact("about", "eigenvalues", data.rows.every((row) => row.exact) ? `${whole(modeCount)} known, of each pair one`
     : `${whole(modeCount)} known, those of the fastest modes`);
   writePicture();

@@ -159,12 +159,8 @@ function writeBlame() {
 
 /* What of the scene is drawn, as facts. */
 function writePicture() {
-  const known = (count) => (picture.particles ? whole(count) : "");
-  fact("about", "particles", known(picture.particles));
-  fact("about", "springs", known(picture.springs));
-  fact("about", "springs drawn", known(listed.length));
-  fact("about", "springs left out", known(picture.springs - listed.length));
-  fact("about", "particles drawn that move", known(movers.length));
+  if (picture.particles) facts("about", { particles: picture.particles, springs: picture.springs, "springs drawn": listed.length,
+    "springs left out": picture.springs - listed.length, "particles drawn that move": movers.length });
   const shares = new Map();
   for (const one of blames) shares.set(groupOf(one), (shares.get(groupOf(one)) || 0) + one.share);
   for (const [group, share] of shares) if (share > 0.001) fact("about", `mode in ${group}`, percent(share));

@@ -48,17 +48,9 @@ function writePictured() {
 
 function writeAbout() {
   at("about-head").textContent = "The scene";
-  fact("about", "wanted", `${words(want, 6)} m`);
-  fact("about", "particles", whole(data.particles));
-  fact("about", "watched", whole(data.watched));
-  fact("about", "springs", ran ? whole(full.springs) : "");
-  fact("about", "method", data.method);
-  fact("about", "step", full.step === null ? "" : `${words(full.step, 6)} s`);
-  fact("about", "rtol", full.rtol === null ? "" : words(full.rtol));
-  fact("about", "duration", `${words(data.duration, 6)} s`);
-  fact("about", "judged until", ran ? `${words(data.judged_until, 6)} s` : "");
-  fact("about", "runs", whole(data.runs));
-  fact("about", "date", data.date);
+  facts("about", { "wanted [m]": want, particles: data.particles, watched: data.watched, springs: ran ? full.springs : "", method: data.method,
+    "step [s]": full.step, rtol: full.rtol === null ? "" : words(full.rtol), "duration [s]": data.duration,
+    "judged until [s]": ran ? data.judged_until : "", runs: data.runs, date: data.date });
 }
 
 /* ---- whole ---- */

@@ -154,6 +154,14 @@ function fact(list, name, value) {
   at(list).append(element("dt", name), element("dd", value));
 }
 
+/* By their names, those of numbers with their units; whole numbers have none. */
+function facts(list, values) {
+  for (const [key, value] of Object.entries(values)) {
+    const [, name, unit] = key.match(/^(.*?)(?: \[(.*)\])?$/);
+    fact(list, name, typeof value !== "number" ? value : unit ? `${words(value, 6)} ${unit}` : whole(value));
+  }
+}
+
 /* The head of the page: its title, the line below it, and what the results say. */
 function writeLead(kind, lead) {
   document.title = `hooke ${kind}: ${data.scene}`;

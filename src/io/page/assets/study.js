@@ -7,7 +7,6 @@ const recommended = study.recommendation;
 const want = recommended ? recommended.want : null;
 /* As far as errors are known: where they are not known to the end, `met` is null. */
 const meets = recommended !== null && recommended.met !== false && recommended.error !== null;
-const trusted = study.reference.trusted_until, duration = study.duration;
 study.rows.forEach((row, k) => Object.assign(row, study.curves[k]));
 
 const setting = (row) => (row.step !== null ? `step ${words(row.step, 4)} s` : `rtol ${words(row.rtol)}`);

@@ -91,18 +91,10 @@ function writeStatistics() {
 /* ---- facts ---- */
 
 function writeReference() {
-  const { method, check, agreement, energy_agreement: energy } = study.reference;
-  const inUnits = (value, unit) => (value === null ? "" : `${words(value, 6)} ${unit}`);
+  const { method, check, agreement, energy_agreement: energy, trusted_until: trusted } = study.reference;
   at("about-head").textContent = "Reference";
-  fact("about", "made by", method);
-  fact("about", "checked by", check);
-  fact("about", "agreement", inUnits(agreement, "m"));
-  fact("about", "energies agree to", inUnits(energy, "J"));
-  fact("about", "trusted until", inUnits(trusted, "s"));
-  fact("about", "duration", inUnits(duration, "s"));
-  fact("about", "frames", whole(study.frames));
-  fact("about", "runs", whole(study.rows.length));
-  fact("about", "date", study.date);
+  facts("about", { "made by": method, "checked by": check, "agreement [m]": agreement, "energies agree to [J]": energy,
+    "trusted until [s]": trusted, "duration [s]": study.duration, frames: study.frames, runs: study.rows.length, date: study.date });
 }
 
 /* ---- whole ---- */

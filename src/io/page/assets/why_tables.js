@@ -33,16 +33,10 @@ function writeMode() {
 }
 
 function writeAbout() {
-  const seconds = (value) => (value === null || value === undefined ? "" : `${words(value, 6)} s`);
   at("about-head").textContent = "The run";
-  fact("about", "cause", data.cause);
-  fact("about", "method", data.method);
-  fact("about", "step", seconds(data.step));
-  fact("about", "limit", seconds(data.limit));
-  fact("about", "well until", seconds(data.time));
-  fact("about", "noticed", seconds(data.noticed));
-  fact("about", "particle", data.particle === null ? "" : String(data.particle));
-  fact("about", "steps from frame to frame", data.stride ? whole(data.stride) : "");
+  facts("about", { cause: data.cause, method: data.method, "step [s]": data.step, "limit [s]": data.limit, "well until [s]": data.time,
+    "noticed [s]": data.noticed, particle: data.particle === null ? "" : String(data.particle),
+    "steps from frame to frame": data.stride });
   writePicture();
 }
 
