@@ -7,17 +7,10 @@ const modeCount = data.modes.length;
 /* ---- stability ---- */
 
 /* Steps to show: that of the scene, and the known limits. */
-function findSteps() {
-  const list = [];
-  if (data.step !== null) list.push({ key: "scene", label: "step of the scene", step: data.step });
-  for (const row of data.rows) {
-    if (row.predicted > 0) list.push({ key: row.method, label: `limit of ${row.method}`, step: row.predicted });
-  }
-  if (list.length === 0 && data.frequency_max > 0)
-    list.push({ key: "radian", label: "one radian of the fastest motion", step: 1 / data.frequency_max });
-  return list;
-}
-const steps = findSteps();
+const steps = [{ key: "scene", label: "step of the scene", step: data.step },
+  ...data.rows.map(({ method, predicted }) => ({ key: method, label: `limit of ${method}`, step: predicted }))].filter(({ step }) => step > 0);
+if (steps.length === 0 && data.frequency_max > 0)
+  steps.push({ key: "radian", label: "one radian of the fastest motion", step: 1 / data.frequency_max });
 
 const mirrored = (points) => [...points, ...[...points].reverse().map(({ x, y }) => ({ x, y: -y }))];
 

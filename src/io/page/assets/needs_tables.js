@@ -41,9 +41,8 @@ function writeParts() {
 function writePictured() {
   const apart = shown.map((k) => Math.hypot(...[0, 1, 2].map((axis) =>
     picture.position[3 * k + axis] - picture.lean[3 * k + axis])));
-  fact("about", "drawn at", `${words(picture.time, 6)} s`);
-  fact("about", "apart there", `${words(extentBy(apart, (distance) => distance)[1])} m at most`);
-  fact("about", "springs drawn", `${whole(listed.length)} of ${whole(picture.springs)} between watched particles`);
+  facts("about", { "drawn at [s]": picture.time, "apart there": `${words(extentBy(apart, (distance) => distance)[1])} m at most`,
+    "springs drawn": `${whole(listed.length)} of ${whole(picture.springs)} between watched particles` });
 }
 
 function writeAbout() {

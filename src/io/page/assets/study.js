@@ -21,12 +21,8 @@ const finished = (row) => row.status === "finished" && row.error !== null;
 const level = (label, value, colour, range) => plain(label, range.map((x) => ({ x, y: value })), colour,
   { borderWidth: 1.5, borderDash: [7, 4], order: 5 });
 
-function levels(range) {
-  const list = [];
-  if (floor > 0) list.push(level(`floor of the reference, ${words(floor)} m`, floor, "#6b7680", range));
-  if (want !== null) list.push(level(`wanted, ${words(want)} m`, want, "#14633c", range));
-  return list;
-}
+const levels = (range) => [["floor of the reference", floor, "#6b7680"], ["wanted", want, "#14633c"]].filter(([, value]) => value > 0)
+  .map(([name, value, colour]) => level(`${name}, ${words(value)} m`, value, colour, range));
 
 /* The error axis of some rows. Runs without an error stand at its upper edge, one row of crosses for each method. */
 function errorAxis(rows) {
