@@ -24,7 +24,8 @@ function makeChart() {
   const line = (label, borderColor) => ({ label, data: [], borderColor, borderWidth: 2, pointRadius: 0, showLine: true });
   chart = diagram(at("energy"), [line("energy of motion and springs", "#2f86c9"), line("step by step", "#c0262d")],
     ["t [s]", { ticks: { callback: (value) => number(value, 6) } }],
-    ["energy [J]", { type: "logarithmic", afterDataLimits: boundEnergies, ticks: powerTicks() }], { labels: { boxHeight: 0, boxWidth: 18 } });
+    ["energy [J]", { type: "logarithmic", afterDataLimits: boundEnergies, ticks: powerTicks() }],
+    { labels: { boxHeight: 0, boxWidth: 18 } });
 }
 
 let charted = 0;

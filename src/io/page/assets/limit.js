@@ -8,7 +8,8 @@ const modeCount = data.modes.length;
 
 /* Steps to show: that of the scene, and the known limits. */
 const steps = [{ key: "scene", label: "step of the scene", step: data.step },
-  ...data.rows.map(({ method, predicted }) => ({ key: method, label: `limit of ${method}`, step: predicted }))].filter(({ step }) => step > 0);
+  ...data.rows.map(({ method, predicted }) => ({ key: method, label: `limit of ${method}`, step: predicted })),
+].filter(({ step }) => step > 0);
 if (steps.length === 0 && data.frequency_max > 0)
   steps.push({ key: "radian", label: "one radian of the fastest motion", step: 1 / data.frequency_max });
 
@@ -16,8 +17,8 @@ const mirrored = (points) => [...points, ...[...points].reverse().map(({ x, y })
 
 /* Points of modes, with crosses at the edge for those outside. */
 function pointsOf(list) {
-  const dots = (label, pointStyle, pointRadius, more) => plain(label, [], POINT, { showLine: false, order: 1, borderWidth: 1, pointHitRadius: 1,
-    pointStyle, pointRadius, list, ...more });
+  const dots = (label, pointStyle, pointRadius, more) => plain(label, [], POINT,
+    { showLine: false, order: 1, borderWidth: 1, pointHitRadius: 1, pointStyle, pointRadius, list, ...more });
   return [dots("modes of the scene", "circle", modeCount > 100 ? 2 : 3.2, { pointHoverRadius: 6 }),
     dots("", "crossRot", 6, { pointHoverRadius: 8, pointBorderWidth: 2 })];
 }
@@ -57,8 +58,8 @@ function drawReach(h) {
   const list = data.modes.map((mode) => ({ x: h * mode.frequency, y: h * mode.decay, mode }));
   const critical = plain("critical damping", [{ x: 0, y: 0 }, { x: 100, y: 100 }], "#6b7680",
     { role: "critical", borderWidth: 1.5, borderDash: [7, 4], order: 2 });
-  drawModes("reach", "reach", fromOrigin, list, [critical], [`h \u03c9, step times frequency, h = ${words(h, 6)} s`, "h d, step times damping"],
-    { left: -0.1, right: 3.2, bottom: -0.1, top: 3.2 });
+  const titles = [`h \u03c9, step times frequency, h = ${words(h, 6)} s`, "h d, step times damping"];
+  drawModes("reach", "reach", fromOrigin, list, [critical], titles, { left: -0.1, right: 3.2, bottom: -0.1, top: 3.2 });
 }
 
 /* Prediction for a step: "stable", "grows", just at the "limit", or "open" if they leave it open. */

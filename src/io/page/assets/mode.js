@@ -96,7 +96,8 @@ function drawPicture() {
     : listed.filter(({ ends }) => ends.some((end) => sizes[end] > 0.02));
   const colours = blamed.flatMap(({ blame }) => Array(3).fill(shareColour(blame.share)));
   const shown = movers.slice(0, MOST_ARROWS), held = particles.filter((k) => picture.held[k]);
-  const dots = (label, list, colour, pointRadius, pointStyle = "circle") => plain(label, list.map((k) => ({ ...at(k), particle: k })), colour,
+  const dots = (label, list, colour, pointRadius, pointStyle = "circle") => plain(label,
+    list.map((k) => ({ ...at(k), particle: k })), colour,
     { showLine: false, order: 1, borderWidth: 1, pointHitRadius: 1, pointRadius, pointStyle });
   const lines = [
     lineOf(others, at, "springs", "#8a949e", { role: "springs", borderWidth: listed.length > MOST_DISPLACED ? 0.7 : 1.5, order: 5 }),

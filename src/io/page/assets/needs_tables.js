@@ -47,8 +47,8 @@ function writePictured() {
 
 function writeAbout() {
   at("about-head").textContent = "The scene";
-  facts("about", { "wanted [m]": want, particles: data.particles, watched: data.watched, springs: ran ? full.springs : "", method: data.method,
-    "step [s]": full.step, rtol: full.rtol === null ? "" : words(full.rtol), "duration [s]": data.duration,
+  facts("about", { "wanted [m]": want, particles: data.particles, watched: data.watched, springs: ran ? full.springs : "",
+    method: data.method, "step [s]": full.step, rtol: full.rtol === null ? "" : words(full.rtol), "duration [s]": data.duration,
     "judged until [s]": ran ? data.judged_until : "", runs: data.runs, date: data.date });
 }
 

@@ -50,7 +50,8 @@ const tell = {
     const count = (is) => lines.flat().filter(is).length;
     Object.assign(chart.canvas.dataset, { across: chart.options.scales.x.title.text, lines: lines.length, points: lines.flat().length,
       outside: count(({ x, y }) => x < left - 1 || x > right + 1 || y < top - 1 || y > bottom + 1),
-      crosses: count(({ options }) => options.pointStyle === "crossRot"), hollow: count(({ options }) => options.backgroundColor === PAPER) });
+      crosses: count(({ options }) => options.pointStyle === "crossRot"),
+      hollow: count(({ options }) => options.backgroundColor === PAPER) });
   },
 };
 

@@ -31,7 +31,8 @@ function boxAround(list, coordinateOf, axes, margin, least = 1) {
 }
 
 const lineOf = (springs, at, label, colour, more) => plain(label,
-  springs.flatMap((spring) => [...spring.ends.map((end) => ({ ...at(end), spring })), { x: NaN, y: NaN }]), colour, { spanGaps: false, ...more });
+  springs.flatMap((spring) => [...spring.ends.map((end) => ({ ...at(end), spring })), { x: NaN, y: NaN }]), colour,
+  { spanGaps: false, ...more });
 
 /* ---- one scale for both axes ---- */
 

@@ -197,7 +197,7 @@ const timeAxis = (min, max) => linearAxis("time [s]", { min, max, ticks: { maxRo
 const course = (label, points, colour, more) => plain(label, points, colour, { pointHitRadius: 4, ...more });
 
 function drawEnergy({ at, predicted }) {
-  const { first, value } = data.energy, timeAt = (k) => data.time + (k - at) * data.step;
+  const { value } = data.energy, timeAt = (k) => data.time + (k - at) * data.step;
   const points = value.map((y, k) => ({ x: timeAt(k), y })).filter(({ y }) => y > 0 && Number.isFinite(y));
   const lines = [course("as it ran", points, RED)];
   if (cured.length) lines.push(course(`with the advised ${advised.method === data.method ? "step" : "method"}`,
@@ -213,7 +213,6 @@ function drawEnergy({ at, predicted }) {
   chart = draw("energy", lines, timeAxis(from, until), logAxis("energy [J]", ends(seen.map(({ y }) => y))),
     (item) => `t = ${words(item.raw.x, 5)} s: ${words(item.raw.y, 4)} J`);
   chart.options.cursor = true;
-  chart.canvas.dataset.first = first;
 }
 
 /* ---- the mode and the region ---- */

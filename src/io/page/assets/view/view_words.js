@@ -23,8 +23,8 @@ const powerTicks = (every = 1) => ({ callback: (value) => {
 /* `x` and `y`: the words of an axis, and what of it is not usual; `legend` likewise. */
 function diagram(canvas, lines, x, y, legend, more) {
   const ink = styleOf("--dim"), grid = styleOf("--line");
-  const axis = ([words, own]) => ({ type: "linear", title: { display: true, text: words, color: ink }, grid: { color: grid, borderColor: grid },
-    ...own, ticks: { color: ink, maxRotation: 0, ...own.ticks } });
+  const axis = ([words, own]) => ({ type: "linear", title: { display: true, text: words, color: ink },
+    grid: { color: grid, borderColor: grid }, ...own, ticks: { color: ink, maxRotation: 0, ...own.ticks } });
   return new Chart(canvas, { type: "scatter", data: { datasets: lines }, options: {
     animation: false, maintainAspectRatio: false, events: [], scales: { x: axis(x), y: axis(y) }, ...more,
     plugins: { tooltip: { enabled: false }, legend: { align: "end", ...legend, labels: { color: ink, ...legend.labels } } } } });
