@@ -8,7 +8,7 @@ import os
 import pathlib
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Union
+from typing import Any, Protocol, Union
 
 import numpy as np
 
@@ -20,9 +20,6 @@ from ._status import BadValue
 from ._types import FloatArray, Path
 from .options import Options
 from .scene import limits_of
-
-if TYPE_CHECKING:
-    from .results import Result
 
 
 def opened(path: Path) -> Handle:
@@ -44,8 +41,15 @@ def numbers(record: Handle, what: str) -> FloatArray:
     return found[:, 0] if columns.value == 1 else found
 
 
-#: A file, or the result of a run that was written to one.
-Source = Union[Path, "Result"]
+class Written(Protocol):
+    """What has the file that it was written to in its `output`: the `Result` of a run."""
+
+    @property
+    def output(self) -> Path | None:
+        """The file; None if there is none."""
+
+
+Source = Union[Path, Written]
 
 
 def view(
