@@ -180,8 +180,7 @@ const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 
 function thin(stride) {
   if (!picture || picture.stride === stride) return;
   picture.thin(stride);
-  at("thinned").textContent = `While it moves, ${every(stride)} spring is drawn, to keep up with 30 pictures a second.`;
-  at("thinned").hidden = stride === 1;
+  say(stride === 1 ? "" : `While it moves, ${every(stride)} spring is drawn, to keep up with 30 pictures a second.`);
   show(shown);
 }
 
