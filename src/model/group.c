@@ -61,7 +61,7 @@ int32_t hk_group_resists(const struct hk_group *group) {
 
 static int acts(const struct hk_group *group, int64_t k) {
   const double *kappa = group->number[HOOKE_KAPPA], *gamma = group->number[HOOKE_GAMMA];
-  return kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
+  return !kappa || kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
 }
 
 /* 1 if all particles of a member are in one body. */

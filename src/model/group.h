@@ -68,6 +68,9 @@ void hk_group_fill(struct hk_group *group, const hooke_options *options);
 /* Adds the group, or releases it after a failure; returns that. */
 int32_t hk_group_end(struct hooke_system *system, int32_t status, struct hk_group *group);
 
+/* HOOKE_BAD_VALUE, with the place, for the first member that is to be on a free particle and is not. */
+int32_t hk_groups_check_free(const struct hooke_system *system);
+
 /* Takes ownership of the group and adds it to the table, or releases it: HOOKE_NO_MEMORY. */
 int32_t hk_system_add_group(struct hooke_system *system, struct hk_group *group);
 /* Removes the groups of parts from number `part` on. */

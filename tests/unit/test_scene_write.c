@@ -209,6 +209,38 @@ TEST(anchors_come_back) {
   hk_variant_release(&variant);
 }
 
+/* Loads are equal to the bit, and as they were given; a variant leaves a group out. */
+TEST(loads_come_back) {
+  static const char *const words[] = {"force=0.1,2,-3",
+                                      "motion=harmonic force=0.1,0,0 frequency=1.5 phase=0.3",
+                                      "motion=table force=0,0,0;0.1,0.2,0.3 time=0.1,0.7"};
+  owned_scene *read = NULL;
+  owned_system *system = new_system(), *made = NULL;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  add_strand(system, 1);
+  for (int k = 0; k < 3; k++) {
+    owned_options *options = options_with("loads", "%s", words[k]);
+    check_ok(hooke_system_add_loads(system, 2, (int64_t[]){5, 4 + k}, options));
+  }
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  check_same_system(hooke_scene_system(read), system);
+  assert_true(hk_system_check_value(hooke_scene_system(read)) == hk_system_check_value(system));
+  const char *flat = strstr(hooke_scene_text(read, "text"), "\"force\": [0.1, 2");
+  assert_non_null(flat);
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.group[hk_system_first_group(system, &hk_force_loads) + 1] = 1;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  assert_int_equal(hooke_system_count(made, "loads"), 4);
+  int64_t particle[4];
+  check_ok(hooke_system_members(made, "loads", particle, NULL, NULL, NULL));
+  assert_true(particle[0] == 5 && particle[1] == 4 && particle[2] == 5 && particle[3] == 6);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+}
+
 /* Driven as before: at some times, to the same positions to the bit. */
 TEST(drives_come_back) {
   const double at[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[3] = {1, 2, 3}, amplitude[3] = {0.1, 0, 0.2};

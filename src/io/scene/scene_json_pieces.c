@@ -218,7 +218,8 @@ int32_t hooke_system_add_members(hooke_system *system, const char *key, const ch
   while (list->key && strcmp(list->key, key) != 0)
     list++;
   if (list->key == NULL)
-    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven", "key", "key", key);
+    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven loads", "key", "key",
+                             key);
   char maker[64];
   hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
   int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
@@ -258,6 +259,12 @@ static int32_t add_drive(hooke_system *system, const char *name, int64_t count, 
                                   hooke_options_numbers(options, "position"));
 }
 
+static int32_t add_load(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                        const hooke_options *options) {
+  (void)name;
+  return hooke_system_add_loads(system, count, particles, options);
+}
+
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
     {"particles", "", NULL, 1, NULL, NULL, add_particles},
@@ -269,5 +276,6 @@ const struct hk_scene_list hk_scene_lists[] = {
      hooke_system_add_anchors},
     {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body},
     {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive},
+    {"loads", " particles ", "particles", 1, "force", "an array of particles", add_load},
     {NULL, NULL, NULL, 0, NULL, NULL, NULL},
 };

@@ -71,7 +71,7 @@ static void add_value(struct hk_text *text, const hooke_options *options, const 
   } else if (count == 1 && row->min_count == 1 && row->max_count != 1) {
     hk_text_number(text, row->name, number[0]);
   } else {
-    add_numbers(text, row->name, count, row->columns, number);
+    add_numbers(text, row->name, count, row->flat && count == row->columns ? 0 : row->columns, number);
   }
 }
 

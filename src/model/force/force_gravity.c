@@ -5,6 +5,8 @@
 #include "model/check_value.h"
 #include "model/variant/variant.h"
 
+#include <math.h>
+
 static int32_t present(const hooke_system *system) {
   return system->has_gravity;
 }
@@ -18,6 +20,16 @@ static double energy(const hooke_system *system, double t, const double *q) {
     hk_sum_add(&sum, -mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
   }
   return hk_sum_value(&sum);
+}
+
+static void add_pull(const hooke_system *system, double *force, double *kick) {
+  const double *g = system->gravity;
+  double mass = 0.0;
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    *force += system->mass[p] * ((fabs(g[0]) + fabs(g[1])) + fabs(g[2]));
+    mass += system->constrained[p] ? 0.0 : system->mass[p];
+  }
+  *kick += mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]);
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
@@ -46,5 +58,10 @@ static int32_t add_weight(const hooke_system *system, struct hk_motion *motion, 
 const struct hk_force_row hk_force_weight = {
     .name = "weight", .in_scenes = 1, .check = check, .present = weighs, .add = add_weight};
 
-const struct hk_force_row hk_force_gravity = {
-    .name = "gravity", .in_scenes = 1, .check = check, .copy = copy, .present = present, .energy = energy};
+const struct hk_force_row hk_force_gravity = {.name = "gravity",
+                                              .in_scenes = 1,
+                                              .check = check,
+                                              .copy = copy,
+                                              .present = present,
+                                              .energy = energy,
+                                              .add_pull = add_pull};

@@ -177,6 +177,11 @@ class System(Queries):
         lib.hooke_system_set_force(self._handle, *callbacks, None)
         self._callbacks.extend(callbacks)
 
+    def add_loads(self, particles: Any, **options: Any) -> None:
+        """Adds a force to each of `particles` (m,), with the options that ``hooke.describe("loads")`` lists: ``force``
+        (3,) [N], constant, or with ``motion`` "harmonic" its amplitude, or with "table" (samples, 3) at ``time``."""
+        self._add("loads", None, "particles", particles, options)
+
     def drive_harmonic(self, particles: Any, amplitude: Any, frequency: float, phase: float = 0.0) -> None:
         """Moves particles as q0 + amplitude sin(2 pi frequency t + phase): `amplitude` (3,) [m],
         `frequency` [Hz]."""
