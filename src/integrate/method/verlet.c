@@ -49,7 +49,8 @@ static int32_t create(hooke_integrator *it) {
   const int64_t stride = hk_motion_stride(it->motion);
   own->implicit =
       hk_system_is_damped(it->system, ~HOOKE_UNIFORM) && !it->explicit_damping && !it->motion->zero;
-  own->predicts = own->implicit || it->explicit_damping || callback;
+  const int drag_is_between = it->system->brake > 0.0 && it->system->sums_after_drag;
+  own->predicts = own->implicit || it->explicit_damping || callback || drag_is_between;
   if (!own->predicts) return HOOKE_OK;
   if ((own->implicit || callback) && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
   const int64_t numbers = 3 * stride + (own->implicit ? 2 * it->size : 0);
