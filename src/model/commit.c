@@ -28,7 +28,7 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
 static int32_t take_groups_over(hooke_system *system) {
   int32_t status = HOOKE_OK;
   for (int64_t g = 0; g < system->group_count; g++)
-    hk_group_drop(&system->group[g], system->bodies);
+    hk_group_drop(&system->group[g], system);
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
     const int64_t count = hk_system_groups_of(system, force); /* without any there may be no array */

@@ -7,7 +7,6 @@
 
 #include <stddef.h>
 
-struct hk_bodies;
 struct hk_force_row;
 struct hooke_system;
 
@@ -47,7 +46,7 @@ int32_t hk_group_resists(const struct hk_group *group);
 
 /* Moves members that have neither stiffness nor damping, and those inside a body, behind the others, in
  * stable order, and excludes them from the count; and the reverse. */
-void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies);
+void hk_group_drop(struct hk_group *group, const struct hooke_system *system);
 void hk_group_take_back(struct hk_group *group);
 
 /* What a call adds (group_add.c): `particles` of every member, and options unless the force has none. */

@@ -150,6 +150,18 @@ TEST(a_load_turns_a_body) {
   check_close(a[4], 2.0 + 2.0, 1e-14);
 }
 
+/* Of a body that three pins hold, nothing is left of it, in copies neither. */
+TEST(a_load_on_a_body_that_is_held_does_nothing) {
+  const double place[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1};
+  owned_system *system = small_system(4, place, NULL, 1.0, 0);
+  check_ok(hooke_system_pin(system, 3, (int64_t[]){0, 1, 2}));
+  check_ok(hooke_system_add_body(system, NULL, 4, (int64_t[]){0, 1, 2, 3}, 0));
+  add_load(system, 3, "force=0,4,0");
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(hooke_system_count(system, "loads"), 0);
+  assert_null(hooke_system_force_name(system, 0));
+}
+
 /* The energy of a constant load; a run by it from rest does not count as diverging, whatever the step, and
  * one by another load has its work. */
 TEST(energies_and_power) {

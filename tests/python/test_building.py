@@ -83,6 +83,7 @@ def test_loads_are_those_of_the_scene(tmp_path):
     system = hooke.System()
     system.add_particles([[0, 0, 0]], mass=2)
     system.add_loads(0, force=[4, 0, 0])
+    system.commit()
     assert system.energy(*[np.ones((1, 3))] * 2) == 3 - 4
 
 
