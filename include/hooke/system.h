@@ -138,6 +138,13 @@ HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, 
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 
+/* Factors phi of gravity, of any sign, on `count` particles from number `first` on, `factor_count` being 1
+ * (shared) or `count`: a = w f + phi g, so weight less buoyancy over weight. They act on bodies where they
+ * are, and turn them, and are of the particles that exist; those to come have 1. HOOKE_BAD_VALUE,
+ * HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_set_gravity_factor(hooke_system *system, int64_t first, int64_t count,
+                                                  int64_t factor_count, const double *factor);
+
 /* Ether drag f = -c v on every free particle, c >= 0 [N s/m]. It also brakes free fall, which spring damping
  * does not. */
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
@@ -259,11 +266,11 @@ HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_
  * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
 
 /* Force on every particle [N], 3n: springs, bending, altitude springs, anchors, drag on free particles,
- * loads, callback, m g on free particles. */
+ * loads, callback, m phi g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; that of the rigid motion
- * in a body; of an overdamped system the velocity f/gamma [m/s]. */
+/* Acceleration of every particle [m/s^2], 3n: w f + phi g, zero where pinned or driven; that of the rigid
+ * motion in a body; of an overdamped system the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */
@@ -286,10 +293,10 @@ HOOKE_API int32_t hooke_system_derivative_blocks_at(const hooke_system *system, 
                                                     const double *v, double *dfdq, double *dfdv);
 
 /* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "loads" (the
- * sum of -F.q of constant ones), "gravity" (of -m g.q); "potential", their sum; "total". The kinetic energy
- * needs v alone, the others q alone; arrays that are not needed may be NULL. A callback has no energy. NaN
- * for another word. Sums are compensated (Neumaier 1974). They overflow to infinity. The first function is of
- * time 0. */
+ * sum of -F.q of constant ones), "gravity" (of -m phi g.q); "potential", their sum; "total". The kinetic
+ * energy needs v alone, the others q alone; arrays that are not needed may be NULL. A callback has no energy.
+ * NaN for another word. Sums are compensated (Neumaier 1974). They overflow to infinity. The first function
+ * is of time 0. */
 HOOKE_API double hooke_system_energy(const hooke_system *system, const char *what, const double *q,
                                      const double *v);
 HOOKE_API double hooke_system_energy_at(const hooke_system *system, const char *what, double t,

@@ -64,6 +64,7 @@ TEST(test_small_scenes) {
                                                   .tetrahedra = (int64_t)(round * (seed * 37 % 90)),
                                                   .anchors = (int64_t)(seed * 29 % 3 * 11),
                                                   .loads = (int64_t)(features / 2 % 3 * 3 * (int64_t)round),
+                                                  .factors = features % 5 == 3,
                                                   .features = features});
     }
   }
@@ -81,6 +82,7 @@ TEST(test_large_scenes) {
                                                 .tetrahedra = 1501 / share,
                                                 .anchors = k % 2 ? 1009 / share : 0,
                                                 .loads = k == 1 ? 9 : 0,
+                                                .factors = k % 2 == 1,
                                                 .features = features[k]});
   }
 }
@@ -117,6 +119,7 @@ TEST(test_lattices) {
                                                 .particles = alone ? 7 : 40,
                                                 .springs = alone ? 0 : 30,
                                                 .loads = k == 3 || k == 4 ? 3 : 0,
+                                                .factors = k % 3 == 1,
                                                 .features = (int32_t)(k * 53) & SCENE_EVERYTHING,
                                                 .lattice = {n[0], n[1], n[2]}});
   }

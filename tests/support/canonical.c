@@ -277,7 +277,7 @@ void canonical_accelerate(const struct canonical *canonical, double t, const dou
     for (int a = 0; a < 3; a++) {
       double *f = &force[3 * p + a];
       *f = w[p] * *f;
-      if (canonical->gravity != NULL) *f += canonical->gravity[a];
+      if (canonical->gravity != NULL) *f += canonical_fall(canonical, 3 * p + a);
       if (w[p] == 0.0) *f = 0.0;
     }
   }

@@ -38,6 +38,7 @@ const struct law laws[LAW_COUNT] = {
     {.name = "anchors", .law = "strain", .anchors = 1},
     {.name = "anchors, damped", .law = "length", .damped = 1, .gravity = 1, .anchors = 1},
     {.name = "loads", .law = "length", .gravity = 1, .loads = 1},
+    {.name = "factors of gravity", .law = "strain", .gravity = 1, .factors = 1},
 };
 
 struct material {
@@ -198,6 +199,8 @@ void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *sc
   if (law->altitude) add_altitude(law, &source, scene->q, scene->system);
   if (law->anchors) add_anchors(law, &source, scene->q, scene->system);
   if (law->loads) add_loads(scene->system);
+  for (int p = 0; p < LAW_PARTICLES && law->factors; p++)
+    check_ok(hooke_system_set_gravity_factor(scene->system, p, 1, 1, (double[]){0.5 * p - 2.0}));
   const double gravity[] = {0.3, -9.81, 1.7};
   if (law->gravity) check_ok(hooke_system_set_gravity(scene->system, gravity));
   if (law->drag) check_ok(hooke_system_set_drag(scene->system, 0.37));

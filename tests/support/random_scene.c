@@ -460,6 +460,14 @@ static void add_part(struct random_source *source, struct random_scene_request r
   hooke_options_destroy(options);
 }
 
+static void add_factors(struct random_scene *scene) {
+  const int64_t n = hooke_system_particle_count(scene->system);
+  scene->factor = new_doubles(n);
+  for (int64_t p = 0; p < n; p++)
+    scene->factor[p] = 0.3 * (double)(p % 11) - 1.1;
+  check_ok(hooke_system_set_gravity_factor(scene->system, 0, n, n, scene->factor));
+}
+
 /* ---- whole ---- */
 
 static void place_driven(double t, double *q, double *v, void *ctx) {
@@ -500,6 +508,7 @@ void random_scene_create(struct random_scene_request request, struct random_scen
     scene->gravity[a] = random_between(&source, -10.0, 10.0);
   const double drag = random_between(&source, 0.01, 0.5);
   if (request.features & SCENE_GRAVITY) check_ok(hooke_system_set_gravity(scene->system, scene->gravity));
+  if (request.factors) add_factors(scene);
   if (request.features & SCENE_DRAG) check_ok(hooke_system_set_drag(scene->system, drag));
   if (request.features & SCENE_CALLBACK) {
     check_ok(hooke_system_set_force(scene->system, random_scene_force,
@@ -517,6 +526,7 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   scene->canonical.drag = request.features & SCENE_DRAG ? drag : 0.0;
   scene->canonical.force = request.features & SCENE_CALLBACK ? random_scene_force : NULL;
   scene->canonical.loads = scene->loads;
+  scene->canonical.factor = scene->factor;
   if (scene->driven_count == 0) return;
   scene->driver = start_run(scene->system, (struct run){.method = "forward-euler", .step = 1.0});
   scene->driven_state = start_state(scene->system);
@@ -530,6 +540,7 @@ void random_scene_destroy(struct random_scene *scene) {
   hooke_state_destroy(scene->driven_state);
   hooke_system_destroy(scene->system);
   hooke_system_destroy(scene->loads);
+  free(scene->factor);
   scene->system = scene->loads = NULL;
 }
 

@@ -60,6 +60,7 @@ void hk_integrator_move_of(const hooke_integrator *it, int32_t kind, double kick
   const struct hk_motion *m = it->motion;
   move->kind = kind;
   move->heavy = system->falls;
+  move->gravity_factor = system->falls ? system->gravity_factor : NULL;
   move->kick = kick;
   move->drift = drift;
   move->drag = m->zero ? 0.0 : system->brake;

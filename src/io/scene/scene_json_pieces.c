@@ -84,6 +84,7 @@ static int32_t add_particles(hooke_system *system, const char *name, int64_t cou
                                               hooke_options_number_count(options, "mass"),
                                               hooke_options_numbers(options, "mass"), NULL);
   if (status == HOOKE_OK) status = pin(system, options);
+  if (status == HOOKE_OK) status = hk_set_gravity_factor(system, mark.particle_count, options);
   if (status != HOOKE_OK) hk_system_roll_back(system, mark);
   return status;
 }

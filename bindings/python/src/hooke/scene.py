@@ -104,11 +104,12 @@ class Scene(Parts, Problem):
     # building
 
     def particles(
-        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None
+        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None,
+        gravity_factor: Numbers = ()
     ) -> Scene:
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and `mass` [kg], one
         number for all or (n,), which an overdamped scene without gravity needs not have; `pinned` are the numbers of
-        the pinned ones.
+        the pinned ones, `gravity_factor` is that of `System.set_gravity_factor`, one number or (n,).
 
         A scene has one such block, given before its parts, since it is numbered first. Returns the scene.
         """
@@ -121,9 +122,10 @@ class Scene(Parts, Problem):
             piece: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
             if velocity is not None:
                 piece["velocity"] = rows(velocity, "velocity", len(q)).reshape(-1, 3).copy()
-            kilograms = doubles(mass, "mass").reshape(-1)
-            if kilograms.size:
-                piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
+            for key, given in (("mass", mass), ("gravity_factor", gravity_factor)):
+                each = doubles(given, key).reshape(-1)
+                if each.size:
+                    piece[key] = each.copy() if each.size != 1 else float(each[0])
             if pinned is not None and np.size(pinned):
                 piece["pinned"] = indices(pinned, "pinned").reshape(-1).copy()
                 _require_rest(piece)

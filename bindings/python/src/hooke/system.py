@@ -149,6 +149,13 @@ class System(Queries):
         """Acceleration of every free particle (3,) [m/s^2]."""
         lib.hooke_system_set_gravity(self._handle, double_pointer(doubles(gravity, "gravity", (3,))))
 
+    def set_gravity_factor(self, factor: Any, first: int = 0, count: int | None = None) -> None:
+        """Factor on gravity of `count` particles from number `first` on (None: all of them), weight less buoyancy over
+        weight, of any sign: one number, or (count,)."""
+        factor = doubles(factor, "factor").reshape(-1)
+        count = self.particle_count - first if count is None else count
+        lib.hooke_system_set_gravity_factor(self._handle, first, count, factor.size, double_pointer(factor))
+
     def limit_memory(self, size: float) -> None:
         """Sets the maximum memory of the system [bytes]; 0: the machine's memory. From here on, additions that would
         need more are refused (NoMemory)."""
