@@ -59,7 +59,9 @@ int32_t hk_group_resists(const struct hk_group *group) {
   return !group->pull_only && options && hk_options_find(options, "compression") != NULL;
 }
 
-static int acts(const struct hk_group *group, int64_t k) {
+static int acts(const struct hk_group *group, int64_t k, const hooke_system *system) {
+  if (group->force->on_free)
+    return !system->constrained[group->particle[0][k]]; /* not in a body that is held */
   const double *kappa = group->number[HOOKE_KAPPA], *gamma = group->number[HOOKE_GAMMA];
   return kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
 }
@@ -73,14 +75,14 @@ static int is_inside(const struct hk_group *group, int64_t k, const struct hk_bo
   return inside;
 }
 
-void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
+void hk_group_drop(struct hk_group *group, const hooke_system *system) {
   const double *gamma = group->number[HOOKE_GAMMA];
   int64_t acting = 0;
   group->damped = 0;
   for (int64_t k = 0; k < group->count; k++) {
-    const int inside = is_inside(group, k, bodies);
+    const int inside = is_inside(group, k, system->bodies);
     group->inside += inside;
-    if (inside || !acts(group, k)) continue;
+    if (inside || !acts(group, k, system)) continue;
     group->damped |= gamma && gamma[k] != 0.0;
     if (k != acting) hk_group_swap(group, k, acting);
     acting++;

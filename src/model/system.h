@@ -58,6 +58,9 @@ void hk_overdamped_undo(hooke_system *system);
 /* Reopens a system after a failure of commit midway: releases all that commit makes. */
 void hk_system_undo(hooke_system *system);
 
+/* The option `gravity_factor` of what has just added the particles from `first` on. */
+int32_t hk_set_gravity_factor(hooke_system *system, int64_t first, const hooke_options *options);
+
 /* Memory for so many particles, of which `used` are kept; there may be no velocities any more.
  * HOOKE_NO_MEMORY. */
 int32_t hk_system_resize(hooke_system *system, int64_t used, int64_t capacity);

@@ -45,6 +45,15 @@ end:
   hooke_options_destroy(anchors);
 }
 
+static void add_loads(struct attempt *a, hooke_system *system) {
+  const int64_t loaded[] = {1, 2};
+  hooke_options *loads = make_options(a, "loads", "motion=table force=0,0,0;0,1,0 time=0,1");
+  if (loads == NULL) return;
+  TRY(a, hooke_system_add_loads(system, 2, loaded, loads));
+end:
+  hooke_options_destroy(loads);
+}
+
 static void add_drives(struct attempt *a, hooke_system *system) {
   const int64_t pinned[] = {0}, shaken[] = {5}, led[] = {7}, called[] = {8};
   const double time[] = {0, 1, 2}, path[] = {0, 0, 0, 0.1, 0, 0, 0, 0.1, 0};
@@ -136,6 +145,7 @@ SCENARIO(by_hand) {
   add_springs(a, system);
   if (a->gave_up) goto end;
   add_drives(a, system);
+  if (!a->gave_up) add_loads(a, system);
   if (a->gave_up) goto end;
   TRY(a, hooke_system_commit(system));
   ask_everything(a, system);

@@ -66,6 +66,27 @@ def test_springs_have_the_keywords_of_their_table():
     assert keywords == {line.split()[0] for line in hooke.describe("anchors").splitlines()}
 
 
+def test_loads_are_those_of_the_scene(tmp_path):
+    built = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1, pinned=[0]).rope(
+        "line", from_=[0, 1, 0], to=[1, 1, 0], segments=2, mass=1, pinned="start", stretch=dict(stiffness=5))
+    built.loads([1, ("line", 2)], force=(0, -3, 0))
+    built.loads(1, motion="harmonic", force=[1, 0, 0], frequency=2)
+    built.loads(particles=[("line", 1)], motion="table", force=[[0, 0, 0], [0, 0, 1]], time=[0, 1])
+    with pytest.raises(hooke.BadValue, match=r"loads\[3\].particles\[0\]: particle 0 is pinned"):
+        built.loads([0], force=[1, 0, 0])
+    built.save(tmp_path / "loads.json")
+    for scene in (built, hooke.Scene.parse(built.text), hooke.Scene.load(tmp_path / "loads.json")):
+        force = scene.system.force(scene.system.state().q, np.zeros((5, 3)), t=0.125)[[1, 3, 4]]
+        expected = [[1, -3, 0], [0, 0, force[1, 2]], [0, -3, 0]]
+        np.testing.assert_allclose(force, expected, atol=1e-12)
+        assert 0.1 < force[1, 2] < 0.15
+    system = hooke.System()
+    system.add_particles([[0, 0, 0]], mass=2)
+    system.add_loads(0, force=[4, 0, 0])
+    system.commit()
+    assert system.energy(*[np.ones((1, 3))] * 2) == 3 - 4
+
+
 def test_anchors_are_those_of_the_scene(tmp_path):
     built = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1)
     built.anchors("wall", particles=[1], points=[[1, 2, 0]], stiffness=6, damping=0.3, rest_length=0.5)
@@ -108,10 +129,11 @@ def test_keywords_are_those_of_the_schema():
         return set(inspect.signature(method).parameters) - {"self"}
 
     properties = schema["properties"]
-    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "bending", "anchors", "parts", "bodies", "driven"}
+    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "loads"}
     assert keywords(hooke.Scene.__init__) == pieces
     assert keywords(hooke.Scene.bodies) == set(_keys(schema, properties["bodies"]["items"]))
     assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))
+    assert keywords(hooke.Scene.loads) == set(_keys(schema, properties["loads"]["items"]))
     assert keywords(hooke.Scene.driven) == set(_keys(schema, properties["driven"]["items"]))
 
 

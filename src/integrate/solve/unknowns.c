@@ -151,8 +151,9 @@ void hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unkno
       const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
       double *to = out + a * u->free_count + s->unknown;
+      const double *factor = system->gravity_factor ? system->gravity_factor + s->particle : NULL;
       for (int64_t p = 0; p < s->count; p++)
-        to[p] = system->falls ? w[p] * f[p] + g : w[p] * f[p];
+        to[p] = !system->falls ? w[p] * f[p] : factor ? w[p] * f[p] + factor[p] * g : w[p] * f[p] + g;
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "measure/limit/limit.h"
 #include "measure/spectrum/mode_growth.h"
 #include "measure/why/why.h"
+#include "model/state.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,14 +44,10 @@ struct frames {
 
 /* ---- energies ---- */
 
-/* Kinetic and of springs: never negative, unlike that of gravity. [J] */
+/* Kinetic and of springs: never negative, unlike that of gravity and of loads. [J] */
 static double energy_of(const hooke_system *system, const hooke_state *state) {
-  const double *q = hooke_state_position((hooke_state *)state),
-               *v = hooke_state_velocity((hooke_state *)state);
-  const double t = hooke_state_time(state);
-  return hooke_system_energy(system, "kinetic", NULL, v) +
-         hooke_system_energy_at(system, "potential", t, q, NULL) -
-         hooke_system_energy(system, "gravity", q, NULL);
+  const struct hk_energies at = hk_state_energies(state, system);
+  return at.kinetic + at.elastic;
 }
 
 static int32_t see_energy(int64_t k, const hooke_state *state, void *ctx) {

@@ -209,7 +209,9 @@ static int32_t read_items(const struct items *items, const char *value, int64_t 
 }
 
 static int32_t read_values(const struct items *items, const char *value, double **numbers, int64_t *count) {
-  const int64_t columns = items->row->columns > 1 ? items->row->columns : 1;
+  const char *first = hk_json_is(value, '[') ? hk_json_first(value) : NULL;
+  const int flat = items->row->flat && first && *first != '[' && hk_json_count(value) == items->row->columns;
+  const int64_t columns = items->row->columns > 1 && !flat ? items->row->columns : 1;
   int32_t status;
   *numbers = NULL;
   if (hk_json_is(value, '{')) {

@@ -84,6 +84,7 @@ static int32_t add_particles(hooke_system *system, const char *name, int64_t cou
                                               hooke_options_number_count(options, "mass"),
                                               hooke_options_numbers(options, "mass"), NULL);
   if (status == HOOKE_OK) status = pin(system, options);
+  if (status == HOOKE_OK) status = hk_set_gravity_factor(system, mark.particle_count, options);
   if (status != HOOKE_OK) hk_system_roll_back(system, mark);
   return status;
 }
@@ -218,7 +219,8 @@ int32_t hooke_system_add_members(hooke_system *system, const char *key, const ch
   while (list->key && strcmp(list->key, key) != 0)
     list++;
   if (list->key == NULL)
-    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven", "key", "key", key);
+    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven loads", "key", "key",
+                             key);
   char maker[64];
   hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
   int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
@@ -258,6 +260,12 @@ static int32_t add_drive(hooke_system *system, const char *name, int64_t count, 
                                   hooke_options_numbers(options, "position"));
 }
 
+static int32_t add_load(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                        const hooke_options *options) {
+  (void)name;
+  return hooke_system_add_loads(system, count, particles, options);
+}
+
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
     {"particles", "", NULL, 1, NULL, NULL, add_particles},
@@ -269,5 +277,6 @@ const struct hk_scene_list hk_scene_lists[] = {
      hooke_system_add_anchors},
     {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body},
     {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive},
+    {"loads", " particles ", "particles", 1, "force", "an array of particles", add_load},
     {NULL, NULL, NULL, 0, NULL, NULL, NULL},
 };

@@ -12,6 +12,7 @@
 #include "io/trajectory/record.h"
 #include "io/trajectory/trajectory.h"
 #include "model/callbacks.h"
+#include "model/force/force.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -105,11 +106,19 @@ static int32_t stand_at_start(struct going *going) {
   return status;
 }
 
+/* 1 if some energy counts as that of gravity. */
+static int32_t is_pulled(const hooke_system *system) {
+  int32_t some = 0;
+  for (int32_t k = 0; k < system->force_row_count; k++)
+    some |= system->force_row[k]->add_pull != NULL;
+  return some;
+}
+
 static int32_t stand_at_frame(struct going *going, int64_t frame) {
   hooke_integrator *it = going->integrator;
   int32_t status = hooke_state_copy(going->first, going->state);
   if (status == HOOKE_OK) status = hk_run_begin(it, going->state);
-  if (status == HOOKE_OK && going->system->falls) status = follow(going, frame + 1);
+  if (status == HOOKE_OK && is_pulled(going->system)) status = follow(going, frame + 1);
   if (status == HOOKE_OK) status = hooke_record_read(going->record, frame, going->state);
   return status == HOOKE_OK ? hk_integrator_stand_at_frame(it, frame, going->first, going->state) : status;
 }

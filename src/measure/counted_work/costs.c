@@ -22,6 +22,9 @@ const double hk_costs[HOOKE_WORKS] = {
     0.1,
     0.1,
     2.93, /* drag */
+    3.33,
+    0.1,
+    0.1, /* loads */
     10,
     10,
     0.1, /* callback */

@@ -66,6 +66,7 @@ static void list_causes(const struct hk_study *study, int32_t method, double coa
   } rows[] = {
       {pulls_only(system), "springs that only pull have a kink"},
       {hk_system_groups_of(system, &hk_force_altitude) > 0, "altitude springs jump between altitudes"},
+      {hk_forces_do_work(system), "a force that changes in time may not be smooth enough"},
       {system->force != NULL, "the force callback may not be smooth enough"},
       {has_table(system), "a drive by a table bends at its samples"},
       {hk_system_calls_back(system) & HOOKE_CALLS_DRIVE, "the drive callback may not be smooth enough"},

@@ -102,11 +102,12 @@ class Scene(Parts, Problem):
     # building
 
     def particles(
-        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None
+        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None,
+        gravity_factor: Numbers = ()
     ) -> Scene:
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and `mass` [kg], one
         number for all or (n,), which an overdamped scene without gravity needs not have; `pinned` are the numbers of
-        the pinned ones.
+        the pinned ones, `gravity_factor` is that of `System.set_gravity_factor`, one number or (n,).
 
         A scene has one such block, given before its parts, since it is numbered first. Returns the scene.
         """
@@ -115,7 +116,7 @@ class Scene(Parts, Problem):
                 raise BadCall("the scene has its particles already; give them all in one call")
             if self._system.particle_count:
                 raise BadCall("they are numbered before those of parts, so give them before the first part")
-            piece = particle_keys(position, velocity, mass)
+            piece = particle_keys(position, velocity, mass, gravity_factor)
             if pinned is not None and np.size(pinned):
                 piece["pinned"] = indices(pinned, "pinned").reshape(-1).copy()
                 _require_rest(piece)

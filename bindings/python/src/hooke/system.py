@@ -136,6 +136,13 @@ class System(Queries):
         """Acceleration of every free particle (3,) [m/s^2]."""
         lib.hooke_system_set_gravity(self._handle, double_pointer(doubles(gravity, "gravity", (3,))))
 
+    def set_gravity_factor(self, factor: Any, first: int = 0, count: int | None = None) -> None:
+        """Factor on gravity of `count` particles from number `first` on (None: all of them), weight less buoyancy over
+        weight, of any sign: one number, or (count,)."""
+        factor = doubles(factor, "factor").reshape(-1)
+        count = self.particle_count - first if count is None else count
+        lib.hooke_system_set_gravity_factor(self._handle, first, count, factor.size, double_pointer(factor))
+
     def limit_memory(self, size: float) -> None:
         """Sets the maximum memory of the system [bytes]; 0: the machine's memory. From here on, additions that would
         need more are refused (NoMemory)."""
@@ -163,6 +170,11 @@ class System(Queries):
         callbacks = _callback.on_arrays(FORCE, force, 2), _callback.on_arrays(FORCE_PRODUCT, product, 4)
         lib.hooke_system_set_force(self._handle, *callbacks, None)
         self._callbacks.extend(callbacks)
+
+    def add_loads(self, particles: Any, **options: Any) -> None:
+        """Adds a force to each of `particles` (m,), with the options that ``hooke.describe("loads")`` lists: ``force``
+        (3,) [N], constant, or with ``motion`` "harmonic" its amplitude, or with "table" (samples, 3) at ``time``."""
+        self._add("loads", None, "particles", particles, options)
 
     def drive_harmonic(self, particles: Any, amplitude: Any, frequency: float, phase: float = 0.0) -> None:
         """Moves particles as q0 + amplitude sin(2 pi frequency t + phase): `amplitude` (3,) [m],
@@ -229,15 +241,16 @@ def write_scene(path: Path, system: System, title: str, run: Options) -> None:
     lib.hooke_scene_write(os.fsencode(path), system._committed(), title.encode(), run._handle)
 
 
-def particle_keys(position: Any, velocity: Any, mass: Any) -> dict[str, Any]:
+def particle_keys(position: Any, velocity: Any, mass: Any, gravity_factor: Any = ()) -> dict[str, Any]:
     """The keys of a scene's particles, as copies of what the caller may change."""
     q = np.atleast_2d(doubles(position, "position"))
     keys: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
     if velocity is not None:
         keys["velocity"] = rows(velocity, "velocity", len(q)).reshape(-1, 3).copy()
-    kilograms = doubles(mass, "mass").reshape(-1)
-    if kilograms.size:
-        keys["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
+    for key, given in (("mass", mass), ("gravity_factor", gravity_factor)):
+        each = doubles(given, key).reshape(-1)
+        if each.size:
+            keys[key] = each.copy() if each.size != 1 else float(each[0])
     return keys
 
 
