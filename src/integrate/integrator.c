@@ -57,10 +57,11 @@ static int32_t make_system(struct hk_generalized *c) {
   int32_t status = zeros ? hooke_system_create(&c->system) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
     status = hooke_system_add_particles(c->system, particles, zeros, NULL, 1, &mass, NULL);
-  if (status == HOOKE_OK)
-    status = hooke_system_set_force(c->system, call_force, c->product ? call_product : NULL, c);
-  if (status == HOOKE_OK) c->system->force_scale = c->inverse_mass;
-  if (status == HOOKE_OK) status = hooke_system_commit(c->system);
+  if (status == HOOKE_OK) {
+    hooke_system_set_force(c->system, call_force, c->product ? call_product : NULL, c);
+    c->system->force_scale = c->inverse_mass;
+    status = hooke_system_commit(c->system);
+  }
   hk_free(zeros);
   return status;
 }
@@ -192,7 +193,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
 
 void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
-  if ((it->own || it->around) && it->method->steps->destroy) it->method->steps->destroy(it);
+  if (it->own || it->around) it->method->steps->destroy(it);
   hk_motion_destroy(it->motion);
   hk_pool_destroy(it->pool);
   hk_recent_release(&it->recent);

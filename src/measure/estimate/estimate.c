@@ -139,8 +139,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   if (status != HOOKE_OK) return status;
   if (it->system != e->system)
     return hk_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
-  status = hk_state_check_system(state, e->system);
-  if (status == HOOKE_OK) status = hk_run_check_duration(it);
+  status = hk_run_check_whole(it, state);
   if (status != HOOKE_OK) return status;
   forget_run(e);
   status = hooke_options_copy(it->options, &e->options);
