@@ -6,15 +6,30 @@
 #include "small.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double OMEGA = 6.283185307179586, WANT = 1e-3;
+
+/* An estimate of a run of 1 s; agreement 0: without a reference. */
+static struct hk_estimate estimate_with(const hooke_system *system, double error, double agreement) {
+  return (struct hk_estimate){
+      .want = WANT,
+      .duration = 1.0,
+      .every = 0.1,
+      .error = error,
+      .by = isnan(error) ? NULL : "half-step",
+      .last_error = NAN,
+      .first = 0.1,
+      .pick = {.fraction = agreement > 0.0 ? 1.0 : 0.0, .reference = {.agreement = agreement}},
+      .soundness = {.system = system, .least_limit = INFINITY}};
+}
 
 /* ---- what is said of a want ---- */
 
 TEST(wants_are_met_by_what_is_known_alone) {
   static const struct {
-    double error, known_until, agreement, least_limit, met; /* agreement 0: without a reference */
+    double error, known_until, agreement, least_limit, met;
     int32_t unknown_limit;
     const char *told;
   } cases[] = {
@@ -30,18 +45,11 @@ TEST(wants_are_met_by_what_is_known_alone) {
   };
   owned_system *system = small_oscillator(OMEGA);
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    struct hk_estimate e = {.want = WANT,
-                            .duration = 1.0,
-                            .error = cases[k].error,
-                            .known_until = cases[k].known_until,
-                            .by = isnan(cases[k].error) ? NULL : "half-step",
-                            .last_error = NAN,
-                            .reversal = "by a clock",
-                            .pick = {.fraction = cases[k].agreement > 0.0 ? 1.0 : 0.0,
-                                     .reference = {.agreement = cases[k].agreement}},
-                            .soundness = {.system = system,
-                                          .least_limit = cases[k].least_limit,
-                                          .unknown_limit = cases[k].unknown_limit}};
+    struct hk_estimate e = estimate_with(system, cases[k].error, cases[k].agreement);
+    e.known_until = cases[k].known_until;
+    e.soundness.least_limit = cases[k].least_limit;
+    e.soundness.unknown_limit = cases[k].unknown_limit;
+    snprintf(e.reversal, sizeof e.reversal, "by a clock");
     const hooke_measurement measurement = {.object = &e};
     struct hk_claims claims = {0};
     const double met = hk_estimate_met(&e);
@@ -79,19 +87,13 @@ TEST(runs_are_refined_where_that_is_known_to_help) {
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     owned_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 1.0}),
                   *next = run_options((struct run){.duration = 1.0, .every = 0.1});
-    struct hk_estimate e = {.want = WANT,
-                            .duration = cases[k].duration,
-                            .every = 0.1,
-                            .options = run,
-                            .error = cases[k].error,
-                            .before = cases[k].before,
-                            .order = cases[k].order,
-                            .first = 0.1,
-                            .work = cases[k].work,
-                            .refined = cases[k].refined,
-                            .pick = {.fraction = cases[k].agreement > 0.0 ? 1.0 : 0.0,
-                                     .reference = {.agreement = cases[k].agreement}},
-                            .soundness = {.system = system, .least_limit = INFINITY}};
+    struct hk_estimate e = estimate_with(system, cases[k].error, cases[k].agreement);
+    e.options = run;
+    e.duration = cases[k].duration;
+    e.before = cases[k].before;
+    e.order = cases[k].order;
+    e.work = cases[k].work;
+    e.refined = cases[k].refined;
     hooke_measurement measurement = {.kind = &hk_estimate_kind, .object = &e};
     check_status(hooke_estimate_refine(&measurement, next), cases[k].status);
     if (cases[k].refusal)

@@ -34,7 +34,7 @@ static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   own->where = where;
   int flag = ARKodeSetLinearSolver(own->memory, own->linear, NULL);
   flag = hk_first_flag(flag, ARKodeSetEpsLin(own->memory, hk_sundials_linear_share(it)));
-  if (flag != ARK_SUCCESS || !hk_unknowns_have_products(it) || hk_sundials_linear_is_own(it)) return flag;
+  if (flag != ARK_SUCCESS || own->unknowns.rows == NULL || hk_sundials_linear_is_own(it)) return flag;
   return ARKodeSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 

@@ -52,7 +52,7 @@ static const double DAMPING_OF_ORDER_3 = 0.0692;
  * HOOKE_NO_MEMORY. */
 static int32_t create_choice(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
-  if (!hk_unknowns_have_products(it) || own->unknowns.free_count == 0 || !own->unknowns.has_v ||
+  if (own->unknowns.rows == NULL || !own->unknowns.has_v ||
       !isnan(hooke_options_number(it->options, "max_order")) ||
       hooke_options_number(it->options, "rtol") < LOOSE_RTOL)
     return HOOKE_OK;
@@ -205,7 +205,7 @@ static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   own->where = where;
   int flag = CVodeSetLinearSolver(own->memory, own->linear, NULL);
   flag = hk_first_flag(flag, CVodeSetEpsLin(own->memory, hk_sundials_linear_share(it)));
-  if (flag != CV_SUCCESS || !hk_unknowns_have_products(it) || hk_sundials_linear_is_own(it)) return flag;
+  if (flag != CV_SUCCESS || own->unknowns.rows == NULL || hk_sundials_linear_is_own(it)) return flag;
   return CVodeSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 

@@ -275,8 +275,7 @@ int32_t hk_sundials_linear_create(hooke_integrator *it) {
   if (status != HOOKE_OK) return status;
   /* a space that holds every unknown is exact without it */
   const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
-  if (hk_unknowns_have_products(it) && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&
-      !(few && strcmp(word, "auto") == 0))
+  if (own->unknowns.rows && strcmp(word, "gmres") != 0 && !(few && strcmp(word, "auto") == 0))
     return create_own(it, word, own);
   own->linear = SUNLinSol_SPGMR(own->y, SUN_PREC_NONE, HOOKE_KRYLOV_VECTORS, own->context);
   it->own_memory += HOOKE_KRYLOV_VECTORS * own->unknowns.size * (int64_t)sizeof(double);
