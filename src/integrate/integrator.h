@@ -251,7 +251,7 @@ int32_t hk_divergence_keep(hooke_integrator *integrator);
 int32_t hk_divergence_glance(hooke_integrator *integrator, hooke_state *state);
 /* Divergence: records the energy at the start; then HOOKE_DIVERGED, with the last good state restored into
  * `state`, if the state has left every physical bound. Without `energy` only non-finite numbers count. */
-int32_t hk_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
+void hk_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hk_divergence_check(hooke_integrator *integrator, hooke_state *state, int32_t energy);
 /* Repeats a check that another run passed at this state. */
 void hk_divergence_follow(hooke_integrator *integrator, const hooke_state *state);

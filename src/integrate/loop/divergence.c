@@ -62,7 +62,7 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   return 0.5 * kick * h * h + 0.5 * stiffness * d * d;
 }
 
-int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
+void hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
   it->energies.system = NULL;
   if (has_energy_bound(it)) {
@@ -76,7 +76,6 @@ int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   hk_recent_keep(&it->recent, state, 0);
   it->good.t = *state->t;
   it->good.unkept = 0;
-  return HOOKE_OK;
 }
 
 static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
@@ -106,8 +105,7 @@ void hk_store_good(const hooke_integrator *it, hooke_state *state) {
 int32_t hk_divergence_keep(hooke_integrator *it) {
   struct hk_recent *recent = &it->recent;
   const int was_empty = recent->capacity == 0;
-  const int32_t status =
-      recent->capacity == 0 ? hk_recent_extend(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
+  const int32_t status = was_empty ? hk_recent_extend(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   if (was_empty && recent->count > 0) hk_store_good(it, recent->state[0]);
   if (it->good.unkept) hk_store_good(it, hk_recent_next(recent, it->good.step));

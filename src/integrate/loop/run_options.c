@@ -144,8 +144,7 @@ int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
   if (isnan(s->every)) {
     s->frame_steps = isnan(step) ? 0 : (int64_t)fmax(1.0, round(s->duration / 100.0 / step));
     s->every = isnan(step) ? s->duration / 100.0 : (double)s->frame_steps * step;
-    const int32_t status = hooke_options_set_number(options, "every", s->every);
-    if (status != HOOKE_OK) return status;
+    hooke_options_set_number(options, "every", s->every);
   }
   /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1
    * on */

@@ -196,8 +196,7 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   if (integrator->system != system)
     return hk_fail(HOOKE_BAD_CALL, NULL, "the integrator is not one of this system");
   struct going going = {.path = path, .system = system, .integrator = integrator};
-  int32_t status = hk_state_check_system(state, system);
-  if (status == HOOKE_OK) status = hk_run_check_duration(integrator);
+  int32_t status = hk_run_check_whole(integrator, state);
   if (status == HOOKE_OK) status = hooke_record_open(path, &going.record);
   if (status != HOOKE_OK) return status;
   status = hk_record_require_run(going.record);

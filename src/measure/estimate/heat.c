@@ -73,7 +73,7 @@ static double excess_of(const struct slice *s, double scale) {
   if (s->steps < LEAST_STEPS) return NAN;
   for (int64_t k = count / 2; k < count; k++)
     least = fmin(least, s->residual[k]);
-  return least > 0.0 && scale > 0.0 ? least / (scale + fabs(s->balance.work)) : 0.0;
+  return least > 0.0 ? least / (scale + fabs(s->balance.work)) : 0.0;
 }
 
 /* A slice from `from` on; NULL: from the initial state. */
