@@ -110,7 +110,7 @@ static int32_t find_frame(const hooke_record *record, int64_t frame, int64_t *at
 int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
   int64_t at;
   const int32_t status = find_frame(record, frame, &at);
-  return status == HOOKE_OK ? hk_record_check_frame(record, at) : status;
+  return status == HOOKE_OK ? hk_record_read_frame(record, at, 0, NULL, NULL) : status;
 }
 
 /* A state never mixes two frames. */
