@@ -29,12 +29,13 @@ static int is_table(int array) {
 static hid_t new_array(hid_t file, const struct hk_frame_file *frames, int array, const char *path) {
   static const double none = NAN;
   static const int64_t no_step = -1;
+  static const uint32_t no_check = 0;
   const hsize_t size[3] = {(hsize_t)frames->frame_count, (hsize_t)frames->particle_count, 3};
   const hsize_t line[2] = {size[0], (hsize_t)hk_frame_numbers(frames->particle_count, array)};
-  if (is_table(array)) return hk_h5_room(file, path, H5T_NATIVE_DOUBLE, 3, size);
+  if (is_table(array)) return hk_h5_array(file, path, H5T_NATIVE_DOUBLE, 3, size, NULL);
   return hk_h5_array(file, path, type_of(array), line[1] > 1 ? 2 : 1, line,
                      array == HOOKE_FRAME_STEP    ? (const void *)&no_step
-                     : array == HOOKE_FRAME_CHECK ? NULL
+                     : array == HOOKE_FRAME_CHECK ? (const void *)&no_check
                                                   : &none);
 }
 

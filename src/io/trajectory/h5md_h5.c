@@ -82,10 +82,11 @@ herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *meth
 herr_t hk_h5md_make_room(hid_t file) {
   const hsize_t one = 1, count = HOOKE_ERROR_COUNT;
   const int64_t none = -1;
+  const uint32_t no_check = 0;
   const double unknown = NAN;
   hid_t group = hk_h5_group(file, "hooke");
   hid_t beyond = hk_h5_array(group, "beyond", H5T_NATIVE_INT64, 1, &one, &none);
-  hid_t check = hk_h5_array(group, "file_check", H5T_NATIVE_UINT32, 1, &one, NULL);
+  hid_t check = hk_h5_array(group, "file_check", H5T_NATIVE_UINT32, 1, &one, &no_check);
   hid_t error = hk_h5_array(group, "error", H5T_IEEE_F64LE, 1, &count, &unknown);
   herr_t result = beyond < 0 || check < 0 ? -1 : 0;
   if (result >= 0) result = hk_h5_text_attributes(error, "numbers", HOOKE_ERROR_COUNT, hk_error_number);
