@@ -221,7 +221,7 @@ static int32_t run_again(struct run *run, const char *path) {
   const struct hk_study *study = run->motions->m->object;
   const struct hk_frame_file *writer = &run->motions->writer[run->number];
   const struct hk_listener listener = {.on_progress = tell, .on_frame = write_frame, .ctx = run};
-  struct hk_frames frames = {.system = study->system}; /* none: they go into the file */
+  struct hk_frames frames = {.system = study->m->system}; /* none: they go into the file */
   hooke_options *options = NULL;
   int32_t status = hk_study_run_options(study, run->number - 1, &options);
   if (status == HOOKE_OK) status = hk_frames_run(&frames, options, &listener, NULL);

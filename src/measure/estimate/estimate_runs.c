@@ -59,16 +59,10 @@ static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void 
 }
 
 static int32_t make_options(const struct hk_estimate *e, const struct hk_rerun *rerun, hooke_options **out) {
-  hooke_options *options = NULL;
-  int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", rerun->duration);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", rerun->every);
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
-  if (status == HOOKE_OK)
-    *out = options;
-  else
-    hooke_options_destroy(options);
-  return status;
+  int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, out);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "duration", rerun->duration);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "every", rerun->every);
+  return status == HOOKE_OK ? hooke_options_unset(*out, "max_steps") : status;
 }
 
 int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {

@@ -141,8 +141,8 @@ static int32_t pick_once(struct hk_study *study, double want, int32_t *met) {
   struct hk_pick pick;
   study->late = 0;
   study->row_deadline = study->deadline;
-  int32_t status = hk_pick_run(&pick, study->system, study->run, want, study->method_count, study->method,
-                               tell_pick, study);
+  int32_t status = hk_pick_run(&pick, study->m->system, study->m->run, want, study->method_count,
+                               study->method, tell_pick, study);
   if (status == HOOKE_STOPPED && study->late) {
     study->budget_spent = 1;
     status = HOOKE_OK;

@@ -71,10 +71,7 @@ struct hk_ensemble {
 };
 
 struct hk_study {
-  const hooke_measurement *measurement;
-  const hooke_system *system;
-  hooke_options *run;
-  const hooke_options *options; /* both of the measurement */
+  const hooke_measurement *m;
   int32_t method_count;
   const char *method[HOOKE_STUDY_METHODS];
   struct hk_study_order order[HOOKE_STUDY_METHODS];

@@ -26,10 +26,10 @@ static int32_t find_limit_share(struct hk_study *study, struct hk_study_recommen
   hooke_state *state = NULL;
   double limit = NAN;
   if (hk_study_is_adaptive(study, r->method)) return HOOKE_OK;
-  int32_t status = hooke_state_create(study->system, &state);
+  int32_t status = hooke_state_create(study->m->system, &state);
   if (status != HOOKE_OK) return status;
-  status = hk_limit_predict(study->system, hooke_state_position(state), hooke_state_velocity(state), method,
-                            ACCURACY, tell_limit, study, &limit);
+  status = hk_limit_predict(study->m->system, hooke_state_position(state), hooke_state_velocity(state),
+                            method, ACCURACY, tell_limit, study, &limit);
   hooke_state_destroy(state);
   if (status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED) return status;
   if (status == HOOKE_OK) r->margin.limit_share = r->value / limit;
@@ -62,7 +62,7 @@ static int32_t try_change(struct hk_study *study, const hooke_system *changed, d
                           double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;
   const struct hk_listener listener = {.on_progress = hk_study_tell_row, .most_work = work, .ctx = study};
-  const struct hk_reference_request request = {.run = study->run,
+  const struct hk_reference_request request = {.run = study->m->run,
                                                .frame_count = study->reference.frames.count,
                                                .digits = best->want / 10.0,
                                                .enough = 1,
@@ -95,7 +95,7 @@ static int32_t make_changed(const struct hk_study *study, enum hk_study_change c
                             hooke_system **made) {
   struct hk_variant variant;
   struct hk_variant_map map;
-  int32_t status = hk_variant_create(study->system, &variant);
+  int32_t status = hk_variant_create(study->m->system, &variant);
   if (status != HOOKE_OK) return status;
   if (change == HOOKE_STUDY_STIFFNESS) {
     variant.stiffness = 1.0 + sign * CHANGE;
@@ -104,7 +104,7 @@ static int32_t make_changed(const struct hk_study *study, enum hk_study_change c
     for (int a = 0; a < 3; a++)
       variant.velocity[a] = sign * speed / sqrt(3.0);
   }
-  status = hk_variant_make(study->system, &variant, made, &map);
+  status = hk_variant_make(study->m->system, &variant, made, &map);
   if (status == HOOKE_OK) hk_variant_map_release(&map);
   hk_variant_release(&variant);
   return status;

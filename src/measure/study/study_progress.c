@@ -13,7 +13,7 @@ static const double SHARE_OF_REFERENCE = 0.06; /* time of a row by tolerance ove
 static const double SHARE_OF_SEARCH = 0.1;     /* added by the search for a recommendation */
 
 static double guess_fixed(const struct hk_study *study, double step) {
-  return EVALUATIONS_OF_STEP * hk_work_of_evaluation(study->system) * study->duration / step;
+  return EVALUATIONS_OF_STEP * hk_work_of_evaluation(study->m->system) * study->duration / step;
 }
 
 double hk_study_guess(const struct hk_study *study, int32_t method, double value) {
@@ -34,11 +34,11 @@ void hk_study_prepare_guesses(struct hk_study *study) {
 }
 
 static int32_t tell(struct hk_study *study, double spent, double ahead) {
-  if (!isnan(hooke_options_number(study->options, "want"))) ahead += SHARE_OF_SEARCH * (spent + ahead);
+  if (!isnan(hooke_options_number(study->m->options, "want"))) ahead += SHARE_OF_SEARCH * (spent + ahead);
   ahead = fmax(0.0, fmin(ahead, study->budget - spent));
   const double done = spent > 0.0 ? spent / (spent + ahead) : 0.0;
   study->told = fmax(study->told, done);
-  return hk_measurement_tell(study->measurement, study->told, study->under_way);
+  return hk_measurement_tell(study->m, study->told, study->under_way);
 }
 
 int32_t hk_study_tell_reference(double fraction, void *ctx) {

@@ -72,7 +72,7 @@ int32_t hk_study_trusts_all(const struct hk_study *study) {
 
 int32_t hk_study_recommends(const struct hk_study *study) {
   const struct hk_study_recommendation *r = &study->recommendation;
-  return r->made && (r->met || study->measurement->outcome != HOOKE_STOPPED);
+  return r->made && (r->met || study->m->outcome != HOOKE_STOPPED);
 }
 
 int32_t hk_study_knows_met(const struct hk_study *study) {
@@ -82,7 +82,7 @@ int32_t hk_study_knows_met(const struct hk_study *study) {
 
 HOOKE_COUNTER(count_recommendations, struct hk_study, hk_study_recommends(it))
 HOOKE_READER(const char *, command, struct hk_study,
-             it->recommendation.met ? it->measurement->label[HOOKE_LABEL_COMMAND] : NULL)
+             it->recommendation.met ? it->m->label[HOOKE_LABEL_COMMAND] : NULL)
 
 /* ---- its margin ---- */
 
@@ -120,7 +120,7 @@ HOOKE_READER(const double *, error_value, struct hk_study,
 
 /* ---- the ensemble ---- */
 
-HOOKE_READER(double, seed, struct hk_study, hooke_options_number(it->options, "seed"))
+HOOKE_READER(double, seed, struct hk_study, hooke_options_number(it->m->options, "seed"))
 HOOKE_COUNTER(count_ensembles, struct hk_study, it->ensemble != NULL)
 
 /* ---- statistics ---- */
