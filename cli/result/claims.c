@@ -1,6 +1,8 @@
 #include "claims.h"
 
-enum { WIDTH = 110 };
+#include <math.h>
+
+enum { WIDTH = 110, MOST_LIMITING = 5, LABEL = 12 };
 
 void cli_claims_print(const struct cli_arguments *arguments, const hooke_measurement *measurement,
                       int32_t indent, const char *command) {
@@ -25,4 +27,31 @@ int32_t cli_claims_print_json(const struct cli_arguments *arguments, const char 
   const int32_t status = cli_print_members(key ? ", " : "", measurement, NULL, 0);
   cli_print_json("}\n");
   return status;
+}
+
+/* ---- limiting springs ---- */
+
+static double number(const hooke_measurement *m, int64_t row, const char *what) {
+  return hooke_measurement_number(m, "blame", row, what);
+}
+
+static void print_row(const hooke_measurement *m, int64_t row) {
+  const char *force = hooke_measurement_text(m, "blame", row, "force");
+  const char *group = hooke_measurement_text(m, "blame", row, "group");
+  const double share = number(m, row, "share");
+  printf("%-*s", LABEL, row ? "" : "blame");
+  printf(isnan(share) ? "      -" : "%5.1f %%", 100.0 * share);
+  if (force)
+    printf("  %s", force);
+  else
+    printf("  spring %.0f, between particles %.0f and %.0f", number(m, row, "number"),
+           number(m, row, "first"), number(m, row, "second"));
+  cli_say("%s%s\n", group[0] ? ", group " : "", group);
+}
+
+void cli_limiting_print(const hooke_measurement *m) {
+  const int64_t count = hooke_measurement_row_count(m, "blame");
+  for (int64_t row = 0; row < count && row < MOST_LIMITING; row++)
+    print_row(m, row);
+  if (count > MOST_LIMITING) printf("%-*sand others with less\n", LABEL, "");
 }

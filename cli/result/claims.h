@@ -18,4 +18,7 @@ const char *cli_claim(const hooke_measurement *measurement, const char *key);
 int32_t cli_claims_print_json(const struct cli_arguments *arguments, const char *key,
                               hooke_measurement *measurement);
 
+/* In words the first rows of the table "blame", of the limiting springs, a line each. */
+void cli_limiting_print(const hooke_measurement *measurement);
+
 #endif

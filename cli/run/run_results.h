@@ -51,6 +51,13 @@ int64_t cli_run_coincident(const struct cli_run *run);
 void cli_run_print(const struct cli_run *run);
 void cli_run_print_final(const struct cli_run *run);
 
+/* Runs the scene, with --want or its own method, into a trajectory that is removed once `show` has written it
+ * as `page`. `path` names it, for cli_os_make_file(). After a blow-up, up to `beyond` frames show how
+ * it goes on. Everything is reported; returns the exit code. */
+typedef int cli_show(const struct cli_run *run);
+int cli_run_to_show(const struct cli_arguments *arguments, char *path, const char *page, double beyond,
+                    cli_show *show);
+
 /* 1 if frames after divergence were asked for. */
 int32_t cli_run_goes_beyond(const struct cli_run *run);
 

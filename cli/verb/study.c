@@ -36,21 +36,17 @@ static int check(const struct cli_arguments *arguments) {
 
 /* ---- the recommended command ---- */
 
-static double recommended(const struct cli_results *results, const char *what) {
-  return hooke_measurement_number(results->found, "recommendation", 0, what);
-}
-
 /* NULL if the number does not apply. */
 static const char *setting(const struct cli_results *results, const char *what,
                            char text[HOOKE_NUMBER_SIZE]) {
-  double value = recommended(results, what);
+  double value = cli_number(results->found, "recommendation", what);
   return isnan(value) ? NULL : cli_format_number(value, text);
 }
 
 /* HOOKE_NO_MEMORY */
 static int32_t find_command(struct cli_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
-  const char *method = hooke_measurement_text(results->found, "recommendation", 0, "method");
+  const char *method = cli_text(results->found, "recommendation", "method");
   if (!method) return HOOKE_OK;
   struct cli_setting settings[] = {{"method", method},
                                    {"step", setting(results, "step", step)},
@@ -84,8 +80,9 @@ static int finish(const struct cli_results *results, int32_t written, int32_t fo
   if (written != HOOKE_OK) return cli_exit_code(written);
   if (found != HOOKE_OK) return cli_report_missing_words(results->arguments);
   if (results->outcome == HOOKE_STOPPED) return HOOKE_EXIT_INTERRUPTED;
-  const int32_t made = hooke_measurement_text(results->found, "recommendation", 0, "note") != NULL;
-  const int32_t met = recommended(results, "met") == 1.0 && cli_study_trusts_all(results->found);
+  const int32_t made = cli_text(results->found, "recommendation", "note") != NULL;
+  const int32_t met =
+      cli_number(results->found, "recommendation", "met") == 1.0 && cli_study_trusts_all(results->found);
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 

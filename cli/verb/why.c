@@ -2,7 +2,6 @@
 #include "claims.h"
 #include "command.h"
 #include "fit.h"
-#include "limiting.h"
 #include "print.h"
 #include "report.h"
 #include "rows.h"
