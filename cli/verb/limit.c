@@ -1,9 +1,8 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
-#include "claims.h"
+#include "measured.h"
 #include "print.h"
 #include "report.h"
 #include "results.h"
-#include "rows.h"
 
 #include <errno.h>
 #include <math.h>

@@ -4,7 +4,6 @@
 #include "fit.h"
 #include "os.h"
 #include "report.h"
-#include "want.h"
 
 #include <errno.h>
 #include <inttypes.h>

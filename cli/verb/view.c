@@ -3,7 +3,7 @@
 #include "os.h"
 #include "print.h"
 #include "report.h"
-#include "rows.h"
+#include "measured.h"
 #include "run_results.h"
 
 #include <inttypes.h>
@@ -112,14 +112,12 @@ static int open_trajectory(const struct cli_arguments *arguments, struct shown *
 
 /* What was run for the page is called by its scene, as its trajectory is removed. */
 static int label(const struct cli_run *run, hooke_measurement *view) {
-  size_t size;
-  char *why = NULL;
-  FILE *stream = cli_os_open_text(&why, &size);
-  if (stream) cli_blow_up_print_why(stream, run);
-  int32_t status = cli_print_end(stream, &why);
+  struct cli_string why = {.bytes = NULL};
+  cli_blow_up_add_why(&why, run);
+  int32_t status = why.status;
   if (status == HOOKE_OK) status = hooke_measurement_label(view, "scene", run->arguments->scene);
-  if (status == HOOKE_OK) status = hooke_measurement_label(view, "command", why);
-  free(why);
+  if (status == HOOKE_OK) status = hooke_measurement_label(view, "command", why.bytes);
+  free(why.bytes);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 

@@ -1,10 +1,9 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
-#include "claims.h"
+#include "measured.h"
 #include "command.h"
 #include "fit.h"
 #include "print.h"
 #include "report.h"
-#include "rows.h"
 #include "setup.h"
 #include "watch.h"
 
