@@ -6,7 +6,6 @@
 
 #include "core/print.h"
 #include "integrate/method.h"
-#include "measure/trial/step_unit.h"
 #include "model/state.h"
 
 #include <math.h>
@@ -84,8 +83,7 @@ int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun,
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
   *distance = (struct hk_distance){NAN, NAN};
-  int32_t status = hk_trial_create(&e->kept, &trial);
-  if (status == HOOKE_OK) status = make_options(e, rerun, &options);
+  int32_t status = make_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &e->kept, frames, options, &listener);
   if (status == HOOKE_OK) *distance = (struct hk_distance){trial.error_max, trial.error};
   e->left -= trial.work;

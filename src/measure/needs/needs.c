@@ -6,7 +6,6 @@
 #include "core/status.h"
 #include "measure/quantity/watched.h"
 #include "measure/recommend/pick.h"
-#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stdio.h>

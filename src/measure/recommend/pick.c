@@ -8,7 +8,6 @@
 #include "measure/limit/limit_predict.h"
 #include "measure/recommend/soundness.h"
 #include "measure/spectrum/step_bound.h"
-#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -315,7 +314,6 @@ static int32_t run_row(struct search *s, double value, double displacement, doub
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
   int32_t status = hk_pick_options(s->pick->run, s->method, value, &options);
-  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &r->frames, r->trusted, options, &listener);
   if (looker.status != HOOKE_OK) status = looker.status;
   s->pick->work += trial.work;

@@ -7,7 +7,6 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -83,7 +83,6 @@ static int32_t run_row(const struct hk_study *study, int32_t method, double valu
   hooke_options *options = NULL;
   *row = (struct hk_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
   int32_t status = hk_study_row_options(study, method, value, &options);
-  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &row->trial);
   if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
   row->wall_median = row->trial.wall_seconds;
   hooke_options_destroy(options);

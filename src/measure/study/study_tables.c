@@ -66,10 +66,6 @@ double hk_study_trusted_until(const struct hk_study *study) {
   return hk_reference_time(&study->reference, study->reference.trusted, study->duration);
 }
 
-int32_t hk_study_trusts_all(const struct hk_study *study) {
-  return hk_study_trusted_until(study) >= study->duration * (1.0 - 1e-9);
-}
-
 int32_t hk_study_recommends(const struct hk_study *study) {
   const struct hk_study_recommendation *r = &study->recommendation;
   return r->made && (r->met || study->m->outcome != HOOKE_STOPPED);
@@ -77,7 +73,7 @@ int32_t hk_study_recommends(const struct hk_study *study) {
 
 int32_t hk_study_knows_met(const struct hk_study *study) {
   const int32_t held = study->recommendation.met || !(hk_study_trusted_until(study) > 0.0);
-  return !held || hk_study_trusts_all(study);
+  return !held || hk_study_trusted_until(study) >= study->duration * (1.0 - 1e-9);
 }
 
 HOOKE_COUNTER(count_recommendations, struct hk_study, hk_study_recommends(it))

@@ -74,7 +74,8 @@ double hk_frames_resolution(const struct hk_frames *frames, const double *q) {
 
 /* ---- a trial ---- */
 
-const struct hk_trial hk_no_trial = {.step = NAN,
+/* A trial that was not run: numbers are NaN. */
+static const struct hk_trial none = {.step = NAN,
                                      .rtol = NAN,
                                      .atol = NAN,
                                      .error = NAN,
@@ -86,8 +87,8 @@ const struct hk_trial hk_no_trial = {.step = NAN,
                                      .linear_iterations = NAN,
                                      .wall_seconds = NAN};
 
-int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
-  *trial = hk_no_trial;
+static int32_t make_space(const struct hk_frames *reference, struct hk_trial *trial) {
+  *trial = none;
   double *block = hk_new(reference->count, 3 * sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   trial->error_at = hk_part(&block, reference->count);
@@ -101,7 +102,7 @@ int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *tria
 void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->error_at);
   hk_watched_series_release(&trial->watched);
-  *trial = hk_no_trial;
+  *trial = none;
 }
 
 /* ---- running ---- */
@@ -227,11 +228,13 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
                      const hooke_options *options, const struct hk_listener *listener) {
   struct run run = {.reference = reference, .trial = trial, .frames = frames, .listener = listener};
   hooke_integrator *integrator = NULL;
+  int32_t status = trial->error_at ? HOOKE_OK : make_space(reference, trial);
+  if (status != HOOKE_OK) return status;
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
   for (int64_t f = 0; f < reference->count; f++)
     trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
-  int32_t status = run_once(&run, reference->system, options, &integrator);
+  status = run_once(&run, reference->system, options, &integrator);
   const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
   if (too_long) status = HOOKE_STOPPED;
   if (status != HOOKE_OK || frames < 2)
@@ -282,4 +285,30 @@ void hk_displace(hooke_state *state, const hooke_system *system, double length, 
       q[k] += length * hk_random_normal(random);
   }
   hk_movers_renew(system, q, hooke_state_velocity(state));
+}
+
+/* ---- the steps that fit a run ---- */
+
+int32_t hk_step_is_whole(double quotient) {
+  return fabs(quotient - round(quotient)) <= 1e-9 * quotient && round(quotient) >= 1.0;
+}
+
+int32_t hk_step_unit(double duration, double every, double *unit) {
+  for (int32_t parts = 1; parts <= 10000; parts++) {
+    *unit = every / (double)parts;
+    if (hk_step_is_whole(duration / *unit)) return HOOKE_OK;
+  }
+  return hk_fail(HOOKE_BAD_VALUE, "every",
+                 "%.6g s and duration %.6g s have no step in common; take a part of the duration", every,
+                 duration);
+}
+
+int32_t hk_step_times(hooke_options *run, double *duration, double *every) {
+  *duration = hooke_options_number(run, "duration");
+  *every = hooke_options_number(run, "every");
+  if (isnan(*duration)) {
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  }
+  if (isnan(*every)) *every = *duration / 100.0;
+  return hooke_options_set_number(run, "every", *every);
 }

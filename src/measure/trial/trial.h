@@ -60,15 +60,12 @@ struct hk_trial {
   struct hk_watched_series watched;           /* quantities watched by the reference, with their errors */
 };
 
-/* A trial that was not run: numbers are NaN. */
-extern const struct hk_trial hk_no_trial;
-
-int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial);
 void hk_trial_release(struct hk_trial *trial);
 
-/* Runs with the options of a run. Divergence, a failed solver and a step limit are results, and return
- * HOOKE_OK; HOOKE_STOPPED if the listener asked for it; other failures are returned. `frames` is the number
- * of judged frames: later frames of the reference are ignored. */
+/* Runs with the options of a run; a trial begins as zeros, and may be run again. Divergence, a failed solver
+ * and a step limit are results, and return HOOKE_OK; HOOKE_STOPPED if the listener asked for it; other
+ * failures are returned. `frames` is the number of judged frames: later frames of the reference are ignored.
+ */
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
                      const hooke_options *options, const struct hk_listener *listener);
 
@@ -94,5 +91,18 @@ int32_t hk_trial_set_value(hooke_options *run, const char *method, double value)
 /* A displaced start: adds to every coordinate of a free particle a normal number times `length` [m]; a rigid
  * body goes where the three particles go that say where it is. */
 void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random);
+
+/* ---- the steps that fit a run ---- */
+
+/* The largest step [s] of which `duration` and `every` are whole multiples: it and its integer fractions fit
+ * both. HOOKE_BAD_VALUE if the times have none that is not very small. */
+int32_t hk_step_unit(double duration, double every, double *unit);
+
+/* Duration and time between frames [s] of a run; without `every` it is set to a hundredth of the duration.
+ * HOOKE_BAD_VALUE without a duration. */
+int32_t hk_step_times(hooke_options *run, double *duration, double *every);
+
+/* 1 if a quotient is a whole number >= 1, to 1e-9 relative. */
+int32_t hk_step_is_whole(double quotient);
 
 #endif
