@@ -4,9 +4,7 @@
 #include <string.h>
 
 /* Options that show a run that diverges: one that is advised does not. */
-static int32_t shows_divergence(const char *name) {
-  return strcmp(name, "past_divergence") == 0 || strcmp(name, "frames_after") == 0;
-}
+static const char SHOW_DIVERGENCE[] = "past_divergence frames_after";
 
 /* The row of `changes`, if it is set. */
 static void add_change(struct cli_string *text, const hooke_options *changes, const char *name) {
@@ -25,7 +23,7 @@ void cli_command_add(struct cli_string *text, const struct cli_arguments *argume
   cli_string_quote(text, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
-    if (!argument->text || shows_divergence(argument->name)) continue;
+    if (!argument->text || cli_is_among(SHOW_DIVERGENCE, argument->name)) continue;
     if (changes && hooke_options_is_set(changes, argument->name)) continue;
     if (!same && argument->table != arguments->run) continue;
     /* the options that --want would choose are given */
@@ -42,13 +40,6 @@ void cli_command_add(struct cli_string *text, const struct cli_arguments *argume
 }
 
 /* ---- suggestions ---- */
-
-static int32_t changes_any(const hooke_options *changes) {
-  int32_t any = 0;
-  for (int64_t row = 0; row < hooke_options_row_count(changes); row++)
-    any |= hooke_options_is_set(changes, hooke_options_row(changes, row, "name"));
-  return any;
-}
 
 /* A command without --want has to state what --want had chosen. */
 static int32_t add_chosen(const hooke_measurement *why, hooke_options *changes) {
@@ -69,7 +60,7 @@ static int32_t make_command(const struct cli_arguments *arguments, const hooke_m
   int32_t status = hooke_options_create("run", &changes);
   if (status == HOOKE_OK) status = hooke_why_advice_apply(why, place, changes);
   const int32_t was_picked = cli_arguments_text(arguments, "want") != NULL;
-  const int32_t any = status == HOOKE_OK && changes_any(changes);
+  const int32_t any = status == HOOKE_OK && hooke_measurement_text(why, "advice", place, "option")[0];
   if (any && was_picked) status = add_chosen(why, changes);
   if (status == HOOKE_OK && any) cli_command_add(command, arguments, "run", changes);
   hooke_options_destroy(changes);
