@@ -5,8 +5,6 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
-#include "measure/estimate/heat.h"
-#include "measure/trial/step_unit.h"
 #include "measure/counted_work/work.h"
 #include "model/callbacks.h"
 

@@ -6,7 +6,6 @@
 
 #include "core/print.h"
 #include "integrate/method.h"
-#include "measure/trial/step_unit.h"
 #include "model/state.h"
 
 #include <math.h>
@@ -60,11 +59,10 @@ static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void 
 
 /* The caller destroys them in either case. */
 static int32_t make_options(const struct hk_estimate *e, const struct hk_rerun *rerun, hooke_options **out) {
-  const int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, out);
-  if (status != HOOKE_OK) return status;
-  hooke_options_unset(*out, "max_steps");
-  hooke_options_set_number(*out, "duration", rerun->duration);
-  return hooke_options_set_number(*out, "every", rerun->every);
+  int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, out);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "duration", rerun->duration);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "every", rerun->every);
+  return status == HOOKE_OK ? hooke_options_unset(*out, "max_steps") : status;
 }
 
 int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {
@@ -86,8 +84,7 @@ int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun,
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
   *distance = (struct hk_distance){NAN, NAN};
-  int32_t status = hk_trial_create(&e->kept, &trial);
-  if (status == HOOKE_OK) status = make_options(e, rerun, &options);
+  int32_t status = make_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &e->kept, frames, options, &listener);
   if (status == HOOKE_OK) *distance = (struct hk_distance){trial.error_max, trial.error};
   e->left -= trial.work;

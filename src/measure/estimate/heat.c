@@ -1,4 +1,6 @@
-#include "measure/estimate/heat.h"
+/* Spurious heat of a run: a damped motion too fast for the step overshoots rest, its velocity reverses from
+ * one step to the next, and damping and drag then dissipate more energy than is available. */
+#include "measure/estimate/estimate.h"
 
 #include "core/memory.h"
 #include "measure/counted_work/work.h"

@@ -17,7 +17,7 @@ static const double RESTS = 1e-3;        /* of the wanted error: a smaller motio
 int32_t hk_needs_tell(struct hk_needs *needs, double fraction) {
   const double done = ((double)needs->pieces_done + fraction) / fmax(1.0, (double)needs->pieces);
   needs->told = fmax(needs->told, fmin(1.0, done));
-  return hk_measurement_tell(needs->measurement, needs->told, needs->under_way);
+  return hk_measurement_tell(needs->m, needs->told, needs->under_way);
 }
 
 int32_t hk_needs_rests(const struct hk_needs *needs) {
@@ -92,7 +92,7 @@ int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path
 /* ---- one run ---- */
 
 static void note_forces(struct hk_needs *needs, int64_t frame, const hooke_state *state) {
-  const struct hk_springs *springs = needs->system->springs;
+  const struct hk_springs *springs = needs->m->system->springs;
   if (frame == 0) memset(needs->largest_force, 0, (size_t)springs->count * sizeof(double));
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];
@@ -133,7 +133,7 @@ static int32_t see_progress(double fraction, void *ctx) {
 /* All variants by the same, particle by particle of the full system. */
 static void see_start(hooke_state *state, void *ctx) {
   const struct hk_needs_recorder *recorder = ctx;
-  const hooke_system *full = recorder->needs->system, *own = recorder->trial->system;
+  const hooke_system *full = recorder->needs->m->system, *own = recorder->trial->system;
   const struct hk_variant_map *map = recorder->trial->map;
   uint64_t random = SEED;
   for (int64_t p = 0; p < full->particle_count && recorder->displaced; p++) {

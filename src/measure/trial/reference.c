@@ -264,7 +264,6 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
   if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK)
     status = hk_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
-  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK && hk_reference_is_halved(r))
     status = hk_reference_find_longest(&watch, r, r->method);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);

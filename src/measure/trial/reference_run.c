@@ -2,7 +2,6 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -114,7 +113,6 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
   if (status == HOOKE_STOPPED && watch->expired) status = HOOKE_OK;
   if (status != HOOKE_OK) return status;
   r->run_extent = r->extent;
-  r->evaluations = cost->force_evaluations;
   r->run_work = cost->work;
   if (watch->unit == 0.0) watch->unit = hk_clock_seconds() - watch->run_begun;
   const double size = hk_reference_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
