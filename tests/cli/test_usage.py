@@ -66,7 +66,7 @@ def test_help_of_study_has_both_tables_and_the_units(hooke):
         assert f" --{flag} " in answer.out, flag
     for flag in ["step", "rtol", "atol", "method"]:
         assert f" --{flag} " not in answer.out, flag
-    for units in ["s, ms, us, ns, min, h", "m, km, cm, mm, um, nm"]:
+    for units in ["s, ms, us, ns, ps, fs, min, h", "m, km, cm, mm, um, nm, angstrom, in, ft"]:
         assert answer.out.count(f"\n  {units}\n") == 1
     assert max(map(len, answer.out.splitlines())) <= 110
 

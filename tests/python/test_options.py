@@ -65,7 +65,7 @@ def test_numbers_of_a_part_may_name_units():
     named = hooke.Scene().cloth(mass="200g", structural={"stiffness": "2kN", "damping": "1 mN s"}, **square).system
     assert all(np.array_equal(a, b) for a, b in zip(plain.spring_material, named.spring_material))
     assert np.array_equal(plain.inverse_masses, named.inverse_masses)
-    with pytest.raises(hooke.BadValue, match="mass: there is no unit 'mg/m' here; allowed: kg, t, g, mg, ug;"):
+    with pytest.raises(hooke.BadValue, match="mass: there is no unit 'mg/m' here; allowed: kg, t, g, mg, ug, lb;"):
         hooke.Scene().cloth(mass="200 mg/m", structural={"stiffness": "2kN"}, **square).system
 
 
