@@ -40,26 +40,26 @@ static double recommended(const struct cli_results *results, const char *what) {
   return hooke_measurement_number(results->found, "recommendation", 0, what);
 }
 
-/* NULL if the number does not apply. */
+/* NULL if the number does not apply, or follows from rtol: an absolute tolerance that the scene leaves open.
+ */
 static const char *setting(const struct cli_results *results, const char *what,
                            char text[HOOKE_NUMBER_SIZE]) {
-  double value = recommended(results, what);
-  return isnan(value) ? NULL : cli_format_number(value, text);
+  const double value = recommended(results, what);
+  const int follows = what[0] == 'a' && !hooke_options_is_set(results->setup.options, what);
+  return isnan(value) || follows ? NULL : cli_format_number(value, text);
 }
 
 /* HOOKE_NO_MEMORY */
 static int32_t find_command(struct cli_results *results) {
-  char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
+  char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[2][HOOKE_NUMBER_SIZE];
   const char *method = hooke_measurement_text(results->found, "recommendation", 0, "method");
   if (!method) return HOOKE_OK;
   struct cli_setting settings[] = {{"method", method},
                                    {"step", setting(results, "step", step)},
                                    {"rtol", setting(results, "rtol", rtol)},
-                                   {"atol", setting(results, "atol", atol)},
-                                   {"atol_velocity", NULL},
+                                   {"atol", setting(results, "atol", atol[0])},
+                                   {"atol_velocity", setting(results, "atol_velocity", atol[1])},
                                    {NULL, NULL}};
-  /* the study sets it to the number of atol, for any scene */
-  if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
   const int32_t status = cli_command_make(results->arguments, settings, &results->command);
   return status == HOOKE_OK ? hooke_measurement_label(results->found, "command", results->command) : status;
 }

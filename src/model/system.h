@@ -62,6 +62,9 @@ void hk_system_undo(hooke_system *system);
  * HOOKE_NO_MEMORY. */
 int32_t hk_system_resize(hooke_system *system, int64_t used, int64_t capacity);
 
+/* Diagonal of the box that holds some positions [m]; 0 for none. */
+double hk_diagonal(int64_t count, const double *position);
+
 /* HOOKE_BAD_CALL unless the system is still open (the second: committed). */
 int32_t hk_system_require_open(const hooke_system *system);
 int32_t hk_system_require_committed(const hooke_system *system);

@@ -13,7 +13,7 @@ RUN_OPTIONS = {  # expected in --help for each: unit and default
     "duration": ("[s]", "none"),
     "every": ("[s]", "none"),
     "rtol": ("", "1e-6"),
-    "atol": ("[m]", "1e-9"),
+    "atol": ("[m]", "none"),
     "atol-velocity": ("[m/s]", "none"),
     "max-order": ("", "none"),
     "max-steps": ("", "none"),

@@ -179,7 +179,9 @@ def test_an_unknown_keyword_of_a_run_is_refused(system):
 def test_the_options_of_an_integrator_are_complete_and_fixed(system):
     integrator = hooke.Integrator(system, method="forward-euler", step=1e-3, duration=0.5)
     assert integrator.options["every"] == pytest.approx(0.005)
-    assert integrator.options["atol_velocity"] == integrator.options["atol"] == 1e-9
+    extent = np.linalg.norm(np.ptp(system.state().q, axis=0))
+    assert integrator.options["atol"] == pytest.approx(1e-9 * extent, rel=1e-14, abs=0)
+    assert integrator.options["atol_velocity"] == pytest.approx(integrator.options["atol"] / 0.5, rel=1e-14, abs=0)
     with pytest.raises(hooke.BadCall):
         integrator.options["step"] = 1
 

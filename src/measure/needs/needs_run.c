@@ -25,10 +25,8 @@ int32_t hk_needs_rests(const struct hk_needs *needs) {
 }
 
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) {
-  if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
-  int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
-  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+  return hk_trial_set_value(run, hooke_options_text(run, "method"),
+                            isnan(cost->step) ? cost->rtol : cost->step);
 }
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {

@@ -201,6 +201,7 @@ void hk_pick_say_reversal(const struct hk_pick *pick, char *text, int32_t size) 
 
 int32_t hk_pick_prepare(struct hk_pick *pick, const hooke_options *run) {
   int32_t status = hooke_options_copy(run, &pick->run);
+  if (status == HOOKE_OK) status = hk_run_fill_tolerances(pick->system, pick->run);
   if (status == HOOKE_OK) status = choose_frames(pick);
   if (status == HOOKE_OK) status = find_quickest(pick);
   if (status == HOOKE_OK) status = find_reference(pick);

@@ -17,8 +17,8 @@ struct hk_listener {
 };
 
 struct hk_trial {
-  const char *status;      /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
-  double step, rtol, atol; /* NaN if the method does not take it */
+  const char *status;                     /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
+  double step, rtol, atol, atol_velocity; /* NaN if the method does not take it */
   /* NaN unless finished, with a judged frame after the start; no distance is below what rounding may do */
   double error, error_max, error_final, energy_drift;
   double rounding; /* by how much it may have displaced a particle [m] */
@@ -56,8 +56,8 @@ struct hk_run_cost {
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
                       const struct hk_listener *listener, struct hk_run_cost *cost);
 
-/* Sets a method and its step or rtol in options of a run; atol keeps its ratio to rtol, and atol_velocity
- * follows it. */
+/* Sets a method and its step or rtol in options of a run; atol and atol_velocity keep their ratios to rtol.
+ */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
 
 /* A displaced start: adds to every coordinate of a free particle a normal number times `length` [m]; a rigid
