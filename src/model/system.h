@@ -38,6 +38,12 @@ struct hk_system_rest {
   struct hk_linear linear;
   void *own[HOOKE_FORCES]; /* from commit on: data of a force without a member of its own here */
 
+  int64_t name_count;
+  struct hk_particle_name {
+    char *text;
+    int64_t particle;
+  } * name;
+
   int64_t derived_count, derived_capacity;
   struct hk_derived *derived;
 
@@ -54,6 +60,10 @@ int32_t hk_overdamped_check(const hooke_system *system);
 int32_t hk_overdamped_check_forces(const hooke_system *system);
 int32_t hk_overdamped_begin(hooke_system *system);
 void hk_overdamped_undo(hooke_system *system);
+
+/* For commit: HOOKE_BAD_VALUE if a particle has the name of a part or of a group. */
+int32_t hk_names_check(const hooke_system *system);
+void hk_names_release(hooke_system *system);
 
 /* Reopens a system after a failure of commit midway: releases all that commit makes. */
 void hk_system_undo(hooke_system *system);

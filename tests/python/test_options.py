@@ -13,7 +13,7 @@ def test_the_tables_are_those_of_the_library():
     assert {"method", "step", "duration", "every", "rtol", "atol", "atol_velocity"} <= set(
         hooke.Options.for_run()
     )
-    assert {"law", "stiffness", "damping", "rest_length", "rest_scale", "compression"} == set(
+    assert {"law", "stiffness", "damping", "damping_ratio", "rest_length", "rest_scale", "compression"} == set(
         hooke.Options.for_springs()
     )
     assert {"rope", "cloth", "lattice", "mesh"} <= set(hooke.part_kinds())
