@@ -484,9 +484,10 @@ TEST(messages_give_file_line_column_and_path) {
 }
 
 TEST(indices_are_whole_numbers) {
-  refuse("{'hooke': 1, " TWO ", 'springs': [{'between': [[0, 1.0]], 'stiffness': 1}]}",
-         "t.json:1:100: springs[0].between[0][1]: 1.0 is not allowed; allowed: the number of a particle, or "
-         "['part', index]");
+  refuse(
+      "{'hooke': 1, " TWO ", 'springs': [{'between': [[0, 1.0]], 'stiffness': 1}]}",
+      "t.json:1:100: springs[0].between[0][1]: 1.0 is not allowed; allowed: the number of a particle, its name, or "
+      "['part', index]");
   refuse("{'hooke': 1,\n'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0.0]}}",
          "t.json:2:60: particles.pinned[0]: 0.0 is not allowed; allowed: a whole number, without a point");
   refuse("{'hooke': 1.0, " TWO "}",
