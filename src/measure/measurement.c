@@ -36,7 +36,6 @@ int32_t hk_measurement_create(const struct hk_measurement_kind *kind, void *obje
   m->object = object;
   m->system = system;
   if (run) status = hooke_options_copy(run, &m->run);
-  if (status == HOOKE_OK && run && system) status = hk_run_fill_tolerances(system, m->run);
   if (status == HOOKE_OK)
     status =
         options ? hooke_options_copy(options, &m->options) : hk_options_create(kind->options, &m->options);

@@ -170,7 +170,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
                           struct hk_needs_cost *cost) {
   const struct hk_listener listener = {
       .on_progress = see_progress, .on_frame = see_frame, .on_start = see_start, .ctx = recorder};
-  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN};
+  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN, .atol = NAN};
   struct hk_frames none = {.system = recorder->trial->system};
   if (recorder->path) recorder->path->recorded = 0;
   recorder->needs->runs++;
@@ -180,6 +180,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   cost->wall_seconds = taken.wall_seconds;
   cost->force_evaluations = taken.force_evaluations;
   cost->work = taken.work;
+  cost->atol = isnan(cost->rtol) ? NAN : taken.atol;
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
   const int32_t judged = judge_end(recorder, *finished);

@@ -197,7 +197,8 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
   if (integrator && cost)
     *cost = (struct hk_run_cost){hooke_integrator_number(integrator, "wall_seconds"),
                                  (double)hooke_integrator_count(integrator, "force_evaluations"),
-                                 work_of(&run), works_too_long(&run)};
+                                 work_of(&run), works_too_long(&run),
+                                 hooke_options_number(hooke_integrator_options(integrator), "atol")};
   if (integrator)
     snprintf(frames->zero_passages, sizeof frames->zero_passages, "%s",
              hooke_integrator_text(integrator, "zero_passages"));
