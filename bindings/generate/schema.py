@@ -28,6 +28,8 @@ def scalar(row):
         schema["exclusiveMinimum" if row.above_low else "minimum"] = number(row.low)
     if row.high is not None and row.high < LARGEST:
         schema["maximum"] = number(row.high)
+    if row.name == "pinned" and not row.words:  # explicit particles, which may have names
+        schema["type"] = ["integer", "string"]
     return {**schema, "type": ["number", "string"], "pattern": QUANTITY} if row.units else schema
 
 

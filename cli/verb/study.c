@@ -294,21 +294,19 @@ static int check(const struct cli_arguments *arguments) {
 
 /* ---- the recommended command ---- */
 
-/* HOOKE_NO_MEMORY */
+/* An absolute tolerance that the scene leaves open follows from rtol. HOOKE_NO_MEMORY */
 static int32_t find_command(struct cli_results *results) {
-  static const char *const numbers[] = {"step", "rtol", "atol"};
+  static const char *const numbers[] = {"step", "rtol", "atol", "atol_velocity"};
   const char *method = cli_text(results->found, "recommendation", "method");
   struct cli_string command = {.bytes = NULL};
   hooke_options *changes = NULL;
   if (!method) return HOOKE_OK;
   int32_t status = hooke_options_create("run", &changes);
   if (status == HOOKE_OK) status = hooke_options_set_text(changes, "method", method);
-  for (int k = 0; k < 3 && status == HOOKE_OK; k++) {
+  for (int k = 0; k < 4 && status == HOOKE_OK; k++) {
     const double value = cli_number(results->found, "recommendation", numbers[k]);
-    if (!isnan(value)) status = hooke_options_set_number(changes, numbers[k], value);
-    /* the study sets it to the number of atol, for any scene */
-    if (k == 2 && !isnan(value) && hooke_options_is_set(results->setup.options, "atol_velocity"))
-      status = hooke_options_set_number(changes, "atol_velocity", value);
+    const int follows = k >= 2 && !hooke_options_is_set(results->setup.options, numbers[k]);
+    if (!isnan(value) && !follows) status = hooke_options_set_number(changes, numbers[k], value);
   }
   if (status == HOOKE_OK) cli_command_add(&command, results->arguments, "run", changes);
   hooke_options_destroy(changes);

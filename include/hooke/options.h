@@ -69,7 +69,7 @@ HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
  *   "words"    the choices, or the words accepted in place of numbers, separated by blanks
  *   "family"   the family of the row
  *   "only"     the word of the table's first row, a choice, with which it may be given
- *   "units"    the units that a text may name, separated by commas: "s, ms, us, ns, min, h"
+ *   "units"    the units that a text may name, separated by commas: "s, ms, us, ns, ps, fs, min, h"
  *   "example"  a value for a first try, in the syntax of hooke_options_set_text() */
 HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
 

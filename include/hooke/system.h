@@ -89,6 +89,13 @@ HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count
 /* Pins particles: inverse mass 0. Naming one twice is allowed; commit refuses a moving one. */
 HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
 
+/* Names a particle: a name takes the place of its number in scenes and in what is watched, such as "tip.y".
+ * It is no number, has no '.', ':' or blank, and is not that of a part or of a group, which commit refuses.
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_name_particle(hooke_system *system, const char *name, int64_t particle);
+/* The particle of a name; -1 if there is none. */
+HOOKE_API int64_t hooke_system_named_particle(const hooke_system *system, const char *name);
+
 /* Adds a group of `count` springs between the pairs in `ends` (2 count particle numbers, different within a
  * pair), with options "springs". `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL,
  * HOOKE_NO_MEMORY. */

@@ -108,10 +108,6 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
   it->diverged_at = NAN;
   status = hooke_options_copy(options, &it->options);
   if (status == HOOKE_OK) status = hk_schedule_read(method, it->options, &it->schedule);
-  if (status == HOOKE_OK && !hooke_options_is_set(it->options, "atol_velocity")) {
-    status =
-        hooke_options_set_number(it->options, "atol_velocity", hooke_options_number(it->options, "atol"));
-  }
   if (status == HOOKE_OK)
     *out = it;
   else
@@ -141,6 +137,7 @@ static int32_t start_threads(hooke_integrator *it) {
 /* `it` is the integrator from here on, with its problem still missing. */
 static int32_t take_system(hooke_integrator *it, const hooke_system *system, hooke_integrator **out) {
   int32_t status = hk_method_require(it->method, system);
+  if (status == HOOKE_OK) status = hk_run_fill_tolerances(system, it->options);
   it->system = system;
   it->size = 3 * system->particle_count;
   if (it->method->by_tiles && system->mover_count == 0 && !system->overdamped && hk_goes_by_tiles(system))
@@ -186,6 +183,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
   it->rate_ctx = ctx;
   it->size = size;
   status = hk_method_require(it->method, NULL);
+  if (status == HOOKE_OK) status = hk_run_fill_tolerances(NULL, it->options);
   if (status == HOOKE_OK) status = hk_recent_create(size, 0, 1, &it->recent);
   if (status == HOOKE_OK && (it->rows = hk_rows_new(2 * size)) == NULL) status = HOOKE_NO_MEMORY;
   return finish(it, status, out);

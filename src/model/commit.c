@@ -26,8 +26,11 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
 }
 
 static int32_t take_groups_over(hooke_system *system) {
+  const int64_t springs = hk_system_first_group(system, &hk_force_springs);
   int32_t status = HOOKE_OK;
-  for (int64_t g = 0; g < system->group_count; g++)
+  for (int64_t g = 0; g < system->group_count && status == HOOKE_OK; g++)
+    status = hk_springs_find_damping(system, &system->group[g], g - springs);
+  for (int64_t g = 0; g < system->group_count && status == HOOKE_OK; g++)
     hk_group_drop(&system->group[g], system);
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
@@ -182,6 +185,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = hk_groups_check_free(system);
+  if (status == HOOKE_OK) status = hk_names_check(system);
   if (status == HOOKE_OK) status = hk_overdamped_check(system);
   if (status == HOOKE_OK) status = hk_movers_commit(system);
   if (status == HOOKE_OK) status = hk_overdamped_begin(system);

@@ -32,6 +32,7 @@ struct hk_group {
   /* until commit, of each member; NULL if the force has no such number */
   int32_t *particle[HOOKE_MEMBER_PARTICLES];
   double *number[HOOKE_GROUP_NUMBERS];
+  double *ratio; /* of springs, damping ratios, from which commit finds gamma; NULL: none */
 };
 
 /* Allocates the columns of its force and count, and copies the name. HOOKE_NO_MEMORY. */

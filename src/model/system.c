@@ -38,6 +38,7 @@ static void release_model(hooke_system *system) {
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
   hk_movers_release(system);
+  hk_names_release(system);
   hk_system_drop_derived(system, 0);
   void *const block[] = {system->position, system->velocity,   system->mass,           system->constrained,
                          system->group,    system->part,       system->gravity_factor, system->rest->derived,

@@ -129,8 +129,10 @@ def test_keywords_are_those_of_the_schema():
         return set(inspect.signature(method).parameters) - {"self"}
 
     properties = schema["properties"]
-    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "loads"}
+    pieces = set(properties) - {"$schema", "hooke", "names", "particles", "springs", "bending", "anchors", "parts", "bodies",
+                                "driven", "loads"}
     assert keywords(hooke.Scene.__init__) == pieces
+    assert keywords(hooke.Scene.names) == {"names"}
     assert keywords(hooke.Scene.bodies) == set(_keys(schema, properties["bodies"]["items"]))
     assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))
     assert keywords(hooke.Scene.loads) == set(_keys(schema, properties["loads"]["items"]))
@@ -387,3 +389,24 @@ def test_all_faults_of_a_scene_are_told():
     with pytest.raises(hooke.BadValue) as told:
         hooke.Scene.parse(text)
     assert [line.split(": ")[1] for line in str(told.value).splitlines()] == ["gravty", "particles.mass"]
+
+
+def test_names_take_the_place_of_numbers(tmp_path):
+    built = hooke.Scene().particles([[0, 1, 0], [1, 1, 0]], mass=1, pinned=[0])
+    built.rope("line", from_=(0, 0, 0), to=(1, 0, 0), segments=4, mass=1, stretch={"stiffness": 9})
+    built.names({"tip": 1, "fairlead": ("line", 0)})
+    built.springs(between=[("tip", "fairlead"), [("line", 4), "tip"]], stiffness=3, damping_ratio=0.2)
+    built.anchors(particles=["fairlead"], stiffness=2)
+    assert built.system.spring_ends[:2].tolist() == [[1, 2], [6, 1]]
+    text = json.dumps({**json.loads(built.text), "anchors": [{"particles": ["fairlead"], "stiffness": 2}]})
+    read = hooke.Scene.parse(text)
+    same(built.system, read.system)
+    read.save(tmp_path / "named.json")
+    assert json.loads((tmp_path / "named.json").read_text())["names"] == {"tip": 1, "fairlead": 2}
+    found = hooke.study(read, "rk4", steps=0.01, duration=0.1, every=0.05, watch="tip.y")
+    assert list(found.watched) == ["tip.y"]
+    with pytest.raises(hooke.BadValue, match=re.escape('particles[0]: there is no particle called "top"; allowed: tip')):
+        hooke.Scene().particles([[0, 0, 0]], mass=1).names({"tip": 0}).anchors(particles=["top"], stiffness=1)
+    for name in ("tip", "1", "1e3", "a.b", "a:b", "a b", ""):
+        with pytest.raises(hooke.BadValue, match="^names"):
+            hooke.Scene().particles([[0, 0, 0]], mass=1).names({"tip": 0}).names({name: 0})

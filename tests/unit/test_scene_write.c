@@ -241,6 +241,37 @@ TEST(loads_come_back) {
   hk_variant_release(&variant);
 }
 
+/* By the numbers that the particles have in the scene; in a variant those that are there. */
+TEST(names_come_back) {
+  const double position[] = {0, 1, 0, 1, 1, 0};
+  owned_system *system = small_part(NULL, "rope", "line",
+                                    "from=0,0,0 to=1,0,0 segments=2 mass=1 stretch.stiffness=9"),
+               *made = NULL;
+  owned_scene *read = NULL;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  check_ok(hooke_system_add_particles(system, 2, position, NULL, 1, (double[]){2.0}, NULL));
+  check_ok(hooke_system_name_particle(system, "tip", 2));
+  check_ok(hooke_system_name_particle(system, "bob", 4));
+  check_ok(hooke_system_commit(system));
+  check_status(hooke_system_name_particle(system, "late", 0), HOOKE_BAD_CALL);
+  check_ok(hooke_scene_of_system(system, NULL, NULL, "memory", NULL, &read));
+  check_ok(hooke_scene_commit(read));
+  const hooke_system *again = hooke_scene_system(read);
+  assert_int_equal(hooke_system_named_particle(again, "tip"), 4);
+  assert_int_equal(hooke_system_named_particle(again, "bob"), 1);
+  assert_int_equal(hooke_system_named_particle(again, "top"), -1);
+  check_same_bits(3, again->position + 3, system->position + 12);
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.part[0] = 1;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  assert_int_equal(hooke_system_named_particle(made, "tip"), -1);
+  assert_int_equal(hooke_system_named_particle(made, "bob"), 1);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+}
+
 /* Of particles and parts, as options of a part and as set after it; in a variant at half the resolution it is
  * that of the same points. */
 TEST(gravity_factors_come_back) {
@@ -272,6 +303,32 @@ TEST(gravity_factors_come_back) {
   assert_int_equal(made->particle_count, 12);
   for (int p = 0; p < 12; p++)
     check_close(made->gravity_factor[p], right[p], 1e-15);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+}
+
+/* One for all stays a ratio, which finds the same damping where other particles are held; several become
+ * dampings. A variant without damping has none. */
+TEST(damping_ratios_come_back) {
+  const double position[] = {0, 0, 0, 1, 0, 0, 3, 0, 0};
+  const int64_t ends[] = {0, 1, 1, 2};
+  double gamma[4];
+  owned_system *system = small_system(3, position, NULL, 0.3, 1), *made = NULL;
+  hooke_scene *read;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  small_group(system, "springs", "one", 2, ends, "stiffness=7 damping_ratio=0.3 rest_scale=0.9");
+  small_group(system, "springs", "two", 2, ends, "stiffness=7,9 damping_ratio=0.1,0.7");
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  assert_non_null(strstr(hooke_scene_text(read, "text"), "\"damping_ratio\": 0.3"));
+  hooke_scene_destroy(read);
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.damping = 1;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  check_ok(hooke_system_members(made, "springs", NULL, NULL, gamma, NULL));
+  assert_true(gamma[0] == 0.0 && gamma[1] == 0.0 && gamma[2] == 0.0 && gamma[3] == 0.0);
   hk_variant_map_release(&map);
   hk_variant_release(&variant);
 }

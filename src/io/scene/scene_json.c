@@ -10,7 +10,8 @@
 
 enum { METHODS_SIZE = 512 };
 
-static const char other_keys[] = "hooke particles springs bending anchors parts bodies driven loads run";
+static const char other_keys[] =
+    "hooke particles springs bending anchors parts bodies driven loads run names";
 
 /* ---- pieces of a scene ---- */
 
@@ -64,6 +65,7 @@ static int32_t add_pieces(struct hk_scene_reader *reader, const char *root) {
     return HOOKE_OK; /* a right `dynamics` may do without */
   int32_t status = hk_scene_add_list(reader, root, list++);
   if (status == HOOKE_OK) status = hk_scene_add_parts(reader, root);
+  if (status == HOOKE_OK && reader->faults == 0) status = hk_scene_add_names(reader);
   reader->within[0] = '\0';
   if (status != HOOKE_OK || reader->faults > 0) return status;
   if (hooke_system_particle_count(reader->scene->system) == 0)
@@ -74,6 +76,7 @@ static int32_t add_pieces(struct hk_scene_reader *reader, const char *root) {
 }
 
 static int32_t read_scene(struct hk_scene_reader *reader, const char *root) {
+  reader->names = hk_json_get(root, "names");
   int32_t status = hk_scene_note(reader, check_version(root));
   if (status == HOOKE_OK) status = hk_scene_note(reader, read_top(reader, root));
   if (status == HOOKE_OK) status = hk_scene_note(reader, add_pieces(reader, root));

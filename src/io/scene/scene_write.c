@@ -216,6 +216,14 @@ static void add_parts(struct writer *to) {
   hk_text_close(text, ']');
 }
 
+static void add_names(struct writer *to) {
+  const struct hk_system_rest *rest = to->system->rest;
+  hk_text_open(&to->json, "names", '{');
+  for (int64_t k = 0; k < rest->name_count; k++)
+    hk_text_number(&to->json, rest->name[k].text, (double)to->number[rest->name[k].particle]);
+  hk_text_close(&to->json, '}');
+}
+
 /* ---- lists ---- */
 
 /* Opens a member, and the list before the first one, with its name and its particles by their numbers in the
@@ -356,6 +364,7 @@ static void add_scene(struct writer *to, const char *title, const hooke_options 
   if (system->drag != 0.0) hk_text_number(text, "drag", system->drag);
   if (to->alone > 0) add_particles(to);
   if (system->part_count > 0) add_parts(to);
+  if (system->rest->name_count > 0) add_names(to);
   add_lists(to);
   if (run) {
     hk_text_open(text, "run", '{');

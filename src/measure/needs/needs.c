@@ -16,7 +16,7 @@ static const struct hk_option_row needs_rows[] = {
                  "error that one can live with, the largest distance of any watched particle", .required = 1),
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
                  "what is looked at: a part, a group, or particle "
-                 "numbers such as 0,7-9; all free particles if not given"),
+                 "numbers or names such as 0,7-9,tip; all free particles if not given"),
     HOOKE_OPTION("refine", .type = HOOKE_OPTION_FLAG, "false",
                  "the reverse question: each part at once, twice and "
                  "four times its resolution, and what the want asks for"),

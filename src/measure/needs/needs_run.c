@@ -25,10 +25,8 @@ int32_t hk_needs_rests(const struct hk_needs *needs) {
 }
 
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) {
-  if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
-  int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
-  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+  return hk_trial_set_value(run, hooke_options_text(run, "method"),
+                            isnan(cost->step) ? cost->rtol : cost->step);
 }
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {
@@ -172,7 +170,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
                           struct hk_needs_cost *cost) {
   const struct hk_listener listener = {
       .on_progress = see_progress, .on_frame = see_frame, .on_start = see_start, .ctx = recorder};
-  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN};
+  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN, .atol = NAN};
   struct hk_frames none = {.system = recorder->trial->system};
   if (recorder->path) recorder->path->recorded = 0;
   recorder->needs->runs++;
@@ -182,6 +180,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   cost->wall_seconds = taken.wall_seconds;
   cost->force_evaluations = taken.force_evaluations;
   cost->work = taken.work;
+  cost->atol = isnan(cost->rtol) ? NAN : taken.atol;
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
   const int32_t judged = judge_end(recorder, *finished);

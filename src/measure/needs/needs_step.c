@@ -3,7 +3,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "integrate/method.h"
+#include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/force/spring.h"
@@ -36,7 +36,6 @@ struct search {
   struct hk_needs_recorder recorder;
   hooke_options *options;
   int32_t adaptive;
-  double ratio; /* atol / rtol */
   double value; /* of the coarser of two runs */
   double first_stable;
   int32_t has_limit; /* 0: no stable step is known, such as in a build without LAPACK */
@@ -61,7 +60,6 @@ static int32_t run_at(struct search *search, double value, int32_t which) {
   struct attempt *run = &search->run[which];
   run->cost.step = search->adaptive ? NAN : search->recorder.needs->unit / value;
   run->cost.rtol = search->adaptive ? 1.0 / pow(10.0, value) : NAN;
-  run->cost.atol = run->cost.rtol * search->ratio;
   search->recorder.path = &run->path;
   const int32_t status = hk_needs_set_step(&run->cost, search->options);
   if (status != HOOKE_OK) return status;
@@ -168,7 +166,6 @@ static int32_t begin_search(struct search *search, double limit) {
   search->has_limit = search->adaptive || !isnan(limit);
   const struct hk_needs *needs = search->recorder.needs;
   const double unit = needs->unit;
-  search->ratio = hooke_options_number(needs->m->run, "atol") / hooke_options_number(needs->m->run, "rtol");
   search->recorder.fraction = 0.25;
   if (search->adaptive) {
     search->value = -log10(COARSEST_RTOL);
@@ -230,6 +227,8 @@ static int32_t start(struct search *search, double limit) {
   const struct hk_needs *needs = search->recorder.needs;
   int32_t status = begin_search(search, limit);
   if (status == HOOKE_OK) status = hooke_options_copy(needs->m->run, &search->options);
+  if (status == HOOKE_OK && is_shortened(search))
+    status = hk_run_fill_tolerances(search->recorder.trial->system, search->options);
   if (status == HOOKE_OK && is_shortened(search))
     status =
         hooke_options_set_number(search->options, "duration", (double)(needs->judged - 1) * needs->every);

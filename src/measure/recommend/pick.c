@@ -144,13 +144,18 @@ static int32_t make_reference(struct hk_pick *pick, double budget) {
   return status;
 }
 
+/* Shorter runs have the tolerances of the whole one. */
+static int32_t set_duration(struct hk_pick *pick, double duration) {
+  const int32_t status = hk_run_fill_tolerances(pick->system, pick->run);
+  pick->fraction = duration / pick->duration;
+  return status == HOOKE_OK ? hooke_options_set_number(pick->run, "duration", duration) : status;
+}
+
 /* Limits the studied duration to the frames of the reference, if its budget was short. */
 static int32_t shorten(struct hk_pick *pick) {
   const struct hk_reference *r = &pick->reference;
   if (!r->hurried || r->trusted >= r->frames.count || r->trusted < 2) return HOOKE_OK;
-  const double reached = r->frames.time[r->trusted - 1] - r->frames.time[0];
-  pick->fraction = reached / pick->duration;
-  return hooke_options_set_number(pick->run, "duration", reached);
+  return set_duration(pick, r->frames.time[r->trusted - 1] - r->frames.time[0]);
 }
 
 /* A reference, by a larger budget if one is too small for a single frame. */
@@ -171,9 +176,8 @@ static int32_t find_reference(struct hk_pick *pick) {
   if (status != HOOKE_OK && status != HOOKE_BAD_VALUE) return status;
   hk_reference_release(&pick->reference);
   const double units = ceil(BEGINNING * round(pick->duration / pick->unit));
-  pick->fraction = units * pick->unit / pick->duration;
   status = hooke_options_set_number(pick->run, "every", pick->unit);
-  if (status == HOOKE_OK) status = hooke_options_set_number(pick->run, "duration", units * pick->unit);
+  if (status == HOOKE_OK) status = set_duration(pick, units * pick->unit);
   if (status == HOOKE_OK) status = insist(pick, budget);
   return status == HOOKE_OK ? shorten(pick) : status;
 }

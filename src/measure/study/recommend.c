@@ -181,6 +181,7 @@ static void keep(struct hk_study *study, const struct hk_study_row *row, int64_t
   r->method = row->method;
   r->value = row->value;
   r->atol = row->trial.atol;
+  r->atol_velocity = row->trial.atol_velocity;
   r->wall_seconds = row->trial.wall_seconds;
   r->wall_median = row->wall_median;
   r->force_evaluations = row->trial.force_evaluations;
@@ -294,6 +295,7 @@ static void clear(struct hk_study *study, double want) {
                                                            .want = want,
                                                            .value = NAN,
                                                            .atol = NAN,
+                                                           .atol_velocity = NAN,
                                                            .error = NAN,
                                                            .until = NAN,
                                                            .wall_seconds = NAN,

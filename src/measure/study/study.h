@@ -38,7 +38,7 @@ struct hk_study_margin {
 struct hk_study_recommendation {
   int32_t made, met;
   int32_t method;
-  double want, value, atol, wall_seconds, wall_median, force_evaluations;
+  double want, value, atol, atol_velocity, wall_seconds, wall_median, force_evaluations;
   double error; /* largest distance of any particle [m], */
   double until; /* up to this time after the start [s] */
   struct hk_study_margin margin;

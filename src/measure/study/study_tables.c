@@ -315,6 +315,8 @@ const struct hk_table hk_study_tables[] = {
              "reverse the choice, which is by counted work"),
          HOOKE_COLUMN(struct hk_study_recommendation, atol, NUMBER, "m",
                       "its absolute tolerance of positions"),
+         HOOKE_COLUMN(struct hk_study_recommendation, atol_velocity, NUMBER, "m/s",
+                      "its absolute tolerance of velocities"),
          HOOKE_COLUMN(struct hk_study_recommendation, force_evaluations, COUNT, "",
                       "its evaluations of the forces"),
          HOOKE_COLUMN_BY(command, TEXT, "", "its command line, where the caller gave one as a label"))},

@@ -79,6 +79,7 @@ double hk_frames_resolution(const struct hk_frames *frames, const double *q) {
 static const struct hk_trial none = {.step = NAN,
                                      .rtol = NAN,
                                      .atol = NAN,
+                                     .atol_velocity = NAN,
                                      .error = NAN,
                                      .error_max = NAN,
                                      .error_final = NAN,
@@ -214,6 +215,7 @@ static void keep_counts(struct run *run) {
   trial->step = adaptive ? NAN : hooke_options_number(options, "step");
   trial->rtol = adaptive ? hooke_options_number(options, "rtol") : NAN;
   trial->atol = adaptive ? hooke_options_number(options, "atol") : NAN;
+  trial->atol_velocity = adaptive ? hooke_options_number(options, "atol_velocity") : NAN;
   trial->force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
   trial->steps = (double)hooke_integrator_count(integrator, "steps");
   trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
@@ -262,7 +264,8 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
   if (integrator && cost)
     *cost = (struct hk_run_cost){hooke_integrator_number(integrator, "wall_seconds"),
                                  (double)hooke_integrator_count(integrator, "force_evaluations"),
-                                 work_of(&run), works_too_long(&run)};
+                                 work_of(&run), works_too_long(&run),
+                                 hooke_options_number(hooke_integrator_options(integrator), "atol")};
   if (integrator)
     snprintf(frames->zero_passages, sizeof frames->zero_passages, "%s",
              hooke_integrator_text(integrator, "zero_passages"));
@@ -271,13 +274,17 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
 }
 
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value) {
-  const double fraction = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
+  static const char *const absolute[] = {"atol", "atol_velocity"};
+  const double rtol = hooke_options_number(run, "rtol");
+  const int32_t fixed = !hooke_method_is_adaptive(method); /* whose text may be that of the options */
   int32_t status = hooke_options_set_text(run, "method", method);
-  if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
-    return hooke_options_set_number(run, "step", value);
+  if (status == HOOKE_OK && fixed) return hooke_options_set_number(run, "step", value);
   if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * fraction);
-  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+  for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
+    const double fraction = hooke_options_number(run, absolute[k]) / rtol;
+    if (!isnan(fraction)) status = hooke_options_set_number(run, absolute[k], value * fraction);
+  }
+  return status;
 }
 
 void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random) {

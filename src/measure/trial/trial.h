@@ -48,8 +48,8 @@ struct hk_listener {
 };
 
 struct hk_trial {
-  const char *status;      /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
-  double step, rtol, atol; /* NaN if the method does not take it */
+  const char *status;                     /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
+  double step, rtol, atol, atol_velocity; /* NaN if the method does not take it */
   /* NaN unless finished, with a judged frame after the start; no distance is below what rounding may do */
   double error, error_max, error_final, energy_drift;
   double rounding; /* by how much it may have displaced a particle [m] */
@@ -77,6 +77,7 @@ struct hk_run_cost {
   double wall_seconds, force_evaluations;
   double work;      /* counted [s] */
   int32_t too_long; /* 1: the most work of its listener ended it */
+  double atol;      /* that its options name, or that follows [m] */
 };
 
 /* Runs and records every frame, as a reference for trials; any outcome but success is returned. `cost` may be
@@ -84,8 +85,8 @@ struct hk_run_cost {
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
                       const struct hk_listener *listener, struct hk_run_cost *cost);
 
-/* Sets a method and its step or rtol in options of a run; atol keeps its ratio to rtol, and atol_velocity
- * follows it. */
+/* Sets a method and its step or rtol in options of a run; atol and atol_velocity, if given, keep their ratios
+ * to rtol. */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
 
 /* A displaced start: adds to every coordinate of a free particle a normal number times `length` [m]; a rigid

@@ -139,6 +139,8 @@ static int32_t take_options(const struct hk_variant_maker *maker, const hooke_op
   int32_t status = hooke_options_copy(from, &kept->options);
   if (status != HOOKE_OK || !(kept->force->kind & HOOKE_LOOPED)) return status;
   if (maker->variant->damping) status = hooke_options_unset(kept->options, "damping");
+  if (status == HOOKE_OK && maker->variant->damping)
+    status = hooke_options_unset(kept->options, "damping_ratio");
   if (status == HOOKE_OK && maker->variant->compression)
     status = hooke_options_set_number(kept->options, "compression", 0.0);
   return status == HOOKE_OK ? hk_springs_find_material(maker->made, kept->options, kept) : status;
@@ -185,6 +187,16 @@ static int32_t copy_others(const struct hk_variant_maker *maker) {
   return status;
 }
 
+static int32_t copy_names(const struct hk_variant_maker *maker) {
+  const struct hk_system_rest *from = maker->from->rest;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < from->name_count && status == HOOKE_OK; k++) {
+    const int64_t to = maker->map->to[from->name[k].particle];
+    if (to >= 0) status = hooke_system_name_particle(maker->made, from->name[k].text, to);
+  }
+  return status;
+}
+
 static int32_t copy_movers(const struct hk_variant_maker *maker) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; hk_coordinates_table(k) && status == HOOKE_OK; k++)
@@ -218,6 +230,7 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);
+  if (status == HOOKE_OK) status = copy_names(&maker);
   if (status == HOOKE_OK) status = copy_movers(&maker);
   if (status == HOOKE_OK) status = copy_others(&maker);
   if (status == HOOKE_OK) {

@@ -124,6 +124,17 @@ class Scene(Parts, Problem):
         self._changed()["particles"] = piece
         return self
 
+    def names(self, names: Mapping[str, Any]) -> Scene:
+        """Names particles: ``{"tip": 57, "fairlead": ("line", 0)}``. A name takes the place of a number wherever a
+        scene has particles, and in what is watched (``watch="tip.y"``). It is no number, not that of a part or of a
+        group, and has no ".", ":" or blank. Returns the scene."""
+        with placed("names"):
+            for name, particle in names.items():
+                number = self._resolved(particle, name)
+                lib.hooke_system_name_particle(self._system._handle, name.encode(), operator.index(number))
+                self._changed().setdefault("names", {})[name] = operator.index(number)
+        return self
+
     def run_defaults(self, **options: Any) -> Scene:
         """Sets default options of runs of the scene: method, step [s], duration [s], every [s], ..., as
         ``hooke.describe("run")`` lists them. Returns the scene."""
@@ -200,17 +211,26 @@ class Scene(Parts, Problem):
         return [part.get("name") or f"{part['kind']}{k}" for k, part in enumerate(self._opened().get("parts", ()))]
 
     def _numbers(self, particles: Any, name: str) -> IntArray:
-        """Particles as numbers, with particles of named parts resolved."""
+        """Particles as numbers, with names and particles of named parts resolved."""
         if isinstance(particles, np.ndarray):
             return np.array(indices(particles, name))  # the caller's may change
         return indices(self._resolved(particles, name), name)
 
     def _resolved(self, particles: Any, name: str) -> Any:
+        if isinstance(particles, str):
+            return self._named(particles, name)
         if not isinstance(particles, (list, tuple)):
             return particles
-        if len(particles) == 2 and isinstance(particles[0], str):
+        if len(particles) == 2 and isinstance(particles[0], str) and not isinstance(particles[1], str):
             return self._number_in_part(particles[0], particles[1], name)
         return [self._resolved(particle, f"{name}[{place}]") for place, particle in enumerate(particles)]
+
+    def _named(self, particle: str, name: str) -> int:
+        number = int(lib.hooke_system_named_particle(self._system._handle, particle.encode()))
+        if number < 0:
+            known = ", ".join(self._opened().get("names", ())) or "there are none"
+            raise BadValue(f'{name}: there is no particle called "{particle}"; allowed: {known}')
+        return number
 
     def _in_part(self, part: str, name: str) -> range:
         handle, key = self._system._handle, part.encode()
