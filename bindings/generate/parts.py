@@ -59,7 +59,7 @@ ADDED = {"springs": "a group of springs", "bending": "a group of triples that re
 LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bodies": "particles", "driven": "particles"}
 PARTICLES = {"between": "Sequence[Sequence[Particle]] | IntArray", "triples": "Sequence[Sequence[Particle]] | IntArray",
              "particles": "Particle | Sequence[Particle] | IntArray"}
-TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str"}
+TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str", "object": "dict[str, Quantity]"}
 
 
 def resolved(schema, definitions):

@@ -179,6 +179,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
+  if (status == HOOKE_OK) status = hk_medium_check(system);
   if (status == HOOKE_OK) status = hk_overdamped_check(system);
   if (status == HOOKE_OK) status = hk_movers_commit(system);
   if (status == HOOKE_OK) status = hk_overdamped_begin(system);

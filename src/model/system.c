@@ -1,4 +1,4 @@
-/* Building a system: particles, pins, gravity, drag and the callback force. */
+/* Building a system: particles, pins, gravity and the callback force. */
 #include "model/system.h"
 
 #include "core/handle.h"
@@ -25,6 +25,7 @@ int32_t hooke_system_create(hooke_system **system) {
                                 .tiled = &made->rest.tiled,
                                 .altitudes = &made->rest.altitudes,
                                 .bodies = &made->rest.bodies,
+                                .medium = &made->rest.medium,
                                 .rest = &made->rest};
   return HOOKE_OK;
 }
@@ -38,6 +39,7 @@ static void release_model(hooke_system *system) {
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
   hk_movers_release(system);
+  hk_medium_release(system->medium);
   hk_system_drop_derived(system, 0);
   void *const block[] = {system->position,      system->velocity, system->mass,
                          system->constrained,   system->group,    system->part,
@@ -140,16 +142,6 @@ int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
   system->has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
   for (int k = 0; k < 3; k++)
     system->gravity[k] = system->has_gravity ? gravity[k] : 0.0;
-  return HOOKE_OK;
-}
-
-int32_t hooke_system_set_drag(hooke_system *system, double coefficient) {
-  int32_t status = hk_system_require_open(system);
-  if (status != HOOKE_OK) return status;
-  if (!(coefficient >= 0.0) || !isfinite(coefficient)) {
-    return hk_fail(HOOKE_BAD_VALUE, "drag", "%g is not allowed; a number >= 0 (N s/m) is", coefficient);
-  }
-  system->drag = coefficient > 0.0 ? coefficient : 0.0;
   return HOOKE_OK;
 }
 

@@ -5,6 +5,7 @@
 #include "kernel/vector_loops.h"
 #include "model/force/altitude.h"
 #include "model/force/force.h"
+#include "model/medium.h"
 
 #include <float.h>
 #include <math.h>
@@ -16,7 +17,8 @@ static const double ROUNDINGS = 4.0 * DBL_EPSILON;
 int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   const hooke_system *system = it->system;
   const double *g = system->gravity;
-  if (!system->overdamped || system->force || system->altitudes->count > 0) return HOOKE_OK;
+  const int whole = !system->force && !system->medium->blows && system->altitudes->count == 0;
+  if (!system->overdamped || !whole) return HOOKE_OK;
   descent->rows = hk_new(it->size, sizeof(double));
   if (descent->rows == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += it->size * (int64_t)sizeof(double);
