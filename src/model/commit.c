@@ -142,7 +142,9 @@ static int32_t choose_forces(hooke_system *system) {
   if (system->force_row == NULL) return HOOKE_NO_MEMORY;
   for (int32_t k = 0; k < HOOKE_FORCES; k++) {
     const struct hk_force_row *row = hk_force_table(k);
-    if (hk_force_is_present(system, row)) system->force_row[system->force_row_count++] = row;
+    if (!hk_force_is_present(system, row)) continue;
+    system->force_row[system->force_row_count++] = row;
+    system->drag_is_within |= row->add != NULL && k > hk_force_number(&hk_force_drag);
   }
   return HOOKE_OK;
 }
@@ -150,6 +152,7 @@ static int32_t choose_forces(hooke_system *system) {
 /* Of what depends on the callback force, which two systems with one model do not share. */
 static void forget_own(hooke_system *system) {
   system->force_row = NULL;
+  system->drag_is_within = 0;
   system->span = NULL;
   system->pin = NULL;
   system->idle_count = system->span_count = system->pin_count = 0;

@@ -50,6 +50,7 @@ struct hooke_system {
   struct hk_drive_group *drive;
   int32_t force_row_count; /* from commit on: the present forces */
   const struct hk_force_row **force_row;
+  int32_t drag_is_within; /* 1: some of them comes after drag in the sum */
 
   struct hk_springs *springs;         /* from commit on */
   struct hk_strided_batches *strided; /* from commit on, for all springs or none */
