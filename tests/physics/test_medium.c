@@ -425,3 +425,36 @@ TEST(overdamped_particles_go_with_the_wind) {
   check_close(hooke_system_dissipated_power(system, place, v), heat, 1e-12 * heat);
   hooke_system_destroy(system);
 }
+
+/* ---- what is warned of ---- */
+
+static int32_t note(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                    int64_t particle, void *ctx) {
+  (void)t, (void)limit, (void)spring;
+  assert_string_equal(kind, "added-mass");
+  assert_string_equal(sentence, "part \"rope\" has 0.3 kg and displaces 0.314 kg of fluid, whose added mass "
+                                "is not in the scene");
+  assert_int_equal(particle, 0);
+  ++*(int *)ctx;
+  return 0;
+}
+
+/* 1 m of 2 cm displaces 0.314 kg of water. */
+TEST(added_mass_is_missed_in_water_alone) {
+  const struct {
+    double density, mass;
+    int warned;
+  } cases[] = {{1000, 0.3, 1}, {1000, 0.32, 0}, {99, 0.01, 0}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    int warned = 0;
+    owned_system *system =
+        small_part(NULL, "rope", "rope",
+                   "from=0,0,0 to=0,-1,0 segments=4 mass=%g pinned=start stretch.stiffness=1e3 "
+                   "fluid_drag.density=%g fluid_drag.diameter=0.02 fluid_drag.normal=1 "
+                   "fluid_drag.tangential=0.01",
+                   cases[k].mass, cases[k].density);
+    small_falling(system);
+    check_ok(hooke_system_warnings(system, note, &warned));
+    assert_int_equal(warned, cases[k].warned);
+  }
+}
