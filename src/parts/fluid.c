@@ -8,21 +8,24 @@
 
 static const double PI = 3.14159265358979323846;
 
-#define DENSITY HOOKE_OPTION("density", HOOKE_OPTION_POSITIVE("kg/m^3"), NULL, "of the fluid", .required = 1)
+#define DENSITY                                                                                              \
+  HOOKE_OPTION("density", HOOKE_OPTION_POSITIVE("kg/m^3"), NULL, "of the fluid", .required = 1,              \
+               .example = "1000")
 
 static const struct hk_option_row rope_rows[] = {
     DENSITY,
-    HOOKE_OPTION("diameter", HOOKE_OPTION_POSITIVE("m"), NULL, "of the rope", .required = 1),
+    HOOKE_OPTION("diameter", HOOKE_OPTION_POSITIVE("m"), NULL, "of the rope", .required = 1,
+                 .example = "0.02"),
     HOOKE_OPTION("normal", HOOKE_OPTION_NOT_NEGATIVE(NULL), NULL, "coefficient of drag across the rope",
-                 .required = 1),
+                 .required = 1, .example = "1.2"),
     HOOKE_OPTION("tangential", HOOKE_OPTION_NOT_NEGATIVE(NULL), NULL, "coefficient of drag along the rope",
-                 .required = 1),
+                 .required = 1, .example = "0.02"),
 };
 
 static const struct hk_option_row surface_rows[] = {
     DENSITY,
     HOOKE_OPTION("coefficient", HOOKE_OPTION_NOT_NEGATIVE(NULL), NULL,
-                 "coefficient of drag of a surface across the flow", .required = 1),
+                 "coefficient of drag of a surface across the flow", .required = 1, .example = "1.2"),
 };
 
 const struct hk_option_table hk_part_rope_fluid = {"drag of a rope", HOOKE_OPTION_ROWS(rope_rows)},
