@@ -61,7 +61,7 @@ LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bo
          "loads": "particles"}
 PARTICLES = {"between": "Sequence[Sequence[Particle]] | IntArray", "triples": "Sequence[Sequence[Particle]] | IntArray",
              "particles": "Particle | Sequence[Particle] | IntArray"}
-TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str"}
+TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str", "object": "dict[str, Quantity]"}
 
 
 def resolved(schema, definitions):

@@ -95,7 +95,10 @@ class Tables:
         properties = {**own, **template.get("properties", {})}
         for row in rows:
             if "." not in row.name:
-                schema = self.inner(rows, row.name) if row.type == "family" else value(row, self.methods)
+                inner = self.inner(rows, row.name) if row.type == "family" or members(rows, row.name) else None
+                schema = inner if row.type == "family" else value(row, self.methods)
+                if inner and row.type != "family":
+                    schema = {"oneOf": [*schema.get("oneOf", [schema]), inner]}
                 schema = {**schema, "default": default(row)} if row.default else schema
                 properties[row.name] = {**schema, "description": row.doc + (f" [{row.unit}]" if row.unit else "")}
         required = [*(["kind"] if own else []), *template.get("required", []),

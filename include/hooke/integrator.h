@@ -199,9 +199,10 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
                               int64_t particle, void *ctx);
 
 /* Warns of what a committed system may be, but is seldom meant to be, of kind "no-stiffness" (a part or a
- * group of springs), "same-pair" (three springs of a group between two particles) or "nothing-moves". `limit`
- * is NaN, and spring and particle are -1 where there is none. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY;
- * HOOKE_STOPPED if a warning returned anything but 0. */
+ * group of springs), "same-pair" (three springs of a group between two particles), "added-mass" (a rope no
+ * heavier than the liquid that it displaces) or "nothing-moves". `limit` is NaN, and spring and particle are
+ * -1 where there is none. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY; HOOKE_STOPPED if a warning returned
+ * anything but 0. */
 HOOKE_API int32_t hooke_system_warnings(const hooke_system *system, hooke_warning *warning, void *ctx);
 
 /* Turns on warnings for the runs of `integrator`: those of hooke_system_warnings() come at once, from this

@@ -128,12 +128,13 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 
 /* ---- a limit: the largest stable step of each method, and what determines it ----
- * The system is linearised at the positions of the state, at rest: M x'' + C x' + K x = 0 over the free
- * particles. K has the tension of stretched springs, bending, and altitude springs without their tension; C
- * is that of springs, altitude springs and drag. The transverse stiffness of a compressed spring is negative
- * and counts as zero: buckling is growth by physics and no limit of a step. Callbacks are left out; springs
- * that only pull count as taut. Needs LAPACK. Scenes of 34 to 3333 free particles use ARPACK where it is
- * built in; ARPACK is not thread-safe, so its searches wait for each other.
+ * The system is linearised at the positions of the state, at rest (drag that is not linear, at its
+ * velocities): M x'' + C x' + K x = 0 over the free particles. K has the tension of stretched springs,
+ * bending, and altitude springs without their tension; C is that of springs, altitude springs and drag. The
+ * transverse stiffness of a compressed spring is negative and counts as zero: buckling is growth by physics
+ * and no limit of a step. Callbacks are left out; springs that only pull count as taut. Needs LAPACK. Scenes
+ * of 34 to 3333 free particles use ARPACK where it is built in; ARPACK is not thread-safe, so its searches
+ * wait for each other.
  *
  * All eigenvalues are known up to 133 free particles, and up to 500 where damping is in proportion to
  * stiffness or there is none; with C = beta K one decides at any size. Beyond that the limits of symplectic
@@ -244,8 +245,8 @@ HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *opt
  * pass over the springs, not the sharp limit. `method` NULL: `bound` receives that of every method,
  * hooke_method_count() numbers in the order of hooke_method_name(), from one pass as well. 0: no step is
  * stable. Infinity: nothing limits the step. NaN: no bound is known for this method, with rigid bodies that
- * move, or where a spring is so long that its square overflows. HOOKE_BAD_VALUE for an unknown method;
- * HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2
+ * move, where a spring is so long that its square overflows, or where drag is not linear in velocities.
+ * HOOKE_BAD_VALUE for an unknown method; HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2
  * <= 2 a^2 + 2 b^2, per-mode limits as in docs/notes/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);

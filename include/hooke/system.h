@@ -153,7 +153,8 @@ HOOKE_API int32_t hooke_system_set_gravity_factor(hooke_system *system, int64_t 
                                                   int64_t factor_count, const double *factor);
 
 /* Ether drag f = -c v on every free particle, c >= 0 [N s/m]. It also brakes free fall, which spring damping
- * does not. */
+ * does not. Drag of each particle, quadratic drag and a wind are options of a scene: hooke_options_create()
+ * "scene", hooke_scene_options_apply(). */
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
 
 /* "inertial", the default: M x'' = f. "overdamped": gamma x' = f, with drag as gamma > 0; masses serve
@@ -264,16 +265,17 @@ HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, cons
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
 
-/* Names of the forces that this system computes ("springs", "bending", "altitude", "anchors", "drag",
- * "loads", "callback", "gravity"), NULL past the last; absent forces cost nothing. */
+/* Names of the forces that this system computes ("springs", "bending", "altitude", "anchors", "fluid_drag",
+ * "drag", "quadratic_drag", "wind", "loads", "callback", "gravity"), NULL past the last; absent forces cost
+ * nothing. */
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
 
 /* ---- forces and energies at q, v (3n each), committed systems only ----
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
  * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
 
-/* Force on every particle [N], 3n: springs, bending, altitude springs, anchors, drag on free particles,
- * loads, callback, m phi g on free particles. */
+/* Force on every particle [N], 3n: springs, bending, altitude springs, anchors, drag, loads, callback,
+ * m phi g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
 /* Acceleration of every particle [m/s^2], 3n: w f + phi g, zero where pinned or driven; that of the rigid

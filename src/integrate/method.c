@@ -2,6 +2,7 @@
 
 #include "core/print.h"
 #include "core/status.h"
+#include "model/force/force.h"
 #include "model/coordinates/coordinates.h"
 #include "model/particles.h"
 
@@ -97,7 +98,8 @@ const struct hk_stability *hk_method_stability(const char *name) {
 }
 
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
-  const struct hk_method *method = system->mover_count > 0 ? hk_method_find(name) : NULL;
+  const int32_t predicts = system->mover_count > 0 || hk_system_is_not_linear(system);
+  const struct hk_method *method = predicts ? hk_method_find(name) : NULL;
   const int own = method && method->with_bodies.kind != HOOKE_STABILITY_UNKNOWN;
   return own ? &method->with_bodies : hk_method_stability(name);
 }
@@ -126,8 +128,13 @@ static int problem_of(const hooke_system *system) {
   return system->mover_count > 0 ? BODIES : system->overdamped ? OVERDAMPED : SECOND_ORDER;
 }
 
+/* 1 if it would take dampers apart that are not linear. */
+static int32_t splits(const struct hk_method *method, const hooke_system *system) {
+  return system && method->stability.damps_apart && hk_system_is_not_linear(system);
+}
+
 static int32_t suits(const struct hk_method *method, const hooke_system *system) {
-  if (!takes(method, problem_of(system))) return 0;
+  if (!takes(method, problem_of(system)) || splits(method, system)) return 0;
   return system == NULL || !method->solved || hk_movers_are_solved(system);
 }
 
@@ -165,7 +172,9 @@ int32_t hk_method_require(const struct hk_method *method, const hooke_system *sy
     if (table[k]->steps && suits(table[k], system)) list_method(table[k], list, sizeof list);
   return hk_fail(HOOKE_UNSUITED, "method", "%s %s; allowed: %s", method->name,
                  solves ? "solves its step with the derivative of the forces, and x' = phi(t, x) brings none"
-                        : problems[problem].refusal,
+                 : splits(method, system)
+                     ? "takes dampers one by one, and some force is not linear in velocities"
+                     : problems[problem].refusal,
                  list);
 }
 

@@ -75,7 +75,8 @@ struct hk_method {
   int32_t states;            /* that it keeps beside the stage; */
   int32_t swings;            /* 1: a step that raises energy is taken in quarters at least: more swing on */
   int32_t by_tiles;          /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
-  struct hk_stability stability, with_bodies; /* the second where bodies move, unless it is of unknown kind */
+  /* the second where bodies move or damping is not linear, unless it is of unknown kind */
+  struct hk_stability stability, with_bodies;
   /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none
    * does. NULL: steps of all sizes cost the same */
   int32_t (*explicit_step)(const hooke_system *system, double *step);
@@ -92,7 +93,7 @@ int32_t hk_method_take(const char *name, const struct hk_method **method);
 /* Row of this name, or NULL; its stability, of unknown kind if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);
 const struct hk_stability *hk_method_stability(const char *name);
-/* The same for steps of this committed system, in which bodies may move. */
+/* The same for steps of this committed system. */
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system);
 
 /* 1 if the method takes this committed system. */

@@ -186,6 +186,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = hk_groups_check_free(system);
   if (status == HOOKE_OK) status = hk_names_check(system);
+  if (status == HOOKE_OK) status = hk_medium_check(system);
   if (status == HOOKE_OK) status = hk_overdamped_check(system);
   if (status == HOOKE_OK) status = hk_movers_commit(system);
   if (status == HOOKE_OK) status = hk_overdamped_begin(system);

@@ -69,13 +69,13 @@ static int acts(const struct hk_group *group, int64_t k, const hooke_system *sys
   if (group->force->on_free)
     return !system->constrained[group->particle[0][k]]; /* not in a body that is held */
   const double *kappa = group->number[HOOKE_KAPPA], *gamma = group->number[HOOKE_GAMMA];
-  return kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
+  return group->force->is_drag || kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
 }
 
-/* 1 if all particles of a member are in one body. */
+/* 1 if all particles of a member are in one body, and pull on nothing else. */
 static int is_inside(const struct hk_group *group, int64_t k, const struct hk_bodies *bodies) {
   const int32_t body = bodies->of ? bodies->of[group->particle[0][k]] : -1;
-  int inside = body >= 0 && group->force->member_particles > 1;
+  int inside = body >= 0 && group->force->member_particles > 1 && !group->force->is_drag;
   for (int32_t j = 1; j < group->force->member_particles && inside; j++)
     inside = bodies->of[group->particle[j][k]] == body;
   return inside;

@@ -55,7 +55,7 @@ static int32_t check_particles(const hooke_system *system, const struct hk_addit
         continue;
       return fail_at(force, k, e);
     }
-    for (int e = 1; e < ends; e++) {
+    for (int e = 1; e < ends && !force->is_drag; e++) { /* a segment repeats its end */
       for (int other = 0; other < e; other++)
         if (particle[e] == particle[other]) return refuse_repeated(force, particle, k);
     }

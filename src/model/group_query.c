@@ -59,7 +59,7 @@ static void list(const hooke_system *system, const struct hk_force_row *force, i
     columns.particle[e] = particle[e];
   for (int what = 0; what < HOOKE_GROUP_NUMBERS; what++)
     columns.number[what] = force->width[what] > 0 ? value[what] : NULL;
-  const int64_t count = hk_force_count(system, force);
+  const int64_t count = system->rest->member_count[hk_force_number(force)];
   const int32_t ends = force->member_particles;
   for (int64_t first = 0; first < count; first += SOME) {
     columns.count = count - first < SOME ? count - first : SOME;

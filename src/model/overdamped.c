@@ -47,17 +47,29 @@ static int32_t check_velocities(const hooke_system *system) {
   return HOOKE_OK;
 }
 
+static int32_t check_drag(const hooke_system *system) {
+  const struct hk_each *drag = &system->medium->drag;
+  if (system->medium->quadratic_drag.most > 0.0)
+    return hk_fail(HOOKE_BAD_VALUE, "quadratic_drag",
+                   "is not allowed; in an overdamped scene drag is linear");
+  for (int64_t p = 0; p < (drag->value ? drag->count : 1); p++) {
+    const double gamma = hk_each_at(drag, p);
+    if (gamma > 0.0 && 1.0 / gamma < INFINITY) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL,
+            "%g is not allowed; an overdamped scene needs a drag > 0 [N s/m] on its particles", gamma);
+    return drag->value ? hk_fail_within(HOOKE_BAD_VALUE, "drag[%lld]", (long long)p)
+                       : hk_fail_within(HOOKE_BAD_VALUE, "drag");
+  }
+  return HOOKE_OK;
+}
+
 int32_t hk_overdamped_check(const hooke_system *system) {
   int32_t status = check_masses(system);
   if (status != HOOKE_OK || !system->overdamped) return status;
   if (system->bodies->count > 0)
     return hk_fail(HOOKE_BAD_VALUE, "bodies", "rigid bodies have inertia; an overdamped scene takes none");
   status = check_velocities(system);
-  if (status == HOOKE_OK && !(system->drag > 0.0 && 1.0 / system->drag < INFINITY))
-    status = hk_fail(HOOKE_BAD_VALUE, "drag",
-                     "%g is not allowed; an overdamped scene needs a drag > 0 [N s/m] on its particles",
-                     system->drag);
-  return status;
+  return status == HOOKE_OK ? check_drag(system) : status;
 }
 
 int32_t hk_overdamped_check_forces(const hooke_system *system) {
@@ -80,7 +92,7 @@ int32_t hk_overdamped_check_forces(const hooke_system *system) {
 
 int32_t hk_overdamped_begin(hooke_system *system) {
   system->inertia = system->mass;
-  system->brake = system->overdamped ? 0.0 : system->drag;
+  system->brake = system->overdamped || system->medium->blows ? 0.0 : system->drag;
   system->falls = !system->overdamped && system->has_gravity;
   for (int a = 0; a < 3; a++)
     system->fall[a] = system->falls ? system->gravity[a] : 0.0;
@@ -88,7 +100,7 @@ int32_t hk_overdamped_begin(hooke_system *system) {
   double *gamma = hk_new(system->particle_count, sizeof(double));
   system->inertia = gamma;
   for (int64_t p = 0; p < system->particle_count && gamma; p++)
-    gamma[p] = system->drag;
+    gamma[p] = hk_each_at(&system->medium->drag, p);
   return gamma ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 

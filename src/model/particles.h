@@ -31,11 +31,11 @@ struct hooke_system {
   double gravity[3];
   int32_t has_gravity;
   double *gravity_factor; /* phi of every particle, with room for whole blocks after them; NULL: 1 */
-  double drag;            /* 0: none */
+  double drag;            /* of all particles; 0: none, or one of each (model/medium.h) */
   int32_t overdamped;     /* 1: gamma x' = f, with drag for gamma */
   /* From commit on: what forces and stiffnesses are divided by for a rate, the masses or gamma of every
-   * particle; and drag and the acceleration by gravity, 0 in an overdamped system, where they are gamma and
-   * a force. */
+   * particle; and drag, if it is one number without wind, and the acceleration by gravity: 0 in an overdamped
+   * system, where they are gamma and a force. */
   double *inertia, brake, fall[3];
   int32_t falls;
   hooke_force *force;
@@ -58,6 +58,7 @@ struct hooke_system {
   struct hk_tiled *tiled;             /* the same, without strided batches */
   struct hk_altitudes *altitudes;     /* from commit on */
   struct hk_bodies *bodies;
+  struct hk_medium *medium;
   /* from commit on: things that move by own coordinates (model/coordinates), how many numbers these are, and
    * 1 for each particle that moves with such a thing; NULL without */
   int64_t mover_count, own_count;

@@ -1,4 +1,4 @@
-/* Building a system: particles, pins, gravity, drag and the callback force. */
+/* Building a system: particles, pins, gravity and the callback force. */
 #include "model/system.h"
 
 #include "core/handle.h"
@@ -25,6 +25,7 @@ int32_t hooke_system_create(hooke_system **system) {
                                 .tiled = &made->rest.tiled,
                                 .altitudes = &made->rest.altitudes,
                                 .bodies = &made->rest.bodies,
+                                .medium = &made->rest.medium,
                                 .rest = &made->rest};
   return HOOKE_OK;
 }
@@ -39,6 +40,7 @@ static void release_model(hooke_system *system) {
     hk_drive_release(&system->drive[k]);
   hk_movers_release(system);
   hk_names_release(system);
+  hk_medium_release(system->medium);
   hk_system_drop_derived(system, 0);
   void *const block[] = {system->position, system->velocity,   system->mass,           system->constrained,
                          system->group,    system->part,       system->gravity_factor, system->rest->derived,
@@ -182,16 +184,6 @@ int32_t hk_set_gravity_factor(hooke_system *system, int64_t first, const hooke_o
   if (given == 0) return HOOKE_OK;
   return hooke_system_set_gravity_factor(system, first, system->particle_count - first, given,
                                          hooke_options_numbers(options, "gravity_factor"));
-}
-
-int32_t hooke_system_set_drag(hooke_system *system, double coefficient) {
-  int32_t status = hk_system_require_open(system);
-  if (status != HOOKE_OK) return status;
-  if (!(coefficient >= 0.0) || !isfinite(coefficient)) {
-    return hk_fail(HOOKE_BAD_VALUE, "drag", "%g is not allowed; a number >= 0 (N s/m) is", coefficient);
-  }
-  system->drag = coefficient > 0.0 ? coefficient : 0.0;
-  return HOOKE_OK;
 }
 
 int32_t hooke_system_set_force(hooke_system *system, hooke_force *force, hooke_force_product *product,

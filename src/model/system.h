@@ -7,6 +7,7 @@
 #include "model/force/bending.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
+#include "model/medium.h"
 #include "model/size_limit.h"
 #include "model/sum/strided.h"
 #include "model/sum/tiled.h"
@@ -18,6 +19,7 @@ struct hk_linear {
   int64_t count;
   const struct hk_element *element;
   const double *origin;
+  int32_t of_velocities; /* 1: they are of forces that are not linear in velocities */
 };
 
 struct hk_system_rest {
@@ -33,6 +35,7 @@ struct hk_system_rest {
   struct hk_tiled tiled;
   struct hk_altitudes altitudes;
   struct hk_bodies bodies;
+  struct hk_medium medium;
 
   struct hk_bending bending; /* from commit on */
   struct hk_linear linear;

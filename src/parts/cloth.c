@@ -1,5 +1,6 @@
 /* Cloth: nu x nv particles over two edges. Particle (r, c) is r*nu + c, at origin + c/(nu-1) u + r/(nv-1) v.
  */
+#include "parts/fluid.h"
 #include "parts/grid.h"
 
 #include <string.h>
@@ -22,6 +23,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_FAMILY("shear", "springs along both diagonals of every cell"),
     HOOKE_PART_FAMILY("bend", "springs two apart along u and v"),
     HOOKE_PART_BENDING("N m", "stiffness of a strip of the cloth as a beam, over its width"),
+    HOOKE_PART_FLUID(hk_part_surface_fluid),
 };
 
 static const struct hk_option_table table = {"cloth", HOOKE_OPTION_ROWS(rows)};

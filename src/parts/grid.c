@@ -5,6 +5,7 @@
 #include "core/status.h"
 #include "model/force/bending.h"
 #include "model/vector3.h"
+#include "parts/fluid.h"
 #include "parts/material.h"
 
 #include <math.h>
@@ -69,9 +70,17 @@ static const int32_t *step_of(const struct family *family, int32_t direction) {
   return family->across ? diagonal[direction] : axis[direction];
 }
 
+/* Segments of a rope, triangles of a cloth. */
+static double pieces_of(const struct hk_grid *grid) {
+  const double cells = (double)(grid->size[0] - 1);
+  return grid->axes == 1 ? cells : 2.0 * cells * (double)(grid->size[1] - 1);
+}
+
 static struct hk_more size_of(const struct hk_part *part, const struct hk_grid *grid) {
   struct hk_more more = {.particles = 1.0,
-                         .of = {{.force = &hk_force_springs}, {.force = &hk_force_bending}}};
+                         .of = {{.force = &hk_force_springs},
+                                {.force = &hk_force_bending},
+                                {&hk_force_fluid, hk_part_if_family(part, "fluid_drag", pieces_of(grid))}}};
   for (int a = 0; a < grid->axes; a++) {
     more.particles *= (double)grid->size[a];
     if (hooke_options_number(part->options, "bending") > 0.0)
@@ -243,6 +252,24 @@ static int32_t add_bending(const struct hk_part *part, const struct hk_grid *gri
   return status;
 }
 
+/* ---- drag in a fluid ---- */
+
+/* Segments, or cells cut along (r, c)-(r + 1, c + 1). */
+static int32_t add_fluid_drag(const struct hk_part *part, const struct hk_grid *grid) {
+  const int64_t pieces = (int64_t)size_of(part, grid).of[2].count, nu = grid->size[0];
+  int64_t *corner = pieces > 0 ? hk_new(3 * pieces, sizeof *corner) : NULL;
+  if (corner == NULL) return pieces > 0 ? HOOKE_NO_MEMORY : HOOKE_OK;
+  for (int64_t k = 0; k < pieces; k++) {
+    const int64_t cell = grid->axes == 1 ? k : k / 2, at = part->first + cell + cell / (nu - 1);
+    const int64_t ends[3][3] = {{0, 1, 1}, {0, 1, nu + 1}, {0, nu + 1, nu}};
+    for (int e = 0; e < 3; e++)
+      corner[3 * k + e] = grid->axes == 1 ? part->first + k + ends[0][e] : at + ends[1 + k % 2][e];
+  }
+  const int32_t status = hk_part_add_fluid_drag(part, pieces, corner);
+  hk_free(corner);
+  return status;
+}
+
 /* ---- the part ---- */
 
 int32_t hk_grid_build(struct hk_part *part, struct hk_grid *grid, const char *size, const char *what) {
@@ -255,7 +282,8 @@ int32_t hk_grid_build(struct hk_part *part, struct hk_grid *grid, const char *si
   hk_free(position);
   for (int k = 0; k < FAMILIES && status == HOOKE_OK; k++)
     status = add_family(part, grid, &families[k]);
-  return status == HOOKE_OK ? add_bending(part, grid) : status;
+  if (status == HOOKE_OK) status = add_bending(part, grid);
+  return status == HOOKE_OK ? add_fluid_drag(part, grid) : status;
 }
 
 /* Fails for two edges in one line, or three in one plane. */

@@ -1,6 +1,7 @@
 /* Mesh: particles at the vertices of a surface, springs along its edges and across them. */
 #include "parts/part.h"
 
+#include "parts/fluid.h"
 #include "parts/material.h"
 #include "parts/surface.h"
 #include "core/memory.h"
@@ -34,6 +35,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_RIGID,
     HOOKE_PART_FAMILY("structural", "springs along the edges"),
     HOOKE_PART_FAMILY("bend", "springs between the vertices opposite to each other across an edge"),
+    HOOKE_PART_FLUID(hk_part_surface_fluid),
 };
 
 static const struct hk_option_table table = {"mesh", HOOKE_OPTION_ROWS(rows)};
@@ -149,13 +151,26 @@ static int32_t add_springs(struct hk_part *part, const struct hk_surface *surfac
   return status;
 }
 
+static int32_t add_fluid_drag(const struct hk_part *part, const struct hk_surface *surface) {
+  if (!hk_options_has_family(part->options, "fluid_drag")) return HOOKE_OK;
+  int64_t *corner = hk_new(3 * surface->triangle_count, sizeof *corner);
+  if (corner == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < 3 * surface->triangle_count; k++)
+    corner[k] = part->first + surface->triangle[k];
+  const int32_t status = hk_part_add_fluid_drag(part, surface->triangle_count, corner);
+  hk_free(corner);
+  return status;
+}
+
 /* ---- the kind ---- */
 
 static int32_t check_space(const struct hk_part *part, const struct hk_surface *surface) {
   const double edges = (double)surface->edge_count;
-  const struct hk_more more = {.particles = (double)surface->vertex_count,
-                               .of = {{&hk_force_springs, hk_part_if_family(part, "structural", edges) +
-                                                              hk_part_if_family(part, "bend", edges)}}};
+  const struct hk_more more = {
+      .particles = (double)surface->vertex_count,
+      .of = {{&hk_force_springs,
+              hk_part_if_family(part, "structural", edges) + hk_part_if_family(part, "bend", edges)},
+             {&hk_force_fluid, hk_part_if_family(part, "fluid_drag", (double)surface->triangle_count)}}};
   const int32_t status = hk_system_check_size(part->system, more, "the mesh");
   return status == HOOKE_OK ? status : hk_fail_within(status, "vertices");
 }
@@ -174,6 +189,7 @@ static int32_t build(struct hk_part *part) {
       status = hk_part_derive(part, NULL, "vertices welded to others", "", (double)(given - part->count));
   }
   if (status == HOOKE_OK) status = add_springs(part, &surface);
+  if (status == HOOKE_OK) status = add_fluid_drag(part, &surface);
   hk_surface_release(&surface);
   return status;
 }

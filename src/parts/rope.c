@@ -1,5 +1,6 @@
 /* Rope: particles in a line, springs between neighbours (stretch) and between every second one (bend), and
  * bending. */
+#include "parts/fluid.h"
 #include "parts/grid.h"
 
 #include <stdio.h>
@@ -17,6 +18,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_FAMILY("stretch", "springs between neighbours"),
     HOOKE_PART_FAMILY("bend", "springs two apart"),
     HOOKE_PART_BENDING("N m^2", "stiffness of the rope as a beam"),
+    HOOKE_PART_FLUID(hk_part_rope_fluid),
 };
 
 static const struct hk_option_table table = {"rope", HOOKE_OPTION_ROWS(rows)};

@@ -312,6 +312,24 @@ TEST(test_heat_that_was_not_there_is_seen) {
   check_close(number_of_run(system, "forward-euler", 0.25 * step, "heat_excess"), 0.0, 0.0);
 }
 
+/* The same in a wind: from the same velocity beside it, or slower than the wind by `behind` m/s. */
+static hooke_system *slowed_in_wind(double rate, double behind) {
+  const double mass = 2.0, wind[3] = {40, 0, 10}, velocity[3] = {40 - behind, 3, 10};
+  hooke_system *system = small_system(1, (double[]){0, 0, 0}, velocity, mass, 0);
+  owned_options *options = options_with("scene", "drag=%g", rate * mass);
+  check_ok(hooke_options_set_numbers(options, "wind", 3, wind));
+  check_ok(hooke_scene_options_apply(options, system));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* Velocities that reverse beside the wind are seen, and what the wind heats is none of theirs. */
+TEST(test_heat_of_a_wind_is_no_excess) {
+  owned_system *fast = slowed_in_wind(180.0, 0.0), *slow = slowed_in_wind(20.0, 3.0);
+  check_between(number_of_run(fast, "forward-euler", 1e-2, "heat_excess"), 1e-4, 1.0);
+  check_between(number_of_run(slow, "forward-euler", 1e-2, "heat_excess"), 0.0, 1e-3);
+}
+
 /* Motion that decays without overshooting, or oscillates, has no spurious heat at any of these steps. */
 TEST(test_heat_that_was_there_is_no_excess) {
   for (double x = 0.1; x < 2.0; x += 0.1) {

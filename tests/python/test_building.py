@@ -317,7 +317,10 @@ def test_an_error_comes_at_once_names_its_keyword_and_changes_nothing(call, mess
     [
         (lambda: hooke.Scene(gravity=(1, 2)), "gravity: 2 numbers given; allowed: 3 numbers [m/s^2]"),
         (lambda: hooke.Scene(drag=-1), "drag: -1 is not allowed"),
-        (lambda: hooke.Scene(drag="much"), 'drag: "much" is not allowed; allowed: a number >= 0 [N s/m]'),
+        (lambda: hooke.Scene(drag="much"), 'drag: "much" is not allowed; allowed: one or more numbers >= 0 [N s/m]'),
+        (lambda: hooke.Scene(drag=[1, -1]), "drag[1]: -1 is not allowed"),
+        (lambda: hooke.Scene(wind=[1, 2]), "wind: 2 numbers given; allowed: 3 numbers [m/s]"),
+        (lambda: hooke.Scene(wind={"time": [0, 1], "velocity": [[1, 0, 0]] * 3}), "wind: 2 times and 3 velocities given"),
         (lambda: hooke.Scene().particles([[0, 0, 0]], mass=-1), "particles.mass: -1 is not allowed"),
         (lambda: hooke.Scene().particles([[0, 0]], mass=1), "particles.position: its shape is (1, 2)"),
         (lambda: hooke.Scene().particles([[0, 0, 0]], mass=1, pinned=[1]), "particles.pinned[0]: there is no particle 1"),
@@ -329,6 +332,18 @@ def test_errors_of_the_first_pieces(call, message):
     with pytest.raises(hooke.BadValue) as caught:
         call()
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize("wind", [(1, 2, 3), {"time": [0, 1, 3], "velocity": np.arange(9.0).reshape(3, 3)}])
+def test_a_medium_is_that_of_the_scene(wind, tmp_path):
+    fluid = {"density": 2, "diameter": 0.1, "normal": 1.2, "tangential": 0.02}
+    built = hooke.Scene(drag=[1, 2, 3], quadratic_drag=0.5, wind=wind).rope(
+        from_=(0, 0, 0), to=(1, 1, 0), segments=2, mass=1, stretch={"stiffness": 5}, fluid_drag=fluid)
+    built.save(tmp_path / "scene.json")
+    ends = [scene.run(method="verlet", step=1e-2, duration=0.5).state.q
+            for scene in (built, hooke.Scene.parse(built.text), hooke.Scene.load(tmp_path / "scene.json"))]
+    assert np.abs(ends[0]).max() > 0.1 and np.array_equal(ends[0], ends[1]) and np.array_equal(ends[0], ends[2])
+    assert {"fluid_drag", "drag", "quadratic_drag"} <= set(built.system.forces)
 
 
 def test_the_order_of_particles_is_that_of_the_format():

@@ -55,6 +55,12 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
   canonical->load_count = hooke_system_count(system, "loads");
   canonical->loaded = new_block(canonical->load_count, (int64_t)sizeof(int64_t));
   check_ok(hooke_system_members(system, "loads", canonical->loaded, NULL, NULL, NULL));
+  const int64_t pieces = canonical->piece_count = hooke_system_count(system, "fluid_drag");
+  canonical->pieces = new_block(3 * pieces, (int64_t)sizeof(int64_t));
+  canonical->normal = new_doubles(pieces);
+  canonical->tangential = new_doubles(pieces);
+  check_ok(hooke_system_members(system, "fluid_drag", canonical->pieces, NULL, canonical->normal,
+                                canonical->tangential));
   int64_t spring = 0;
   for (int64_t g = 0; g < hooke_system_group_count(system, "springs"); g++) {
     const int64_t size = hooke_system_group_size(system, "springs", g);
@@ -84,6 +90,9 @@ void canonical_destroy(struct canonical *canonical) {
   for (int k = 0; k < 3; k++)
     free(canonical->anchor[k]);
   free(canonical->inverse_mass);
+  free(canonical->pieces);
+  free(canonical->normal);
+  free(canonical->tangential);
   memset(canonical, 0, sizeof *canonical);
 }
 
@@ -250,6 +259,77 @@ static void add_loads(const struct canonical *canonical, double t, double *force
   free(load);
 }
 
+/* ---- drag in a medium ---- */
+
+static double wind_of(const struct canonical *canonical, int a) {
+  return canonical->wind ? canonical->wind[a] : 0.0;
+}
+
+static void add_segment(const struct canonical *canonical, int64_t k, const double *q, const double *v,
+                        double *force) {
+  const int64_t *p = canonical->pieces + 3 * k;
+  double d[3], t[3], w[3], across[3];
+  for (int a = 0; a < 3; a++) {
+    d[a] = q[3 * p[1] + a] - q[3 * p[0] + a];
+    w[a] = 0.5 * (v[3 * p[0] + a] + v[3 * p[1] + a]) - wind_of(canonical, a);
+  }
+  const double l = sqrt(dot(d, d)), il = l > 0.0 ? 1.0 / l : 0.0;
+  for (int a = 0; a < 3; a++)
+    t[a] = il * d[a];
+  const double along = dot(w, t);
+  for (int a = 0; a < 3; a++)
+    across[a] = w[a] - along * t[a];
+  const double by_normal = canonical->normal[k] * sqrt(dot(across, across)),
+               by_tangential = canonical->tangential[k] * fabs(along) * along;
+  for (int e = 0; e < 2; e++) {
+    for (int a = 0; a < 3; a++)
+      force[3 * p[e] + a] += 0.5 * -(l * (by_normal * across[a] + by_tangential * t[a]));
+  }
+}
+
+static void add_triangle(const struct canonical *canonical, int64_t k, const double *q, const double *v,
+                         double *force) {
+  const int64_t *p = canonical->pieces + 3 * k;
+  double one[3], other[3], n[3], w[3];
+  for (int a = 0; a < 3; a++) {
+    one[a] = q[3 * p[1] + a] - q[3 * p[0] + a];
+    other[a] = q[3 * p[2] + a] - q[3 * p[0] + a];
+    w[a] = ((v[3 * p[0] + a] + v[3 * p[1] + a]) + v[3 * p[2] + a]) / 3.0 - wind_of(canonical, a);
+  }
+  cross(one, other, n);
+  const double twice = sqrt(dot(n, n)), by = twice > 0.0 ? 1.0 / twice : 0.0;
+  for (int a = 0; a < 3; a++)
+    n[a] = by * n[a];
+  const double rate = dot(w, n), size = -(canonical->normal[k] * twice * fabs(rate) * rate);
+  for (int e = 0; e < 3; e++) {
+    for (int a = 0; a < 3; a++)
+      force[3 * p[e] + a] += size * n[a] / 3.0;
+  }
+}
+
+/* Segments first. */
+static void add_pieces(const struct canonical *canonical, const double *q, const double *v, double *force) {
+  for (int triangles = 0; triangles < 2; triangles++) {
+    for (int64_t k = 0; k < canonical->piece_count; k++) {
+      const int64_t *p = canonical->pieces + 3 * k;
+      if ((p[1] != p[2]) == triangles) (triangles ? add_triangle : add_segment)(canonical, k, q, v, force);
+    }
+  }
+}
+
+/* f = -c w, or -c |w| w. */
+static void add_drag(const struct canonical *canonical, const double *each, int squared, const double *v,
+                     double *force) {
+  for (int64_t p = 0; each && p < canonical->particle_count; p++) {
+    double w[3];
+    for (int a = 0; a < 3; a++)
+      w[a] = v[3 * p + a] - wind_of(canonical, a);
+    const double c = squared ? each[p] * sqrt(dot(w, w)) : each[p];
+    for (int a = 0; a < 3 && canonical->inverse_mass[p] != 0.0; a++)
+      force[3 * p + a] -= c * w[a];
+  }
+}
+
 /* Damping at v; springs that only pull and the callback are evaluated at `seen`. */
 void canonical_accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
                           const double *seen, double *acceleration) {
@@ -265,12 +345,15 @@ void canonical_accelerate(const struct canonical *canonical, double t, const dou
     add_tetrahedron(canonical, k, q, v, seen, force);
   for (int64_t k = 0; k < canonical->anchor_count; k++)
     add_anchor(canonical, k, q, v, force);
+  add_pieces(canonical, q, v, force);
   if (canonical->drag != 0.0) {
     for (int64_t p = 0; p < n; p++) {
       for (int a = 0; a < 3 && w[p] != 0.0; a++)
         force[3 * p + a] -= canonical->drag * v[3 * p + a];
     }
   }
+  add_drag(canonical, canonical->drags, 0, v, force);
+  add_drag(canonical, canonical->quadratic, 1, v, force);
   if (canonical->load_count > 0) add_loads(canonical, t, force);
   if (canonical->force != NULL) assert_int_equal(canonical->force(n, t, q, seen, force, canonical->ctx), 0);
   for (int64_t p = 0; p < n; p++) {
@@ -469,19 +552,28 @@ static void damp_anchor(const struct canonical *canonical, int64_t k, double tim
   damp_element(canonical, 1, canonical->anchored + k, &one, u, canonical->anchor[1][k], NULL, time, v);
 }
 
+/* Of the velocity beside the wind. */
+static void damp_in_wind(const struct canonical *canonical, int64_t p, double time, double *v) {
+  const double w = canonical->inverse_mass[p];
+  for (int a = 0; a < 3 && w > 0.0; a++)
+    v[3 * p + a] -= w * (damper_share(time, canonical->drags[p], w) * (v[3 * p + a] - wind_of(canonical, a)));
+}
+
 /* Springs in their order, tetrahedra and anchors by number, then drag; or all of it backwards. */
 static void damp(const struct canonical *canonical, double time, int backwards, int64_t springs,
                  const int64_t *order, const double *q, double *v) {
   const int64_t t = canonical->tetrahedron_count, n = canonical->anchor_count;
-  for (int part = 0; part < 4; part++) {
-    const int what = backwards ? 3 - part : part;
+  for (int part = 0; part < 5; part++) {
+    const int what = backwards ? 4 - part : part;
     for (int64_t k = 0; what == 0 && k < springs; k++)
       damp_spring(canonical, order[backwards ? springs - 1 - k : k], time, q, v);
     for (int64_t k = 0; what == 1 && k < t; k++)
       damp_tetrahedron(canonical, backwards ? t - 1 - k : k, time, q, v);
     for (int64_t k = 0; what == 2 && k < n; k++)
       damp_anchor(canonical, backwards ? n - 1 - k : k, time, q, v);
-    for (int64_t k = 0; what == 3 && canonical->drag != 0.0 && k < 3 * canonical->particle_count; k++) {
+    for (int64_t k = 0; what == 3 && canonical->drags && k < canonical->particle_count; k++)
+      damp_in_wind(canonical, k, time, v);
+    for (int64_t k = 0; what == 4 && canonical->drag != 0.0 && k < 3 * canonical->particle_count; k++) {
       const double z = time * canonical->drag * canonical->inverse_mass[k / 3];
       v[k] /= 1.0 + z * (1.0 + z / 2.0);
     }
@@ -495,6 +587,7 @@ static void shardlow(const struct canonical *canonical, double t, double end, do
                 n = canonical->anchor_count;
   struct canonical undamped = *canonical;
   undamped.drag = 0.0;
+  undamped.drags = NULL;
   undamped.leaves_out = 1;
   undamped.gamma = new_doubles(m);
   undamped.altitude[1] = new_doubles(t_count);
@@ -587,6 +680,8 @@ static void add_rows(const struct canonical *canonical, double *stiffness, doubl
     add_row(canonical, 1, canonical->anchored + k, pair, canonical->anchor[0][k], stiffness);
     add_row(canonical, 1, canonical->anchored + k, pair, canonical->anchor[1][k], damping);
   }
+  for (int64_t p = 0; canonical->drags && p < canonical->particle_count; p++)
+    add_row(canonical, 1, &p, pair, canonical->drags[p], damping);
 }
 
 double canonical_explicit_bound(const struct canonical *canonical) {
@@ -605,7 +700,8 @@ double canonical_explicit_bound(const struct canonical *canonical) {
 /* Whether Verlet solves for the damping: of springs that only pull, beside altitude springs, and where the
  * step is above 0.8 of the bound. */
 static int is_solved(const struct canonical *canonical, double h) {
-  int damped = 0, pulls = 0;
+  int damped = canonical->drags != NULL, pulls = 0;
+  if (canonical->quadratic || canonical->piece_count > 0) return 0; /* not linear, and predicted always */
   for (int64_t k = 0; k < canonical->spring_count; k++) {
     damped |= canonical->gamma[k] != 0.0;
     pulls |= canonical->gamma[k] != 0.0 && canonical->pull_only[k];

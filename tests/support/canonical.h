@@ -2,10 +2,9 @@
  *
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first
  * end, subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs
- * likewise, anchors likewise, drag, loads
- * in ascending number, the callback. The acceleration is w f, then gravity is added to it, or
- * its product with a factor of the particle.
- * Particles that are constrained (pinned or driven) have none. */
+ * likewise, anchors likewise, segments in a fluid, triangles in a fluid, drag, quadratic drag, loads in
+ * ascending number, the callback. The acceleration is w f, then gravity is added to it, or its product with a
+ * factor of the particle. Particles that are constrained (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
 
@@ -35,7 +34,13 @@ struct canonical {
   const double *gravity;     /* NULL: none */
   const double *factor;      /* of gravity, particle_count; NULL: 1 */
   double drag;               /* 0: none */
-  hooke_force *force;        /* NULL: none */
+  /* particle_count, or NULL: drag of each particle, in place of the number where there is a wind (NULL: none)
+   */
+  const double *drags, *quadratic, *wind;
+  int64_t piece_count;         /* in a fluid; a segment repeats its second particle */
+  int64_t *pieces;             /* 3 piece_count */
+  double *normal, *tangential; /* piece_count */
+  hooke_force *force;          /* NULL: none */
   void *ctx;
   /* moves driven particles to their positions at time t; NULL: there are none */
   void (*place)(double t, double *q, double *v, void *place_ctx);
@@ -49,7 +54,7 @@ static inline double canonical_fall(const struct canonical *canonical, int64_t k
 }
 
 /* Copies the numbers of a committed system. Springs of groups whose name begins with "pull" only pull; the
- * caller fills in gravity, drag and callback. */
+ * caller fills in gravity, drag of all kinds, wind and callback. */
 void canonical_create(const hooke_system *system, struct canonical *canonical);
 void canonical_destroy(struct canonical *canonical);
 /* Destroyed where its block ends. */

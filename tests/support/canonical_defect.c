@@ -30,6 +30,8 @@ static struct scale scale_of(const struct canonical *canonical, double h, const 
     speed = fmax(speed, fabs(v[k]));
   }
   double lightest = 0.0;
+  for (int64_t p = 0; p < canonical->particle_count && canonical->drags; p++)
+    damping = fmax(damping, canonical->drags[p]);
   for (int64_t p = 0; p < canonical->particle_count; p++)
     lightest = fmax(lightest, canonical->inverse_mass[p]);
   for (int64_t k = 0; k < canonical->spring_count; k++) {
@@ -172,7 +174,8 @@ static double damping_of_kick(const struct canonical *canonical, double h) {
   for (int64_t k = 0; k < canonical->anchor_count; k++)
     damping[canonical->anchored[k]] += canonical->anchor[1][k];
   for (int64_t p = 0; p < n; p++)
-    most = fmax(most, h / 2.0 * canonical->inverse_mass[p] * (damping[p] + canonical->drag));
+    most = fmax(most, h / 2.0 * canonical->inverse_mass[p] *
+                          (damping[p] + canonical->drag + (canonical->drags ? canonical->drags[p] : 0.0)));
   free(damping);
   return most;
 }

@@ -454,6 +454,15 @@ static void add_part(struct random_source *source, struct random_scene_request r
   }
   if (request.triples > 0 && strcmp(kind, "lattice") != 0)
     check_ok(hooke_options_set_number(options, "bending", 0.3));
+  if (request.medium & MEDIUM_FLUID && strcmp(kind, "lattice") != 0) {
+    const char *key[2][3] = {{"coefficient", NULL}, {"diameter", "normal", "tangential"}};
+    check_ok(hooke_options_set_number(options, "fluid_drag.density", random_between(source, 1.0, 4.0)));
+    for (int k = 0; k < 3 && key[rope][k]; k++) {
+      char dotted[32];
+      snprintf(dotted, sizeof dotted, "fluid_drag.%s", key[rope][k]);
+      check_ok(hooke_options_set_number(options, dotted, random_between(source, 0.1, 1.5)));
+    }
+  }
   char name[32];
   snprintf(name, sizeof name, "%s-%s", request.features & SCENE_PULL_ONLY ? "pull" : "part", kind);
   check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
@@ -480,6 +489,38 @@ static void place_driven(double t, double *q, double *v, void *ctx) {
     memcpy(q + 3 * scene->driven[k], from_q + 3 * scene->driven[k], 3 * sizeof(double));
     memcpy(v + 3 * scene->driven[k], from_v + 3 * scene->driven[k], 3 * sizeof(double));
   }
+}
+
+/* A quarter of the particles has none. */
+static double *draw_drags(struct random_source *source, int64_t n, double most, const char *name,
+                          hooke_options *options) {
+  double *drags = new_doubles(n);
+  for (int64_t p = 0; p < n; p++)
+    drags[p] = random_whole(source, 0, 3) ? random_between(source, 0.0, most) : 0.0;
+  check_ok(hooke_options_set_numbers(options, name, n, drags));
+  return drags;
+}
+
+/* In a wind without drag of each particle all have the number of the scene. */
+static void add_medium(struct random_scene_request request, double drag, struct random_scene *scene) {
+  struct random_source source = {request.seed + 377};
+  const int64_t n = hooke_system_particle_count(scene->system);
+  hooke_options *options = new_options("scene");
+  if (request.medium & MEDIUM_DRAG) {
+    scene->drags = draw_drags(&source, n, 0.5, "drag", options);
+  } else if (request.medium & MEDIUM_WIND && request.features & SCENE_DRAG) {
+    scene->drags = new_doubles(n);
+    for (int64_t p = 0; p < n; p++)
+      scene->drags[p] = drag;
+    check_ok(hooke_options_set_number(options, "drag", drag));
+  }
+  if (request.medium & MEDIUM_QUADRATIC)
+    scene->quadratic = draw_drags(&source, n, 0.1, "quadratic_drag", options);
+  for (int a = 0; a < 3; a++)
+    scene->wind[a] = random_between(&source, -2.0, 2.0);
+  if (request.medium & MEDIUM_WIND) check_ok(hooke_options_set_numbers(options, "wind", 3, scene->wind));
+  check_ok(hooke_scene_options_apply(options, scene->system));
+  hooke_options_destroy(options);
 }
 
 void random_scene_create(struct random_scene_request request, struct random_scene *scene) {
@@ -510,6 +551,7 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   if (request.features & SCENE_GRAVITY) check_ok(hooke_system_set_gravity(scene->system, scene->gravity));
   if (request.factors) add_factors(scene);
   if (request.features & SCENE_DRAG) check_ok(hooke_system_set_drag(scene->system, drag));
+  if (request.medium) add_medium(request, drag, scene);
   if (request.features & SCENE_CALLBACK) {
     check_ok(hooke_system_set_force(scene->system, random_scene_force,
                                     request.with_product ? random_scene_force_product : NULL, NULL));
@@ -523,7 +565,10 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   free(triples);
   free(coefficient);
   scene->canonical.gravity = request.features & SCENE_GRAVITY ? scene->gravity : NULL;
-  scene->canonical.drag = request.features & SCENE_DRAG ? drag : 0.0;
+  scene->canonical.drag = request.features & SCENE_DRAG && !scene->drags ? drag : 0.0;
+  scene->canonical.drags = scene->drags;
+  scene->canonical.quadratic = scene->quadratic;
+  scene->canonical.wind = request.medium & MEDIUM_WIND ? scene->wind : NULL;
   scene->canonical.force = request.features & SCENE_CALLBACK ? random_scene_force : NULL;
   scene->canonical.loads = scene->loads;
   scene->canonical.factor = scene->factor;
@@ -541,6 +586,8 @@ void random_scene_destroy(struct random_scene *scene) {
   hooke_system_destroy(scene->system);
   hooke_system_destroy(scene->loads);
   free(scene->factor);
+  free(scene->drags);
+  free(scene->quadratic);
   scene->system = scene->loads = NULL;
 }
 

@@ -18,6 +18,9 @@ enum {
   SCENE_EVERYTHING = 255
 };
 
+/* What particles move in: drag of each, a wind, quadratic drag of each, and parts in a fluid. */
+enum { MEDIUM_DRAG = 1, MEDIUM_WIND = 2, MEDIUM_QUADRATIC = 4, MEDIUM_FLUID = 8 };
+
 struct random_scene_request {
   uint64_t seed;
   int64_t particles, springs;
@@ -31,6 +34,7 @@ struct random_scene_request {
   int32_t lattice[3];   /* size of a lattice that is added as a part; 0: none */
   int32_t rope;         /* segments of a rope that is added as a part; 0: none */
   int32_t with_product; /* the callback has its derivative */
+  int32_t medium;
 };
 
 struct random_scene {
@@ -41,9 +45,10 @@ struct random_scene {
   hooke_integrator
       *driver; /* of any method: it moves driven particles to their positions at the time of a state */
   hooke_state *driven_state;
-  double gravity[3];
-  hooke_system *loads; /* of canonical.loads */
-  double *factor;      /* canonical.factor */
+  double gravity[3], wind[3];
+  hooke_system *loads;       /* of canonical.loads */
+  double *factor;            /* canonical.factor */
+  double *drags, *quadratic; /* NULL: none */
 };
 
 void random_scene_create(struct random_scene_request request, struct random_scene *scene);

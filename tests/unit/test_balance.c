@@ -13,6 +13,7 @@
 
 enum { FRAMES = 8 };
 
+/* `driven`: 0: pinned at its first particle, 1: driven there, 2: pinned in a wind that changes. */
 static hooke_system *damped_chain(int driven) {
   const double place[] = {0, 0, 0, 1.1, 0.1, 0, 2, 0.3, 0, 3.2, 0, 0.2}, mass = 0.5;
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, first = 0;
@@ -27,6 +28,14 @@ static hooke_system *damped_chain(int driven) {
     check_ok(hooke_options_unset(load, "frequency"));
     set_options(load, "motion=constant force=1,4,0");
     check_ok(hooke_system_add_loads(system, 1, loaded, load));
+    const double time[] = {0, 0.3, 0.8}, velocity[] = {0, 0, 0, 2, 1, 0, 1, 3, 1};
+    owned_options *options = options_with("scene", "drag=0.2,0.1,0.3,0.2,0.1,0.1 quadratic_drag=0.1");
+    check_ok(hooke_options_set_numbers(options, "wind.time", 3, time));
+    check_ok(hooke_options_set_numbers(options, "wind.velocity", 9, velocity));
+    check_ok(hooke_scene_options_apply(options, system));
+    small_part(system, "rope", "rope",
+               "from=0,1,0 to=1,1,0 segments=1 mass=1 stretch.stiffness=40 fluid_drag.density=2 "
+               "fluid_drag.diameter=0.3 fluid_drag.normal=1 fluid_drag.tangential=0.1 pinned=start");
   }
   if (driven == 1)
     check_ok(hooke_system_drive_harmonic(system, 1, &first, (double[]){0.2, 0.1, 0}, 1.5, 0.3));

@@ -41,8 +41,8 @@ static struct hk_measured_limit measure(const hooke_system *system, const char *
                                         const double *mode, double accuracy) {
   struct hk_measured_limit out;
   struct hk_budget budget = hk_budget_of(100.0, NULL, NULL);
-  check_ok(
-      hk_limit_measure(system, system->position, NULL, method, predicted, mode, accuracy, &budget, &out));
+  check_ok(hk_limit_measure(system, system->position, NULL, NULL, method, predicted, mode, accuracy, &budget,
+                            &out));
   return out;
 }
 
@@ -151,7 +151,7 @@ TEST(parallel_springs_are_one) {
   check_ok(hooke_system_add_springs(system, NULL, MANY, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  check_ok(hk_twin_create(system, origin, &twin));
+  check_ok(hk_twin_create(system, origin, NULL, &twin));
   assert_int_equal(hooke_system_count(twin.system, "springs"), 2);
   /* one of them is compressed, so that it has no stiffness across: its share is left out */
   check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.origin, still, dq, dq, of_twin));
@@ -187,7 +187,7 @@ TEST(frozen_system_rests) {
   check_ok(hooke_system_commit(system));
 
   struct hk_twin twin;
-  check_ok(hk_twin_create(system, position, &twin));
+  check_ok(hk_twin_create(system, position, NULL, &twin));
   assert_int_equal(twin.lin.clamped, 1);
   assert_int_equal(twin.lin.damped, 0);
   assert_int_equal(hooke_system_count(twin.system, "free"), 3);
@@ -255,10 +255,12 @@ TEST(what_is_refused) {
   struct hk_measured_limit out;
   const double *q = system->position;
   struct hk_budget stops = hk_budget_of(1.0, refuse, NULL), none = hk_budget_of(0.0, NULL, NULL);
-  check_status(hk_limit_measure(system, q, NULL, "no-such", 1.0, NULL, 1e-3, &none, &out), HOOKE_BAD_VALUE);
-  check_status(hk_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, &stops, &out), HOOKE_STOPPED);
+  check_status(hk_limit_measure(system, q, NULL, NULL, "no-such", 1.0, NULL, 1e-3, &none, &out),
+               HOOKE_BAD_VALUE);
+  check_status(hk_limit_measure(system, q, NULL, NULL, "verlet", 1.0, NULL, 1e-3, &stops, &out),
+               HOOKE_STOPPED);
   check_message("asked to stop while a limit was measured");
-  check_ok(hk_limit_measure(system, q, NULL, "verlet", 1.0, NULL, 1e-3, &none, &out));
+  check_ok(hk_limit_measure(system, q, NULL, NULL, "verlet", 1.0, NULL, 1e-3, &none, &out));
   assert_true(isnan(out.step));
   assert_non_null(strstr(out.note, "budget"));
 }
@@ -412,7 +414,7 @@ TEST(shares_are_those_of_the_mode) {
   mode[3] = 1.0, mode[9] = 0.5, mode[0] = 7.0; /* the last one is pinned */
   struct hk_participation participation;
   const double h = 0.1, parts[2] = {h * h * 100.0 + 2.0 * h * 3.0, 0.25 * (h * h * 400.0 + 2.0 * h)};
-  check_ok(hk_participation_find(system, system->position, mode, h * h, h, &participation));
+  check_ok(hk_participation_find(system, system->position, NULL, mode, h * h, h, &participation));
   assert_int_equal(participation.spring_count, 2);
   assert_int_equal(participation.spring[0].spring, 0);
   assert_int_equal(participation.spring[0].second, 1);
@@ -424,7 +426,7 @@ TEST(shares_are_those_of_the_mode) {
   assert_int_equal(participation.particle[0].particle, 1);
   check_close(participation.particle[0].share, 0.8, 1e-14);
   hk_participation_release(&participation);
-  check_ok(hk_participation_find(system, system->position, NULL, 1.0, 0.0, &participation));
+  check_ok(hk_participation_find(system, system->position, NULL, NULL, 1.0, 0.0, &participation));
   assert_int_equal(participation.spring_count + participation.particle_count, 0);
   hk_participation_release(&participation);
 }
@@ -439,7 +441,7 @@ TEST(most_shares_are_kept_in_order) {
   }
   owned_system *system = oscillators(COUNT, stiffness, damping, 0.0);
   struct hk_participation participation;
-  check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
+  check_ok(hk_participation_find(system, system->position, NULL, mode, 1.0, 0.0, &participation));
   assert_int_equal(participation.spring_count, HOOKE_MOST_LIMITING);
   for (int k = 0; k < HOOKE_MOST_LIMITING; k++) {
     check_close(participation.spring[k].share, (double)(COUNT - k) / (0.5 * COUNT * (COUNT + 1)), 1e-14);
@@ -459,7 +461,7 @@ TEST(remedy_is_what_it_costs) {
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
   struct hk_participation participation;
   struct hk_suggestion suggestion;
-  check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
+  check_ok(hk_participation_find(system, system->position, NULL, mode, 1.0, 0.0, &participation));
   const int32_t status = hk_suggestion_find(system, system->position, "symplectic-euler", 2.0 / 70.0,
                                             &participation, &suggestion);
   hk_participation_release(&participation);
@@ -487,7 +489,7 @@ TEST(no_remedy_where_all_are_alike) {
   struct hk_participation participation;
   struct hk_suggestion suggestion;
   /* one spring has the whole mode, but without it the next one limits the step as much */
-  check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
+  check_ok(hk_participation_find(system, system->position, NULL, mode, 1.0, 0.0, &participation));
   const int32_t status =
       hk_suggestion_find(system, system->position, "verlet", 2.0 / 7.0, &participation, &suggestion);
   hk_participation_release(&participation);

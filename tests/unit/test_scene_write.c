@@ -80,6 +80,7 @@ TEST(random_systems_come_back) {
                                                       .springs = 40,
                                                       .features = features,
                                                       .triples = (int64_t)(seed % 3 * 4),
+                                                      .medium = (int32_t)(seed % 16),
                                                       .cloth = {5, 4},
                                                       .lattice = {3, 4, 2},
                                                       .rope = 7},
@@ -114,6 +115,32 @@ TEST(lattice_and_mesh_come_back) {
   check_same_system(hooke_scene_system(read), system);
   hooke_options_destroy(mesh);
   hooke_system_destroy(system);
+}
+
+/* A part comes before the particles, which a scene numbers first; and the wind is a table. */
+TEST(drag_of_each_particle_comes_back) {
+  const double drag[5] = {1, 2, 3, 4, 5}, place[6] = {5, 0, 0, 6, 0, 0}, one = 1.0, time[2] = {0, 2},
+               velocity[6] = {1, 2, 3, 4, 5, 6}, numbered[5] = {4, 5, 1, 2, 3};
+  owned_scene *read = NULL;
+  owned_system *system =
+      small_part(NULL, "rope", "rope",
+                 "from=0,0,0 to=1,0,0 segments=2 mass=1 stretch.stiffness=1 fluid_drag.density=2 "
+                 "fluid_drag.diameter=0.3 fluid_drag.normal=1 fluid_drag.tangential=0.1");
+  check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &one, NULL));
+  owned_options *options = options_with("scene", "quadratic_drag=0.5");
+  check_ok(hooke_options_set_numbers(options, "drag", 5, drag));
+  check_ok(hooke_options_set_numbers(options, "wind.time", 2, time));
+  check_ok(hooke_options_set_numbers(options, "wind.velocity", 6, velocity));
+  check_ok(hooke_scene_options_apply(options, system));
+  check_ok(hooke_system_commit(system));
+  check_ok(hooke_scene_of_system(system, NULL, NULL, "memory", NULL, &read));
+  check_ok(hooke_scene_commit(read));
+  const struct hk_medium *found = hooke_scene_system(read)->medium;
+  check_same_bits(5, found->drag.value, numbered);
+  assert_true(found->quadratic_drag.most == 0.5 && found->quadratic_drag.value == NULL);
+  check_same_bits(2, found->wind.time, time);
+  check_same_bits(6, found->wind.value, velocity);
+  assert_int_equal(hooke_system_count(hooke_scene_system(read), "fluid_drag"), 2);
 }
 
 static void add_strand(hooke_system *system, int curl) {

@@ -249,9 +249,13 @@ int32_t hooke_options_is_set(const hooke_options *options, const char *name) {
   return slot ? slot->is_set : 0;
 }
 
+static int32_t is_family(const struct slot *slot) {
+  return slot->row->family && slot->is_set && slot->value.count == 0;
+}
+
 int32_t hk_options_has_family(const hooke_options *options, const char *name) {
   const struct slot *slot = find_slot(options, name);
-  return slot && slot->row->type == HOOKE_OPTION_FAMILY && slot->is_set;
+  return slot && is_family(slot);
 }
 
 static const struct hk_option_value *value_of(const hooke_options *options, const char *name) {
@@ -305,7 +309,7 @@ int32_t hk_options_check_required(const hooke_options *options) {
     }
     if (slot->row->only) hk_print(with, sizeof with, " with %s \"%s\"", first, chosen);
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
-    if (slot->family >= 0 && !options->slot[slot->family].is_set) continue;
+    if (slot->family >= 0 && !is_family(&options->slot[slot->family])) continue;
     char allowed[HOOKE_OPTION_ALLOWED];
     return hk_fail(HOOKE_BAD_VALUE, slot->name, "is required%s but missing; allowed: %s", with,
                    hk_option_allowed(slot->row, allowed));

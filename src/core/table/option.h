@@ -32,8 +32,8 @@ struct hk_option_row {
   const char *words; /* separated by blanks: the words allowed instead of numbers, or the choices */
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;
-  const char *only; /* of the table's first row, a choice: the word that it belongs to */
-  const struct hk_option_table *family;
+  const char *only;                     /* of the table's first row, a choice: the word that it belongs to */
+  const struct hk_option_table *family; /* also of HOOKE_OPTION_NUMBERS: in place of the numbers */
   const char *doc;
   const char *example; /* as text: an example value */
 };

@@ -292,6 +292,7 @@ int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *w
     return status;
   }
   case HOOKE_OPTION_NUMBERS:
+    if (row->family && !text[0]) return HOOKE_OK;
     return list_from_text(row, where, text, value);
   case HOOKE_OPTION_FLAG: {
     int yes = strcmp(text, "true") == 0 || strcmp(text, "1") == 0;

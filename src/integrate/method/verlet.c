@@ -273,7 +273,8 @@ static int32_t depends_on_state(const hooke_system *system) {
 }
 
 static int32_t find_explicit_step(const hooke_system *system, double *step) {
-  *step = hk_system_is_damped(system, ~HOOKE_UNIFORM) ? 0.0 : INFINITY;
+  const int solves = hk_system_is_damped(system, ~HOOKE_UNIFORM) && !hk_system_is_not_linear(system);
+  *step = solves ? 0.0 : INFINITY;
   if (isinf(*step) || depends_on_state(system)) return HOOKE_OK;
   const int32_t status = find_bound(system, step);
   *step *= MARGIN;
@@ -290,19 +291,22 @@ static int32_t refuse_step(double step, double most) {
                  given, allowed);
 }
 
-/* Damping is taken at the predicted velocity. */
-static int32_t choose_with_bodies(hooke_integrator *it, const char *asked) {
+/* Damping is taken at the predicted velocity: of bodies, and where it depends on velocities, by which no
+ * choice may be made. */
+static int32_t predict_always(hooke_integrator *it, const char *asked, const char *unknown) {
   it->explicit_damping = hk_system_is_damped(it->system, ~HOOKE_UNIFORM);
   if (strcmp(asked, "implicit") != 0) return HOOKE_OK;
-  return hk_fail(HOOKE_UNSUITED, "verlet_damping",
-                 "implicit does not know rigid bodies yet; allowed: auto, explicit");
+  return hk_fail(HOOKE_UNSUITED, "verlet_damping", "implicit does not know %s; allowed: auto, explicit",
+                 unknown);
 }
 
 /* Decides by the system, the step and the option `verlet_damping`, whose value it sets to what it decided.
  * HOOKE_UNSUITED or HOOKE_BAD_VALUE where explicit damping is asked for and cannot be. */
 static int32_t choose(hooke_integrator *it) {
   const char *asked = hooke_options_text(it->options, "verlet_damping");
-  if (it->system->mover_count > 0) return choose_with_bodies(it, asked);
+  if (it->system->mover_count > 0) return predict_always(it, asked, "rigid bodies yet");
+  if (hk_system_is_not_linear(it->system))
+    return predict_always(it, asked, "forces that are not linear in velocities");
   const int required = strcmp(asked, "explicit") == 0;
   double most;
   if (!hk_system_is_damped(it->system, ~HOOKE_UNIFORM)) {

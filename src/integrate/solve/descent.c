@@ -5,6 +5,7 @@
 #include "kernel/vector_loops.h"
 #include "model/force/altitude.h"
 #include "model/force/force.h"
+#include "model/medium.h"
 
 #include <float.h>
 #include <math.h>

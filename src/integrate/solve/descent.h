@@ -12,7 +12,7 @@
  * Over a whole step without drives U itself must not rise, which the last three do not imply. Where U is
  * convex there is one solution, and it passes all of this.
  *
- * There is no P with a callback, nor with altitude springs, whose energy jumps. */
+ * There is no P with a callback or a wind, nor with altitude springs, whose energy jumps. */
 #ifndef HOOKE_INTEGRATE_SOLVE_DESCENT_H
 #define HOOKE_INTEGRATE_SOLVE_DESCENT_H
 

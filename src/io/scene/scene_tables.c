@@ -3,14 +3,26 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "hooke/scene.h"
+#include "model/medium.h"
 
 #include <string.h>
+
+static const struct hk_option_row wind_rows[] = {
+    HOOKE_OPTION("time", HOOKE_OPTION_COUNTED(2, 0), NULL, "ascending times", .unit = "s", .required = 1),
+    HOOKE_OPTION("velocity", HOOKE_OPTION_VECTORS("m/s", 2, 0), NULL, "velocity at each time", .required = 1),
+};
+
+static const struct hk_option_table wind_table = {"wind", HOOKE_OPTION_ROWS(wind_rows)};
 
 static const struct hk_option_row scene_rows[] = {
     HOOKE_OPTION("title", .type = HOOKE_OPTION_TEXT, NULL, "free text"),
     HOOKE_OPTION("gravity", HOOKE_OPTION_VECTOR("m/s^2"), NULL, "acceleration of every free particle"),
-    HOOKE_OPTION("drag", HOOKE_OPTION_NOT_NEGATIVE("N s/m"), NULL,
-                 "ether drag f = -c v on every free particle"),
+    HOOKE_OPTION("drag", HOOKE_OPTION_EACH("N s/m"), NULL,
+                 "drag f = -c (v - u) on every free particle, u the wind; one number, or one a particle"),
+    HOOKE_OPTION("quadratic_drag", HOOKE_OPTION_EACH("kg/m"), NULL,
+                 "drag f = -c |v - u| (v - u) on every free particle; one number, or one a particle"),
+    HOOKE_OPTION("wind", HOOKE_OPTION_VECTOR("m/s"), NULL,
+                 "velocity of the medium in all kinds of drag; constant, or a table", .family = &wind_table),
     HOOKE_OPTION("dynamics", HOOKE_OPTION_ONE_OF("inertial overdamped"), "inertial",
                  "overdamped: drag v = f, without inertia"),
 };
@@ -77,13 +89,31 @@ const struct hk_option_table *hk_scene_table(int64_t k) {
   return tables[k];
 }
 
+static int32_t apply_wind(const hooke_options *options, hooke_system *system) {
+  const double *constant = hooke_options_numbers(options, "wind");
+  if (constant) return hk_medium_set_wind(system, 0, NULL, constant);
+  const int64_t samples = hooke_options_number_count(options, "wind.time"),
+                rows = hooke_options_number_count(options, "wind.velocity") / 3;
+  if (samples == 0 || rows != samples)
+    return hk_fail(HOOKE_BAD_VALUE, "wind",
+                   "%lld times and %lld velocities given; allowed: one for each time", (long long)samples,
+                   (long long)rows);
+  return hk_medium_set_wind(system, samples, hooke_options_numbers(options, "wind.time"),
+                            hooke_options_numbers(options, "wind.velocity"));
+}
+
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {
   int32_t status =
       hk_options_require(options, &scene_table, "options", "hooke_options_create(\"scene\", ...)");
   if (status == HOOKE_OK && hooke_options_is_set(options, "gravity"))
     status = hooke_system_set_gravity(system, hooke_options_numbers(options, "gravity"));
   if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))
-    status = hooke_system_set_drag(system, hooke_options_number(options, "drag"));
+    status = hk_medium_set_drag(system, hooke_options_number_count(options, "drag"),
+                                hooke_options_numbers(options, "drag"));
+  if (status == HOOKE_OK && hooke_options_is_set(options, "quadratic_drag"))
+    status = hk_medium_set_quadratic_drag(system, hooke_options_number_count(options, "quadratic_drag"),
+                                          hooke_options_numbers(options, "quadratic_drag"));
+  if (status == HOOKE_OK && hooke_options_is_set(options, "wind")) status = apply_wind(options, system);
   if (status == HOOKE_OK) status = hooke_system_set_dynamics(system, hooke_options_text(options, "dynamics"));
   return status;
 }

@@ -332,6 +332,35 @@ static void add_lists(struct writer *to) {
   }
 }
 
+/* Of all particles, by their numbers in the scene. */
+static void add_each(struct writer *to, const char *key, const struct hk_each *each) {
+  if (each->value == NULL) {
+    if (each->most != 0.0) hk_text_number(&to->json, key, each->most);
+    return;
+  }
+  double *rows = hk_new(each->count, sizeof *rows);
+  if (rows == NULL) to->json.status = HOOKE_NO_MEMORY;
+  for (int64_t p = 0; p < each->count && rows; p++)
+    rows[to->number[p]] = each->value[p];
+  if (rows) add_numbers(&to->json, key, each->count, 0, rows);
+  hk_free(rows);
+}
+
+static void add_medium(struct writer *to) {
+  const struct hk_medium *medium = to->system->medium;
+  add_each(to, "drag", &medium->drag);
+  add_each(to, "quadratic_drag", &medium->quadratic_drag);
+  if (!medium->blows) return;
+  if (medium->wind.samples == 0) {
+    add_numbers(&to->json, "wind", 3, 0, medium->wind.mean);
+    return;
+  }
+  hk_text_open(&to->json, "wind", '{');
+  add_numbers(&to->json, "time", medium->wind.samples, 0, medium->wind.time);
+  add_numbers(&to->json, "velocity", 3 * medium->wind.samples, 3, medium->wind.value);
+  hk_text_close(&to->json, '}');
+}
+
 /* Reports features that a scene cannot express. */
 static int32_t check_words(const hooke_system *system) {
   for (int64_t g = 0; g < system->group_count; g++) {
@@ -361,7 +390,7 @@ static void add_scene(struct writer *to, const char *title, const hooke_options 
   if (title && title[0]) hk_text_word(text, "title", title);
   if (system->overdamped) hk_text_word(text, "dynamics", hooke_system_dynamics(system));
   if (system->has_gravity) add_numbers(text, "gravity", 3, 0, system->gravity);
-  if (system->drag != 0.0) hk_text_number(text, "drag", system->drag);
+  add_medium(to);
   if (to->alone > 0) add_particles(to);
   if (system->part_count > 0) add_parts(to);
   if (system->rest->name_count > 0) add_names(to);

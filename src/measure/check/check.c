@@ -6,6 +6,7 @@
 #include "core/table/option.h"
 #include "integrate/integrator.h"
 #include "measure/estimate/estimate.h"
+#include "measure/spectrum/step_bound.h"
 
 #include <math.h>
 #include <string.h>
@@ -193,7 +194,8 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   forget(check);
   int32_t status = find_memory(check, state);
   if (status == HOOKE_OK)
-    status = hooke_step_bound(check->m->system, NULL, hooke_state_position(state), check->bound);
+    status = hk_step_bound_at(check->m->system, NULL, hooke_state_position(state),
+                              hooke_state_velocity(state), check->bound);
   return status == HOOKE_OK ? warn(check, hooke_state_position(state)) : status;
 }
 

@@ -48,7 +48,7 @@ static void add_groups(struct hk_cost *cost) {
 
 static void add_others(struct hk_cost *cost) {
   const hooke_system *system = cost->m->system;
-  add_row(cost, "damping", -1, hk_system_is_damped(system, ~HOOKE_UNIFORM));
+  add_row(cost, "damping", -1, hk_system_has_dampers(system));
   for (int32_t k = 0; hk_force_table(k); k++)
     if (hk_force_table(k)->copy)
       add_row(cost, hk_force_table(k)->name, -1, hk_force_is_present(system, hk_force_table(k)));

@@ -53,8 +53,9 @@ const struct hk_table hk_cost_tables[] = {
      HOOKE_TABLE_ROWS(struct hk_cost, row, row_count),
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_BY(ingredient, TEXT, "", "name of the group, else the kind"),
-         HOOKE_COLUMN(struct hk_cost_row, kind, TEXT, "",
-                      "springs, bending, altitude, damping, drag, callback or gravity"),
+         HOOKE_COLUMN(
+             struct hk_cost_row, kind, TEXT, "",
+             "springs, bending, altitude, fluid_drag, damping, drag, quadratic_drag, wind, callback or gravity"),
          HOOKE_COLUMN_BY(group, COUNT, "", "number of the group, among those of its kind"),
          HOOKE_COLUMN_BY(springs, COUNT, "", "springs of the group"),
          HOOKE_COLUMN(struct hk_cost_row, nanoseconds, NUMBER, "ns",

@@ -16,12 +16,24 @@ const double hk_costs[HOOKE_WORKS] = {
     8.64,
     19.8,
     0.1, /* anchors */
+    50,
+    100,
+    100, /* drag in a fluid */
     20,
     40,
     50, /* linear */
     0.1,
     0.1,
     2.93, /* drag */
+    5,
+    5,
+    5, /* drag of each particle, or in a wind */
+    15,
+    30,
+    30, /* quadratic drag */
+    5,
+    0.1,
+    0.1, /* wind */
     3.33,
     0.1,
     0.1, /* loads */

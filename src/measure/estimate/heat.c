@@ -5,6 +5,8 @@
 #include "core/memory.h"
 #include "measure/counted_work/work.h"
 #include "measure/trial/balance.h"
+#include "model/medium.h"
+#include "model/particles.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,6 +17,8 @@ static const double SUMS = 10.0;                     /* evaluations of forces th
 
 struct slice {
   const hooke_system *system;
+  hooke_system calm; /* the same without wind, in which differences of velocities are velocities */
+  struct hk_medium medium;
   struct hk_balance balance;
   double *difference[4]; /* velocities, 3n each: the last velocity, and halved first to third differences */
   double power[4];       /* at the last states */
@@ -52,7 +56,7 @@ static void add_reversing(struct slice *s, const hooke_state *state, double step
   for (int k = 0; k < 4; k++)
     least = fmin(least, s->power[k]);
   if (s->steps < 3) return;
-  const double reversing = hooke_system_dissipated_power_at(s->system, hooke_state_time(state),
+  const double reversing = hooke_system_dissipated_power_at(&s->calm, hooke_state_time(state),
                                                             hooke_state_position(state), s->difference[3]);
   s->reversing += step * fmin(least, reversing);
 }
@@ -85,7 +89,9 @@ static int32_t look(struct hk_estimate *e, const hooke_state *from) {
   const double of_step = SUMS * hk_work_of_evaluation(e->system) + e->work / fmax(1.0, e->steps);
   const double affordable = floor(fmax(LEAST_WORK, SHARE * e->work) / of_step / APART) * APART;
   const double count = fmin(fmin(MOST_STEPS, fmax(APART, affordable)), round(left / step));
-  struct slice s = {.system = e->system};
+  struct slice s = {.system = e->system, .calm = *e->system, .medium = *e->system->medium};
+  s.medium.blows = 0;
+  s.calm.medium = &s.medium;
   const char *method = hooke_options_text(e->options, "method");
   const struct hk_rerun rerun = {method, step, count * step, step, "error, heat", 1.0, 0.0, from, see, &s};
   struct hk_frames none = {.system = e->system};

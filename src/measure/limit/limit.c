@@ -69,9 +69,10 @@ static void forget_smallest(struct hk_limit *limit) {
 
 static int32_t make_space(struct hk_limit *limit) {
   const int64_t size = 3 * limit->system->particle_count;
-  double *block = hk_new(size, (size_t)(3 + limit->row_count) * sizeof(double));
+  double *block = hk_new(size, (size_t)(4 + limit->row_count) * sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   limit->q = hk_part(&block, size);
+  limit->v = hk_part(&block, size);
   limit->shape = hk_part(&block, size);
   limit->stiffest = hk_part(&block, size);
   for (int32_t k = 0; k < limit->row_count; k++)
@@ -130,8 +131,10 @@ const struct hk_limit_row *hk_limit_limiting_row(const struct hk_limit *limit) {
   return first;
 }
 
-static void remember(struct hk_limit *limit, const double *q, double t) {
-  memcpy(limit->q, q, 3 * (size_t)limit->system->particle_count * sizeof(double));
+static void remember(struct hk_limit *limit, const double *q, const double *v, double t) {
+  const size_t bytes = 3 * (size_t)limit->system->particle_count * sizeof(double);
+  memcpy(limit->q, q, bytes);
+  if (v) memcpy(limit->v, v, bytes);
   limit->time = t;
 }
 
@@ -151,8 +154,8 @@ static int32_t find_participation(struct hk_limit *limit) {
   const int stiffness_alone =
       hk_method_stability_in(row->method, limit->system)->damps_implicitly || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
-  int32_t status = hk_participation_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h,
-                                         h, &limit->participation);
+  int32_t status = hk_participation_find(limit->system, limit->q, limit->v, limit->shape,
+                                         stiffness_alone ? 1.0 : h * h, h, &limit->participation);
   if (status == HOOKE_OK) hk_limiting_take(&limit->participation, &limit->limiting);
   limit->participation.undamped = 2.0 / limit->frequency;
   limit->participation.budget = limit->budget;
@@ -177,7 +180,8 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
   const int32_t status = nonlinear
                              ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method,
                                                           row->predicted, accuracy, budget, &m)
-                             : hk_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
+                             : hk_limit_measure(limit->system, q, hooke_state_velocity((hooke_state *)state),
+                                                limit->run, row->method, row->predicted,
                                                 row->has_mode ? row->mode : NULL, accuracy, budget, &m);
   if (status != HOOKE_OK) return status;
   row->measured = m.step;
@@ -207,7 +211,7 @@ static int32_t measure(struct hk_limit *limit, const hooke_state *state) {
 int32_t hk_limit_look(struct hk_limit *limit, const double *q, const double *v, double t) {
   forget(limit);
   forget_smallest(limit);
-  remember(limit, q, t);
+  remember(limit, q, v, t);
   int32_t status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
   if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, limit->q, v);
   return status == HOOKE_OK ? find_participation(limit) : status;
@@ -279,7 +283,7 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, see_steps, &walk);
   if (status == HOOKE_OK) status = hk_run_whole(integrator, state);
   hooke_integrator_destroy(integrator);
-  remember(limit, hooke_state_position(state), hooke_state_time(state));
+  remember(limit, hooke_state_position(state), hooke_state_velocity(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;
   note_unknown(limit, walk.frame);
   const int32_t found = status < 0 || !limit->found ? HOOKE_OK : find_participation(limit);

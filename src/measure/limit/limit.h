@@ -33,7 +33,7 @@ struct hk_limit {
   struct hk_limit_row row[HOOKE_LISTED_METHODS];
 
   /* of the last state */
-  double *q; /* 3n */
+  double *q, *v; /* 3n */
   double time;
   int32_t found;
   double frequency, decay; /* [rad/s], [1/s] */

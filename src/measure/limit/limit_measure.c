@@ -163,13 +163,13 @@ static int32_t measure(struct trial *trial, double predicted, struct hk_measured
   return status;
 }
 
-int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
-                         const char *method, double predicted, const double *mode, double accuracy,
-                         struct hk_budget *budget, struct hk_measured_limit *out) {
+int32_t hk_limit_measure(const hooke_system *system, const double *q, const double *v,
+                         const hooke_options *run, const char *method, double predicted, const double *mode,
+                         double accuracy, struct hk_budget *budget, struct hk_measured_limit *out) {
   struct hk_twin twin;
   struct hk_growth growth;
   *out = (struct hk_measured_limit){.step = NAN, .note = ""};
-  int32_t status = hk_twin_create(system, q, &twin);
+  int32_t status = hk_twin_create(system, q, v, &twin);
   if (status != HOOKE_OK) return status;
   status = hk_growth_create(&twin, run, method, mode, accuracy, budget, &growth);
   if (status == HOOKE_OK) {

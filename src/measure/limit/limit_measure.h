@@ -18,9 +18,9 @@ struct hk_measured_limit {
  * just below it that starts from random motion alone. `run` (options of a run) may be NULL. The note says if
  * the budget ended too early. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the caller, HOOKE_NO_MEMORY.
  */
-int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
-                         const char *method, double predicted, const double *mode, double accuracy,
-                         struct hk_budget *budget, struct hk_measured_limit *out);
+int32_t hk_limit_measure(const hooke_system *system, const double *q, const double *v,
+                         const hooke_options *run, const char *method, double predicted, const double *mode,
+                         double accuracy, struct hk_budget *budget, struct hk_measured_limit *out);
 
 /* The largest step at which the scene itself runs from `start` through the `duration` of `run` without
  * divergence. With callbacks and drives only non-finite numbers count. HOOKE_BAD_VALUE without a duration;

@@ -6,6 +6,7 @@
 #include "measure/spectrum/rigid.h"
 #include "model/force/spring.h"
 #include "model/group.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -53,7 +54,8 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
   whole->all += stiffness + damping;
   whole->stiffness += stiffness;
   participation->force_share[force] += stiffness;
-  participation->force_share[group < 0 ? force : HOOKE_PARTICIPATION_DAMPING] += damping;
+  const int own = group < 0 || at->force->is_drag;
+  participation->force_share[own ? force : HOOKE_PARTICIPATION_DAMPING] += damping;
   if (group >= 0) participation->group_share[group] += stiffness + damping;
   if (group >= 0 && stiffness + damping > participation->heaviest.share)
     participation->heaviest = (struct hk_limiting_element){force, hk_element_number(at), stiffness + damping};
@@ -70,16 +72,20 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
 }
 
 /* Shares of the elements at q; the mode is 0 at constrained particles. */
-static void find_elements(const hooke_system *system, const double *q, const double *mode, struct weights h,
-                          struct whole *whole, struct hk_participation *participation) {
+static void find_elements(const hooke_system *system, const double *q, const double *v, const double *mode,
+                          struct weights h, struct whole *whole, struct hk_participation *participation) {
   const struct hk_force_row *force = NULL;
   int64_t group = -1, in_group = 0;
   struct hk_elements at;
   hk_begin_elements(system, 0.0, q, NULL, &at);
   at.by_number = 1;
+  at.flow = v;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    if (at.force != force) group = at.force->members ? hk_system_first_group(system, at.force) : -1;
-    if (at.force != force) in_group = 0;
+    /* a member may have several elements, one walk over all members after the other */
+    const int64_t members = system->rest->member_count[hk_force_number(at.force)];
+    const int again = at.force != force || (members > 0 && hk_element_number(&at) % members == 0);
+    if (again) group = at.force->members ? hk_system_first_group(system, at.force) : -1;
+    if (again) in_group = 0;
     force = at.force;
     while (group >= 0 && in_group == system->group[group].count)
       group++, in_group = 0;
@@ -130,8 +136,9 @@ static void divide(struct hk_participation *participation, const struct whole *w
   participation->stiffness_share = whole->all > 0.0 ? whole->stiffness / whole->all : 0.0;
 }
 
-int32_t hk_participation_find(const hooke_system *system, const double *q, const double *mode, double h2,
-                              double h, struct hk_participation *participation) {
+int32_t hk_participation_find(const hooke_system *system, const double *q, const double *v,
+                              const double *mode, double h2, double h,
+                              struct hk_participation *participation) {
   struct whole whole = {0.0, 0.0, 0.0};
   *participation = (struct hk_participation){.group_share = hk_new(system->group_count, sizeof(double))};
   if (participation->group_share == NULL) return HOOKE_NO_MEMORY;
@@ -145,7 +152,7 @@ int32_t hk_participation_find(const hooke_system *system, const double *q, const
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
     moves[k] = system->constrained[k / 3] ? 0.0 : mode[k];
   const struct weights weights = {h2, 2.0 * h};
-  find_elements(system, q, moves, weights, &whole, participation);
+  find_elements(system, q, v, moves, weights, &whole, participation);
   const int32_t status = find_geometric(system, q, moves, weights, &whole, participation);
   find_particles(system, moves, &whole, participation);
   divide(participation, &whole);
@@ -179,7 +186,7 @@ int32_t hk_participation_force(const struct hk_participation *participation) {
 }
 
 int32_t hk_participation_is_drag(int32_t force) {
-  return is_of(force, HOOKE_UNIFORM);
+  return hk_force_table(force) && hk_force_table(force)->is_drag;
 }
 
 static const char *force_name(int32_t force) {

@@ -54,10 +54,11 @@ struct hk_participation {
   double memory;
 };
 
-/* Shares of the springs, groups, forces and particles of a committed system at q (3n) in a mode (3n
+/* Shares of the springs, groups, forces and particles of a committed system at q and v (3n) in a mode (3n
  * displacements, NULL: unknown), with `h2` the weight of K and `h` that of 2 C. HOOKE_NO_MEMORY. */
-int32_t hk_participation_find(const hooke_system *system, const double *q, const double *mode, double h2,
-                              double h, struct hk_participation *participation);
+int32_t hk_participation_find(const hooke_system *system, const double *q, const double *v,
+                              const double *mode, double h2, double h,
+                              struct hk_participation *participation);
 void hk_participation_release(struct hk_participation *participation);
 
 /* The force with half of the total or more, or HOOKE_PARTICIPATION_DAMPING or _GEOMETRIC; -1 if it is the

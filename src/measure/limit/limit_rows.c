@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static int32_t find_bounds(struct hk_limit *limit, const double *q) {
+static int32_t find_bounds(struct hk_limit *limit, const double *q, const double *v) {
   struct hk_node_blocks blocks;
-  const int32_t status = hk_node_blocks_create(limit->system, q, &blocks);
+  const int32_t status = hk_node_blocks_create(limit->system, q, v, &blocks);
   if (status != HOOKE_OK) return status;
   for (int32_t k = 0; k < limit->row_count; k++)
     limit->row[k].bound = hk_step_bound_of(&blocks, limit->row[k].method, INFINITY, NULL);
@@ -117,7 +117,7 @@ static int32_t find_growth(const hooke_system *system, double t, const double *q
 static int32_t buckling_rate(const hooke_system *system, double t, const double *q, double *rate) {
   struct hk_node_blocks blocks;
   *rate = 0.0;
-  int32_t status = hk_node_blocks_create(system, q, &blocks);
+  int32_t status = hk_node_blocks_create(system, q, NULL, &blocks);
   if (status != HOOKE_OK) return status;
   const double shift = 1.0 / hk_node_blocks_reach(&blocks, (struct hk_node_limit){.k = 1.0}, INFINITY, NULL);
   hk_node_blocks_release(&blocks);
@@ -172,7 +172,7 @@ int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q, const dou
   if (status != HOOKE_OK) return status;
   linearised.budget = limit->budget;
   linearised.memory = limit->memory;
-  status = find_bounds(limit, q);
+  status = find_bounds(limit, q, v);
   if (status == HOOKE_OK) status = find_rows(limit, &linearised);
   if (status == HOOKE_OK) status = note_buckling(limit, q);
   limit->products = linearised.products;

@@ -6,6 +6,7 @@
 #include "measure/limit/limit_participation.h"
 #include "measure/limit/limit_predict.h"
 #include "model/force/spring.h"
+#include "model/medium.h"
 
 #include <math.h>
 
@@ -223,7 +224,9 @@ static int32_t limit_without(const hooke_system *system, const double *q, const 
                              const struct hk_participation *participation, int32_t drag, double *limit) {
   const struct hk_stability *stability = hk_method_stability(method);
   hooke_system without = *system;
-  without.drag = 0.0;
+  struct hk_medium none = {.blows = 0};
+  without.brake = 0.0;
+  without.medium = &none;
   if (drag)
     return hk_limit_predict_within(&without, q, NULL, method, NULL, NULL, ACCURACY, participation->memory,
                                    participation->budget, limit);
@@ -239,7 +242,8 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
   const int32_t drag = hk_participation_is_drag(force), bodies = system->mover_count > 0;
   int32_t status = HOOKE_OK;
   /* no method has no limit by the damping of bodies */
-  if (drag || !bodies) status = limit_without(system, q, method, participation, drag, &without);
+  if ((drag && !hk_force_table(force)->members) || (!drag && !bodies))
+    status = limit_without(system, q, method, participation, drag, &without);
   if (status != HOOKE_OK) return status;
   hk_append(suggestion->sentence, sizeof suggestion->sentence, "%s%s limits the step",
             suggestion->kind ? "; " : "", drag ? "drag" : "damping");
@@ -250,7 +254,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
     hk_append(suggestion->sentence, sizeof suggestion->sentence,
               ": without it nothing would limit that of %s", method);
   }
-  if (!bodies)
+  if (!bodies && !hk_system_is_not_linear(system))
     hk_append(suggestion->sentence, sizeof suggestion->sentence,
               "; verlet takes %s implicitly, and has no limit by it", drag ? "drag" : "damping");
   suggestion->force = 1;

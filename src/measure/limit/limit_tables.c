@@ -54,9 +54,10 @@ const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS] = {
         struct hk_limiting, share, NUMBER, "",
         "share of h^2 K + 2 h C in the limiting mode, 0 to 1; bending, altitude springs and drag are part "
         "of the whole; NaN if it cannot be told"),
-    HOOKE_COLUMN(struct hk_limiting, force, TEXT, "",
-                 "drag, damping, bending or altitude, where no spring but that force is meant; geometric: "
-                 "gravity and tensions, which turn rigid bodies"),
+    HOOKE_COLUMN(
+        struct hk_limiting, force, TEXT, "",
+        "drag, quadratic_drag, fluid_drag, damping, bending or altitude, where no spring but that force is meant; geometric: "
+        "gravity and tensions, which turn rigid bodies"),
 };
 
 /* ---- participation ---- */

@@ -5,6 +5,7 @@
 #include "integrate/integrator.h"
 #include "model/part_record.h"
 #include "model/system.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -62,7 +63,7 @@ static void look_at_groups(struct looking *l) {
   for (int64_t k = 0; k < l->system->group_count; k++) {
     const struct hk_group *group = &l->system->group[k];
     const int springs = group->force->kind & HOOKE_LOOPED;
-    int stiff = springs ? group->inside > 0 : group->count > 0;
+    int stiff = springs ? group->inside > 0 : group->count > 0 && !group->force->is_drag;
     const int64_t count = springs ? group->count : 0;
     for (int64_t i = first; i < first + count; i++)
       stiff |= l->stiffness[i] > 0.0;
@@ -86,6 +87,34 @@ static void look_at_parts(struct looking *l) {
     hk_option_show(part->name, (int64_t)strlen(part->name), shown);
     tell(l, "no-stiffness", -1, part->first,
          "part \"%s\" has no stiffness: nothing holds these particles together", shown);
+  }
+}
+
+/* Fluids beside which added mass counts [kg/m^3]: denser than any gas. */
+static const double DENSE = 100.0;
+
+/* A rope that is no heavier than what it displaces accelerates as much fluid as itself, which is left out. */
+static void look_at_fluids(struct looking *l) {
+  char shown[HOOKE_OPTION_SHOWN];
+  for (int64_t k = 0; k < l->system->part_count; k++) {
+    const struct hk_part_record *part = &l->system->part[k];
+    const int in_fluid = hk_options_has_family(part->options, "fluid_drag") &&
+                         hooke_options_number(part->options, "fluid_drag.density") > DENSE;
+    if (!in_fluid || !hk_options_find(hk_options_table(part->options), "fluid_drag.diameter")) continue;
+    const double *q = l->system->position + 3 * part->first, *m = l->system->mass + part->first;
+    const double radius = 0.5 * hooke_options_number(part->options, "fluid_drag.diameter");
+    double length = 0.0, mass = 0.0;
+    for (int64_t p = 0; p < part->count; p++) {
+      length += p > 0 ? hk_distance3(q + 3 * p, q + 3 * p - 3) : 0.0;
+      mass += m[p];
+    }
+    const double displaced = 3.14159265358979323846 * radius * radius * length *
+                             hooke_options_number(part->options, "fluid_drag.density");
+    hk_option_show(part->name, (int64_t)strlen(part->name), shown);
+    if (mass <= displaced)
+      tell(l, "added-mass", -1, part->first,
+           "part \"%s\" has %.3g kg and displaces %.3g kg of fluid, whose added mass is not in the scene",
+           shown, mass, displaced);
   }
 }
 
@@ -137,6 +166,7 @@ int32_t hooke_system_warnings(const hooke_system *system, hooke_warning *warning
     l.pair = l.ends + 2 * springs;
     look_at_groups(&l);
     look_at_parts(&l);
+    look_at_fluids(&l);
     status = look_at_motion(&l);
   }
   hk_free(l.ends);

@@ -70,7 +70,7 @@ static int32_t look(const hooke_integrator *it, const hooke_state *state, void *
   if (warner->told[ABOVE_LIMIT] || warner->told[NEVER_STABLE]) return 0;
   const double margin = warner->told[NEAR_LIMIT] ? 0.0 : MARGIN, most = it->schedule.step / (1.0 - margin);
   int64_t particle;
-  hk_node_blocks_fill(&warner->blocks, state->q);
+  hk_node_blocks_fill(&warner->blocks, state->q, state->v);
   const double limit = hk_step_bound_of(&warner->blocks, it->method->name, most, &particle);
   return limit < most ? tell(warner, it, state, particle, limit) : 0;
 }
@@ -85,7 +85,7 @@ int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning
     return HOOKE_OK;
   struct warner *warner = hk_new(1, sizeof *warner);
   if (warner == NULL) return HOOKE_NO_MEMORY;
-  status = hk_node_blocks_create(it->system, it->system->position, &warner->blocks);
+  status = hk_node_blocks_begin(it->system, &warner->blocks);
   if (status != HOOKE_OK) {
     hk_free(warner);
     return status;

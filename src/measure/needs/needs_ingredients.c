@@ -72,7 +72,7 @@ static int32_t resists_compression(const hooke_system *system) {
 static void list_whole_forces(struct list *list) {
   const hooke_system *system = list->needs->m->system;
   struct hk_variant *variant;
-  if (hk_system_is_damped(system, ~HOOKE_UNIFORM)) {
+  if (hk_system_has_dampers(system)) {
     variant = add_row(list, "damping", "damping");
     if (variant) variant->damping = 1;
   }
@@ -142,7 +142,7 @@ static int32_t may_be_rigid(const hooke_system *system, int64_t part) {
   int64_t inside = 0;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
-    if (group->from_part && group->part == part) inside += group->count;
+    if (group->from_part && group->part == part && !group->force->is_drag) inside += group->count;
   }
   for (int64_t p = record->first; p < record->first + record->count && inside > 0; p++) {
     const int32_t driven = system->constrained[p] == HOOKE_IS_DRIVEN;

@@ -136,9 +136,10 @@ const struct hk_table hk_needs_tables[] = {
      HOOKE_TABLE_AT(struct hk_needs, row),
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN(struct hk_needs_row, without, TEXT, "", "what was left out"),
-         HOOKE_COLUMN(struct hk_needs_row, kind, TEXT, "",
-                      "springs, bending, altitude, damping, drag, gravity, callback, idle, loose, part, "
-                      "rigid, compression or resolution"),
+         HOOKE_COLUMN(
+             struct hk_needs_row, kind, TEXT, "",
+             "springs, bending, altitude, fluid_drag, damping, drag, quadratic_drag, wind, gravity, callback, idle, loose, part, "
+             "rigid, compression or resolution"),
          HOOKE_COLUMN(
              struct hk_needs_row, error, NUMBER, "m",
              "largest change of position of a watched particle without it; NaN if the run did not end"),

@@ -42,20 +42,20 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
   if (isnan(s->step)) return HOOKE_OK;
   const int32_t status = make_states(s);
   if (status != HOOKE_OK || system->mover_count > 0) return status;
-  return hk_node_blocks_create(system, hooke_state_position(state), &s->blocks);
+  return hk_node_blocks_create(system, hooke_state_position(state), hooke_state_velocity(state), &s->blocks);
 }
 
 /* The bound where the step is not clear of it. */
-static double see_bound(struct hk_soundness *s, const double *q) {
+static double see_bound(struct hk_soundness *s, const double *q, const double *v) {
   const double clear = s->step / hk_soundness_limit_share;
   if (s->blocks.system == NULL) return 0.0;
-  hk_node_blocks_fill(&s->blocks, q);
+  hk_node_blocks_fill(&s->blocks, q, v);
   const double bound = hk_step_bound_of(&s->blocks, s->method, clear, NULL);
   return bound < clear ? bound : INFINITY;
 }
 
 static void see_step(struct hk_soundness *s, const hooke_state *state) {
-  const double bound = see_bound(s, hooke_state_position(state));
+  const double bound = see_bound(s, hooke_state_position(state), hooke_state_velocity(state));
   struct hk_soundness_state *at = &s->at[s->count > 0];
   if (isinf(bound) || (s->count > 0 && bound > at->bound)) return;
   const size_t bytes = 3 * (size_t)s->system->particle_count * sizeof(double);

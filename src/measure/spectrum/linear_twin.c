@@ -17,7 +17,7 @@ static const double SHORTEST = 1e9;
 /* Working data: the springs that are kept, in spring order. */
 struct making {
   const hooke_system *system;
-  const double *q;
+  const double *q, *v;
   double middle[3], extent, shortest, factor;
   int64_t *ends, *last;      /* last: of each particle, 1 + the last spring whose lower end it is; 0: none */
   int64_t springs, elements; /* so far */
@@ -125,6 +125,7 @@ static void keep_spring(struct making *making, struct hk_twin *twin, int64_t num
 static void keep_others(struct making *making, struct hk_twin *twin) {
   struct hk_elements at;
   hk_begin_elements(making->system, 0.0, making->q, NULL, &at);
+  at.flow = making->v;
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (hk_element_moves(making->system->constrained, e)) keep_element(making, twin, e);
@@ -190,6 +191,14 @@ static int32_t hold_product(int64_t n, double t, const double *q, const double *
   return 0;
 }
 
+/* One number, or in an overdamped system one of each particle; elements have all other drag. */
+static int32_t set_drag(const hooke_system *old, hooke_system *system) {
+  const struct hk_each *drag = &old->medium->drag;
+  return old->overdamped && drag->value
+             ? hk_medium_set_drag(system, drag->count, drag->value)
+             : hooke_system_set_drag(system, old->overdamped ? old->drag : old->brake);
+}
+
 /* An open or committed system; the caller destroys it. */
 static int32_t build(const struct making *making, struct hk_twin *twin, int held, hooke_system **out) {
   const hooke_system *old = making->system;
@@ -207,7 +216,8 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
   for (int64_t k = 0; k < old->mover_count && status == HOOKE_OK; k++)
     status = old->mover[k].row->copy_one(old->mover[k].thing, system);
   if (status == HOOKE_OK) hk_system_set_linear(system, making->elements, twin->element, twin->origin);
-  if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
+  system->rest->linear.of_velocities = hk_system_is_not_linear(old);
+  if (status == HOOKE_OK) status = set_drag(old, system);
   if (status == HOOKE_OK && held) status = hooke_system_set_force(system, hold, hold_product, twin);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
   if (status == HOOKE_OK)
@@ -253,10 +263,10 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
   return status;
 }
 
-int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin) {
-  struct making making = {.system = system, .q = q, .shortest = INFINITY};
+int32_t hk_twin_create(const hooke_system *system, const double *q, const double *v, struct hk_twin *twin) {
+  struct making making = {.system = system, .q = q, .v = v, .shortest = INFINITY};
   memset(twin, 0, sizeof *twin);
-  int32_t status = hk_linearised_create(system, q, NULL, NULL, NULL, &twin->lin);
+  int32_t status = hk_linearised_create(system, q, v, NULL, NULL, &twin->lin);
   if (status == HOOKE_OK) status = freeze(&making, twin);
   if (status == HOOKE_OK) hk_linearised_combine(&twin->lin, 1.0, 0.0);
   hk_free(making.ends);

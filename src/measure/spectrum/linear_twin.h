@@ -29,7 +29,7 @@ struct hk_twin {
 
 /* `q`: 3n positions of a committed system, which has to exist as long as the twin. HOOKE_BAD_VALUE,
  * HOOKE_NO_MEMORY. */
-int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin);
+int32_t hk_twin_create(const hooke_system *system, const double *q, const double *v, struct hk_twin *twin);
 void hk_twin_release(struct hk_twin *twin);
 
 /* Twice the energy of the displacement from `origin` and the velocity (3n each): x.Kx + v.Mv. */

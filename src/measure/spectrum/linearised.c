@@ -96,7 +96,7 @@ static void keep_element(struct hk_linearised *lin, const struct hk_element *e) 
   lin->element_count++;
 }
 
-static int32_t see_others(struct hk_linearised *lin, const double *q) {
+static int32_t see_others(struct hk_linearised *lin, const double *q, const double *v) {
   const int64_t most = hk_elements_of(lin->system, HOOKE_KEPT);
   lin->element = hk_new(most, sizeof *lin->element);
   lin->along = hk_new(2 * most, sizeof(double));
@@ -105,6 +105,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
   struct hk_elements at;
   hk_begin_elements(lin->system, 0.0, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
+  at.flow = v;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (!hk_element_moves(lin->system->constrained, e)) continue;
     if (at.force->kind & HOOKE_CONSTANT)
@@ -118,10 +119,12 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
 /* ---- units ---- */
 
 /* Adds the rows of the other forces at q, of their stiffness or of their damping. */
-static void add_rows(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
+static void add_rows(const struct hk_linearised *lin, const double *q, const double *v, int damping,
+                     double *sum) {
   struct hk_elements at;
   hk_begin_elements(lin->system, 0.0, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
+  at.flow = v;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
     for (int j = 0; j < e->count; j++)
@@ -143,7 +146,8 @@ static double row_of_mover(const hooke_system *system, const struct hk_body_tang
 }
 
 /* The largest row sum of 2 sum |B| over m, a bound on all eigenvalues. */
-static double largest_row(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
+static double largest_row(const struct hk_linearised *lin, const double *q, const double *v, int damping,
+                          double *sum) {
   const hooke_system *system = lin->system;
   const double *weight = damping ? lin->gamma : lin->kappa, drag = damping ? lin->drag : 0.0;
   double most = 0.0;
@@ -157,7 +161,7 @@ static double largest_row(const struct hk_linearised *lin, const double *q, int 
       sum[j] += 2.0 * weight[run->first + k];
     }
   }
-  add_rows(lin, q, damping, sum);
+  add_rows(lin, q, v, damping, sum);
   for (int64_t p = 0; p < system->particle_count; p++)
     if (!hk_is_carried(system, p)) most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
   for (int64_t k = 0; k < lin->rigid.tangents.count; k++)
@@ -165,9 +169,9 @@ static double largest_row(const struct hk_linearised *lin, const double *q, int 
   return most;
 }
 
-static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *sum) {
-  const double stiffest = largest_row(lin, q, 0, sum) + lin->rigid.stiffest,
-               quickest = largest_row(lin, q, 1, sum);
+static int32_t choose_rate(struct hk_linearised *lin, const double *q, const double *v, double *sum) {
+  const double stiffest = largest_row(lin, q, v, 0, sum) + lin->rigid.stiffest,
+               quickest = largest_row(lin, q, v, 1, sum);
   lin->damped = quickest > 0.0;
   lin->slow_step = 1.0 / fmax(lin->system->overdamped ? stiffest : sqrt(stiffest), quickest);
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
@@ -262,11 +266,11 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
     lin->unknowns += is_alone(system, p) ? 3 : 0;
   }
   status = see_springs(lin, q, spring_scale);
-  if (status == HOOKE_OK) status = see_others(lin, q);
+  if (status == HOOKE_OK) status = see_others(lin, q, v);
   if (status == HOOKE_OK) status = hk_rigid_create(system, q, spring_scale, &lin->rigid);
   lin->unknowns += hk_rigid_unknowns(&lin->rigid); /* none, as long as it is not made */
   if (v) lin->spin = hk_rigid_spin(&lin->rigid, v);
-  if (status == HOOKE_OK) status = choose_rate(lin, q, sum);
+  if (status == HOOKE_OK) status = choose_rate(lin, q, v, sum);
   if (status != HOOKE_OK) hk_linearised_release(lin);
   return status;
 }

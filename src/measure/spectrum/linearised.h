@@ -55,9 +55,9 @@ struct hk_linearised {
 /* Maximum memory [bytes], including that of a search for the largest eigenvalue. */
 double hk_linearised_bytes(const hooke_system *system);
 
-/* At positions q (3n). Velocities (3n, of which only `spin` depends), factors on kappa and gamma, one a
- * spring, and on masses (n; 1 in a body) may be NULL. HOOKE_BAD_VALUE for non-finite numbers;
- * HOOKE_NO_MEMORY. */
+/* At positions q (3n). Velocities (3n, on which only `spin` and what is not linear in them depend), factors
+ * on kappa and gamma, one a spring, and on masses (n; 1 in a body) may be NULL. HOOKE_BAD_VALUE for
+ * non-finite numbers; HOOKE_NO_MEMORY. */
 int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *v,
                              const double *spring_scale, const double *mass_scale,
                              struct hk_linearised *linearised);

@@ -14,16 +14,18 @@ struct hk_node_blocks {
   const hooke_system *system;
   double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
   double least_ratio; /* smallest damping over stiffness of an element, in any direction; infinity: none */
-  int32_t unknown;    /* 1: some element is so long that its square overflows */
+  int32_t unknown;    /* 1: some element is so long that its square overflows, or needs velocities */
   struct hk_budget *budget; /* ends filling midway (NULL: none) */
 };
 
-/* At positions q (3n). HOOKE_NO_MEMORY. */
-int32_t hk_node_blocks_create(const hooke_system *system, const double *q, struct hk_node_blocks *blocks);
+/* At positions q (3n), and at velocities v (3n, NULL: unknown), on which only what is not linear in them
+ * depends. HOOKE_NO_MEMORY. */
+int32_t hk_node_blocks_create(const hooke_system *system, const double *q, const double *v,
+                              struct hk_node_blocks *blocks);
 /* Without positions yet. */
 int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *blocks);
 /* Recomputes them at other positions, in the existing memory. */
-void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q);
+void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q, const double *v);
 void hk_node_blocks_release(struct hk_node_blocks *blocks);
 
 /* A limit of steps: h (h kk K + k K + c C) < M. */

@@ -51,17 +51,18 @@ int32_t hk_step_is_bounded(const char *method) {
  * eigenvalues are -k/gamma. */
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method, double most,
                         int64_t *particle) {
-  const struct hk_stability *stability = hk_method_stability(method);
   const hooke_system *system = blocks->system;
+  const struct hk_stability *stability = hk_method_stability_in(method, system);
   const double without = hooke_method_is_adaptive(method) ? most : (double)NAN;
   if (system->mover_count > 0 || blocks->unknown) return without;
-  if (system->overdamped && !hk_method_suits(method, system)) return NAN;
+  if (!hk_method_suits(method, system)) return NAN;
   switch (stability->kind) {
   case HOOKE_STABLE_ALWAYS:
     return most;
   case HOOKE_STABLE_BY_K:
     return hk_node_blocks_reach(blocks, (struct hk_node_limit){.kk = 0.25}, most, particle);
   case HOOKE_STABLE_BY_K_AND_C:
+  case HOOKE_STABLE_BY_PREDICTION: /* within it */
     return hk_node_blocks_reach(blocks, (struct hk_node_limit){.kk = 0.25, .c = 0.5}, most, particle);
   case HOOKE_STABLE_BY_POLYNOMIAL:
     if (!system->overdamped) return polynomial_bound(blocks, stability, most, particle);
@@ -74,13 +75,18 @@ double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method,
 }
 
 int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q, double *bound) {
+  return hk_step_bound_at(system, method, q, NULL, bound);
+}
+
+int32_t hk_step_bound_at(const hooke_system *system, const char *method, const double *q, const double *v,
+                         double *bound) {
   struct hk_node_blocks blocks = {.system = system};
   if (method && hooke_method_is_adaptive(method) < 0)
     return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
   const int one_pass = system->mover_count == 0 && (method == NULL || hk_step_is_bounded(method));
-  if (one_pass) status = hk_node_blocks_create(system, q, &blocks);
+  if (one_pass) status = hk_node_blocks_create(system, q, v, &blocks);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < (method ? 1 : hooke_method_count()); k++)
     bound[k] = hk_step_bound_of(&blocks, method ? method : hooke_method_name(k), INFINITY, NULL);

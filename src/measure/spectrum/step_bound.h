@@ -12,6 +12,10 @@ int32_t hk_step_is_bounded(const char *method);
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method, double most,
                         int64_t *particle);
 
+/* hooke_step_bound() where velocities are known. */
+int32_t hk_step_bound_at(const hooke_system *system, const char *method, const double *q, const double *v,
+                         double *bound);
+
 /* `step`, or the largest below it at which the method solves nothing, where that makes a run cheaper.
  * HOOKE_NO_MEMORY. */
 int32_t hk_step_cheapest(const hooke_system *system, const char *method, double *step);

@@ -35,7 +35,7 @@ static int32_t choose_method(const hooke_system *system, const double *q, const 
   struct hk_node_blocks blocks;
   *method = hooke_method_is_built("cvode-adams") ? "cvode-adams" : hk_rk4.name;
   if (system->mover_count > 0 || !hooke_method_is_adaptive(*method)) return HOOKE_OK;
-  const int32_t status = hk_node_blocks_create(system, q, &blocks);
+  const int32_t status = hk_node_blocks_create(system, q, NULL, &blocks);
   if (status != HOOKE_OK) return status;
   /* in the time that the fastest oscillation takes for a radian, and that the fastest damping takes */
   const double swing = hk_node_blocks_reach(&blocks, (struct hk_node_limit){.kk = 1.0}, INFINITY, NULL),

@@ -120,7 +120,7 @@ double hk_growing_turn(struct hk_growing *g, const double *q, double a, double b
 
 int32_t hk_growing_rule(const hooke_system *system, const char *method, double h, double *a, double *b,
                         double *most) {
-  const struct hk_stability *stability = hk_method_stability(method);
+  const struct hk_stability *stability = hk_method_stability_in(method, system);
   *a = h * h;
   *b = stability->kind == HOOKE_STABLE_BY_K_AND_C ? 2.0 * h : 0.0;
   *most = 4.0;

@@ -54,7 +54,7 @@ static int32_t find_growing_participation(struct hk_inquiry *inquiry, double h) 
   double a = 1.0, b = 0.0, most;
   hk_growing_rule(inquiry->system, method_of(inquiry), h, &a, &b, &most);
   violation->has_participation = 1;
-  return hk_participation_find(inquiry->system, violation->q, inquiry->growing.x, a, 0.5 * b,
+  return hk_participation_find(inquiry->system, violation->q, NULL, inquiry->growing.x, a, 0.5 * b,
                                &violation->participation);
 }
 
@@ -90,7 +90,7 @@ int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   if (violation->found || violation->tries >= MOST_TRIES || !hk_step_is_bounded(method_of(inquiry)))
     return HOOKE_OK;
   if (!hk_all_finite(inquiry->run->size, q)) return HOOKE_OK;
-  hk_node_blocks_fill(blocks, q);
+  hk_node_blocks_fill(blocks, q, state->v);
   if (hk_budget_ends(&inquiry->budget, "bounds")) return HOOKE_OK;
   const int32_t bodies = inquiry->system->mover_count > 0; /* without a bound, nor growing motion */
   if (bodies && inquiry->large) return HOOKE_OK;

@@ -30,7 +30,8 @@ static int32_t fill(struct hk_elements *at) {
     const int64_t left = hk_force_count(at->system, force) - at->done;
     at->first = at->done;
     at->count = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
-    if (at->count > 0) force->elements(at->system, at->t, at->q, at->v, at->first, at->count, at->element);
+    const double *v = at->v || !force->not_linear ? at->v : at->flow;
+    if (at->count > 0) force->elements(at->system, at->t, at->q, v, at->first, at->count, at->element);
   }
   at->batches += at->count > 0;
   return at->count > 0;

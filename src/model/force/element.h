@@ -31,12 +31,13 @@ struct hk_element {
  * With positions q and velocities v (rows), elements are those of the forces there; slack ones are 0. Without
  * v (NULL) they are those of small displacements from rest: springs that only pull count as taut, and a
  * spring of no length is stiff and damped in all directions. k_across is negative where a spring is
- * compressed. Without q and v only particles are set. Forces are those of time t. */
+ * compressed. Without q and v only particles are set. Forces are those of time t. Where only `flow` is set,
+ * what is not linear in velocities is linearised at these. */
 enum { HOOKE_ELEMENTS = 64 };
 struct hk_elements {
   const struct hooke_system *system;
   double t;
-  const double *q, *v;
+  const double *q, *v, *flow;
   int32_t kinds;                   /* of forces (see force.h); 0: all */
   const struct hk_force_row *only; /* NULL: the same; otherwise this force alone */
   int32_t by_number;               /* 1: in the order of their numbers; 0: in memory order, without `first` */

@@ -23,12 +23,17 @@ static int has_inertia(const hooke_system *system) {
   return system->rest->committed && !system->overdamped;
 }
 
-/* Of gamma v. */
-static double friction_heat(const hooke_system *system, const double *v) {
+/* Of gamma (v - u). */
+static double friction_heat(const hooke_system *system, double t, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
-  for (int64_t k = 0; system->overdamped && k < 3 * system->particle_count; k++)
-    hk_sum_add(&sum, system->constrained[k / 3] ? 0.0 : v[k] * v[k]);
-  return system->drag * hk_sum_value(&sum);
+  double wind[3];
+  if (!system->overdamped) return 0.0;
+  hk_wind_at(system, t, wind);
+  for (int64_t k = 0; k < 3 * system->particle_count; k++) {
+    const double w = v[k] - wind[k % 3];
+    hk_sum_add(&sum, system->constrained[k / 3] ? 0.0 : system->inertia[k / 3] * w * w);
+  }
+  return hk_sum_value(&sum);
 }
 
 static void add_potentials(const hooke_system *system, double t, const double *q, struct hk_energies *sum) {
@@ -88,7 +93,7 @@ double hooke_system_dissipated_power(const hooke_system *system, const double *q
 double hooke_system_dissipated_power_at(const hooke_system *system, double t, const double *q,
                                         const double *v) {
   if (!system->rest->committed) return NAN;
-  double sum = friction_heat(system, v);
+  double sum = friction_heat(system, t, v);
   for (int32_t k = 0; k < system->force_row_count; k++)
     sum += heat_of(system, system->force_row[k], t, q, v);
   return sum;

@@ -9,8 +9,8 @@
 
 /* The rows, in the order of summation at a particle. Gravity is last: a = w f + g. */
 #define HOOKE_FORCE_ROWS(each)                                                                               \
-  each(springs) each(bending) each(altitude) each(anchor) each(linear) each(drag) each(loads) each(callback) \
-      each(weight) each(gravity)
+  each(springs) each(bending) each(altitude) each(anchor) each(fluid) each(linear) each(drag) each(medium)   \
+      each(quadratic) each(wind) each(loads) each(callback) each(weight) each(gravity)
 #define HOOKE_COUNT_ROW(name) +1
 enum { HOOKE_FORCES = 0 HOOKE_FORCE_ROWS(HOOKE_COUNT_ROW) };
 
@@ -46,8 +46,10 @@ struct hk_member_change {
  * A force with elements has its heat and its derivative from them, unless a function says better. */
 struct hk_force_row {
   const char *name;
-  int32_t kind;      /* one of these; 0 without elements */
-  int32_t in_scenes; /* 1: scenes have a key for it */
+  int32_t kind;       /* one of these; 0 without elements */
+  int32_t is_drag;    /* 1: brakes what moves in the medium, be it rigid */
+  int32_t not_linear; /* 1: not linear in velocities, so that its damping is that of a state */
+  int32_t in_scenes;  /* 1: scenes have a key for it */
   int32_t
       on_free; /* 1: its members are on free particles alone: others are refused, and left out of variants */
   /* for forces with groups: the name of its members, of one, and of the argument that lists them; particles
@@ -134,6 +136,9 @@ void hk_forces_release(hooke_system *system);
  * nothing is known. */
 int32_t hk_force_is_damped(const hooke_system *system, const struct hk_force_row *row);
 int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds);
+/* 1 if something but drag is; and if a force of a committed system is not linear in velocities. */
+int32_t hk_system_has_dampers(const hooke_system *system);
+int32_t hk_system_is_not_linear(const hooke_system *system);
 /* Sets touched[p] to 1 for every particle of a spring, a triple or a tetrahedron. */
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
 /* Number of elements of the forces of these kinds. */

@@ -1,7 +1,9 @@
-/* Ether drag f = -c v on every free particle. It brakes free fall too; spring damping does not. */
+/* Ether drag f = -c v on every free particle, with one number and without wind. It brakes free fall too;
+ * spring damping does not. */
 #include "model/force/force.h"
 
 #include "model/check_value.h"
+#include "model/medium.h"
 #include "model/variant/variant.h"
 
 static int32_t present(const hooke_system *system) {
@@ -13,7 +15,8 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static int32_t copy(const struct hk_variant_maker *maker) {
-  return hooke_system_set_drag(maker->made, maker->from->drag);
+  /* in an overdamped system it is no force, and its drag is copied in any case */
+  return hk_force_is_present(maker->from, &hk_force_medium) ? HOOKE_OK : hk_medium_copy_drag(maker);
 }
 
 static void brake(const hooke_system *system, struct hk_motion *motion, int64_t from, int64_t to) {
@@ -68,6 +71,7 @@ static void multiply(const hooke_system *system, double a, double b, const doubl
 
 const struct hk_force_row hk_force_drag = {.name = "drag",
                                            .kind = HOOKE_UNIFORM,
+                                           .is_drag = 1,
                                            .in_scenes = 1,
                                            .title = "drag",
                                            .check = check,

@@ -12,7 +12,7 @@
 
 void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_element *element,
                           const double *origin) {
-  system->rest->linear = (struct hk_linear){count, element, origin};
+  system->rest->linear = (struct hk_linear){count, element, origin, 0};
 }
 
 static int64_t count(const hooke_system *system) {

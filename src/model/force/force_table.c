@@ -39,6 +39,20 @@ int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds) {
   return damped;
 }
 
+int32_t hk_system_has_dampers(const hooke_system *system) {
+  int32_t damped = 0;
+  for (int32_t k = 0; hk_force_table(k); k++)
+    damped |= !table[k]->is_drag && hk_force_is_damped(system, table[k]);
+  return damped;
+}
+
+int32_t hk_system_is_not_linear(const hooke_system *system) {
+  int32_t found = system->rest->linear.of_velocities;
+  for (int32_t k = 0; k < system->force_row_count; k++)
+    found |= system->force_row[k]->not_linear;
+  return found;
+}
+
 void hk_forces_release(hooke_system *system) {
   memset(system->rest->member_count, 0, sizeof system->rest->member_count);
   for (int32_t k = 0; hk_force_table(k); k++) {

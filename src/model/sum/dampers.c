@@ -4,6 +4,7 @@
 #include "core/status.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
+#include "model/medium.h"
 
 #include <string.h>
 
@@ -217,9 +218,9 @@ static int32_t take_others(const hooke_system *system, struct hk_dampers *d) {
   int32_t status = HOOKE_OK;
   if (hk_system_is_damped(system, HOOKE_OTHERS))
     d->rows = new_numbers(d, 3 * system->particle_count, &status);
-  if (system->drag > 0.0) d->drag = new_numbers(d, system->particle_count, &status);
+  if (system->brake > 0.0) d->drag = new_numbers(d, system->particle_count, &status);
   for (int64_t p = 0; p < system->particle_count && d->drag; p++) {
-    const double z = d->h * system->drag * system->inverse_mass[p];
+    const double z = d->h * system->brake * system->inverse_mass[p];
     d->drag[p] = 1.0 + z * (1.0 + z / 2.0);
   }
   return status;
@@ -304,7 +305,8 @@ static double part_of(double h, double strength, double w) {
   return hk_damper_part(h * strength * w) / w;
 }
 
-static void damp_element(const struct hk_dampers *d, const struct hk_element *e, double *const v[3]) {
+static void damp_element(const struct hk_dampers *d, const struct hk_element *e, const double *wind,
+                         double *const v[3]) {
   const double *inverse_mass = d->system->inverse_mass;
   double w = 0.0, rate[3] = {0.0}, b[3];
   for (int j = 0; j < e->count; j++) {
@@ -313,6 +315,8 @@ static void damp_element(const struct hk_dampers *d, const struct hk_element *e,
       rate[a] = j > 0 ? rate[a] + e->weight[j] * v[a][e->particle[j]] : e->weight[j] * v[a][e->particle[j]];
   }
   if (!(w > 0.0)) return;
+  for (int a = 0; a < 3 && wind; a++) /* of drag, whose weights are 1 */
+    rate[a] -= wind[a];
   const double along = (e->u[0] * rate[0] + e->u[1] * rate[1]) + e->u[2] * rate[2];
   double impulse = part_of(d->h, e->c_along / e->over, w) * along;
   if (e->pull_only) {
@@ -334,31 +338,34 @@ static void damp_element(const struct hk_dampers *d, const struct hk_element *e,
   }
 }
 
-static void damp_force(const struct hk_dampers *d, const struct hk_force_row *row, int32_t backwards,
-                       double *const v[3]) {
+static void damp_force(const struct hk_dampers *d, const struct hk_force_row *row, double t,
+                       int32_t backwards, double *const v[3]) {
+  double wind[3];
+  hk_wind_at(d->system, t, wind);
   struct hk_element element[HOOKE_ELEMENTS];
   const int64_t count = hk_force_count(d->system, row);
   for (int64_t done = 0; done < count;) {
     const int64_t left = count - done, some = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
     const int64_t first = backwards ? left - some : done;
     memset(element, 0, sizeof element);
-    row->elements(d->system, 0.0, d->rows, NULL, first, some, element);
+    row->elements(d->system, t, d->rows, NULL, first, some, element);
     /* an anchor of no length has no direction, and brakes nothing there */
     for (int64_t k = 0; k < some && row->members; k++)
       element[k].c_across = 0.0;
     for (int64_t k = 0; k < some; k++)
-      damp_element(d, &element[backwards ? some - 1 - k : k], v);
+      damp_element(d, &element[backwards ? some - 1 - k : k], row->is_drag ? wind : NULL, v);
     done += some;
   }
 }
 
-static void damp_others(const struct hk_dampers *d, const struct hk_motion *motion, int32_t backwards) {
+static void damp_others(const struct hk_dampers *d, const struct hk_motion *motion, double t,
+                        int32_t backwards) {
   if (d->rows == NULL) return;
   hk_rows_from_components(motion->n, motion->q, d->rows);
   for (int32_t k = 0; k < HOOKE_FORCES; k++) {
     const struct hk_force_row *row = hk_force_table(backwards ? HOOKE_FORCES - 1 - k : k);
     if (row->kind & HOOKE_OTHERS && hk_force_is_damped(d->system, row))
-      damp_force(d, row, backwards, motion->v);
+      damp_force(d, row, t, backwards, motion->v);
   }
 }
 
@@ -369,15 +376,15 @@ static void drag(const struct hk_dampers *d, const struct hk_motion *motion) {
   }
 }
 
-void hk_dampers_sweep(struct hk_dampers *d, struct hk_motion *motion, int32_t backwards) {
+void hk_dampers_sweep(struct hk_dampers *d, struct hk_motion *motion, double t, int32_t backwards) {
   struct sweep sweep = {d, motion, backwards};
   if (backwards) {
     drag(d, motion);
-    damp_others(d, motion, 1);
+    damp_others(d, motion, t, 1);
   }
   if (d->colours.springs > 0) hk_pool_run(motion->pool, go_over, &sweep);
   if (!backwards) {
-    damp_others(d, motion, 0);
+    damp_others(d, motion, t, 0);
     drag(d, motion);
   }
 }

@@ -45,9 +45,10 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
     variant->scale[k] *= other->scale[k];
 }
 
-/* 1 if a part adds the group and is left out, or is a body, which has nothing inside. */
+/* 1 if a part adds the group and is left out, or is a body, which has nothing inside but feels drag. */
 static int32_t goes_with_part(const struct hk_variant *variant, const struct hk_group *group) {
-  return group->from_part && (variant->part[group->part] || variant->rigid[group->part]);
+  return group->from_part &&
+         (variant->part[group->part] || (variant->rigid[group->part] && !group->force->is_drag));
 }
 
 static int32_t covers_groups(const hooke_system *system, const struct hk_variant *variant,
@@ -233,6 +234,7 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) status = copy_names(&maker);
   if (status == HOOKE_OK) status = copy_movers(&maker);
   if (status == HOOKE_OK) status = copy_others(&maker);
+  if (status == HOOKE_OK && !from->overdamped) status = hk_medium_copy_wind(&maker); /* there it is a force */
   if (status == HOOKE_OK) {
     if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);
     add_velocity(maker.made, variant->velocity);

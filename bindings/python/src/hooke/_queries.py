@@ -151,7 +151,7 @@ class Queries(Problem):
     body_names = Asked(_names, 'The names of the rigid bodies, "" for one without.', lib.hooke_system_body_name, "bodies")
     forces = Asked(
         _names,
-        'The forces that the system computes ("springs", "bending", "altitude", "drag", "callback", "gravity").',
+        'The forces that the system computes ("springs", "bending", "altitude", "drag", "wind", "callback", "gravity").',
         lib.hooke_system_force_name,
         "forces",
     )

@@ -35,9 +35,10 @@ class Scene(Parts, Problem):
     finished system (a run, a state, `save`) commits it; after that nothing can be added. Until then ``scene.system``
     also accepts additions that the format cannot express, such as a force of your own.
 
-    `gravity` (3,) [m/s^2]; `drag` [N s/m] of the ether, ``f = -c v``; `dynamics` is
-    "inertial" or "overdamped" (see `System.dynamics`); `run` are defaults for runs of the scene, see
-    `run_defaults`.
+    `gravity` (3,) [m/s^2]; `drag` [N s/m], ``f = -c (v - u)``, and `quadratic_drag` [kg/m],
+    ``f = -c |v - u| (v - u)``, one number or one a particle; `wind` u (3,) [m/s], or a dict of `time` (samples,) [s] and
+    `velocity` (samples, 3); `dynamics` is "inertial" or "overdamped" (see `System.dynamics`); `run` are defaults for
+    runs of the scene, see `run_defaults`.
     """
 
     def __init__(
@@ -45,7 +46,9 @@ class Scene(Parts, Problem):
         title: str = "",
         *,
         gravity: Numbers | None = None,
-        drag: float | None = None,
+        drag: Numbers | None = None,
+        quadratic_drag: Numbers | None = None,
+        wind: Numbers | Mapping[str, Numbers] | None = None,
         dynamics: str | None = None,
         run: Mapping[str, Any] | None = None,
     ):
@@ -54,9 +57,13 @@ class Scene(Parts, Problem):
         self._title = title
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] = {"hooke": 1}
-        own = Options.for_scene().set(title=title or None, dynamics=dynamics, drag=drag, gravity=gravity)
+        own = Options.for_scene().set(
+            title=title or None, dynamics=dynamics, drag=drag, gravity=gravity, quadratic_drag=quadratic_drag, wind=wind
+        )
         lib.hooke_scene_options_apply(own._handle, self._system._handle)
-        self._document.update((name, own[name]) for name in own if own.is_set(name))
+        self._document.update((name, own[name]) for name in own if own.is_set(name) and "." not in name)
+        if isinstance(wind, Mapping):
+            self._document["wind"] = {key: np.array(value) for key, value in wind.items()}
         if run:
             self.run_defaults(**run)
 
