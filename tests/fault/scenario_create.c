@@ -162,7 +162,7 @@ static const struct {
   const char *kind, *words;
 } parts[] = {
     {"rope", "from=0,0,0 to=1,0,0 segments=5 density=0.1 stretch.stiffness=20 bend.stiffness=1 bending=0.01 "
-             "pinned=start,end"},
+             "pinned=start,end gravity_factor=0.3"},
     {"cloth", "origin=0,1,0 edges=1,0,0,0,0,1 size=5,4 mass=0.3 structural.stiffness=20 shear.stiffness=5 "
               "bend.stiffness=1 pinned=top-corners"},
     {"lattice", "origin=0,2,0 edges=1,0,0,0,1,0,0,0,1 size=3,3,3 mass=0.3 structural.stiffness=20 "

@@ -130,9 +130,10 @@ static double set_right(const hooke_integrator *it) {
   double left = 0.0, kicked = 0.0;
   for (int a = 0; a < 3; a++) {
     double *right = own->right + a * m->n;
+    const double *factor = system->gravity_factor, g = system->fall[a];
     for (int64_t p = 0; p < m->n; p++) {
       const double mass = system->mass[p], by = m->v[a][p] - own->half[a][p];
-      const double force = system->falls ? m->f[a][p] + mass * hk_fall(system, p, a) : m->f[a][p];
+      const double force = system->falls ? m->f[a][p] + mass * (factor ? factor[p] * g : g) : m->f[a][p];
       right[p] = half * force - mass * by;
       left += right[p] * (system->inverse_mass[p] * right[p]);
       kicked += system->constrained[p] ? 0.0 : (mass * by) * by;

@@ -77,6 +77,7 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *valu
 /* ---- scene_json_pieces.c: add to the system what is under keys of the scene ---- */
 
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root);
-int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *root, const struct hk_scene_list *list);
+int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *value,
+                          const struct hk_scene_list *list);
 
 #endif

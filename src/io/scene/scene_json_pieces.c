@@ -34,10 +34,9 @@ static int32_t add_object(struct hk_scene_reader *reader, const char *object,
   return hk_scene_note(reader, status);
 }
 
-/* Calls `add` for every object of an optional array. */
-static int32_t for_each(struct hk_scene_reader *reader, const char *root, const char *key,
+/* Calls `add` for every object of an array, which may be NULL. */
+static int32_t for_each(struct hk_scene_reader *reader, const char *array, const char *key,
                         const struct hk_scene_list *list, add_one *add) {
-  const char *array = hk_json_get(root, key);
   int64_t k = 0;
   reader->within[0] = '\0';
   int32_t status = array ? hk_scene_require(array, '[', key, "an array of objects [{ ... }, ...]") : HOOKE_OK;
@@ -155,7 +154,7 @@ static int32_t sort_parts(struct hk_scene_reader *reader) {
 }
 
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root) {
-  const int32_t status = for_each(reader, root, "parts", NULL, add_part);
+  const int32_t status = for_each(reader, hk_json_get(root, "parts"), "parts", NULL, add_part);
   return status == HOOKE_OK && reader->faults == 0 ? hk_scene_note(reader, sort_parts(reader)) : status;
 }
 
@@ -205,12 +204,11 @@ static int32_t add_member(struct hk_scene_reader *reader, const char *object,
   return status;
 }
 
-int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *root,
+int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *value,
                           const struct hk_scene_list *list) {
-  if (list->particles) return for_each(reader, root, list->key, list, add_member);
+  if (list->particles) return for_each(reader, value, list->key, list, add_member);
   strcpy(reader->within, list->key);
-  const char *object = hk_json_get(root, list->key);
-  return object ? add_object(reader, object, list, add_member) : HOOKE_OK;
+  return value ? add_object(reader, value, list, add_member) : HOOKE_OK;
 }
 
 int32_t hooke_system_add_members(hooke_system *system, const char *key, const char *name, int64_t count,

@@ -18,12 +18,12 @@ static double factor_of(const hooke_system *system, int64_t p) {
 
 static double energy(const hooke_system *system, double t, const double *q) {
   (void)t;
-  const double *g = system->gravity, *mass = system->mass;
+  const double *g = system->gravity, *mass = system->mass, *factor = system->gravity_factor;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
     const double height = (g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2];
-    hk_sum_add(&sum, -(factor_of(system, p) * mass[p]) * height);
+    hk_sum_add(&sum, -(factor ? factor[p] * mass[p] : mass[p]) * height);
   }
   return hk_sum_value(&sum);
 }
