@@ -33,6 +33,7 @@ void hk_group_release(struct hk_group *group) {
   hk_group_release_columns(group);
   hk_free(group->name);
   hooke_options_destroy(group->options);
+  hk_curve_destroy(group->curve);
   memset(group, 0, sizeof *group);
 }
 
@@ -61,7 +62,7 @@ int32_t hk_group_resists(const struct hk_group *group) {
 
 static int acts(const struct hk_group *group, int64_t k) {
   const double *kappa = group->number[HOOKE_KAPPA], *gamma = group->number[HOOKE_GAMMA];
-  return kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
+  return group->curve || kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
 }
 
 /* 1 if all particles of a member are in one body. */

@@ -25,6 +25,7 @@ struct hk_linearised {
   double rate;               /* [1/s] */
   double slow_step;          /* a step [s] of the order of the fastest motion; infinity: none */
   int64_t clamped, products; /* clamped springs; products with K and C so far */
+  int64_t falling;           /* springs whose curve falls there, of which the stiffness along counts as 0 */
   int32_t across_any, damped;
   int32_t points_damped;  /* some spring of no length is damped, in all directions */
   int32_t bends;          /* some force with constant K and C moves something */
@@ -39,7 +40,7 @@ struct hk_linearised {
   struct hk_rigid rigid;                 /* in units of the system */
   double spin;                           /* largest angular velocity of a body, over rate */
   double unit_k, unit_c;                 /* 1 over rate^2 and rate: of forces with constant K and C */
-  /* of other forces: elements that move something, over rate^2 and rate */
+  /* of other forces, and of springs with curves: elements that move something, over rate^2 and rate */
   int64_t element_count;
   struct hk_element *element;
   /* a K + b C, from the last hk_linearised_combine() */
