@@ -48,8 +48,7 @@ static void forget(struct hk_limit *limit) {
   limit->endless = hk_budget_of(INFINITY, tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = limit->time = NAN;
-  limit->mode_count = limit->products = limit->clamped = limit->tipping = limit->falling =
-      limit->limiting.count = 0;
+  limit->mode_count = limit->products = limit->clamped = limit->tipping = limit->limiting.count = 0;
   hk_free(limit->mode);
   limit->mode = NULL;
   hk_participation_release(&limit->participation);

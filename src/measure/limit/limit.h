@@ -37,7 +37,7 @@ struct hk_limit {
   double time;
   int32_t found;
   double frequency, decay; /* [rad/s], [1/s] */
-  int64_t products, clamped, tipping, falling;
+  int64_t products, clamped, tipping;
   int64_t mode_count;
   struct hk_limit_mode *mode;
   double *shape, *stiffest; /* 3n; the second, a start for the next state, x, y and z apart */

@@ -61,12 +61,12 @@ static void tell_left_out(const struct teller *t) {
         "rigid bodies tipped over by gravity or tensions: %lld; that is growth by physics, and left out",
         (long long)t->limit->tipping);
   const struct hk_springs *springs = t->limit->system->springs;
-  const int64_t falling = hk_springs_falling(springs), unbounded = hk_springs_unbounded(springs);
-  if (falling > 0 || t->limit->falling > 0)
+  const int64_t falling = hk_springs_falling(springs, t->limit->q), unbounded = hk_springs_unbounded(springs);
+  if (falling > 0)
     say(t, "falling", HOOKE_OF_PART,
-        "springs with a curve that falls somewhere: %lld, and there now: %lld; that is negative stiffness, by "
-        "which motion grows at any step: growth by physics, and left out",
-        (long long)falling, (long long)t->limit->falling);
+        "springs where their curve falls: %lld; that is negative stiffness, by which motion grows at any step, "
+        "and left out",
+        (long long)falling);
   if (unbounded > 0)
     say(t, "curves", HOOKE_OF_PART,
         "springs whose curve has no largest stiffness: %lld; limits and bounds are those of this state",

@@ -68,7 +68,6 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   if (limit->system->overdamped) find_overdamped_modes(limit, s);
   limit->clamped = s->linearised->clamped;
   limit->tipping = s->linearised->rigid.tipping;
-  limit->falling = s->linearised->falling;
   memcpy(limit->stiffest, s->stiffest_mode, (size_t)s->linearised->size * sizeof(double));
   limit->has_stiffest = 1;
   return HOOKE_OK;

@@ -51,11 +51,8 @@ static void keep_element(struct hk_linearised *lin, const struct hk_element *e) 
 /* Tension over length may be above the slope of a curve, and below that of a straight line alone. */
 static void see_curved(struct hk_linearised *lin, const struct hk_spring *spring, const double *q,
                        double scale) {
-  struct hk_stretch s;
   struct hk_element e = {.count = 0};
-  hk_spring_stretch(spring, q, NULL, &s);
   hk_spring_element(spring, q, NULL, &e);
-  lin->falling += s.slope < 0.0;
   e.k_along *= scale;
   e.k_across *= scale;
   e.c_along *= scale;

@@ -25,7 +25,6 @@ struct hk_linearised {
   double rate;               /* [1/s] */
   double slow_step;          /* a step [s] of the order of the fastest motion; infinity: none */
   int64_t clamped, products; /* clamped springs; products with K and C so far */
-  int64_t falling;           /* springs whose curve falls there, of which the stiffness along counts as 0 */
   int32_t across_any, damped;
   int32_t points_damped;  /* some spring of no length is damped, in all directions */
   int32_t bends;          /* some force with constant K and C moves something */

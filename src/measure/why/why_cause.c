@@ -451,6 +451,16 @@ static void tell_coincident(struct hk_inquiry *inquiry) {
               "; %lld springs began with both ends at one place, without a direction", (long long)count);
 }
 
+static void tell_falling(struct hk_inquiry *inquiry) {
+  const int64_t count = hk_springs_falling(inquiry->system->springs, hk_inquiry_last(inquiry)->q);
+  if (count > 0)
+    hk_append(
+        inquiry->why->sentence, sizeof inquiry->why->sentence,
+        "; %lld springs are where their curve falls, which is negative stiffness: by that motion grows at "
+        "any step",
+        (long long)count);
+}
+
 int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {
   inquiry->why->time = *hk_inquiry_last(inquiry)->t;
   int32_t status = HOOKE_OK;
@@ -460,6 +470,7 @@ int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {
     status = inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
   tell_failure(inquiry);
   tell_coincident(inquiry);
+  tell_falling(inquiry);
   return status;
 }
 

@@ -302,10 +302,23 @@ int64_t hk_springs_unbounded(const struct hk_springs *springs) {
   return count;
 }
 
-int64_t hk_springs_falling(const struct hk_springs *springs) {
+double hk_springs_tension_at_rest(const struct hk_springs *springs) {
+  double sum = 0.0;
+  for (int64_t s = 0; s < springs->count && springs->curved > 0; s++) {
+    const struct hk_spring spring = hk_springs_find(springs, s);
+    sum += fabs(hk_spring_law(&spring, spring.rest_length).tension);
+  }
+  return sum;
+}
+
+int64_t hk_springs_falling(const struct hk_springs *springs, const double *q) {
   int64_t count = 0;
-  for (int64_t r = 0; r < springs->run_count; r++)
-    count += springs->run[r].curve && springs->run[r].curve->falls ? springs->run[r].count : 0;
+  for (int64_t s = 0; s < springs->count && springs->curved > 0; s++) {
+    const struct hk_spring spring = hk_springs_find(springs, s);
+    struct hk_stretch at;
+    hk_spring_stretch(&spring, q, NULL, &at);
+    count += at.slope < 0.0;
+  }
   return count;
 }
 
