@@ -113,6 +113,26 @@ TEST(a_straight_curve_is_the_linear_law) {
   }
 }
 
+/* To the parenthesis, and for any number of threads. */
+TEST(forces_have_the_bits_of_the_formula) {
+  const double q[6] = {0, 0, 0, 10.3, 1.1, -0.7}, v[6] = {0, 0, 0, 0.3, -1.0, 0.6};
+  owned_system *system = oscillator(1.0, "law=length curve.coefficients=3,0.25,0.7 damping=0.3");
+  const double dx = q[0] - q[3], dy = q[1] - q[4], dz = q[2] - q[5];
+  const double r = sqrt((dx * dx + dy * dy) + dz * dz), ir = 1.0 / r, e = r - 10.0;
+  const double rate = (((v[0] - v[3]) * dx + (v[1] - v[4]) * dy) + (v[2] - v[5]) * dz) * ir;
+  const double s = ((0.0 + e * (3.0 + e * (0.25 + e * 0.7))) + 0.3 * rate) * ir;
+  const double expected[6] = {-s * dx, -s * dy, -s * dz, s * dx, s * dy, s * dz};
+  double force[6], one[24], two[24], ignored[24];
+  check_ok(hooke_system_force(system, 0.0, q, v, force));
+  check_same_bits(6, force, expected);
+  owned_system *all = net(2, 0.1, "curve.coefficients=40,7,3");
+  run_to_end(all, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1, .threads = 1}, one,
+             ignored);
+  run_to_end(all, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1, .threads = 2}, two,
+             ignored);
+  check_same_bits(24, one, two);
+}
+
 /* ---- limits ---- */
 
 /* Tension at the rest length, and flat beyond it: tension over length is above the slope, and negative slopes

@@ -39,8 +39,9 @@ HOOKE_INLINE int64_t add_curves(const struct hk_run *run, const struct hk_fields
     const int64_t i = hk_run_head(run, k), j = hk_run_tail(run, k);
     hk_spring_stretch(&spring, x, damped ? u : NULL, &s);
     lost += hk_spring_shortness(s.length, spring.rest_length);
+    const double over = s.tension * hk_spring_inverse_length(s.length);
     for (int a = 0; a < 3; a++) {
-      const double b = s.tension * s.direction[a];
+      const double b = over * (x[a] - x[3 + a]);
       fields->f[a][i] -= b;
       fields->f[a][j] += b;
     }
