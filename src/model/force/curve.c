@@ -22,47 +22,10 @@ static const struct hk_option_row rows[] = {
 
 const struct hk_option_table hk_curve_options = {"curve", HOOKE_OPTION_ROWS(rows)};
 
-/* ---- one piece ---- */
-
-static double value_of(const struct hk_curve_piece *p, double e) {
-  const double x = e - p->origin, *c = p->c;
-  return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
-}
-
-static double slope_of(const struct hk_curve_piece *p, double e) {
-  const double x = e - p->origin, *c = p->c;
-  return c[1] + x * (2.0 * c[2] + x * (3.0 * c[3]));
-}
-
-/* From the origin. */
-static double integral_of(const struct hk_curve_piece *p, double e) {
-  const double x = e - p->origin, *c = p->c;
-  return x * (c[0] + x * (c[1] / 2.0 + x * (c[2] / 3.0 + x * (c[3] / 4.0))));
-}
-
-static const struct hk_curve_piece *piece_at(const struct hk_curve *curve, double e) {
-  int64_t low = 0, high = curve->count;
-  while (high - low > 1) {
-    const int64_t middle = low + (high - low) / 2;
-    if (curve->piece[middle].start <= e)
-      low = middle;
-    else
-      high = middle;
-  }
-  return &curve->piece[low];
-}
+/* ---- values ---- */
 
 static double end_of(const struct hk_curve *curve, int64_t k) {
   return k + 1 < curve->count ? curve->piece[k + 1].start : (double)INFINITY;
-}
-
-/* ---- values ---- */
-
-struct hk_law hk_curve_law(const struct hk_curve *curve, double stretch, double rest_length) {
-  const double unit = curve->strain ? rest_length : 1.0, e = stretch / unit;
-  const struct hk_curve_piece *piece = piece_at(curve, e);
-  return (struct hk_law){unit * (piece->stored + integral_of(piece, e)), value_of(piece, e),
-                         slope_of(piece, e) / unit};
 }
 
 /* Between samples F/r is largest at one of them, or where it equals the slope; towards length 0, or the rest
@@ -114,15 +77,15 @@ static void add_pieces(struct hk_curve *curve, const double *slope) {
 
 /* Slopes are those of the next piece at an end. */
 static void find_slopes(struct hk_curve *curve) {
-  curve->slope = slope_of(piece_at(curve, 0.0), 0.0);
+  curve->slope = hk_piece_slope(hk_curve_at(curve, 0.0), 0.0);
   curve->steepest = -INFINITY;
   for (int64_t k = 0; k < curve->count; k++) {
     const struct hk_curve_piece *p = &curve->piece[k];
     const double end = end_of(curve, k), top = p->origin - p->c[2] / (3.0 * p->c[3]);
     const int unbounded = isinf(end) && (p->c[2] != 0.0 || p->c[3] != 0.0);
-    const double here = slope_of(p, isfinite(p->start) ? p->start : p->origin);
+    const double here = hk_piece_slope(p, isfinite(p->start) ? p->start : p->origin);
     curve->steepest = fmax(curve->steepest, unbounded ? (double)INFINITY : here);
-    if (top > p->start && top < end) curve->steepest = fmax(curve->steepest, slope_of(p, top));
+    if (top > p->start && top < end) curve->steepest = fmax(curve->steepest, hk_piece_slope(p, top));
   }
   for (int64_t k = 1; k < curve->samples; k++)
     curve->falls |= curve->force[k] < curve->force[k - 1];
@@ -141,10 +104,10 @@ static double next_root_of_coefficients(const double k[3], double from) {
 /* Of a piece of a table, which is monotone, between `from` and `to`. */
 static double next_root_of_piece(const struct hk_curve_piece *p, double from, double to) {
   if (isinf(to)) to = fmax(from, p->origin - 2.0 * p->c[0] / p->c[1]);
-  if (!(value_of(p, from) * value_of(p, to) < 0.0)) return INFINITY;
-  const int rises = value_of(p, to) > 0.0;
+  if (!(hk_piece_value(p, from) * hk_piece_value(p, to) < 0.0)) return INFINITY;
+  const int rises = hk_piece_value(p, to) > 0.0;
   for (double middle; (middle = from + 0.5 * (to - from)) > from && middle < to;) {
-    if ((value_of(p, middle) > 0.0) == rises)
+    if ((hk_piece_value(p, middle) > 0.0) == rises)
       to = middle;
     else
       from = middle;
@@ -166,7 +129,7 @@ static int32_t clip(struct hk_curve *curve) {
       const double root =
           raw.samples == 0 ? next_root_of_coefficients(raw.force, from) : next_root_of_piece(p, from, end);
       const double to = fmin(root, end), inside = isinf(to) ? 2.0 * from + 1.0 : from + 0.5 * (to - from);
-      add_piece(curve, from, p->origin, value_of(p, inside) > 0.0 ? p->c : zero);
+      add_piece(curve, from, p->origin, hk_piece_value(p, inside) > 0.0 ? p->c : zero);
       from = to;
     }
   }
@@ -177,12 +140,12 @@ static int32_t clip(struct hk_curve *curve) {
 /* From one piece to the next, from 0 on either way, so that nothing cancels. */
 static void integrate(struct hk_curve *curve) {
   struct hk_curve_piece *const first = curve->piece, *const last = first + curve->count - 1;
-  struct hk_curve_piece *const middle = first + (piece_at(curve, 0.0) - first);
-  middle->stored = -integral_of(middle, 0.0);
+  struct hk_curve_piece *const middle = first + (hk_curve_at(curve, 0.0) - first);
+  middle->stored = -hk_piece_integral(middle, 0.0);
   for (struct hk_curve_piece *p = middle + 1; p <= last; p++)
-    p->stored = p[-1].stored + integral_of(p - 1, p->start) - integral_of(p, p->start);
+    p->stored = p[-1].stored + hk_piece_integral(p - 1, p->start) - hk_piece_integral(p, p->start);
   for (struct hk_curve_piece *p = middle - 1; p >= first; p--)
-    p->stored = p[1].stored + integral_of(p + 1, p[1].start) - integral_of(p, p[1].start);
+    p->stored = p[1].stored + hk_piece_integral(p + 1, p[1].start) - hk_piece_integral(p, p[1].start);
 }
 
 static int32_t check_pieces(const struct hk_curve *curve) {

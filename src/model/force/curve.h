@@ -37,11 +37,45 @@ void hk_curve_destroy(struct hk_curve *curve);
 /* Multiplies the tension. */
 void hk_curve_scale(struct hk_curve *curve, double factor);
 
-/* What a spring stores [J], the tension that it has by that [N], and how this grows with its length [N/m]. */
+static inline const struct hk_curve_piece *hk_curve_at(const struct hk_curve *curve, double e) {
+  int64_t low = 0, high = curve->count;
+  while (high - low > 1) {
+    const int64_t middle = low + (high - low) / 2;
+    if (curve->piece[middle].start <= e)
+      low = middle;
+    else
+      high = middle;
+  }
+  return &curve->piece[low];
+}
+
+/* Tension, its slope, and its integral from the origin. */
+static inline double hk_piece_value(const struct hk_curve_piece *p, double e) {
+  const double x = e - p->origin, *c = p->c;
+  return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+}
+
+static inline double hk_piece_slope(const struct hk_curve_piece *p, double e) {
+  const double x = e - p->origin, *c = p->c;
+  return c[1] + x * (2.0 * c[2] + x * (3.0 * c[3]));
+}
+
+static inline double hk_piece_integral(const struct hk_curve_piece *p, double e) {
+  const double x = e - p->origin, *c = p->c;
+  return x * (c[0] + x * (c[1] / 2.0 + x * (c[2] / 3.0 + x * (c[3] / 4.0))));
+}
+
+/* What a spring stores [J], the tension that it has by that [N], and how this grows with its length [N/m].
+ * Whoever asks for one pays for no other. */
 struct hk_law {
   double energy, tension, slope;
 };
-struct hk_law hk_curve_law(const struct hk_curve *curve, double stretch, double rest_length);
+static inline struct hk_law hk_curve_law(const struct hk_curve *curve, double stretch, double rest_length) {
+  const double unit = curve->strain ? rest_length : 1.0, e = curve->strain ? stretch / rest_length : stretch;
+  const struct hk_curve_piece *piece = hk_curve_at(curve, e);
+  return (struct hk_law){unit * (piece->stored + hk_piece_integral(piece, e)), hk_piece_value(piece, e),
+                         hk_piece_slope(piece, e) / unit};
+}
 
 /* The larger of the largest slope [N/m] and the largest tension over length at any length; infinity where
  * there is none. */

@@ -16,14 +16,15 @@
 
 /* ---- runs with a curve, one spring after the other ---- */
 
-/* A spring from end 0 to end 1, of which x and u hold both; v NULL: at rest. */
-static struct hk_spring take_spring(const struct hk_run *run, int64_t k, const double *const q[3],
-                                    const double *const v[3], double x[6], double u[6]) {
+/* A spring from end 0 to end 1, of which x and u hold both; v NULL: u is not filled. */
+HOOKE_INLINE struct hk_spring take_spring(const struct hk_run *run, int64_t k, const double *const q[3],
+                                          const double *const v[3], double x[6], double u[6]) {
   struct hk_spring spring = hk_run_spring(run, k);
-  for (int j = 0; j < 6; j++) {
-    const int64_t p = j < 3 ? spring.head : spring.tail;
-    x[j] = q[j % 3][p];
-    u[j] = v ? v[j % 3][p] : 0.0;
+  for (int a = 0; a < 3; a++) {
+    x[a] = q[a][spring.head];
+    x[3 + a] = q[a][spring.tail];
+    if (v) u[a] = v[a][spring.head];
+    if (v) u[3 + a] = v[a][spring.tail];
   }
   spring.head = 0;
   spring.tail = 1;
@@ -124,10 +125,11 @@ static double energy(const hooke_system *system, double t, const double *q) {
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     hk_some_energies(&springs, q, length, stored);
+    for (int64_t k = 0; k < batch.count && batch.curve; k++)
+      stored[k] = hk_curve_law(batch.curve, length[k] - batch.rest_length[k], batch.rest_length[k]).energy;
     for (int64_t k = 0; k < batch.count; k++) {
       if (batch.pull_only && length[k] <= batch.rest_length[k]) continue;
-      const struct hk_spring spring = hk_batch_spring(&batch, k);
-      hk_sum_add(&sum, batch.curve ? hk_spring_law(&spring, length[k]).energy : stored[k]);
+      hk_sum_add(&sum, stored[k]);
     }
   }
   return hk_sum_value(&sum);
