@@ -266,7 +266,8 @@ static int32_t find_bound(const hooke_system *system, double *bound) {
  * with curves whose stiffness has no bound, and with altitude springs, of which one of seven altitudes acts,
  * with weights of its own. */
 static int32_t depends_on_state(const hooke_system *system) {
-  int32_t depends = system->altitudes->count > 0 || hk_springs_unbounded(system->springs) > 0;
+  int32_t depends =
+      system->altitudes->count > 0 || hk_springs_curved(system->springs, system->position).unbounded > 0;
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const int32_t both = HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY;
     depends |= (system->springs->run[r].shape & both) == both;

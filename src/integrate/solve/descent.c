@@ -26,7 +26,7 @@ int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   for (int32_t k = 0; k < system->force_row_count; k++) {
     if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &descent->stiffness);
   }
-  descent->weight = hk_springs_tension_at_rest(system->springs);
+  descent->weight = hk_springs_curved(system->springs, system->position).tension;
   for (int64_t p = 0; p < system->particle_count; p++) {
     descent->drag += system->constrained[p] ? 0.0 : system->inertia[p];
     if (system->has_gravity) descent->weight += system->mass[p] * ((fabs(g[0]) + fabs(g[1])) + fabs(g[2]));

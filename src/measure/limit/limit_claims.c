@@ -60,17 +60,16 @@ static void tell_left_out(const struct teller *t) {
     say(t, "tipping", HOOKE_OF_PART,
         "rigid bodies tipped over by gravity or tensions: %lld; that is growth by physics, and left out",
         (long long)t->limit->tipping);
-  const struct hk_springs *springs = t->limit->system->springs;
-  const int64_t falling = hk_springs_falling(springs, t->limit->q), unbounded = hk_springs_unbounded(springs);
-  if (falling > 0)
+  const struct hk_curved curved = hk_springs_curved(t->limit->system->springs, t->limit->q);
+  if (curved.falling > 0)
     say(t, "falling", HOOKE_OF_PART,
         "springs where their curve falls: %lld; that is negative stiffness, by which motion grows at any step, "
         "and left out",
-        (long long)falling);
-  if (unbounded > 0)
+        (long long)curved.falling);
+  if (curved.unbounded > 0)
     say(t, "curves", HOOKE_OF_PART,
         "springs whose curve has no largest stiffness: %lld; limits and bounds are those of this state",
-        (long long)unbounded);
+        (long long)curved.unbounded);
 }
 
 /* ---- notes ---- */

@@ -452,7 +452,7 @@ static void tell_coincident(struct hk_inquiry *inquiry) {
 }
 
 static void tell_falling(struct hk_inquiry *inquiry) {
-  const int64_t count = hk_springs_falling(inquiry->system->springs, hk_inquiry_last(inquiry)->q);
+  const int64_t count = hk_springs_curved(inquiry->system->springs, hk_inquiry_last(inquiry)->q).falling;
   if (count > 0)
     hk_append(
         inquiry->why->sentence, sizeof inquiry->why->sentence,

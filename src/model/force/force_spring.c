@@ -289,65 +289,42 @@ static int64_t stored_elements(struct hk_elements *at) {
   return batch.count;
 }
 
-/* 1 if the stiffness of a spring has a bound at all lengths, which `most` is then. */
-static int32_t is_bounded(const struct hk_spring *spring, double *most) {
-  *most = spring->curve ? hk_curve_stiffest(spring->curve, spring->rest_length) : spring->kappa;
-  return *most < INFINITY;
+/* The largest stiffness of a spring at any length. */
+static double stiffest(const struct hk_spring *spring) {
+  return spring->curve ? hk_curve_stiffest(spring->curve, spring->rest_length) : spring->kappa;
 }
 
-int64_t hk_springs_unbounded(const struct hk_springs *springs) {
-  int64_t count = 0;
-  double most;
-  for (int64_t s = 0; s < springs->count && springs->curved > 0; s++) {
-    const struct hk_spring spring = hk_springs_find(springs, s);
-    count += !is_bounded(&spring, &most);
-  }
-  return count;
-}
-
-double hk_springs_tension_at_rest(const struct hk_springs *springs) {
-  double sum = 0.0;
-  for (int64_t s = 0; s < springs->count && springs->curved > 0; s++) {
-    const struct hk_spring spring = hk_springs_find(springs, s);
-    sum += fabs(hk_spring_law(&spring, spring.rest_length).tension);
-  }
-  return sum;
-}
-
-int64_t hk_springs_falling(const struct hk_springs *springs, const double *q) {
-  int64_t count = 0;
+struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q) {
+  struct hk_curved sum = {0};
   for (int64_t s = 0; s < springs->count && springs->curved > 0; s++) {
     const struct hk_spring spring = hk_springs_find(springs, s);
     struct hk_stretch at;
     hk_spring_stretch(&spring, q, NULL, &at);
-    count += at.slope < 0.0;
+    sum.unbounded += isinf(stiffest(&spring));
+    sum.falling += at.slope < 0.0;
+    sum.tension += fabs(hk_spring_law(&spring, spring.rest_length).tension);
   }
-  return count;
+  return sum;
 }
 
 const struct hk_element *hk_element_at_most(const struct hk_elements *at, const struct hk_element *e,
                                             struct hk_element *widened) {
-  double most;
   const struct hk_springs *springs = at->system->springs;
   if (springs->curved == 0 || at->force != &hk_force_springs) return e;
   const struct hk_spring spring = hk_springs_find(springs, hk_element_number(at));
+  const double most = stiffest(&spring);
   *widened = *e;
-  if (is_bounded(&spring, &most)) widened->k_along = fmax(most, e->k_along);
+  widened->k_along = fmax(isinf(most) ? 0.0 : most, e->k_along);
   return widened;
 }
 
 static void add_stiffness(const hooke_system *system, double *sum) {
-  struct hk_elements at;
-  struct hk_element room;
   struct hk_spring_batch batch;
-  if (system->springs->curved > 0) {
-    hk_begin_elements(system, 0.0, system->position, NULL, &at);
-    at.only = &hk_force_springs;
-    for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
-      *sum += hk_element_at_most(&at, e, &room)->k_along;
-    return;
-  }
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count && batch.curve; k++) {
+      const double most = hk_curve_stiffest(batch.curve, batch.rest_length[k]);
+      batch.kappa[k] = isinf(most) ? fabs(batch.kappa[k]) : most;
+    }
     for (int64_t k = 0; k < batch.count; k++)
       *sum += batch.kappa[k];
   }

@@ -118,11 +118,13 @@ struct hk_tangent;
 void hk_spring_fill_tangent(const struct hk_run *run, const struct hk_fields *fields, double alpha,
                             double beta, const struct hk_tangent *tangent);
 
-/* Springs whose stiffness has no bound at all lengths, and those that are where their curve falls. */
-int64_t hk_springs_unbounded(const struct hk_springs *springs);
-int64_t hk_springs_falling(const struct hk_springs *springs, const double *q);
-/* The sum of the tensions that curves have at rest lengths, in absolute value [N]. */
-double hk_springs_tension_at_rest(const struct hk_springs *springs);
+/* Of the springs with curves: how many have no largest stiffness, how many are where their curve falls, and
+ * the sum of their tensions at rest lengths, in absolute value [N]. */
+struct hk_curved {
+  int64_t unbounded, falling;
+  double tension;
+};
+struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q);
 
 /* A spring as an element. */
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
