@@ -144,6 +144,20 @@ TEST(limits_are_those_of_the_linearised_curve) {
   check_limits_met(net(5, 0.0, "curve.elongation=0,0.5,1 curve.force=5,30,60 compression=false"), methods);
 }
 
+/* A body about which two springs are stiffer across than along, in which growth is scaled back. */
+TEST(limits_with_a_body_are_those_of_the_linearised_curve) {
+  const double place[15] = {0, 0, 0, 1, 0, 0, 1.5, 0.2, 0, 1.2, 0.6, 0.3, 2.4, 0.1, 0};
+  const int64_t ends[4] = {0, 1, 2, 4}, board[3] = {1, 2, 3};
+  hooke_system *system = small_system(5, place, NULL, 1.0, 1);
+  check_ok(hooke_system_add_body(system, "board", 3, board, 0));
+  small_group(system, "springs", "curved", 2, ends,
+              "rest_scale=0.9 curve.strain=-0.5,0,0.05,1 curve.force=-200,10,90,120 damping=0.4");
+  owned_system *fallen = small_falling(system);
+  owned_measurement *limit = limits_of(fallen, "verlet", 0);
+  const double predicted = hooke_measurement_number(limit, "rows", 0, "predicted");
+  check_close(hooke_measurement_number(limit, "rows", 0, "measured"), predicted, 1e-3 * predicted);
+}
+
 /* m omega^2 = F/l along both directions across a spring of 12 m under 36 N, and its slope of 2 N/m along. */
 TEST(a_spring_under_tension_swings_across_faster_than_along) {
   owned_system *system = oscillator(2.0, "curve.elongation=0,2,4 curve.force=32,36,40");
@@ -201,8 +215,8 @@ TEST(a_curve_that_falls_is_solved_and_named) {
     check_close(v[3], 0.0, 1e-5);
   }
   owned_measurement *limit = limits_of(system, "verlet", 1);
-  assert_non_null(
-      strstr(claim_of(limit, "falling"), "springs where their curve falls: 1; that is negative stiffness"));
+  assert_non_null(strstr(claim_of(limit, "falling"),
+                         "a curve that falls: 1, and there now: 1; that is negative stiffness"));
 }
 
 /* Beyond the last sample the line falls for ever, and so does the mass. */

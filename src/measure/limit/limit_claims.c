@@ -61,11 +61,11 @@ static void tell_left_out(const struct teller *t) {
         "rigid bodies tipped over by gravity or tensions: %lld; that is growth by physics, and left out",
         (long long)t->limit->tipping);
   const struct hk_curved curved = hk_springs_curved(t->limit->system->springs, t->limit->q);
-  if (curved.falling > 0)
+  if (curved.fall > 0)
     say(t, "falling", HOOKE_OF_PART,
-        "springs where their curve falls: %lld; that is negative stiffness, by which motion grows at any step, "
-        "and left out",
-        (long long)curved.falling);
+        "springs with a curve that falls: %lld, and there now: %lld; that is negative stiffness, by which motion "
+        "grows at any step, and left out",
+        (long long)curved.fall, (long long)curved.falling);
   if (curved.unbounded > 0)
     say(t, "curves", HOOKE_OF_PART,
         "springs whose curve has no largest stiffness: %lld; limits and bounds are those of this state",

@@ -452,13 +452,13 @@ static void tell_coincident(struct hk_inquiry *inquiry) {
 }
 
 static void tell_falling(struct hk_inquiry *inquiry) {
-  const int64_t count = hk_springs_curved(inquiry->system->springs, hk_inquiry_last(inquiry)->q).falling;
-  if (count > 0)
+  const struct hk_curved curved = hk_springs_curved(inquiry->system->springs, hk_inquiry_last(inquiry)->q);
+  if (curved.fall > 0)
     hk_append(
         inquiry->why->sentence, sizeof inquiry->why->sentence,
-        "; %lld springs are where their curve falls, which is negative stiffness: by that motion grows at "
-        "any step",
-        (long long)count);
+        "; %lld springs have a curve that falls, and %lld were there: that is negative stiffness, by which "
+        "motion grows at any step",
+        (long long)curved.fall, (long long)curved.falling);
 }
 
 int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {

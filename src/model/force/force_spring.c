@@ -301,6 +301,7 @@ struct hk_curved hk_springs_curved(const struct hk_springs *springs, const doubl
     struct hk_stretch at;
     hk_spring_stretch(&spring, q, NULL, &at);
     sum.unbounded += isinf(stiffest(&spring));
+    sum.fall += spring.curve && (spring.curve->falls || at.slope < 0.0);
     sum.falling += at.slope < 0.0;
     sum.tension += fabs(hk_spring_law(&spring, spring.rest_length).tension);
   }

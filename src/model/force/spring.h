@@ -118,10 +118,10 @@ struct hk_tangent;
 void hk_spring_fill_tangent(const struct hk_run *run, const struct hk_fields *fields, double alpha,
                             double beta, const struct hk_tangent *tangent);
 
-/* Of the springs with curves: how many have no largest stiffness, how many are where their curve falls, and
- * the sum of their tensions at rest lengths, in absolute value [N]. */
+/* Of the springs with curves: how many have no largest stiffness, how many have one that falls and how many
+ * are where it does, and the sum of their tensions at rest lengths, in absolute value [N]. */
 struct hk_curved {
-  int64_t unbounded, falling;
+  int64_t unbounded, fall, falling;
   double tension;
 };
 struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q);
