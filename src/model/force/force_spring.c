@@ -125,8 +125,10 @@ static double energy(const hooke_system *system, double t, const double *q) {
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     hk_some_energies(&springs, q, length, stored);
-    for (int64_t k = 0; k < batch.count && batch.curve; k++)
-      stored[k] = hk_curve_law(batch.curve, length[k] - batch.rest_length[k], batch.rest_length[k]).energy;
+    for (int64_t k = 0; k < batch.count && batch.curve; k++) {
+      const struct hk_spring spring = hk_batch_spring(&batch, k);
+      stored[k] = hk_spring_law(&spring, length[k]).energy;
+    }
     for (int64_t k = 0; k < batch.count; k++) {
       if (batch.pull_only && length[k] <= batch.rest_length[k]) continue;
       hk_sum_add(&sum, stored[k]);
@@ -291,7 +293,8 @@ static int64_t stored_elements(struct hk_elements *at) {
 
 /* The largest stiffness of a spring at any length. */
 static double stiffest(const struct hk_spring *spring) {
-  return spring->curve ? hk_curve_stiffest(spring->curve, spring->rest_length) : spring->kappa;
+  if (!spring->curve) return spring->kappa;
+  return spring->scale * hk_curve_stiffest(spring->curve, spring->rest_length);
 }
 
 struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q) {
@@ -323,7 +326,8 @@ static void add_stiffness(const hooke_system *system, double *sum) {
   struct hk_spring_batch batch;
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count && batch.curve; k++) {
-      const double most = hk_curve_stiffest(batch.curve, batch.rest_length[k]);
+      const struct hk_spring spring = hk_batch_spring(&batch, k);
+      const double most = stiffest(&spring);
       batch.kappa[k] = isinf(most) ? fabs(batch.kappa[k]) : most;
     }
     for (int64_t k = 0; k < batch.count; k++)

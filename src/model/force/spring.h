@@ -27,6 +27,7 @@ struct hk_spring {
   double kappa, gamma, rest_length;
   int32_t pull_only;
   const struct hk_curve *curve; /* NULL: linear; otherwise kappa is its slope at the rest length */
+  double scale;                 /* factor on the tension of the curve */
 };
 
 static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
@@ -37,14 +38,16 @@ static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k
                             m.gamma,
                             m.rest_length,
                             (run->shape & HOOKE_RUN_PULL_ONLY) != 0,
-                            run->curve};
+                            run->curve,
+                            1.0};
 }
 
 /* The one place of a tension: every spring here, and linear ones in the loops of springs, to the bit. */
 HOOKE_INLINE struct hk_law hk_spring_law(const struct hk_spring *spring, double r) {
   const double stretch = r - spring->rest_length, tension = spring->kappa * stretch;
-  if (spring->curve) return hk_curve_law(spring->curve, stretch, spring->rest_length);
-  return (struct hk_law){0.5 * tension * stretch, tension, spring->kappa};
+  if (!spring->curve) return (struct hk_law){0.5 * tension * stretch, tension, spring->kappa};
+  const struct hk_law law = hk_curve_law(spring->curve, stretch, spring->rest_length);
+  return (struct hk_law){spring->scale * law.energy, spring->scale * law.tension, spring->scale * law.slope};
 }
 
 /* A spring at given ends: length, direction (zeros if it has none), tension and rate of stretch; v may be

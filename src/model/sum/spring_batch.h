@@ -32,7 +32,7 @@ int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch)
 
 static inline struct hk_spring hk_batch_spring(const struct hk_spring_batch *batch, int64_t k) {
   return (struct hk_spring){batch->head[k],        batch->tail[k],   batch->kappa[k], batch->gamma[k],
-                            batch->rest_length[k], batch->pull_only, batch->curve};
+                            batch->rest_length[k], batch->pull_only, batch->curve,    1.0};
 }
 
 static inline struct hk_some_springs hk_batch_springs(const struct hk_spring_batch *batch) {
