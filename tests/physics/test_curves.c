@@ -198,8 +198,9 @@ TEST(coefficients_have_no_largest_stiffness) {
 
 /* ---- negative stiffness ---- */
 
-static const char falling[] =
-    "curve.elongation=-1,-0.5,0,0.5,1 curve.force=-9,4,0,-4,9 curve.falling=true damping=2";
+static const char well[] = "curve.elongation=-1,-0.5,0,0.5,1 curve.force=-9,4,0,-4,9 curve.falling=true",
+                  falling[] =
+                      "curve.elongation=-1,-0.5,0,0.5,1 curve.force=-9,4,0,-4,9 curve.falling=true damping=2";
 
 /* From the top between two wells it falls into one, in which all methods come to rest: at 0.5 and more by the
  * root of 70 x^2 - 36 x^3 = 4, the cubic there. */
@@ -217,6 +218,16 @@ TEST(a_curve_that_falls_is_solved_and_named) {
   owned_measurement *limit = limits_of(system, "verlet", 1);
   assert_non_null(strstr(claim_of(limit, "falling"),
                          "a curve that falls: 1, and there now: 1; that is negative stiffness"));
+}
+
+/* Near its bottom, where the energy is below 0 and rounding is all that changes it. */
+TEST(a_scene_that_begins_in_a_well_goes_on) {
+  owned_system *system = oscillator(0.7565717916655548 + 1e-9, well);
+  const double place[6] = {0, 0, 0, 10.7, 0, 0};
+  assert_true(hooke_system_energy(system, "potential", place, NULL) < -1.0);
+  double q[6], v[6];
+  run_to_end(system, (struct run){.method = "verlet", .step = 0.1, .duration = 100.0, .every = 0.1}, q, v);
+  check_close(q[3], 10.7565717916655548, 1e-8);
 }
 
 /* Beyond the last sample the line falls for ever, and so does the mass. */

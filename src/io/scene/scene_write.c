@@ -235,24 +235,14 @@ static void add_curve(struct hk_text *text, const struct hk_curve *curve) {
   hk_text_close(text, '}');
 }
 
-/* The damping of the strain law whose quotients by the rest lengths these are, to the bit. */
-static void multiply_back(const struct hk_group *group) {
-  double *gamma = group->number[HOOKE_GAMMA];
-  for (int64_t k = 0; k < group->count; k++) {
-    const double length = group->number[HOOKE_REST_LENGTH][k], wanted = gamma[k];
-    gamma[k] *= length;
-    for (int tries = 0; tries < 4 && gamma[k] / length != wanted; tries++)
-      gamma[k] = nextafter(gamma[k], gamma[k] / length < wanted ? INFINITY : 0.0);
-  }
-}
-
 /* The numbers of members, whatever law they were given by; a curve has its own. */
 static void add_columns(struct hk_text *text, const struct hk_scene_list *list,
                         const struct hk_group *group) {
   const int32_t *width = group->force->width;
   const int32_t strain = group->curve && group->curve->strain;
   if (group->force->kind & HOOKE_LOOPED) hk_text_word(text, "law", strain ? "strain" : "length");
-  if (strain) multiply_back(group);
+  for (int64_t k = 0; k < group->count && strain; k++) /* divided again, a quotient has its bits */
+    group->number[HOOKE_GAMMA][k] *= group->number[HOOKE_REST_LENGTH][k];
   if (group->curve)
     add_curve(text, group->curve);
   else
