@@ -231,6 +231,7 @@ static const char *const names[] = {"STEP",
                                     "ADAPTIVE_EVALUATED",
 
                                     "SCATTERED",
+                                    "CURVED",
                                     "BODY",
                                     "BODY_PARTICLE",
                                     "DAMPER",

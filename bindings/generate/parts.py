@@ -50,6 +50,7 @@ NOTES = {
 # Keys whose values are dicts, with the class of these, its description, and the kind and key that has it in the schema.
 DICTS = {
     "Springs": ("A family of springs of a part.", "rope", "stretch"),
+    "Curve": ("The tension of springs: a table, of `strain` or of `elongation`, or `coefficients`.", "springs", "curve"),
     "Transform": ("From the coordinates of a mesh to metres.", "mesh", "transform"),
 }
 # What methods add that is not "a <kind>".
@@ -71,8 +72,10 @@ def resolved(schema, definitions):
 def type_of(key, schema):
     if key in ("pinned", "file", *PARTICLES):
         return {"pinned": "Pins", "file": "Path", **PARTICLES}[key]
-    if key == "transform" or schema.get("$ref", "").endswith("/family"):
-        return "Springs" if key != "transform" else "Transform"
+    if key.capitalize() in DICTS:
+        return key.capitalize()
+    if schema.get("$ref", "").endswith("/family"):
+        return "Springs"
     kind = schema.get("type", "string" if "enum" in schema else "array")
     return "Quantity" if isinstance(kind, list) else TYPES.get(kind, "Numbers")
 

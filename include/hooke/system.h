@@ -249,10 +249,11 @@ HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 HOOKE_API int64_t hooke_member_particles(const char *force);
 /* Copies particles, stiffness [N/m], damping [N s/m] and rest length [m] of all hooke_system_count(system,
  * force) members of a force, in order. Arrays have one number a member, `particles` hooke_member_particles()
- * numbers; each array may be NULL. For bending the stiffness is its coefficient and the other numbers are
- * zero; of loads all three are. Altitude springs have stiffness [N], damping [N s] and 7 rest lengths each,
- * in the order above; these are negative if the volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is.
- * HOOKE_BAD_CALL before commit; HOOKE_BAD_VALUE for another word. */
+ * numbers; each array may be NULL. The stiffness of a curve is its slope at the rest length. For bending the
+ * stiffness is its coefficient and the other numbers are zero; of loads all three are. Altitude springs have
+ * stiffness [N], damping [N s] and 7 rest lengths each, in the order above; these are negative if the volume
+ * (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is. HOOKE_BAD_CALL before commit; HOOKE_BAD_VALUE for another word.
+ */
 HOOKE_API int32_t hooke_system_members(const hooke_system *system, const char *force, int64_t *particles,
                                        double *stiffness, double *damping, double *rest_length);
 /* Copies the point of every anchor [m] (3 each). HOOKE_BAD_CALL before commit. */

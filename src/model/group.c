@@ -35,6 +35,7 @@ void hk_group_release(struct hk_group *group) {
   hk_group_release_columns(group);
   hk_free(group->name);
   hooke_options_destroy(group->options);
+  hk_curve_destroy(group->curve);
   memset(group, 0, sizeof *group);
 }
 
@@ -69,7 +70,7 @@ static int acts(const struct hk_group *group, int64_t k, const hooke_system *sys
   if (group->force->on_free)
     return !system->constrained[group->particle[0][k]]; /* not in a body that is held */
   const double *kappa = group->number[HOOKE_KAPPA], *gamma = group->number[HOOKE_GAMMA];
-  return group->force->is_drag || kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
+  return group->force->is_drag || group->curve || kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
 }
 
 /* 1 if all particles of a member are in one body, and pull on nothing else. */

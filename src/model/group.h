@@ -28,6 +28,7 @@ struct hk_group {
   int64_t count;          /* from commit on excludes members that have neither stiffness nor damping, */
   int64_t dropped;        /* which are counted here, with those inside a rigid body, */
   int64_t inside;         /* which are counted here as well */
+  struct hk_curve *curve; /* of springs: NULL: they are linear */
   hooke_options *options; /* as given, if they hold for all springs; else NULL */
   /* until commit, of each member; NULL if the force has no such number */
   int32_t *particle[HOOKE_MEMBER_PARTICLES];

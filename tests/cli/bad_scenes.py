@@ -18,6 +18,8 @@ CHAIN = """{
   "run": { "step": 1e-3, "duration": 1 }
 }
 """
+TABLE = '"strain": [0, 0.2, 0.5], "force": [0, 1, 4]'
+CURVE = CHAIN.replace('"stiffness": 100', f'"curve": {{ {TABLE} }}')
 POSITION = "[[0, 0, 0], [1, 0, 0], [2, 0, 0]]"
 DRIVEN = """{
   "hooke": 1,
@@ -136,6 +138,21 @@ BAD = {
         "9:49", "springs[0].stiffness", "3 values for 2 springs", "one, or one for each"),
     "stiffness-misspelt": (CHAIN.replace('"stiffness":', '"stifness":'),
         "9:36", "springs[0].stifness", '"stifness"', 'did you mean "stiffness"?'),
+    "curve-beside-stiffness": (CURVE.replace('"between"', '"stiffness": 1, "between"'),
+        "9:68", "springs[0].curve", "beside stiffness", "one of them"),
+    "curve-empty": (CURVE.replace(TABLE, ""), "9:54", "springs[0].curve", "has 0 of strain", "one of them"),
+    "curve-of-two": (CURVE.replace('"force"', '"elongation": [0, 1], "force"'),
+        "9:54", "springs[0].curve", "has 2 of strain", "one of them"),
+    "curve-of-the-other-law": (CURVE.replace('"curve"', '"law": "length", "curve"'),
+        "9:83", "springs[0].curve.strain", "belongs to the law", '"strain"'),
+    "curve-rows": (CURVE.replace("1, 4]", "1]"), "9:84", "springs[0].curve.force", "2 forces given", "3, one for each"),
+    "curve-order": (CURVE.replace("0.2, 0.5", "0.5, 0.5"),
+        "9:76", "springs[0].curve.strain[2]", "0.5 after 0.5", "a table ascends"),
+    "curve-falls": (CURVE.replace("1, 4]", "4, 1]"), "9:102", "springs[0].curve.force[2]", "1 after 4", '"falling": true'),
+    "curve-coefficients": (CURVE.replace(TABLE, '"coefficients": [1, 2]'),
+        "9:71", "springs[0].curve.coefficients", "2 numbers given", "3 numbers"),
+    "curve-of-both": (CURVE.replace('"strain": [0, 0.2, 0.5]', '"coefficients": [1, 2, 3]'),
+        "9:93", "springs[0].curve.force", "belongs to a table", ""),
     "damping-negative": (CHAIN.replace("0.1", "-0.1"), "9:65", "springs[0].damping", "-0.1", "numbers >= 0"),
     "law-unknown": (CHAIN.replace('"damping": 0.1', '"law": "hook"'), "9:61", "springs[0].law", '"hook"', '"strain" or "length"'),
     "rest-length-word": (CHAIN.replace('"damping": 0.1', '"rest_length": "start"'),

@@ -38,6 +38,9 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   TRY(a, try_words(springs, "law=length stiffness=3 compression=false"));
   TRY(a, hooke_system_add_springs(system, "cables", 3, ends, springs));
   TRY(a, hooke_system_add_springs(system, "ratio", 4, ends, ratio));
+  TRY(a, hooke_options_unset(springs, "stiffness"));
+  TRY(a, try_words(springs, "curve.elongation=-1,0,2 curve.force=-2,0,7"));
+  TRY(a, hooke_system_add_springs(system, "curved", 3, ends, springs));
   TRY(a, hooke_system_add_bending(system, "beam", 2, triples, 1, &coefficient));
   TRY(a, hooke_system_add_altitude(system, "volume", 2, tetrahedra, altitude));
   TRY(a, hooke_system_add_anchors(system, "wall", 3, triples, anchors));

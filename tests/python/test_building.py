@@ -61,7 +61,23 @@ def test_families_of_springs_have_the_keys_of_the_table(kind):
 
 def test_springs_have_the_keywords_of_their_table():
     keywords = set(inspect.signature(hooke.Scene.springs).parameters) - {"self", "name", "between"}
-    assert keywords == {line.split()[0] for line in hooke.describe("springs").splitlines()}
+    rows = {line.split()[0] for line in hooke.describe("springs").splitlines()}
+    assert keywords == {row for row in rows if "." not in row}
+    assert {row.partition(".")[2] for row in rows if row.startswith("curve.")} == set(hooke.Curve.__annotations__)
+
+
+def test_a_curve_is_a_dict(tmp_path):
+    table = {"elongation": np.array([0, 0.5, 1]), "force": [0, 1, 8]}
+    built = hooke.Scene().particles([[0, 0, 0], [1.5, 0, 0]], mass=1, pinned=[0])
+    built.springs(between=[[0, 1]], curve=table, rest_length=1)
+    with pytest.raises(hooke.BadValue, match=r"springs\[1\].curve.force\[2\]: 1 after 8"):
+        built.springs(between=[[0, 1]], curve={**table, "force": [0, 8, 1]})
+    built.save(tmp_path / "scene.json")
+    for scene in (built, hooke.Scene.load(tmp_path / "scene.json"), hooke.Scene.parse(built.text)):
+        assert scene.system.force(np.array([[0, 0, 0], [1.5, 0, 0]]), np.zeros((2, 3)))[0, 0] == 1.0
+
+
+def test_anchors_have_the_keywords_of_their_table():
     keywords = set(inspect.signature(hooke.Scene.anchors).parameters) - {"self", "name", "particles"}
     assert keywords == {line.split()[0] for line in hooke.describe("anchors").splitlines()}
 

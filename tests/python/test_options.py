@@ -13,9 +13,11 @@ def test_the_tables_are_those_of_the_library():
     assert {"method", "step", "duration", "every", "rtol", "atol", "atol_velocity"} <= set(
         hooke.Options.for_run()
     )
+    curve = {"curve", *(f"curve.{key}" for key in ("strain", "elongation", "force", "falling", "coefficients"))}
     assert {"law", "stiffness", "damping", "damping_ratio", "rest_length", "rest_scale", "compression"} == set(
         hooke.Options.for_springs()
-    )
+    ) - curve
+    assert curve <= set(hooke.Options.for_springs())
     assert {"rope", "cloth", "lattice", "mesh"} <= set(hooke.part_kinds())
     step = next(row for row in hooke.Options.for_run().rows if row.name == "step")
     assert step.unit == "s" and step.type == "number" and step.doc

@@ -39,6 +39,9 @@ const struct law laws[LAW_COUNT] = {
     {.name = "anchors, damped", .law = "length", .damped = 1, .gravity = 1, .anchors = 1},
     {.name = "loads", .law = "length", .gravity = 1, .loads = 1},
     {.name = "factors of gravity", .law = "strain", .gravity = 1, .factors = 1},
+    {.name = "curve", .law = "strain", .damped = 1, .curve = 1},
+    {.name = "curve, no rest length", .law = "length", .zero_rest = 1, .damped = 1, .curve = 1},
+    {.name = "curve, pull only", .law = "length", .pull_only = 1, .curve = 1},
 };
 
 struct material {
@@ -82,7 +85,11 @@ static void draw_spring(struct random_source *source, const struct law *law, int
 
 static void add_springs(const struct law *law, const struct material *material, struct law_scene *scene) {
   hooke_options *options = options_with("springs", "law=%s", law->law);
-  check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material->stiffness));
+  const double coefficients[3] = {12.0, 2.0, 0.2};
+  if (law->curve)
+    check_ok(hooke_options_set_numbers(options, "curve.coefficients", 3, coefficients));
+  else
+    check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material->stiffness));
   if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_SPRINGS, material->damping));
   check_ok(hooke_options_set_numbers(options, "rest_length", LAW_SPRINGS, material->rest_length));
   if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));

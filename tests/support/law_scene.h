@@ -18,9 +18,10 @@ struct law {
   int32_t zero_rest, damped, pull_only, gravity, drag;
   int32_t callback; /* 1: without a product, 2: with one */
   int32_t bending, altitude, anchors, loads, factors;
+  int32_t curve; /* 1: by coefficients, in place of the stiffness */
 };
 
-enum { LAW_COUNT = 20 };
+enum { LAW_COUNT = 23 };
 extern const struct law laws[LAW_COUNT];
 
 struct law_scene {

@@ -4,10 +4,11 @@
  *   E(t) - E(0) > 100 (T(0) + U(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
  * The last terms are for a scene at rest: the energy from gravity in one step (forward Euler has it in v
  * before q has moved; of loads F^2/m in place of M g^2), and the effect of errors: U is that of springs,
- * bending, altitude springs and anchors, K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest
- * coordinate, which rounding takes some 1e9 steps to reach; with error control d includes atol, and u is
- * atol_velocity. Energies below the smallest normal number prove nothing, and neither do those of a scene
- * that begins with energies above the largest.
+ * bending, altitude springs and anchors, which is below 0 for springs with curves alone, whose depth counts
+ * as what gravity gives; K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate,
+ * which rounding takes some 1e9 steps to reach; with error control d includes atol, and u is atol_velocity.
+ * Energies below the smallest normal number prove nothing, and neither do those of a scene that begins with
+ * energies above the largest.
  *
  * The last state that passed is kept in `recent`. If a large scene has no space there, the caller's state is
  * that state until the next one is stored by an exchange: the motion then holds the state to restore if the
@@ -69,7 +70,7 @@ void hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
     const struct hk_energies at = hk_state_energies(state, it->system);
     it->gravity0 = at.gravity;
     it->gravity_swing = 0.0;
-    it->scale0 = at.kinetic + at.elastic + least_energy(it, state);
+    it->scale0 = at.kinetic + fabs(at.elastic) + least_energy(it, state);
     it->energy0 = at.kinetic + at.elastic;
   }
   it->recent.count = 0;
@@ -82,7 +83,7 @@ static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, dou
   it->energies = hk_state_energies(state, it->system);
   const double gravity = it->energies.gravity, risen = gravity - it->gravity0;
   const double rest = it->energies.kinetic + it->energies.elastic;
-  it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
+  it->gravity_swing = fmax(it->gravity_swing, fmax(fabs(risen), -it->energies.elastic));
   *energy = rest + gravity;
   /* far from the origin gravity's energy has no digits left for the others */
   return !(it->scale0 < INFINITY) ||

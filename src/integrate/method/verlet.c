@@ -234,10 +234,12 @@ static double larger(double along, double across, double over) {
 
 /* Stiffness and damping of all elements but drag at every particle, 2n. */
 static void add_rows(const hooke_system *system, double *stiffness, double *damping) {
+  struct hk_element room;
   struct hk_elements at;
   hk_begin_elements(system, 0.0, system->position, NULL, &at);
   at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    e = hk_element_at_most(&at, e, &room);
     const double k = larger(e->k_along, e->k_across, e->over), c = larger(e->c_along, e->c_across, e->over);
     for (int j = 0; j < e->count; j++) {
       const double row = hk_element_row(system->constrained, e, j);
@@ -263,9 +265,11 @@ static int32_t find_bound(const hooke_system *system, double *bound) {
 }
 
 /* 1 if no bound holds wherever the particles are, and however fast: with dampers of springs that only pull,
- * and with altitude springs, of which one of seven altitudes acts, with weights of its own. */
+ * with curves whose stiffness has no bound, and with altitude springs, of which one of seven altitudes acts,
+ * with weights of its own. */
 static int32_t depends_on_state(const hooke_system *system) {
-  int32_t depends = system->altitudes->count > 0;
+  int32_t depends =
+      system->altitudes->count > 0 || hk_springs_curved(system->springs, system->position).unbounded > 0;
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const int32_t both = HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY;
     depends |= (system->springs->run[r].shape & both) == both;
@@ -315,8 +319,10 @@ static int32_t choose(hooke_integrator *it) {
     return HOOKE_OK;
   }
   if (required && depends_on_state(it->system))
-    return hk_fail(HOOKE_UNSUITED, "verlet_damping",
-                   "damping is solved for where damped springs only pull, and beside altitude springs");
+    return hk_fail(
+        HOOKE_UNSUITED, "verlet_damping",
+        "damping is solved for where damped springs only pull, beside altitude springs and springs whose "
+        "curve has no largest stiffness");
   const int32_t status = find_explicit_step(it->system, &most);
   if (status != HOOKE_OK) return status;
   const int32_t allowed = it->schedule.step <= most;

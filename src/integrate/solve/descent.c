@@ -5,7 +5,7 @@
 #include "kernel/vector_loops.h"
 #include "model/force/altitude.h"
 #include "model/force/force.h"
-#include "model/medium.h"
+#include "model/force/spring.h"
 
 #include <float.h>
 #include <math.h>
@@ -24,6 +24,7 @@ int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   it->own_memory += it->size * (int64_t)sizeof(double);
   for (int64_t k = 0; k < it->size; k++)
     descent->rows[k] = NAN;
+  descent->weight = hk_springs_curved(system->springs, system->position).tension;
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     if (row->add_stiffness) row->add_stiffness(system, &descent->stiffness);

@@ -304,7 +304,8 @@ static void add_springs(const struct hk_factor *x, const struct hk_tangent *t) {
     if (x->spring[s].column < 0) continue;
     const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
     const double across = t->b[s] > 0.0 ? t->b[s] : 0.0;
-    const double along = ((t->e[0][s] * u[0] + t->e[1][s] * u[1]) + t->e[2][s] * u[2]) + t->b[s] - across;
+    const double whole = ((t->e[0][s] * u[0] + t->e[1][s] * u[1]) + t->e[2][s] * u[2]) + t->b[s] - across;
+    const double along = whole > -across ? whole : -across;
     for (int c = 0; c < 3; c++) {
       double *to = column_of(&x->matrix, x->spring[s], c);
       for (int a = 0; a < 3; a++)

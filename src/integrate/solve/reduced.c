@@ -166,7 +166,7 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
   for (int64_t k = 0; k < system->springs->run_count; k++) {
     const struct hk_run *run = &system->springs->run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
-      hk_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
+      (run->curve ? hk_spring_fill_tangent : hk_tangent_fill)(run, &fields, alpha, beta, &reduced->tangent);
   }
   if (reduced->rows) hk_motion_store(motion, reduced->rows, reduced->rows + 3 * motion->n);
   see_elements(reduced);

@@ -244,12 +244,28 @@ static void open_member(struct writer *to, const struct hk_scene_list *list, con
   hk_text_close(text, ']');
 }
 
-/* The numbers of members, whatever law they were given by. */
+static void add_curve(struct hk_text *text, const struct hk_curve *curve) {
+  hk_text_open(text, "curve", '{');
+  if (curve->samples > 0)
+    add_numbers(text, curve->strain ? "strain" : "elongation", curve->samples, 0, curve->at);
+  add_numbers(text, curve->samples > 0 ? "force" : "coefficients", curve->samples > 0 ? curve->samples : 3, 0,
+              curve->force);
+  if (curve->falls) hk_text_flag(text, "falling", 1);
+  hk_text_close(text, '}');
+}
+
+/* The numbers of members, whatever law they were given by; a curve has its own. */
 static void add_columns(struct hk_text *text, const struct hk_scene_list *list,
                         const struct hk_group *group) {
   const int32_t *width = group->force->width;
-  if (group->force->kind & HOOKE_LOOPED) hk_text_word(text, "law", "length");
-  add_shared(text, list->strength, group->count, group->number[HOOKE_KAPPA]);
+  const int32_t strain = group->curve && group->curve->strain;
+  if (group->force->kind & HOOKE_LOOPED) hk_text_word(text, "law", strain ? "strain" : "length");
+  for (int64_t k = 0; k < group->count && strain; k++) /* divided again, a quotient has its bits */
+    group->number[HOOKE_GAMMA][k] *= group->number[HOOKE_REST_LENGTH][k];
+  if (group->curve)
+    add_curve(text, group->curve);
+  else
+    add_shared(text, list->strength, group->count, group->number[HOOKE_KAPPA]);
   for (int k = HOOKE_KAPPA + 1; k < HOOKE_GROUP_NUMBERS && group->count > 0; k++) {
     if (width[k] == 1) add_shared(text, hk_group_names[k], group->count, group->number[k]);
     if (width[k] > 1)
@@ -263,6 +279,7 @@ static void add_group(struct writer *to, const struct hk_scene_list *list, const
                       int64_t first) {
   struct hk_group all = {.force = group->force, .count = group->count, .pull_only = group->pull_only};
   if (hk_group_allocate(&all, NULL) == HOOKE_OK) {
+    all.curve = group->curve;
     if (all.count > 0) all.force->recall(to->system, first, &all);
     open_member(to, list, group->name, all.count, all.particle);
     if (group->options)
@@ -273,6 +290,7 @@ static void add_group(struct writer *to, const struct hk_scene_list *list, const
   } else {
     to->json.status = HOOKE_NO_MEMORY;
   }
+  all.curve = NULL; /* it is the group's */
   hk_group_release(&all);
 }
 

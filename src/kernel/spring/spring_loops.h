@@ -32,6 +32,7 @@ enum {
   HOOKE_RUN_SHAPES = 16
 };
 
+struct hk_curve;
 struct hk_run;
 struct hk_tiled_loops;
 struct hk_energy_set;
@@ -54,6 +55,7 @@ struct hk_run {
   int32_t strain;
   const uint8_t *batch; /* NULL, or mixed: strided batch of each spring, which has its material */
   const struct hk_strided_material *of_batches;
+  const struct hk_curve *curve;         /* NULL: linear springs (model/force/curve.h) */
   hk_spring_loop *loop, *undamped_loop; /* the second leaves damping out */
 };
 

@@ -263,6 +263,7 @@ HOOKE_INLINE void fill_blocks(double (*restrict block)[BLOCK], const struct numb
     if (!axial) {
       across = s.b[k] > 0.0 ? s.b[k] : 0.0;
       along = ((s.ex[k] * ux + s.ey[k] * uy) + s.ez[k] * uz) + s.b[k] - across;
+      along = along > -across ? along : -across; /* a curve may fall */
     }
     block[0][k] = along * ux * ux + across;
     block[1][k] = along * uy * uy + across;

@@ -54,6 +54,7 @@ const double hk_costs[HOOKE_WORKS] = {
     [HOOKE_WORK_FAR] = 10.3,
     [HOOKE_WORK_ADAPTIVE_EVALUATED] = 10.5,
     [HOOKE_WORK_SCATTERED] = 4.75,
+    [HOOKE_WORK_CURVED] = 20, /* nominal */
     [HOOKE_WORK_BODY] = 285,
     [HOOKE_WORK_BODY_PARTICLE] = 25.9,
     [HOOKE_WORK_DAMPER] = 15.4,

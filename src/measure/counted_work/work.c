@@ -43,6 +43,7 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
     else
       of[0] += SWEEPS * (double)count->steps * members; /* a damper finds its element anew */
   }
+  amount[HOOKE_WORK_CURVED] = (times[0] + times[1] + times[2]) * (double)system->springs->curved;
   if (system->tiled->order)
     amount[HOOKE_WORK_SCATTERED] = (times[0] + times[1] + times[2]) * (double)system->springs->count;
   if (method->adaptive)

@@ -20,6 +20,7 @@ enum {
   HOOKE_WORK_FAR,                                        /* those of them that no cache holds */
   HOOKE_WORK_ADAPTIVE_EVALUATED,                         /* with error control */
   HOOKE_WORK_SCATTERED,        /* springs in no order, multiplied and in matrices as well */
+  HOOKE_WORK_CURVED,           /* springs with curves, likewise */
   HOOKE_WORK_BODY,             /* bodies evaluated */
   HOOKE_WORK_BODY_PARTICLE,    /* their particles, multiplied as well */
   HOOKE_WORK_DAMPER,           /* damped springs of steps of shardlow */

@@ -1,5 +1,6 @@
 #include "integrate/integrator.h"
 #include "measure/limit/growth.h"
+#include "model/coordinates/coordinates.h"
 
 #include "core/memory.h"
 #include "core/random.h"
@@ -142,6 +143,7 @@ static void scale(const struct hk_growth *growth, struct course *course) {
     q[k] = origin[k] + factor * (q[k] - origin[k]);
     v[k] *= factor;
   }
+  hk_movers_renew(growth->twin->system, q, v); /* turned back, the velocities of a body are hardly its own */
   course->offset += off;
 }
 

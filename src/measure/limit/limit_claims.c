@@ -1,6 +1,8 @@
 /* What a limit says of its results: of the state that it was taken at, and with "along" of a run's frames. */
 #include "core/print.h"
 #include "measure/limit/limit.h"
+#include "model/force/spring.h"
+#include "model/particles.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,6 +60,16 @@ static void tell_left_out(const struct teller *t) {
     say(t, "tipping", HOOKE_OF_PART,
         "rigid bodies tipped over by gravity or tensions: %lld; that is growth by physics, and left out",
         (long long)t->limit->tipping);
+  const struct hk_curved curved = hk_springs_curved(t->limit->system->springs, t->limit->q);
+  if (curved.fall > 0)
+    say(t, "falling", HOOKE_OF_PART,
+        "springs with a curve that falls: %lld, and there now: %lld; that is negative stiffness, by which motion "
+        "grows at any step, and left out",
+        (long long)curved.fall, (long long)curved.falling);
+  if (curved.unbounded > 0)
+    say(t, "curves", HOOKE_OF_PART,
+        "springs whose curve has no largest stiffness: %lld; limits and bounds are those of this state",
+        (long long)curved.unbounded);
 }
 
 /* ---- notes ---- */

@@ -63,7 +63,7 @@ static void look_at_groups(struct looking *l) {
   for (int64_t k = 0; k < l->system->group_count; k++) {
     const struct hk_group *group = &l->system->group[k];
     const int springs = group->force->kind & HOOKE_LOOPED;
-    int stiff = springs ? group->inside > 0 : group->count > 0 && !group->force->is_drag;
+    int stiff = springs ? group->inside > 0 || group->curve : group->count > 0 && !group->force->is_drag;
     const int64_t count = springs ? group->count : 0;
     for (int64_t i = first; i < first + count; i++)
       stiff |= l->stiffness[i] > 0.0;

@@ -106,7 +106,7 @@ static void keep_spring(struct making *making, struct hk_twin *twin, int64_t num
   struct hk_element e = {.count = 0};
   hk_spring_element(&spring, making->q, NULL, &e);
   if (!hk_element_moves(making->system->constrained, &e)) return;
-  if (after == 0.0) { /* it is linear as it stands */
+  if (after == 0.0 || spring.curve) { /* it is linear as it stands, or not as a spring of a rest length is */
     keep_element(making, twin, &e);
     return;
   }

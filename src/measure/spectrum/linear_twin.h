@@ -8,7 +8,8 @@
  * anew anyway, and numbers about 1 are simpler.) A spring keeps kappa and gamma; its rest length l0/r of its
  * new length keeps tension over length, the stiffness across. A compressed one is clamped: its rest length is
  * its length. One that only pulls counts as taut. Those between the same ends may be one. One of length 0,
- * stiff and damped in all directions, and the elements of other forces are linear ones (force_linear.c). A
+ * stiff and damped in all directions, one with a curve, and the elements of other forces are linear ones
+ * (force_linear.c). A
  * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned.
  * Rigid bodies that move are rigid bodies, their geometric stiffness (rigid.h) a part of the force that
  * balances. */

@@ -38,13 +38,39 @@ static int32_t moves(const hooke_system *system, const struct hk_spring *spring)
   return !system->constrained[spring->head] || !system->constrained[spring->tail];
 }
 
+static void keep_element(struct hk_linearised *lin, const struct hk_element *e) {
+  struct hk_element *kept = &lin->element[lin->element_count];
+  if (e->k_along == 0.0 && !(e->k_across > 0.0) && e->c_along == 0.0 && e->c_across == 0.0) return;
+  *kept = *e;
+  kept->k_across = hk_element_across(e);
+  lin->across_any |= kept->k_across > 0.0;
+  lin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
+  lin->element_count++;
+}
+
+/* Tension over length may be above the slope of a curve, and below that of a straight line alone. */
+static void see_curved(struct hk_linearised *lin, const struct hk_spring *spring, const double *q,
+                       double scale) {
+  struct hk_element e = {.count = 0};
+  hk_spring_element(spring, q, NULL, &e);
+  e.k_along *= scale;
+  e.k_across *= scale;
+  e.c_along *= scale;
+  e.c_across *= scale;
+  keep_element(lin, &e);
+}
+
 static void see_runs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
   for (int64_t r = 0; r < lin->run_count; r++) {
     const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hk_spring spring = hk_run_spring(run, k);
       const double scale = spring_scale ? spring_scale[run->first + k] : 1.0;
-      if (moves(lin->system, &spring)) see_spring(lin, run->first + k, &spring, q, scale);
+      if (!moves(lin->system, &spring)) continue;
+      if (spring.curve)
+        see_curved(lin, &spring, q, scale);
+      else
+        see_spring(lin, run->first + k, &spring, q, scale);
     }
   }
 }
@@ -86,22 +112,19 @@ static int32_t see_springs(struct hk_linearised *lin, const double *q, const dou
 
 /* ---- other forces ---- */
 
-static void keep_element(struct hk_linearised *lin, const struct hk_element *e) {
-  struct hk_element *kept = &lin->element[lin->element_count];
-  if (e->k_along == 0.0 && e->c_along == 0.0 && e->c_across == 0.0) return;
-  *kept = *e;
-  kept->k_across = hk_element_across(e);
-  lin->across_any |= kept->k_across > 0.0;
-  lin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
-  lin->element_count++;
+static int64_t most_elements(const hooke_system *system) {
+  return hk_elements_of(system, HOOKE_KEPT) + system->springs->curved;
 }
 
-static int32_t see_others(struct hk_linearised *lin, const double *q, const double *v) {
-  const int64_t most = hk_elements_of(lin->system, HOOKE_KEPT);
+static int32_t new_elements(struct hk_linearised *lin) {
+  const int64_t most = most_elements(lin->system);
   lin->element = hk_new(most, sizeof *lin->element);
   lin->along = hk_new(2 * most, sizeof(double));
-  if (lin->element == NULL || lin->along == NULL) return HOOKE_NO_MEMORY;
   lin->beside = lin->along + most;
+  return lin->element && lin->along ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+static void see_others(struct hk_linearised *lin, const double *q, const double *v) {
   struct hk_elements at;
   hk_begin_elements(lin->system, 0.0, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
@@ -113,23 +136,25 @@ static int32_t see_others(struct hk_linearised *lin, const double *q, const doub
     else
       keep_element(lin, e);
   }
-  return HOOKE_OK;
 }
 
 /* ---- units ---- */
 
-/* Adds the rows of the other forces at q, of their stiffness or of their damping. */
-static void add_rows(const struct hk_linearised *lin, const double *q, const double *v, int damping,
-                     double *sum) {
+static void add_row(const struct hk_linearised *lin, const struct hk_element *e, int damping, double *sum) {
+  const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
+  for (int j = 0; j < e->count; j++)
+    sum[e->particle[j]] += hk_element_row(lin->system->constrained, e, j) * most;
+}
+
+/* Adds the rows of the other elements at q, of their stiffness or of their damping. */
+static void add_rows(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   struct hk_elements at;
   hk_begin_elements(lin->system, 0.0, q, NULL, &at);
-  at.kinds = HOOKE_OTHERS;
-  at.flow = v;
-  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
-    for (int j = 0; j < e->count; j++)
-      sum[e->particle[j]] += hk_element_row(lin->system->constrained, e, j) * most;
-  }
+  at.kinds = HOOKE_CONSTANT;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
+    add_row(lin, e, damping, sum);
+  for (int64_t k = 0; k < lin->element_count; k++)
+    add_row(lin, &lin->element[k], damping, sum);
 }
 
 /* The sum of the rows of a mover over the mass and inertia that resist it. */
@@ -146,8 +171,7 @@ static double row_of_mover(const hooke_system *system, const struct hk_body_tang
 }
 
 /* The largest row sum of 2 sum |B| over m, a bound on all eigenvalues. */
-static double largest_row(const struct hk_linearised *lin, const double *q, const double *v, int damping,
-                          double *sum) {
+static double largest_row(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   const hooke_system *system = lin->system;
   const double *weight = damping ? lin->gamma : lin->kappa, drag = damping ? lin->drag : 0.0;
   double most = 0.0;
@@ -161,7 +185,7 @@ static double largest_row(const struct hk_linearised *lin, const double *q, cons
       sum[j] += 2.0 * weight[run->first + k];
     }
   }
-  add_rows(lin, q, v, damping, sum);
+  add_rows(lin, q, damping, sum);
   for (int64_t p = 0; p < system->particle_count; p++)
     if (!hk_is_carried(system, p)) most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
   for (int64_t k = 0; k < lin->rigid.tangents.count; k++)
@@ -169,9 +193,9 @@ static double largest_row(const struct hk_linearised *lin, const double *q, cons
   return most;
 }
 
-static int32_t choose_rate(struct hk_linearised *lin, const double *q, const double *v, double *sum) {
-  const double stiffest = largest_row(lin, q, v, 0, sum) + lin->rigid.stiffest,
-               quickest = largest_row(lin, q, v, 1, sum);
+static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *sum) {
+  const double stiffest = largest_row(lin, q, 0, sum) + lin->rigid.stiffest,
+               quickest = largest_row(lin, q, 1, sum);
   lin->damped = quickest > 0.0;
   lin->slow_step = 1.0 / fmax(lin->system->overdamped ? stiffest : sqrt(stiffest), quickest);
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
@@ -214,7 +238,7 @@ double hk_linearised_bytes(const hooke_system *system) {
   const int of_particles = system->mover_count > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
   return sizeof(double) *
          (OF_SPRINGS * (double)system->springs->count + of_particles * (double)system->particle_count +
-          OF_ELEMENTS * (double)hk_elements_of(system, HOOKE_KEPT));
+          OF_ELEMENTS * (double)most_elements(system));
 }
 
 /* Squares of distances within it are finite [m]. */
@@ -265,12 +289,13 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
     lin->inverse[p] = system->constrained[p] ? 0.0 : 1.0 / lin->mass[p];
     lin->unknowns += is_alone(system, p) ? 3 : 0;
   }
-  status = see_springs(lin, q, spring_scale);
-  if (status == HOOKE_OK) status = see_others(lin, q, v);
+  status = new_elements(lin);
+  if (status == HOOKE_OK) status = see_springs(lin, q, spring_scale);
+  if (status == HOOKE_OK) see_others(lin, q, v);
   if (status == HOOKE_OK) status = hk_rigid_create(system, q, spring_scale, &lin->rigid);
   lin->unknowns += hk_rigid_unknowns(&lin->rigid); /* none, as long as it is not made */
   if (v) lin->spin = hk_rigid_spin(&lin->rigid, v);
-  if (status == HOOKE_OK) status = choose_rate(lin, q, v, sum);
+  if (status == HOOKE_OK) status = choose_rate(lin, q, sum);
   if (status != HOOKE_OK) hk_linearised_release(lin);
   return status;
 }

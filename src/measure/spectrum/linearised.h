@@ -39,7 +39,7 @@ struct hk_linearised {
   struct hk_rigid rigid;                 /* in units of the system */
   double spin;                           /* largest angular velocity of a body, over rate */
   double unit_k, unit_c;                 /* 1 over rate^2 and rate: of forces with constant K and C */
-  /* of other forces: elements that move something, over rate^2 and rate */
+  /* of other forces, and of springs with curves: elements that move something, over rate^2 and rate */
   int64_t element_count;
   struct hk_element *element;
   /* a K + b C, from the last hk_linearised_combine() */

@@ -64,6 +64,7 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q, const d
   blocks->least_ratio = INFINITY;
   if (blocks->budget) hk_budget_spend(blocks->budget, hk_work_of_pass(system));
   blocks->unknown = v == NULL && hk_system_is_not_linear(system);
+  struct hk_element room;
   struct hk_elements at;
   hk_begin_elements(system, 0.0, q, NULL, &at);
   at.flow = v;
@@ -71,7 +72,7 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q, const d
     if (at.k == at.count && at.batches % HOOKE_BATCHES_PER_LOOK == 0 &&
         hk_budget_ends(blocks->budget, "bounds"))
       return;
-    add_element(blocks, e);
+    add_element(blocks, hk_element_at_most(&at, e, &room));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "core/print.h"
 #include "measure/recommend/soundness.h"
 #include "model/callbacks.h"
+#include "model/force/curve.h"
 #include "model/force/drive.h"
 #include "model/force/force.h"
 
@@ -46,6 +47,12 @@ static int pulls_only(const hooke_system *system) {
   return 0;
 }
 
+static int has_curve(const hooke_system *system) {
+  for (int64_t g = 0; g < system->group_count; g++)
+    if (system->group[g].curve && system->group[g].curve->samples > 0) return 1;
+  return 0;
+}
+
 static int has_table(const hooke_system *system) {
   for (int64_t d = 0; d < system->drive_count; d++)
     if (system->drive[d].course.samples > 0) return 1;
@@ -68,6 +75,7 @@ static void list_causes(const struct hk_study *study, int32_t method, double coa
       {hk_system_groups_of(system, &hk_force_altitude) > 0, "altitude springs jump between altitudes"},
       {hk_forces_do_work(system), "a force that changes in time may not be smooth enough"},
       {system->force != NULL, "the force callback may not be smooth enough"},
+      {has_curve(system), "curves by tables bend at their samples"},
       {has_table(system), "a drive by a table bends at its samples"},
       {hk_system_calls_back(system) & HOOKE_CALLS_DRIVE, "the drive callback may not be smooth enough"},
       {near_limit(study, method, coarsest), "steps are near the limit of stability"},

@@ -451,6 +451,16 @@ static void tell_coincident(struct hk_inquiry *inquiry) {
               "; %lld springs began with both ends at one place, without a direction", (long long)count);
 }
 
+static void tell_falling(struct hk_inquiry *inquiry) {
+  const struct hk_curved curved = hk_springs_curved(inquiry->system->springs, hk_inquiry_last(inquiry)->q);
+  if (curved.fall > 0)
+    hk_append(
+        inquiry->why->sentence, sizeof inquiry->why->sentence,
+        "; %lld springs have a curve that falls, and %lld were there: that is negative stiffness, by which "
+        "motion grows at any step",
+        (long long)curved.fall, (long long)curved.falling);
+}
+
 int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {
   inquiry->why->time = *hk_inquiry_last(inquiry)->t;
   int32_t status = HOOKE_OK;
@@ -460,6 +470,7 @@ int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {
     status = inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
   tell_failure(inquiry);
   tell_coincident(inquiry);
+  tell_falling(inquiry);
   return status;
 }
 

@@ -63,6 +63,11 @@ static inline int64_t hk_element_number(const struct hk_elements *at) {
   return at->first + at->k - 1;
 }
 
+/* The last element as stiff as it is at any positions, along or across, where it is a spring with a curve, as
+ * far as that has a bound; `widened` holds it then. */
+const struct hk_element *hk_element_at_most(const struct hk_elements *at, const struct hk_element *e,
+                                            struct hk_element *widened);
+
 /* Transverse stiffness by tension, beyond rounding; 0 under compression. */
 static inline double hk_element_across(const struct hk_element *element) {
   return element->k_across > HOOKE_STRETCH_ROUNDING * element->k_along ? element->k_across : 0.0;

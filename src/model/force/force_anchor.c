@@ -126,7 +126,7 @@ static struct hk_spring spring_of(const struct anchor *a, const double *q, const
   memcpy(x + 3, a->point, sizeof a->point);
   memset(u, 0, 6 * sizeof(double));
   if (v) memcpy(u, v + 3 * a->particle, 3 * sizeof(double));
-  return (struct hk_spring){0, 1, a->kappa, a->gamma, a->rest_length, 0};
+  return (struct hk_spring){0, 1, a->kappa, a->gamma, a->rest_length, 0, NULL, 1.0};
 }
 
 static double energy(const hooke_system *system, double t, const double *q) {

@@ -3,14 +3,80 @@
 
 #include "core/memory.h"
 #include "core/sum.h"
+#include "kernel/spring/tangent_loops.h"
 #include "model/sum/spring_batch.h"
 #include "model/check_value.h"
 #include "model/force/force.h"
 #include "model/sum/tiled.h"
 #include "model/vector3.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
+
+/* ---- runs with a curve, one spring after the other ---- */
+
+/* A spring from end 0 to end 1, of which x and u hold both; v NULL: u is not filled. */
+HOOKE_INLINE struct hk_spring take_spring(const struct hk_run *run, int64_t k, const double *const q[3],
+                                          const double *const v[3], double x[6], double u[6]) {
+  struct hk_spring spring = hk_run_spring(run, k);
+  for (int a = 0; a < 3; a++) {
+    x[a] = q[a][spring.head];
+    x[3 + a] = q[a][spring.tail];
+    if (v) u[a] = v[a][spring.head];
+    if (v) u[3 + a] = v[a][spring.tail];
+  }
+  spring.head = 0;
+  spring.tail = 1;
+  return spring;
+}
+
+HOOKE_INLINE int64_t add_curves(const struct hk_run *run, const struct hk_fields *fields, int damped) {
+  int64_t lost = 0;
+  for (int64_t k = 0; k < run->count; k++) {
+    double x[6], u[6];
+    struct hk_stretch s;
+    const struct hk_spring spring = take_spring(run, k, fields->q, damped ? fields->v : NULL, x, u);
+    const int64_t i = hk_run_head(run, k), j = hk_run_tail(run, k);
+    hk_spring_stretch(&spring, x, damped ? u : NULL, &s);
+    lost += hk_spring_shortness(s.length, spring.rest_length);
+    const double over = s.tension * hk_spring_inverse_length(s.length);
+    for (int a = 0; a < 3; a++) {
+      const double b = over * (x[a] - x[3 + a]);
+      fields->f[a][i] -= b;
+      fields->f[a][j] += b;
+    }
+  }
+  return lost;
+}
+
+static int64_t add_curved(const struct hk_run *run, const struct hk_fields *fields) {
+  return add_curves(run, fields, (run->shape & HOOKE_RUN_DAMPED) != 0);
+}
+
+static int64_t add_curved_undamped(const struct hk_run *run, const struct hk_fields *fields) {
+  return add_curves(run, fields, 0);
+}
+
+void hk_spring_fill_tangent(const struct hk_run *run, const struct hk_fields *fields, double alpha,
+                            double beta, const struct hk_tangent *tangent) {
+  for (int64_t k = 0; k < run->count; k++) {
+    const int64_t at = run->first + k;
+    double x[6], v[6];
+    struct hk_spring_slope s = {.b = 0.0};
+    const struct hk_spring spring = take_spring(run, k, fields->q, fields->v, x, v);
+    const int there = hk_spring_slope_find(&spring, x, v, &s), turns = there && !s.isotropic;
+    const double axial = sqrt(beta * s.gamma), across = there ? alpha * s.b : 0.0;
+    for (int a = 0; a < 3; a++) {
+      const double u = turns ? s.u[a] : 0.0;
+      tangent->u[a][at] = tangent->b ? u : axial * u;
+      if (tangent->b) tangent->e[a][at] = turns ? alpha * s.c[a] + (beta * s.gamma - across) * u : 0.0;
+    }
+    if (tangent->b) tangent->b[at] = across;
+  }
+}
+
+/* ---- sums ---- */
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
@@ -59,6 +125,10 @@ static double energy(const hooke_system *system, double t, const double *q) {
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     hk_some_energies(&springs, q, length, stored);
+    for (int64_t k = 0; k < batch.count && batch.curve; k++) {
+      const struct hk_spring spring = hk_batch_spring(&batch, k);
+      stored[k] = hk_spring_law(&spring, length[k]).energy;
+    }
     for (int64_t k = 0; k < batch.count; k++) {
       if (batch.pull_only && length[k] <= batch.rest_length[k]) continue;
       hk_sum_add(&sum, stored[k]);
@@ -96,10 +166,31 @@ static double heat(const hooke_system *system, double t, const double *q, const 
   return hk_sum_value(&sum);
 }
 
+static void add_curved_product(const struct hk_run *run, const struct hk_derivative_rows *rows) {
+  for (int64_t k = 0; k < run->count; k++) {
+    const struct hk_spring spring = hk_run_spring(run, k);
+    const int64_t i = 3 * spring.head, j = 3 * spring.tail;
+    struct hk_spring_slope s;
+    double dx[3], dv[3], change[3];
+    if (!hk_spring_slope_find(&spring, rows->q, rows->v, &s)) continue;
+    for (int a = 0; a < 3; a++) {
+      dx[a] = rows->dq[i + a] - rows->dq[j + a];
+      dv[a] = rows->dv[i + a] - rows->dv[j + a];
+    }
+    hk_spring_slope_change(&s, dx, dv, change);
+    for (int a = 0; a < 3; a++) {
+      rows->out[i + a] -= change[a];
+      rows->out[j + a] += change[a];
+    }
+  }
+}
+
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   const struct hk_derivative_rows rows = {point->q, point->v, point->dq, point->dv, out};
-  for (int64_t r = 0; r < system->springs->run_count; r++)
-    hk_spring_set(0)->derivative(&system->springs->run[r], &rows);
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
+    (run->curve ? add_curved_product : hk_spring_set(0)->derivative)(run, &rows);
+  }
   return 0;
 }
 
@@ -151,13 +242,17 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
   out->particle[1] = (int32_t)spring->tail;
   if (q == NULL) return;
   hk_spring_stretch(spring, q, v, &s);
-  if (v == NULL) s.tension = spring->kappa * (s.length - spring->rest_length);
+  if (v == NULL && spring->pull_only && s.length <= spring->rest_length) {
+    s.tension = spring->kappa * (s.length - spring->rest_length);
+    s.slope = spring->kappa;
+  }
+  const double stiff = v ? s.slope : fmax(0.0, s.slope);
   const int isotropic = s.length == 0.0, acts = !v || (isotropic ? spring->rest_length == 0.0 : !s.slack);
   out->weight[0] = 1.0;
   out->weight[1] = -1.0;
   memcpy(out->u, s.direction, sizeof out->u);
-  out->k_along = acts ? spring->kappa : 0.0;
-  out->k_across = !acts ? 0.0 : isotropic ? spring->kappa : s.tension / s.length;
+  out->k_along = acts ? stiff : 0.0;
+  out->k_across = !acts ? 0.0 : isotropic ? stiff : s.tension / s.length;
   out->c_along = acts ? spring->gamma : 0.0;
   out->c_across = isotropic && !v ? spring->gamma : 0.0;
   out->over = 1.0;
@@ -196,9 +291,45 @@ static int64_t stored_elements(struct hk_elements *at) {
   return batch.count;
 }
 
+/* The largest stiffness of a spring at any length. */
+static double stiffest(const struct hk_spring *spring) {
+  if (!spring->curve) return spring->kappa;
+  return spring->scale * hk_curve_stiffest(spring->curve, spring->rest_length);
+}
+
+struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q) {
+  struct hk_curved sum = {0};
+  for (int64_t s = 0; s < springs->count && springs->curved > 0; s++) {
+    const struct hk_spring spring = hk_springs_find(springs, s);
+    struct hk_stretch at;
+    hk_spring_stretch(&spring, q, NULL, &at);
+    sum.unbounded += isinf(stiffest(&spring));
+    sum.fall += spring.curve && (spring.curve->falls || at.slope < 0.0);
+    sum.falling += at.slope < 0.0;
+    sum.tension += fabs(hk_spring_law(&spring, spring.rest_length).tension);
+  }
+  return sum;
+}
+
+const struct hk_element *hk_element_at_most(const struct hk_elements *at, const struct hk_element *e,
+                                            struct hk_element *widened) {
+  const struct hk_springs *springs = at->system->springs;
+  if (springs->curved == 0 || at->force != &hk_force_springs) return e;
+  const struct hk_spring spring = hk_springs_find(springs, hk_element_number(at));
+  const double most = stiffest(&spring);
+  *widened = *e;
+  widened->k_along = fmax(isinf(most) ? 0.0 : most, e->k_along);
+  return widened;
+}
+
 static void add_stiffness(const hooke_system *system, double *sum) {
   struct hk_spring_batch batch;
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count && batch.curve; k++) {
+      const struct hk_spring spring = hk_batch_spring(&batch, k);
+      const double most = stiffest(&spring);
+      batch.kappa[k] = isinf(most) ? fabs(batch.kappa[k]) : most;
+    }
     for (int64_t k = 0; k < batch.count; k++)
       *sum += batch.kappa[k];
   }
@@ -229,9 +360,12 @@ static void add_run(hooke_system *system, const struct hk_piece *piece) {
   run->kappas = piece->number[HOOKE_KAPPA];
   run->gammas = piece->number[HOOKE_GAMMA];
   run->rest_lengths = piece->number[HOOKE_REST_LENGTH];
-  run->loop = hk_spring_set(0)->loop[run->shape];
-  run->undamped_loop = hk_spring_set(0)->loop[run->shape & ~HOOKE_RUN_DAMPED];
+  run->curve = piece->group->curve;
+  run->loop = run->curve ? add_curved : hk_spring_set(0)->loop[run->shape];
+  run->undamped_loop =
+      run->curve ? add_curved_undamped : hk_spring_set(0)->loop[run->shape & ~HOOKE_RUN_DAMPED];
   springs->count += piece->count;
+  springs->curved += run->curve ? piece->count : 0;
 }
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
@@ -263,6 +397,7 @@ static void check(const hooke_system *system, uint32_t *value) {
     hk_check_add(value, batch.gamma, batch.count, sizeof(double));
     hk_check_add(value, batch.rest_length, batch.count, sizeof(double));
     hk_check_whole(value, batch.pull_only);
+    if (batch.curve) hk_curve_check(batch.curve, value);
   }
 }
 

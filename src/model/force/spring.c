@@ -15,7 +15,10 @@ static const struct hk_option_row spring_rows[] = {
         "law", HOOKE_OPTION_ONE_OF("strain length"), "strain",
         "strain: force by relative stretch, the same at any resolution; length: by stretch in metres"),
     HOOKE_OPTION("stiffness", HOOKE_OPTION_EACH("N (strain law), N/m (length law)"), NULL,
-                 "stiffness, one number or one for each spring", .required = 1),
+                 "stiffness, one number or one for each spring; required without a curve"),
+    HOOKE_OPTION("curve", .type = HOOKE_OPTION_FAMILY, NULL,
+                 "in place of stiffness: the tension of all springs, by a table or by coefficients",
+                 .family = &hk_curve_options),
     HOOKE_OPTION("damping", HOOKE_OPTION_EACH("N s (strain law), N s/m (length law)"), "0",
                  "damping along the spring, one number or one for each"),
     HOOKE_OPTION("damping_ratio", HOOKE_OPTION_EACH(NULL), NULL,
@@ -101,9 +104,26 @@ static double initial_length(const struct hk_group *group, const double *positio
   return hk_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
 }
 
+/* A table of elongations is of the length law, unless the law is given. */
+static int32_t is_strain(const hooke_options *options) {
+  if (!hooke_options_is_set(options, "law") && hooke_options_is_set(options, "curve.elongation")) return 0;
+  return strcmp(hooke_options_text(options, "law"), "strain") == 0;
+}
+
+static int32_t check_strength(const hooke_options *options) {
+  char allowed[HOOKE_OPTION_ALLOWED];
+  const int32_t stiff = hooke_options_is_set(options, "stiffness");
+  if (hk_options_has_family(options, "curve"))
+    return stiff ? hk_fail(HOOKE_BAD_VALUE, "curve", "is given beside stiffness; a group has one of them")
+                 : HOOKE_OK;
+  if (stiff) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "stiffness", "is required but missing; allowed: %s, or a curve instead",
+                 hk_option_allowed(hk_options_find(&hk_spring_options, "stiffness"), allowed));
+}
+
 /* A number with a unit must be of the law: 2kN is not a stiffness of the length law. */
 static int32_t check_unit(const hooke_options *options, const char *name, const char *unit) {
-  const char *given = hk_options_unit_given(options, name), *law = hooke_options_text(options, "law");
+  const char *given = hk_options_unit_given(options, name), *law = is_strain(options) ? "strain" : "length";
   if (given == NULL || strcmp(given, unit) == 0) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, name,
                  "is given in units of %s; the %s law needs one of %s, or say \"law\": \"%s\"", given, law,
@@ -111,14 +131,14 @@ static int32_t check_unit(const hooke_options *options, const char *name, const 
 }
 
 static int32_t check_units(const hooke_options *options) {
-  const int strain = strcmp(hooke_options_text(options, "law"), "strain") == 0;
+  const int strain = is_strain(options);
   const int32_t status = check_unit(options, "stiffness", strain ? "N" : "N/m");
   return status ? status : check_unit(options, "damping", strain ? "N s" : "N s/m");
 }
 
 int32_t hk_springs_find_material(const hooke_system *system, const hooke_options *options,
                                  struct hk_group *group) {
-  const int strain = strcmp(hooke_options_text(options, "law"), "strain") == 0;
+  const int strain = is_strain(options);
   const double scale = hooke_options_number(options, "rest_scale");
   const int64_t given = hooke_options_number_count(options, "rest_length");
   double *const *number = group->number;
@@ -126,12 +146,13 @@ int32_t hk_springs_find_material(const hooke_system *system, const hooke_options
   for (int64_t k = 0; k < group->count; k++) {
     const double length =
         scale * (given > 0 ? number[HOOKE_REST_LENGTH][k] : initial_length(group, system->position, k));
-    const double stiffness = number[HOOKE_KAPPA][k], damping = number[HOOKE_GAMMA][k];
+    const double stiffness = group->curve ? group->curve->slope : number[HOOKE_KAPPA][k];
+    const double damping = number[HOOKE_GAMMA][k];
     if (strain && !(length > 0.0)) return refuse_rest_length(k, given, length);
     number[HOOKE_REST_LENGTH][k] = length;
     number[HOOKE_KAPPA][k] = strain ? stiffness / length : stiffness;
     number[HOOKE_GAMMA][k] = strain ? damping / length : damping;
-    if (number[HOOKE_KAPPA][k] <= 1e300 && number[HOOKE_GAMMA][k] <= 1e300 && length <= 1e300) continue;
+    if (fabs(number[HOOKE_KAPPA][k]) <= 1e300 && number[HOOKE_GAMMA][k] <= 1e300 && length <= 1e300) continue;
     return hk_fail(
         HOOKE_BAD_VALUE, "stiffness",
         "spring %lld has stiffness %g, damping %g and rest length %g; allowed: stiffness / rest length, "
@@ -164,10 +185,13 @@ static int32_t keep_options(const hooke_options *options, struct hk_group *group
 int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *added) {
   struct hk_group group;
   int32_t status = hk_group_begin(system, added, &group);
+  if (status == HOOKE_OK) status = check_strength(added->options);
   if (status == HOOKE_OK) status = check_units(added->options);
   if (status == HOOKE_OK) status = check_damping(system, added->options);
-  if (status == HOOKE_OK) status = hk_springs_find_material(system, added->options, &group);
   if (status == HOOKE_OK) group.pull_only = hooke_options_number(added->options, "compression") == 0.0;
+  if (status == HOOKE_OK)
+    status = hk_curve_from_options(added->options, is_strain(added->options), group.pull_only, &group.curve);
+  if (status == HOOKE_OK) status = hk_springs_find_material(system, added->options, &group);
   if (status == HOOKE_OK && !added->from_part) status = keep_options(added->options, &group);
   return hk_group_end(system, status, &group);
 }

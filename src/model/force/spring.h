@@ -5,6 +5,7 @@
 #include "hooke/system.h"
 #include "kernel/spring/spring_body.h"
 #include "kernel/spring/spring_loops.h"
+#include "model/force/curve.h"
 #include "model/force/element.h"
 #include "model/sum/runs.h"
 #include "model/vector3.h"
@@ -17,6 +18,7 @@ struct hk_springs {
   int64_t run_count;
   struct hk_run *run;
   struct hk_stored stored;
+  int64_t curved; /* springs with a curve */
 };
 
 /* A spring, whatever run it is in. */
@@ -24,6 +26,8 @@ struct hk_spring {
   int64_t head, tail;
   double kappa, gamma, rest_length;
   int32_t pull_only;
+  const struct hk_curve *curve; /* NULL: linear; otherwise kappa is its slope at the rest length */
+  double scale;                 /* factor on the tension of the curve */
 };
 
 static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
@@ -33,13 +37,23 @@ static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k
                             m.kappa,
                             m.gamma,
                             m.rest_length,
-                            (run->shape & HOOKE_RUN_PULL_ONLY) != 0};
+                            (run->shape & HOOKE_RUN_PULL_ONLY) != 0,
+                            run->curve,
+                            1.0};
+}
+
+/* The one place of a tension: every spring here, and linear ones in the loops of springs, to the bit. */
+HOOKE_INLINE struct hk_law hk_spring_law(const struct hk_spring *spring, double r) {
+  const double stretch = r - spring->rest_length, tension = spring->kappa * stretch;
+  if (!spring->curve) return (struct hk_law){0.5 * tension * stretch, tension, spring->kappa};
+  const struct hk_law law = hk_curve_law(spring->curve, stretch, spring->rest_length);
+  return (struct hk_law){spring->scale * law.energy, spring->scale * law.tension, spring->scale * law.slope};
 }
 
 /* A spring at given ends: length, direction (zeros if it has none), tension and rate of stretch; v may be
  * NULL. */
 struct hk_stretch {
-  double length, direction[3], tension, elastic, rate;
+  double length, direction[3], tension, elastic, slope, rate;
   int32_t slack; /* pulls only, and is slack */
 };
 HOOKE_INLINE void hk_spring_stretch(const struct hk_spring *spring, const double *q, const double *v,
@@ -52,15 +66,16 @@ HOOKE_INLINE void hk_spring_stretch(const struct hk_spring *spring, const double
     const double *vi = v + 3 * spring->head, *vj = v + 3 * spring->tail;
     rate = (((vi[0] - vj[0]) * d[0] + (vi[1] - vj[1]) * d[1]) + (vi[2] - vj[2]) * d[2]) * ir;
   }
-  const double elastic = spring->kappa * (r - spring->rest_length);
-  const double free_tension = elastic + spring->gamma * rate;
+  const struct hk_law law = hk_spring_law(spring, r);
+  const double free_tension = law.tension + spring->gamma * rate;
   stretch->length = r;
   for (int a = 0; a < 3; a++)
     stretch->direction[a] = d[a] * ir;
   stretch->rate = rate;
   stretch->slack = spring->pull_only && (r <= spring->rest_length || free_tension < 0.0);
   stretch->tension = stretch->slack ? 0.0 : free_tension;
-  stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : elastic;
+  stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : law.tension;
+  stretch->slope = law.slope;
 }
 
 /* Derivative of the force on the first end: -(stiffness dx + damping dv) with df/dx = -(u c^T + b (I - u
@@ -85,8 +100,8 @@ HOOKE_INLINE int32_t hk_spring_slope_find(const struct hk_spring *spring, const 
   slope->b = s.tension / s.length;
   for (int a = 0; a < 3; a++) {
     slope->u[a] = s.direction[a];
-    slope->c[a] = spring->kappa * s.direction[a] +
-                  spring->gamma * ((vi[a] - vj[a]) - s.rate * s.direction[a]) / s.length;
+    slope->c[a] =
+        s.slope * s.direction[a] + spring->gamma * ((vi[a] - vj[a]) - s.rate * s.direction[a]) / s.length;
   }
   return 1;
 }
@@ -98,6 +113,21 @@ HOOKE_INLINE void hk_spring_slope_change(const struct hk_spring_slope *s, const 
   for (int a = 0; a < 3; a++)
     change[a] = s->isotropic ? s->b * dx[a] : pull * s->u[a] + s->b * (dx[a] - along * s->u[a]);
 }
+
+/* The blocks of a run with a curve, as hk_tangent_fill() makes those of others
+ * (kernel/spring/tangent_loops.h).
+ */
+struct hk_tangent;
+void hk_spring_fill_tangent(const struct hk_run *run, const struct hk_fields *fields, double alpha,
+                            double beta, const struct hk_tangent *tangent);
+
+/* Of the springs with curves: how many have no largest stiffness, how many have one that falls and how many
+ * are where it does, and the sum of their tensions at rest lengths, in absolute value [N]. */
+struct hk_curved {
+  int64_t unbounded, fall, falling;
+  double tension;
+};
+struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q);
 
 /* A spring as an element. */
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,

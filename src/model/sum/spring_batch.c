@@ -38,6 +38,7 @@ static void take_run(const struct hk_run *run, struct hk_spring_batch *batch) {
   batch->damped = (run->shape & HOOKE_RUN_DAMPED) != 0;
   batch->pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
   batch->consecutive = (run->shape & HOOKE_RUN_INDEXED) == 0;
+  batch->curve = run->curve;
   if (batch->consecutive && !(run->shape & HOOKE_RUN_MIXED))
     take_plain(run, batch);
   else

@@ -130,7 +130,8 @@ static int find(struct finder *finder, const struct hk_springs *springs) {
 int32_t hk_strided_batches_create(struct hk_springs *springs, int64_t particle_count,
                                   struct hk_strided_batches *strided) {
   *strided = (struct hk_strided_batches){0};
-  if (particle_count < LEAST_PARTICLES || particle_count > MOST_PARTICLES) return HOOKE_OK;
+  if (particle_count < LEAST_PARTICLES || particle_count > MOST_PARTICLES || springs->curved > 0)
+    return HOOKE_OK;
   struct finder finder = {
       .strided = strided, .particles = particle_count, .at = hk_new(particle_count, sizeof *finder.at)};
   strided->batch_of = hk_new(springs->count, sizeof *strided->batch_of);

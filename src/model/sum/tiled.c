@@ -290,7 +290,8 @@ static int32_t move_material(struct maker *maker) {
 /* ---- whole ---- */
 
 static int may_pay(const struct hk_springs *springs, int64_t particle_count) {
-  return springs->count >= (particle_count <= HOOKE_TILE ? LEAST_SPRINGS : LEAST_STORED) &&
+  return springs->curved == 0 &&
+         springs->count >= (particle_count <= HOOKE_TILE ? LEAST_SPRINGS : LEAST_STORED) &&
          (double)(springs->count - springs->stored.indexed) <= MOST_IN_RUNS * (double)springs->count;
 }
 

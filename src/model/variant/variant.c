@@ -155,7 +155,8 @@ static int32_t keep_group(const struct hk_variant_maker *maker, const struct hk_
                           .count = group->count,
                           .pull_only =
                               group->pull_only || (maker->variant->compression && hk_group_resists(group))};
-  int32_t status = hk_group_allocate(&kept, group->name);
+  int32_t status = hk_curve_copy(group->curve, kept.pull_only, &kept.curve);
+  if (status == HOOKE_OK) status = hk_group_allocate(&kept, group->name);
   if (status == HOOKE_OK) collect(maker, first, &kept);
   if (status == HOOKE_OK && group->options) status = take_options(maker, group->options, &kept);
   if (status == HOOKE_OK && (kept.count > 0 || group->count == 0))
@@ -206,6 +207,8 @@ static int32_t copy_movers(const struct hk_variant_maker *maker) {
 }
 
 static void scale_stiffness(hooke_system *made, double factor) {
+  for (int64_t g = 0; g < made->group_count; g++)
+    if (made->group[g].curve) hk_curve_scale(made->group[g].curve, factor);
   for (int64_t g = 0; g < made->group_count; g++)
     for (int64_t k = 0; k < made->group[g].count && made->group[g].number[HOOKE_KAPPA]; k++)
       made->group[g].number[HOOKE_KAPPA][k] *= factor;

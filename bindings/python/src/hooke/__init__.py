@@ -37,7 +37,7 @@ from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
-from .parts import Springs, Transform
+from .parts import Curve, Springs, Transform
 from .problems import FirstOrder, SecondOrder
 from .results import Frames, Result, RunError, resume, run, why
 from .scene import Scene
@@ -56,6 +56,7 @@ __all__ = [
     "BodyMotion",
     "Check",
     "Cost",
+    "Curve",
     "Derived",
     "Energy",
     "Error",
