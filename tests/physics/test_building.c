@@ -244,13 +244,17 @@ static int32_t add_bending(hooke_system *system, int64_t count, const int64_t *p
 static const struct kind {
   const char *force;
   add_members *add;
-} kinds[] = {
-    {"springs", add_springs}, {"altitude", add_altitude}, {"anchors", add_anchors}, {"bending", add_bending}};
+  const char *without; /* a number, in whose place there is another */
+} kinds[] = {{"springs", add_springs, "damping_ratio"},
+             {"springs", add_springs, "damping"},
+             {"altitude", add_altitude, ""},
+             {"anchors", add_anchors, ""},
+             {"bending", add_bending, ""}};
 
 /* Every number that each member may have, of members `first` to `first` + `count`. */
-static hooke_options *numbers_of(const char *force, int64_t first, int64_t count) {
+static hooke_options *numbers_of(const struct kind *kind, int64_t first, int64_t count) {
   int64_t set = 0;
-  hooke_options *options = new_options(force);
+  hooke_options *options = new_options(kind->force);
   for (int64_t row = 0; row < hooke_options_row_count(options); row++) {
     double value[MOST];
     const char *name = hooke_options_row(options, row, "name");
@@ -258,6 +262,7 @@ static hooke_options *numbers_of(const char *force, int64_t first, int64_t count
     const int64_t each = columns > 0.0 ? (int64_t)columns : 1;
     if (strcmp(hooke_options_row(options, row, "type"), "numbers") != 0) continue;
     if (hooke_options_row_number(options, row, "whole") == 1.0) continue; /* particles */
+    if (strcmp(name, kind->without) == 0) continue;
     for (int64_t k = 0; k < each * MEMBERS; k++)
       value[k] = 0.3 + 0.2 * (double)row + 0.7 * (double)(k * k + k);
     check_ok(hooke_options_set_numbers(options, name, each * count, value + each * first));
@@ -275,7 +280,7 @@ static hooke_system *built_of(const struct kind *kind, int one_by_one, const dou
   for (int64_t p = 0; p < CORNERS; p += particles)
     check_ok(hooke_system_add_particles(system, particles, q + 3 * p, NULL, particles, mass + p, NULL));
   for (int64_t k = 0; k < MEMBERS; k += count) {
-    owned_options *options = numbers_of(kind->force, k, count);
+    owned_options *options = numbers_of(kind, k, count);
     check_ok(kind->add(system, count, of_members + size * k, options));
   }
   check_ok(hooke_system_commit(system));
