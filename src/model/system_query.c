@@ -29,7 +29,7 @@ int64_t hooke_system_coincident_springs(const hooke_system *system, const double
   int64_t count = 0;
   double length[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     hk_some_lengths(&springs, q, length);
     for (int64_t k = 0; k < batch.count; k++)

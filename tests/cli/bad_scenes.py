@@ -158,7 +158,7 @@ BAD = {
     "part-index": (ROPE.replace("4]", "5]"), "11:42", "springs[0].between[0][1][1]", "5", "0 to 4"),
     "part-names": (ROPE.replace("\n  ],", f",\n    {{ {LINE} }}\n  ],"), "9:31", "parts[1].name", '"line"', "a name of its own"),
     "family-key": (ROPE.replace("100", '100, "colour": 1'),
-        "7:38", "parts[0].stretch.colour", '"colour"', "stiffness, damping, damping_ratio, rest_scale, compression"),
+        "7:38", "parts[0].stretch.colour", '"colour"', "stiffness, damping, damping_ratio, rest_scale, stiffness_scale, compression"),
     "family-number": (ROPE.replace('{ "stiffness": 100 }', "100"), "7:18", "parts[0].stretch", "100", "an object of stiffness"),
     "family-empty": (ROPE.replace('{ "stiffness": 100 ', "{"),
         "7:18", "parts[0].stretch.stiffness", "missing", "a number >= 0 [N]"),

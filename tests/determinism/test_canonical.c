@@ -118,6 +118,23 @@ TEST(test_lattices) {
   }
 }
 
+/* Springs that follow time: in runs, in strided batches and in a tiled one, of many materials and of one. */
+TEST(test_springs_that_follow_time) {
+  for (uint64_t seed = 1; seed <= 12; seed++)
+    compare_scene(
+        (struct random_scene_request){.seed = 20000 + seed,
+                                      .particles = 7 + (int64_t)(seed * 97 % 500),
+                                      .springs = (int64_t)(seed * 211 % 1900),
+                                      .features = SCENE_FOLLOWS | (int32_t)(seed * 29 & SCENE_EVERYTHING),
+                                      .rope = (int32_t)(seed % 3 * 30)});
+  compare_scene((struct random_scene_request){.seed = 20100,
+                                              .particles = 7,
+                                              .features = SCENE_FOLLOWS | SCENE_DAMPING | SCENE_GRAVITY,
+                                              .cloth = {40, 30}});
+  compare_scene((struct random_scene_request){
+      .seed = 20101, .particles = 7, .features = SCENE_FOLLOWS | SCENE_PULL_ONLY, .lattice = {9, 8, 7}});
+}
+
 /* A scene listed spring by spring is summed like the same scene made of parts. */
 TEST(test_parts_are_springs) {
   owned_random_scene parts;

@@ -46,12 +46,12 @@ static void destroy(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   struct shardlow *own = it->around;
-  hk_dampers_sweep(own->dampers, it->motion, 0);
+  hk_dampers_sweep(own->dampers, it->motion, it->t, 0);
   it->goes_on = 0; /* dampers come in between */
   const int32_t status = hk_verlet.steps->step(it);
   if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion); /* kicks move them, too */
-  hk_dampers_sweep(own->dampers, it->motion, 1);
+  hk_dampers_sweep(own->dampers, it->motion, hk_integrator_next_time(it), 1);
   return HOOKE_OK;
 }
 

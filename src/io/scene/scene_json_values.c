@@ -109,7 +109,6 @@ static int32_t read_object(struct hk_scene_reader *reader, const char *object,
 
 static int32_t read_family(struct hk_scene_reader *reader, const char *value, const struct hk_option_row *row,
                            const char *name, hooke_options *options) {
-  if (!hk_json_is(value, '{')) return hk_scene_refuse_for_row(value, name, row);
   char prefix[NAME_SIZE + 2];
   snprintf(prefix, sizeof prefix, "%s.", name);
   int32_t status = hooke_options_set_text(options, name, "");
@@ -118,6 +117,7 @@ static int32_t read_family(struct hk_scene_reader *reader, const char *value, co
 
 static int32_t read_row(struct hk_scene_reader *reader, const char *value, const struct hk_option_row *row,
                         const char *name, hooke_options *options) {
+  if (row->family && hk_json_is(value, '{')) return read_family(reader, value, row, name, options);
   switch (row->type) {
   case HOOKE_OPTION_NUMBER:
   case HOOKE_OPTION_NUMBERS:
@@ -130,7 +130,7 @@ static int32_t read_row(struct hk_scene_reader *reader, const char *value, const
     if (!hk_json_is(value, '"')) break;
     return hooke_options_set_text(options, name, hk_json_text(value));
   case HOOKE_OPTION_FAMILY:
-    return read_family(reader, value, row, name, options);
+    break;
   }
   return hk_scene_refuse_for_row(value, name, row);
 }

@@ -12,6 +12,7 @@
 #include "io/file/text.h"
 #include "model/callbacks.h"
 #include "model/force/drive.h"
+#include "model/force/scaling.h"
 #include "model/part_record.h"
 #include "model/system.h"
 
@@ -82,7 +83,7 @@ static void add_table(struct hk_text *text, const hooke_options *options, const 
     char name[128];
     snprintf(name, sizeof name, "%s%s", prefix, row->name);
     if (!hooke_options_is_set(options, name) || (left_out && strcmp(name, left_out) == 0)) continue;
-    if (row->type != HOOKE_OPTION_FAMILY) {
+    if (!hk_options_has_family(options, name)) {
       add_value(text, options, name, row);
       continue;
     }
@@ -225,11 +226,49 @@ static void open_member(struct writer *to, const struct hk_scene_list *list, con
   hk_text_close(text, ']');
 }
 
+static void add_course(struct hk_text *text, const struct hk_course *course, const char *amplitude,
+                       const char *values) {
+  const int32_t columns = course->width > 1 ? course->width : 0;
+  hk_text_word(text, "motion", course->samples > 0 ? "table" : "harmonic");
+  if (course->samples > 0) {
+    add_numbers(text, "time", course->samples, 0, course->time);
+    add_numbers(text, values, course->width * course->samples, columns, course->value);
+  } else {
+    if (course->width == 1) {
+      hk_text_number(text, "mean", course->mean[0]);
+      hk_text_number(text, amplitude, course->amplitude[0]);
+    } else {
+      add_numbers(text, amplitude, course->width, 0, course->amplitude);
+    }
+    hk_text_number(text, "frequency", course->frequency);
+    hk_text_number(text, "phase", course->phase);
+  }
+}
+
+/* The stiffness that over l0 is kappa, to the bit: within a unit in the last place of their product. */
+static double stiffness_of(double kappa, double l0) {
+  const double whole = kappa * l0, less = nextafter(whole, 0.0);
+  return whole / l0 == kappa ? whole : less / l0 == kappa ? less : nextafter(whole, (double)INFINITY);
+}
+
+/* Springs that follow time, which does not leave the law open. */
+static void add_scaling(struct hk_text *text, const struct hk_group *group, struct hk_group *all) {
+  const struct hk_course *const course[] = {&group->scaling->rest, &group->scaling->stiffness};
+  for (int k = 0; k < 2; k++) {
+    hk_text_open(text, k == 0 ? "rest_scale" : "stiffness_scale", '{');
+    add_course(text, course[k], "amplitude", "value");
+    hk_text_close(text, '}');
+  }
+  for (int k = HOOKE_KAPPA; k <= HOOKE_GAMMA && group->scaling->strain; k++)
+    for (int64_t i = 0; i < all->count; i++)
+      all->number[k][i] = stiffness_of(all->number[k][i], all->number[HOOKE_REST_LENGTH][i]);
+}
+
 /* The numbers of members, whatever law they were given by. */
-static void add_columns(struct hk_text *text, const struct hk_scene_list *list,
+static void add_columns(struct hk_text *text, const struct hk_scene_list *list, int32_t strain,
                         const struct hk_group *group) {
   const int32_t *width = group->force->width;
-  if (group->force->kind & HOOKE_LOOPED) hk_text_word(text, "law", "length");
+  if (group->force->kind & HOOKE_LOOPED) hk_text_word(text, "law", strain ? "strain" : "length");
   add_shared(text, list->strength, group->count, group->number[HOOKE_KAPPA]);
   for (int k = HOOKE_KAPPA + 1; k < HOOKE_GROUP_NUMBERS && group->count > 0; k++) {
     if (width[k] == 1) add_shared(text, hk_group_names[k], group->count, group->number[k]);
@@ -246,10 +285,12 @@ static void add_group(struct writer *to, const struct hk_scene_list *list, const
   if (hk_group_allocate(&all, NULL) == HOOKE_OK) {
     if (all.count > 0) all.force->recall(to->system, first, &all);
     open_member(to, list, group->name, all.count, all.particle);
-    if (group->options)
+    if (group->options) {
       add_options(&to->json, group->options, NULL);
-    else
-      add_columns(&to->json, list, &all);
+    } else {
+      if (group->scaling) add_scaling(&to->json, group, &all);
+      add_columns(&to->json, list, group->scaling && group->scaling->strain, &all);
+    }
     hk_text_close(&to->json, '}');
   } else {
     to->json.status = HOOKE_NO_MEMORY;
@@ -273,20 +314,6 @@ static void add_bodies(struct writer *to, const struct hk_scene_list *list) {
     if (body->part >= 0) continue; /* its part says so */
     open_member(to, list, body->name, body->count, &body->particle);
     hk_text_close(&to->json, '}');
-  }
-}
-
-static void add_course(struct hk_text *text, const struct hk_course *course, const char *amplitude,
-                       const char *values) {
-  const int32_t columns = course->width > 1 ? course->width : 0;
-  hk_text_word(text, "motion", course->samples > 0 ? "table" : "harmonic");
-  if (course->samples > 0) {
-    add_numbers(text, "time", course->samples, 0, course->time);
-    add_numbers(text, values, course->width * course->samples, columns, course->value);
-  } else {
-    add_numbers(text, amplitude, course->width, 0, course->amplitude);
-    hk_text_number(text, "frequency", course->frequency);
-    hk_text_number(text, "phase", course->phase);
   }
 }
 

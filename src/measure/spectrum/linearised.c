@@ -39,10 +39,11 @@ static int32_t moves(const hooke_system *system, const struct hk_spring *spring)
 }
 
 static void see_runs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
+  struct hk_scaler scaler = {.t = lin->system->moment};
   for (int64_t r = 0; r < lin->run_count; r++) {
     const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring_at(run, k, &scaler);
       const double scale = spring_scale ? spring_scale[run->first + k] : 1.0;
       if (moves(lin->system, &spring)) see_spring(lin, run->first + k, &spring, q, scale);
     }
@@ -53,7 +54,7 @@ static void see_batches(struct hk_linearised *lin, const double *q) {
   int32_t *head = lin->ends, *tail = lin->ends + lin->own.count;
   int64_t slot = 0;
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(lin->system, &batch);) {
+  for (hk_begin_batches(lin->system->moment, &batch); hk_next_batch(lin->system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++, slot++) {
       const struct hk_spring spring = hk_batch_spring(&batch, k);
       head[slot] = batch.head[k];
@@ -103,7 +104,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
   if (lin->element == NULL || lin->along == NULL) return HOOKE_NO_MEMORY;
   lin->beside = lin->along + most;
   struct hk_elements at;
-  hk_begin_elements(lin->system, 0.0, q, NULL, &at);
+  hk_begin_elements(lin->system, lin->system->moment, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (!hk_element_moves(lin->system->constrained, e)) continue;
@@ -120,7 +121,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
 /* Adds the rows of the other forces at q, of their stiffness or of their damping. */
 static void add_rows(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   struct hk_elements at;
-  hk_begin_elements(lin->system, 0.0, q, NULL, &at);
+  hk_begin_elements(lin->system, lin->system->moment, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
@@ -348,7 +349,7 @@ static double others_energy(const struct hk_linearised *lin, const double *x) {
   const double *const from[3] = {x, x + n, x + 2 * n}, a = lin->constant_k, b = lin->constant_c;
   double sum = a > 0.0 ? a * hk_rigid_energy(&lin->rigid, from, 1) : 0.0;
   struct hk_elements at;
-  hk_begin_elements(lin->system, 0.0, lin->system->position, NULL, &at);
+  hk_begin_elements(lin->system, lin->system->moment, lin->system->position, NULL, &at);
   at.kinds = HOOKE_CONSTANT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     sum += hk_element_energy(e, a * e->k_along + b * e->c_along, a * e->k_across + b * e->c_across, 1, from);

@@ -23,7 +23,7 @@ int32_t hk_node_blocks_create(const hooke_system *system, const double *q, struc
 /* Without positions yet. */
 int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *blocks);
 /* Recomputes them at other positions, in the existing memory. */
-void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q);
+void hk_node_blocks_fill(struct hk_node_blocks *blocks, double t, const double *q);
 void hk_node_blocks_release(struct hk_node_blocks *blocks);
 
 /* A limit of steps: h (h kk K + k K + c C) < M. */

@@ -13,11 +13,10 @@
 #include <string.h>
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
-  (void)t;
   if (system->strided->count > 0 || system->tiled->particles > 0) {
     const struct hk_move keep = {
         .kind = HOOKE_MOVE_KEEP, .stride = hk_motion_stride(motion), .f = motion->f[0]};
-    hk_motion_pass(system, motion, &keep);
+    hk_motion_pass(system, motion, t, &keep);
     return HOOKE_OK;
   }
   struct hk_fields fields;
@@ -27,10 +26,10 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     fields.f[a] = motion->f[a];
   }
   int64_t shortness = 0;
-  for (int64_t k = 0; k < system->springs->run_count; k++) {
-    const struct hk_run *run = &system->springs->run[k];
+  struct hk_run_walk walk;
+  hk_begin_runs(system->springs, t, &walk);
+  for (const struct hk_run *run; (run = hk_next_run(&walk)) != NULL;)
     shortness += motion->zero ? run->undamped_loop(run, &fields) : run->loop(run, &fields);
-  }
   hk_motion_keep_short(motion, shortness);
   return 0;
 }
@@ -38,7 +37,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
 static int64_t passed(const hooke_system *system, const double *before, const double *now, int64_t ends[2]) {
   struct hk_spring_batch batch;
   int64_t count = 0;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++) {
       const int64_t i = 3 * (int64_t)batch.head[k], j = 3 * (int64_t)batch.tail[k];
       if (!(batch.rest_length[k] > 0.0) || !hk_spring_turned(before + i, before + j, now + i, now + j))
@@ -52,11 +51,10 @@ static int64_t passed(const hooke_system *system, const double *before, const do
 }
 
 static double energy(const hooke_system *system, double t, const double *q) {
-  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   double length[HOOKE_SPRING_BATCH], stored[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(t, &batch); hk_next_batch(system, &batch);) {
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     hk_some_energies(&springs, q, length, stored);
     for (int64_t k = 0; k < batch.count; k++) {
@@ -79,11 +77,10 @@ static void find_heat_of_cables(const struct hk_spring_batch *batch, const doubl
 }
 
 static double heat(const hooke_system *system, double t, const double *q, const double *v) {
-  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   double lost[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(t, &batch); hk_next_batch(system, &batch);) {
     if (!batch.damped) continue;
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     if (batch.pull_only)
@@ -96,10 +93,36 @@ static double heat(const hooke_system *system, double t, const double *q, const 
   return hk_sum_value(&sum);
 }
 
+static int32_t does_work(const hooke_system *system) {
+  return system->springs->scaled;
+}
+
+/* The derivative of the energy by time, of the actuators that change springs. */
+static double power(const hooke_system *system, double t, const double *q, const double *v) {
+  struct hk_sum sum = {0.0, 0.0};
+  struct hk_scaler scaler = {.t = t};
+  (void)v;
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
+    for (int64_t k = 0; k < run->count && run->scaling; k++) {
+      const struct hk_spring spring = hk_run_spring_at(run, k, &scaler), given = hk_run_spring(run, k);
+      struct hk_stretch s;
+      hk_spring_stretch(&spring, q, NULL, &s);
+      if (s.slack) continue;
+      const double longer = s.length - spring.rest_length;
+      hk_sum_add(&sum, 0.5 * (given.kappa * scaler.rate.kappa) * (longer * longer) -
+                           s.elastic * (given.rest_length * scaler.rate.rest_length));
+    }
+  }
+  return hk_sum_value(&sum);
+}
+
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   const struct hk_derivative_rows rows = {point->q, point->v, point->dq, point->dv, out};
-  for (int64_t r = 0; r < system->springs->run_count; r++)
-    hk_spring_set(0)->derivative(&system->springs->run[r], &rows);
+  struct hk_run_walk walk;
+  hk_begin_runs(system->springs, point->t, &walk);
+  for (const struct hk_run *run; (run = hk_next_run(&walk)) != NULL;)
+    hk_spring_set(0)->derivative(run, &rows);
   return 0;
 }
 
@@ -121,11 +144,11 @@ static void add_pair(const struct hk_pattern *pattern, int64_t i, int64_t j, con
 
 static void add_blocks(const hooke_system *system, double t, const double *q, const double *v,
                        const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  (void)t;
+  struct hk_scaler scaler = {.t = t};
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const struct hk_run *run = &system->springs->run[r];
     for (int64_t n = 0; n < run->count; n++) {
-      const struct hk_spring spring = hk_run_spring(run, n);
+      const struct hk_spring spring = hk_run_spring_at(run, n, &scaler);
       struct hk_spring_slope s;
       double stiff[9], damp[9];
       if (!hk_spring_slope_find(&spring, q, v, &s)) continue;
@@ -167,12 +190,12 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
 
 static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  (void)t;
+  struct hk_scaler scaler = {.t = t};
   const struct hk_run *run = &system->springs->run[hk_springs_run(system->springs, first)];
   for (int64_t k = 0; k < wanted; k++) {
     while (first + k >= run->first + run->count)
       run++;
-    const struct hk_spring spring = hk_run_spring(run, first + k - run->first);
+    const struct hk_spring spring = hk_run_spring_at(run, first + k - run->first, &scaler);
     hk_spring_element(&spring, q, v, &out[k]);
   }
 }
@@ -181,7 +204,7 @@ static void elements(const hooke_system *system, double t, const double *q, cons
 static int64_t stored_elements(struct hk_elements *at) {
   if (!at->system->tiled->stored) return -1;
   struct hk_spring_batch batch;
-  hk_begin_batches(&batch);
+  hk_begin_batches(at->t, &batch);
   batch.row = at->place[0];
   batch.done = at->place[1];
   batch.at = at->place[2];
@@ -198,7 +221,7 @@ static int64_t stored_elements(struct hk_elements *at) {
 
 static void add_stiffness(const hooke_system *system, double *sum) {
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_STIFFEST, &batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++)
       *sum += batch.kappa[k];
   }
@@ -229,6 +252,8 @@ static void add_run(hooke_system *system, const struct hk_piece *piece) {
   run->kappas = piece->number[HOOKE_KAPPA];
   run->gammas = piece->number[HOOKE_GAMMA];
   run->rest_lengths = piece->number[HOOKE_REST_LENGTH];
+  run->scaling = piece->group->scaling;
+  springs->scaled |= run->scaling != NULL;
   run->loop = hk_spring_set(0)->loop[run->shape];
   run->undamped_loop = hk_spring_set(0)->loop[run->shape & ~HOOKE_RUN_DAMPED];
   springs->count += piece->count;
@@ -256,7 +281,7 @@ static int64_t memory(const hooke_system *system) {
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_spring_batch batch;
   hk_check_whole(value, system->springs->count);
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
     hk_check_add(value, batch.head, batch.count, sizeof *batch.head);
     hk_check_add(value, batch.tail, batch.count, sizeof *batch.tail);
     hk_check_add(value, batch.kappa, batch.count, sizeof(double));
@@ -264,11 +289,18 @@ static void check(const hooke_system *system, uint32_t *value) {
     hk_check_add(value, batch.rest_length, batch.count, sizeof(double));
     hk_check_whole(value, batch.pull_only);
   }
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
+    if (run->scaling == NULL) continue;
+    hk_check_whole(value, run->first);
+    hk_check_whole(value, run->count);
+    hk_scaling_check(run->scaling, value);
+  }
 }
 
 static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
   for (int64_t k = 0; k < to->count; k++) {
-    const struct hk_spring spring = hk_springs_find(system->springs, first + k);
+    const struct hk_spring spring = hk_springs_find(system->springs, first + k, HOOKE_AS_GIVEN);
     to->particle[0][k] = (int32_t)spring.head;
     to->particle[1][k] = (int32_t)spring.tail;
     to->number[HOOKE_KAPPA][k] = spring.kappa;
@@ -296,6 +328,8 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .passed = passed,
                                               .energy = energy,
                                               .heat = heat,
+                                              .does_work = does_work,
+                                              .power = power,
                                               .add_product = add_product,
                                               .add_blocks = add_blocks,
                                               .elements = elements,

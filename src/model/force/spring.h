@@ -6,6 +6,7 @@
 #include "kernel/spring/spring_body.h"
 #include "kernel/spring/spring_loops.h"
 #include "model/force/element.h"
+#include "model/force/scaling.h"
 #include "model/sum/runs.h"
 #include "model/vector3.h"
 
@@ -14,6 +15,7 @@ extern const struct hk_option_table hk_spring_options;
 /* All springs of a committed system, in their order. */
 struct hk_springs {
   int64_t count;
+  int32_t scaled; /* 1: numbers of some follow time */
   int64_t run_count;
   struct hk_run *run;
   struct hk_stored stored;
@@ -26,14 +28,21 @@ struct hk_spring {
   int32_t pull_only;
 };
 
-static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
-  const struct hk_material m = hk_run_material(run, k);
+/* As it is at the time of the scaler. */
+static inline struct hk_spring hk_run_spring_at(const struct hk_run *run, int64_t k,
+                                                struct hk_scaler *scaler) {
+  const struct hk_material m = hk_scaled(hk_run_material(run, k), run->scaling, scaler);
   return (struct hk_spring){hk_run_head(run, k),
                             hk_run_tail(run, k),
                             m.kappa,
                             m.gamma,
                             m.rest_length,
                             (run->shape & HOOKE_RUN_PULL_ONLY) != 0};
+}
+
+/* As it was given. */
+static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
+  return hk_run_spring_at(run, k, &(struct hk_scaler){.t = HOOKE_AS_GIVEN});
 }
 
 /* A spring at given ends: length, direction (zeros if it has none), tension and rate of stretch; v may be
@@ -111,8 +120,8 @@ int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *ad
 int32_t hk_springs_find_material(const hooke_system *system, const hooke_options *options,
                                  struct hk_group *group);
 
-/* Finds the run of a spring, and the spring. */
+/* Finds the run of a spring, and the spring at a time. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
-struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number);
+struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number, double t);
 
 #endif

@@ -18,12 +18,15 @@ struct hk_spring_batch {
       tail[HOOKE_SPRING_BATCH]; /* in a tiled batch the first end may be the second one as given */
   double kappa[HOOKE_SPRING_BATCH], gamma[HOOKE_SPRING_BATCH], rest_length[HOOKE_SPRING_BATCH];
 
+  struct hk_scaler scaler;
   int64_t row, done; /* position: a run, or a tile and kind; next spring in it */
   int64_t at;        /* index in the tiled batch */
 };
 
-/* Starts before the first batch; fetches the next one, or returns 0 if there are none. */
-static inline void hk_begin_batches(struct hk_spring_batch *batch) {
+/* Starts before the first batch, for the springs of time t; fetches the next one, or returns 0 if there are
+ * none. */
+static inline void hk_begin_batches(double t, struct hk_spring_batch *batch) {
+  batch->scaler = (struct hk_scaler){.t = t};
   batch->count = batch->row = batch->done = batch->at = 0;
 }
 int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch);
