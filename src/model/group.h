@@ -25,13 +25,14 @@ struct hk_group {
   char *name;
   int32_t from_part; /* 1: added by a part */
   int32_t pull_only;
-  int32_t damped;             /* from commit on: 1: some member is */
-  int32_t part;               /* for groups of parts: number of the part */
-  int64_t count;              /* from commit on excludes members that have neither stiffness nor damping, */
-  int64_t dropped;            /* which are counted here, with those inside a rigid body, */
-  int64_t inside;             /* which are counted here as well */
-  struct hk_scaling *scaling; /* of springs that follow time; else NULL */
-  hooke_options *options;     /* as given, if they hold for all springs; else NULL */
+  int32_t damped;         /* from commit on: 1: some member is */
+  int32_t part;           /* for groups of parts: number of the part */
+  int64_t count;          /* from commit on excludes members that have neither stiffness nor damping, */
+  int64_t dropped;        /* which are counted here, with those inside a rigid body, */
+  int64_t inside;         /* which are counted here as well */
+  hooke_options *options; /* as given, if they hold for all springs; else NULL */
+  /* of springs that follow time; else NULL */
+  struct hk_scaling *scaling;
   /* until commit, of each member; NULL if the force has no such number */
   int32_t *particle[HOOKE_MEMBER_PARTICLES];
   double *number[HOOKE_GROUP_NUMBERS];

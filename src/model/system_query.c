@@ -81,6 +81,8 @@ static int64_t memory(const hooke_system *system) {
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
+  for (int64_t g = 0; g < system->group_count; g++)
+    bytes += hk_scaling_memory(system->group[g].scaling);
   for (int64_t k = 0; k < system->drive_count; k++) {
     bytes += system->drive[k].count * 28 + system->drive[k].course.samples * 56;
   }

@@ -12,12 +12,6 @@
 double hk_part_material(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
   snprintf(dotted, sizeof dotted, "%s.%s", family, key);
-  return hooke_options_number(part->options, dotted);
-}
-
-double hk_part_scale(const struct hk_part *part, const char *family, const char *key) {
-  char dotted[64];
-  snprintf(dotted, sizeof dotted, "%s.%s", family, key);
   return hk_scale_number(part->options, dotted);
 }
 
@@ -133,8 +127,8 @@ int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int6
                             const int64_t *ends, const double *rest_length, hooke_options *springs) {
   const double zeta = hk_part_material(part, family, "damping_ratio");
   const double stiffness =
-      hk_part_material(part, family, "stiffness") * hk_part_scale(part, family, "stiffness_scale");
-  const double scale = hk_part_scale(part, family, "rest_scale");
+      hk_part_material(part, family, "stiffness") * hk_part_material(part, family, "stiffness_scale");
+  const double scale = hk_part_material(part, family, "rest_scale");
   double *damping = hk_new(count, sizeof(double));
   if (damping == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++) {

@@ -176,8 +176,8 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
   const int32_t status = nonlinear
-                             ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method,
-                                                          row->predicted, accuracy, budget, &m)
+                             ? hk_limit_measure_nonlinear(limit->measurement->system, state, limit->run,
+                                                          row->method, row->predicted, accuracy, budget, &m)
                              : hk_limit_measure(limit->system, q, limit->run, row->method, row->predicted,
                                                 row->has_mode ? row->mode : NULL, accuracy, budget, &m);
   if (status != HOOKE_OK) return status;

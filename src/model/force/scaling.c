@@ -12,19 +12,21 @@
 /* ---- options ---- */
 
 static const struct hk_option_row rows[] = {
-    HOOKE_OPTION("motion", HOOKE_OPTION_ONE_OF("harmonic table"), NULL, "how it follows time", .required = 1),
+    HOOKE_OPTION("motion", HOOKE_OPTION_ONE_OF("harmonic table"), NULL, "how it follows time", .required = 1,
+                 .example = "harmonic"),
     HOOKE_OPTION("mean", .type = HOOKE_OPTION_NUMBER, "1", "value that it oscillates about",
                  .only = "harmonic"),
     HOOKE_OPTION("amplitude", .type = HOOKE_OPTION_NUMBER, NULL, "largest difference from it", .required = 1,
-                 .only = "harmonic"),
+                 .only = "harmonic", .example = "0.1"),
     HOOKE_OPTION("frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), NULL, "oscillations a second", .required = 1,
-                 .only = "harmonic"),
+                 .only = "harmonic", .example = "1"),
     HOOKE_OPTION("phase", .type = HOOKE_OPTION_NUMBER, "0", "angle at time 0", .unit = "rad",
                  .only = "harmonic"),
     HOOKE_OPTION("time", HOOKE_OPTION_COUNTED(2, 0), NULL, "ascending times", .unit = "s", .required = 1,
-                 .only = "table"),
+                 .only = "table", .example = "0,10"),
     HOOKE_OPTION("value", HOOKE_OPTION_COUNTED(2, 0), NULL,
-                 "factor at each time, monotone between and held beyond", .required = 1, .only = "table"),
+                 "factor at each time, monotone between and held beyond", .required = 1, .only = "table",
+                 .example = "1,0.5"),
 };
 
 const struct hk_option_table hk_scale_options = {"factor in time", HOOKE_OPTION_ROWS(rows)};
@@ -81,6 +83,12 @@ void hk_scaling_release(struct hk_scaling *scaling) {
   hk_course_release(&scaling->rest);
   hk_course_release(&scaling->stiffness);
   hk_free(scaling);
+}
+
+int64_t hk_scaling_memory(const struct hk_scaling *scaling) {
+  if (scaling == NULL) return 0;
+  const int64_t samples = scaling->rest.samples + scaling->stiffness.samples;
+  return (int64_t)sizeof *scaling + 3 * samples * (int64_t)sizeof(double);
 }
 
 void hk_scaling_check(const struct hk_scaling *scaling, uint32_t *value) {

@@ -30,6 +30,8 @@ int32_t hk_scaling_create(const hooke_options *options, int32_t strain, struct h
 /* NULL has a copy, too. */
 int32_t hk_scaling_copy(const struct hk_scaling *from, struct hk_scaling **copy);
 void hk_scaling_release(struct hk_scaling *scaling);
+/* Bytes; 0 of NULL. */
+int64_t hk_scaling_memory(const struct hk_scaling *scaling);
 void hk_scaling_check(const struct hk_scaling *scaling, uint32_t *value);
 
 /* In place of a time: numbers as they were given; the stiffest and most damped of all times, and the

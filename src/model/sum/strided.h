@@ -14,11 +14,12 @@
 enum { HOOKE_TILE = 256, HOOKE_MOST_ITEMS = 2 * HOOKE_MOST_STRIDED };
 
 struct hk_strided_batch {
-  int64_t offset, first, last;          /* lowest and highest lower end */
-  int32_t shape;                        /* HOOKE_RUN_*, never indexed */
-  uint8_t *present;                     /* a bit for each particle: a spring begins there */
-  const struct hk_scaling *scaling;     /* as of their runs */
-  int32_t units[HOOKE_STRIDED_NUMBERS]; /* of values of its material up to those of each number */
+  int64_t offset, first, last; /* lowest and highest lower end */
+  int32_t shape;               /* HOOKE_RUN_*, never indexed */
+  uint8_t *present;            /* a bit for each particle: a spring begins there */
+  /* as of their runs; and the units of values of the material up to those of each number */
+  const struct hk_scaling *scaling;
+  int32_t units[HOOKE_STRIDED_NUMBERS];
 };
 
 /* `count` 0: the springs do not form batches, or too few of them for batches to pay. */
