@@ -48,10 +48,12 @@ static void add_option(struct cli_arguments *arguments, hooke_options *table, in
   cli_arguments_flag(argument->name, argument->flag);
 }
 
-/* A family is no option itself: its members make it present. */
+/* A family is no option itself: its members make it present. What may stand in place of a number in a family
+ * is for scenes. */
 static void add_table(struct cli_arguments *arguments, hooke_options *table, const char *without) {
   for (int64_t row = 0; table && row < hooke_options_row_count(table); row++) {
     if (strcmp(hooke_options_row(table, row, "type"), "family") == 0) continue;
+    if (strchr(hooke_options_row(table, row, "family"), '.')) continue;
     if (!cli_is_among(without, hooke_options_row(table, row, "name"))) add_option(arguments, table, row);
   }
 }

@@ -52,6 +52,7 @@ DICTS = {
     "Springs": ("A family of springs of a part.", "rope", "stretch"),
     "Curve": ("The tension of springs: a table, of `strain` or of `elongation`, or `coefficients`.", "springs", "curve"),
     "Transform": ("From the coordinates of a mesh to metres.", "mesh", "transform"),
+    "Scale": ("A factor that follows time.", "springs", "rest_scale"),
 }
 # What methods add that is not "a <kind>".
 ADDED = {"springs": "a group of springs", "bending": "a group of triples that resist bending", "driven": "prescribed motion",
@@ -66,7 +67,8 @@ TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str"
 
 
 def resolved(schema, definitions):
-    return definitions[schema["$ref"].rpartition("/")[2]] if "$ref" in schema else schema
+    of = next((way for way in schema.get("oneOf", []) if way.get("$ref", "").endswith("/scale")), schema)
+    return definitions[of["$ref"].rpartition("/")[2]] if "$ref" in of else schema
 
 
 def type_of(key, schema):
@@ -76,6 +78,8 @@ def type_of(key, schema):
         return key.capitalize()
     if schema.get("$ref", "").endswith("/family"):
         return "Springs"
+    if any(way.get("$ref", "").endswith("/scale") for way in schema.get("oneOf", [])):
+        return "float | Scale"
     kind = schema.get("type", "string" if "enum" in schema else "array")
     return "Quantity" if isinstance(kind, list) else TYPES.get(kind, "Numbers")
 

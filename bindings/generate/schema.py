@@ -87,22 +87,32 @@ class Tables:
 
     def inner(self, rows, family):
         inside = members(rows, family)
-        springs = {row.name for row in inside} >= {"damping", "damping_ratio"}
+        names = {row.name for row in inside}
+        if "mean" in names:
+            self.scale = self.table(inside, {})
+            return named("scale")
+        springs = names >= {"damping", "damping_ratio"}
         found = self.table(inside, self.template["family"] if springs else {})
         return named("family") if springs and found == self.family else found
 
+    def value(self, rows, row):
+        """A number, or numbers, may have a family in their place."""
+        if row.type == "family":
+            return self.inner(rows, row.name)
+        schema = value(row, self.methods)
+        if not members(rows, row.name):
+            return schema
+        return {"oneOf": [*schema.get("oneOf", [schema]), self.inner(rows, row.name)]}
+
     def table(self, rows, template, **own):
         properties = {**own, **template.get("properties", {})}
+        everything, rows = rows, [row for row in rows if "." not in row.name]
         for row in rows:
-            if "." not in row.name:
-                inner = self.inner(rows, row.name) if row.type == "family" or members(rows, row.name) else None
-                schema = inner if row.type == "family" else value(row, self.methods)
-                if inner and row.type != "family":
-                    schema = {"oneOf": [*schema.get("oneOf", [schema]), inner]}
-                schema = {**schema, "default": default(row)} if row.default else schema
-                properties[row.name] = {**schema, "description": row.doc + (f" [{row.unit}]" if row.unit else "")}
+            schema = self.value(everything, row)
+            schema = {**schema, "default": default(row)} if row.default else schema
+            properties[row.name] = {**schema, "description": row.doc + (f" [{row.unit}]" if row.unit else "")}
         required = [*(["kind"] if own else []), *template.get("required", []),
-                    *(row.name for row in rows if row.required and "." not in row.name and not row.only)]
+                    *(row.name for row in rows if row.required and not row.only)]
         one = {"not": {"required": ["mass", "density"]}} if "density" in properties else {}
         ways = {"allOf": [way(rows, word) for word in rows[0].words]} if any(row.only for row in rows) else {}
         return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one, **ways,
@@ -127,7 +137,7 @@ def schema():
     template["properties"]["parts"]["items"] = {
         "type": "object", "required": ["kind"], "properties": {"kind": {"enum": kinds}},
         "allOf": [{"if": {"properties": {"kind": {"const": kind}}}, "then": named(kind)} for kind in kinds]}
-    template["$defs"] = {**definitions, **objects, "family": tables.family, **parts}
+    template["$defs"] = {**definitions, **objects, "scale": tables.scale, "family": tables.family, **parts}
     return template
 
 

@@ -33,11 +33,12 @@ def table(rows: list[list[str]]) -> str:
 
 
 def option_rows(rows: Any, families: set[str] = frozenset()) -> list[list[str]]:
-    found = []
+    found, first = [], {}  # of each family
     for row in rows:
+        chosen = first.setdefault(row.name.rpartition(".")[0], row).name
         default = "required" if row.required else f"`{row.default}`" if row.default else ""
         allowed = "[a family of springs](#families-of-springs)" if row.name in families else row.allowed
-        words = f"{row.doc}; with {rows[0].name} `{row.only}`" if row.only else row.doc
+        words = f"{row.doc}; with {chosen} `{row.only}`" if row.only else row.doc
         found.append([f"`{row.name}`", cell(words), cell(allowed or row.type), cell(row.unit), default])
     return found
 

@@ -137,6 +137,19 @@ static const char *within(const char *prefix, const char *name, struct name *who
   return whole->text;
 }
 
+static int32_t table_from_options(struct hk_course *course, const hooke_options *options, const char *prefix,
+                                  const char *values, hk_slopes *slopes) {
+  struct name name;
+  const int64_t samples = hooke_options_number_count(options, within(prefix, "time", &name));
+  const double *time = hooke_options_numbers(options, name.text);
+  const int64_t rows = hooke_options_number_count(options, within(prefix, values, &name)) / course->width;
+  if (rows != samples)
+    return hk_fail(HOOKE_BAD_VALUE, values, "%lld rows given; allowed: %lld, one for each time",
+                   (long long)rows, (long long)samples);
+  return hk_course_set_table(course, values, samples, time, hooke_options_numbers(options, name.text),
+                             slopes);
+}
+
 int32_t hk_course_from_options(struct hk_course *course, const hooke_options *options, const char *prefix,
                                const char *amplitude, const char *values, hk_slopes *slopes) {
   struct name name;
@@ -148,14 +161,9 @@ int32_t hk_course_from_options(struct hk_course *course, const hooke_options *op
     course->phase = hooke_options_number(options, within(prefix, "phase", &name));
     return HOOKE_OK;
   }
-  const int64_t samples = hooke_options_number_count(options, within(prefix, "time", &name));
-  const double *time = hooke_options_numbers(options, name.text);
-  const int64_t rows = hooke_options_number_count(options, within(prefix, values, &name)) / course->width;
-  if (rows != samples)
-    return hk_fail(HOOKE_BAD_VALUE, name.text, "%lld rows given; allowed: %lld, one for each time",
-                   (long long)rows, (long long)samples);
-  return hk_course_set_table(course, name.text, samples, time, hooke_options_numbers(options, name.text),
-                             slopes);
+  const int32_t status = table_from_options(course, options, prefix, values, slopes);
+  const int outer = (int)strlen(prefix) - 1;
+  return status && outer > 0 ? hk_fail_within(status, "%.*s", outer, prefix) : status;
 }
 
 /* ---- values ---- */
@@ -191,6 +199,26 @@ static void table_at(const struct hk_course *course, double t, double *value, do
 void hk_course_at(const struct hk_course *course, double t, double *value, double *rate) {
   double ignored[HOOKE_COURSE_WIDTH];
   (course->samples > 0 ? table_at : harmonic_at)(course, t, value, rate ? rate : ignored);
+}
+
+int64_t hk_course_range(const struct hk_course *course, double *low, double *high) {
+  int64_t lowest = 0;
+  if (course->samples == 0) {
+    const double mean = course->mean[0], amplitude = fabs(course->amplitude[0]);
+    hk_course_at(course, 0.0, low, NULL);
+    *high = *low;
+    if (course->frequency == 0.0) return -1;
+    *low = mean - amplitude;
+    *high = mean + amplitude;
+    return -1;
+  }
+  *low = *high = course->value[0];
+  for (int64_t k = 1; k < course->samples; k++) {
+    if (course->value[k] < *low) lowest = k;
+    *low = fmin(*low, course->value[k]);
+    *high = fmax(*high, course->value[k]);
+  }
+  return lowest;
 }
 
 void hk_course_check(const struct hk_course *course, uint32_t *value) {

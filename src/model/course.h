@@ -45,6 +45,10 @@ void hk_course_release(struct hk_course *course);
 /* The numbers at time t, and their rates, which may be NULL. */
 void hk_course_at(const struct hk_course *course, double t, double *value, double *rate);
 
+/* Bounds of the number of a course of one, at all times, of a table whose slopes are monotone; returns the
+ * sample that is the lowest, -1 without a table. */
+int64_t hk_course_range(const struct hk_course *course, double *low, double *high);
+
 /* Adds everything to a check value. */
 void hk_course_check(const struct hk_course *course, uint32_t *value);
 

@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/force/scaling.h"
 #include "model/system.h"
 
 #include <string.h>
@@ -36,6 +37,7 @@ void hk_group_release(struct hk_group *group) {
   hk_free(group->name);
   hooke_options_destroy(group->options);
   hk_curve_destroy(group->curve);
+  hk_scaling_release(group->scaling);
   memset(group, 0, sizeof *group);
 }
 

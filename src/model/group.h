@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 struct hk_force_row;
+struct hk_scaling;
 struct hooke_system;
 
 /* Numbers of a member while a system is built; a force says in its row how many it has of each. Bending has a
@@ -30,6 +31,8 @@ struct hk_group {
   int64_t inside;         /* which are counted here as well */
   struct hk_curve *curve; /* of springs: NULL: they are linear */
   hooke_options *options; /* as given, if they hold for all springs; else NULL */
+  /* of springs that follow time; else NULL */
+  struct hk_scaling *scaling;
   /* until commit, of each member; NULL if the force has no such number */
   int32_t *particle[HOOKE_MEMBER_PARTICLES];
   double *number[HOOKE_GROUP_NUMBERS];

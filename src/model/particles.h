@@ -66,6 +66,7 @@ struct hooke_system {
   uint8_t *carried;
 
   struct hk_system_rest *rest; /* what few read (model/system.h) */
+  double moment;   /* time of the springs that an analysis of one state sees; 0 but in hk_system_at() */
   int32_t borrows; /* 1: by hooke_system_with_force(), all but what depends on its force is another's */
 };
 
@@ -73,6 +74,13 @@ struct hooke_system {
 static inline double hk_fall(const hooke_system *system, int64_t particle, int axis) {
   const double *factor = system->gravity_factor;
   return factor ? factor[particle] * system->fall[axis] : system->fall[axis];
+}
+
+/* For analyses of a state of time t: good as long as the system is. */
+static inline hooke_system hk_system_at(const hooke_system *system, double t) {
+  hooke_system at = *system;
+  at.moment = t;
+  return at;
 }
 
 /* 1 if a particle moves with a thing that has coordinates of its own. */

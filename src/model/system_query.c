@@ -42,7 +42,7 @@ int64_t hooke_system_coincident_springs(const hooke_system *system, const double
   int64_t count = 0;
   double length[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     hk_some_lengths(&springs, q, length);
     for (int64_t k = 0; k < batch.count; k++)
@@ -96,6 +96,8 @@ static int64_t memory(const hooke_system *system) {
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
+  for (int64_t g = 0; g < system->group_count; g++)
+    bytes += hk_scaling_memory(system->group[g].scaling);
   for (int64_t k = 0; k < system->drive_count; k++) {
     bytes += system->drive[k].count * 28 + system->drive[k].course.samples * 56;
   }

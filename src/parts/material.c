@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/force/scaling.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@
 double hk_part_material(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
   snprintf(dotted, sizeof dotted, "%s.%s", family, key);
-  return hooke_options_number(part->options, dotted);
+  return hk_scale_number(part->options, dotted);
 }
 
 int32_t hk_part_is_given(const struct hk_part *part, const char *family, const char *key) {
@@ -117,7 +118,8 @@ static double reduced_mass(const struct hk_part *part, const int64_t *ends) {
 int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int64_t count,
                             const int64_t *ends, const double *rest_length, hooke_options *springs) {
   const double zeta = hk_part_material(part, family, "damping_ratio");
-  const double stiffness = hk_part_material(part, family, "stiffness");
+  const double stiffness =
+      hk_part_material(part, family, "stiffness") * hk_part_material(part, family, "stiffness_scale");
   const double scale = hk_part_material(part, family, "rest_scale");
   double *damping = hk_new(count, sizeof(double));
   if (damping == NULL) return HOOKE_NO_MEMORY;

@@ -6,7 +6,8 @@
 #include "model/force/spring.h"
 #include "parts/part.h"
 
-/* A number of a family of springs, such as its stiffness; 1 if it was given. */
+/* A number of a family of springs, such as its stiffness, 1 of a factor that follows time; 1 if it was given.
+ */
 double hk_part_material(const struct hk_part *part, const char *family, const char *key);
 int32_t hk_part_is_given(const struct hk_part *part, const char *family, const char *key);
 

@@ -21,7 +21,7 @@ static const struct hk_option_row family_rows[] = {
     HOOKE_OPTION("damping", HOOKE_OPTION_NOT_NEGATIVE("N s"), "0", "damping along the spring"),
     HOOKE_OPTION("damping_ratio", HOOKE_OPTION_NOT_NEGATIVE(NULL), NULL,
                  "damping over the critical one of two inner particles on the spring, instead of damping"),
-    HOOKE_OPTION("rest_scale", HOOKE_OPTION_POSITIVE(NULL), "1", "factor on the rest length"),
+    HOOKE_SCALE_OPTIONS,
     HOOKE_OPTION("compression", .type = HOOKE_OPTION_FLAG, "true", "false: the springs only pull"),
 };
 
@@ -98,10 +98,12 @@ int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, const c
 /* Options of a spring group with the values of a family. */
 static int32_t material(const struct hk_part *part, const char *family, int by_ratio, int64_t count,
                         const int64_t *ends, const double *rest_length, hooke_options **options) {
-  static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
+  static const char *const keys[] = {"stiffness", "damping", "rest_scale", "stiffness_scale", "compression"};
   int32_t status = hk_options_create(&hk_spring_options, options);
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
-    status = hooke_options_set_number(*options, keys[k], hk_part_material(part, family, keys[k]));
+    char dotted[64];
+    hk_print(dotted, sizeof dotted, "%s.%s", family, keys[k]);
+    status = hk_options_set_value(*options, keys[k], part->options, dotted);
   }
   if (status == HOOKE_OK && by_ratio)
     status = hk_part_set_damping(part, family, count, ends, rest_length, *options);

@@ -217,13 +217,25 @@ static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t
   return hk_part_derive(part, "altitude", "kd", "N s", t->damping);
 }
 
+static int32_t refuse_in_time(const struct hk_part *part) {
+  const char *const names[] = {"altitude.rest_scale", "altitude.stiffness_scale"};
+  for (int k = 0; k < 2; k++)
+    if (hk_options_has_family(part->options, names[k]))
+      return hk_fail(
+          HOOKE_UNSUITED, names[k],
+          "altitude springs do not follow time; allowed: a number, or other families of the strand");
+  return HOOKE_OK;
+}
+
 static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
   const int64_t count = part->count - 3;
   if (!hk_options_has_family(part->options, "altitude") || count <= 0) return HOOKE_OK;
   if (hk_part_check_damping(part, "altitude") != HOOKE_OK) return HOOKE_BAD_VALUE;
+  if (refuse_in_time(part) != HOOKE_OK) return HOOKE_UNSUITED;
   const double scale = hooke_options_number(part->options, "altitude.rest_scale");
   struct hk_tetrahedron kind[2] = {
-      {.stiffness = hooke_options_number(part->options, "altitude.stiffness"),
+      {.stiffness = hooke_options_number(part->options, "altitude.stiffness") *
+                    hooke_options_number(part->options, "altitude.stiffness_scale"),
        .pull_only = hooke_options_number(part->options, "altitude.compression") == 0.0}};
   char *name = hk_part_group_name(part, "altitude");
   int32_t status = name ? find_rest(part, strand, 0, scale, &kind[0]) : HOOKE_NO_MEMORY;

@@ -27,8 +27,8 @@ BEYOND_A_SCHEMA = {
     "lattice-huge", "lattice-of-no-length", "lattice-pinned-range", "mass-count", "mesh-corners", "mesh-crowded",
     "mesh-file-missing", "mesh-file-scene", "mesh-flat", "mesh-range", "mesh-twice", "mesh-unused", "mesh-welded",
     "name-of-group", "name-of-nothing", "name-of-part", "name-unknown", "part-index", "part-names", "part-pinned-range",
-    "part-unknown", "pinned-moving", "pinned-name-unknown", "pinned-range", "pinned-real", "rest-length-coincident",
-    "rope-of-no-length", "segments-real", "stiffness-count", "strand-flat", "strand-nearly-straight", "strand-of-no-length",
+    "part-unknown", "pinned-moving", "pinned-name-unknown", "pinned-range", "pinned-real", "rest-length-coincident", "rest-scale-through-zero",
+    "rope-of-no-length", "scale-times", "segments-real", "stiffness-count", "stiffness-scale-negative", "strand-flat", "strand-nearly-straight", "strand-of-no-length",
     "table-order", "table-rows", "velocity-rows",
 }  # fmt: skip
 

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "hash.h"
 #include "lockstep.h"
+#include "random.h"
 #include "random_scene.h"
 #include "run.h"
 #include "small.h"
@@ -139,6 +140,52 @@ TEST(test_lattices) {
                                                 .factors = k % 3 == 1,
                                                 .features = (int32_t)(k * 53) & SCENE_EVERYTHING,
                                                 .lattice = {n[0], n[1], n[2]}});
+  }
+}
+
+/* Springs that follow time: in runs, in strided batches and in a tiled one, of many materials and of one. */
+TEST(test_springs_that_follow_time) {
+  for (uint64_t seed = 1; seed <= 12; seed++)
+    compare_scene(
+        (struct random_scene_request){.seed = 20000 + seed,
+                                      .particles = 7 + (int64_t)(seed * 97 % 500),
+                                      .springs = (int64_t)(seed * 211 % 1900),
+                                      .features = SCENE_FOLLOWS | (int32_t)(seed * 29 & SCENE_EVERYTHING),
+                                      .rope = (int32_t)(seed % 3 * 30)});
+  compare_scene((struct random_scene_request){.seed = 20100,
+                                              .particles = 7,
+                                              .features = SCENE_FOLLOWS | SCENE_DAMPING | SCENE_GRAVITY,
+                                              .cloth = {40, 30}});
+  compare_scene((struct random_scene_request){
+      .seed = 20101, .particles = 7, .features = SCENE_FOLLOWS | SCENE_PULL_ONLY, .lattice = {9, 8, 7}});
+}
+
+/* A chain whose springs each have a stiffness, which is a strided batch, and springs of one material in no
+ * order, which are a tiled one of shared numbers. */
+TEST(test_batches_that_follow_time) {
+  enum { N = 300 };
+  for (int scattered = 0; scattered < 2; scattered++) {
+    struct random_source source = {21000};
+    double place[3 * N], v[3 * N] = {0}, stiffness[N], found[3 * N], expected[3 * N];
+    int64_t ends[2 * N];
+    for (int k = 0; k < N; k++) {
+      for (int a = 0; a < 3; a++)
+        place[3 * k + a] = random_between(&source, a == 0 ? k : 0.0, a == 0 ? k + 0.9 : 0.9);
+      stiffness[k] = random_between(&source, 5.0, 9.0);
+      ends[2 * k] = scattered ? random_whole(&source, 0, N - 10) : k % (N - 1);
+      ends[2 * k + 1] = ends[2 * k] + (scattered ? random_whole(&source, 1, 9) : 1);
+    }
+    owned_system *system = small_system(N, place, NULL, 1.0, 0);
+    owned_options *options = options_with("springs", "law=length stiffness=7 damping=0.2 rest_length=0.7");
+    if (!scattered) check_ok(hooke_options_set_numbers(options, "stiffness", N - 1, stiffness));
+    canonical_follow(options, "");
+    check_ok(hooke_system_add_springs(system, "follows", scattered ? N : N - 1, ends, options));
+    check_ok(hooke_system_commit(system));
+    owned_canonical canonical;
+    canonical_create(system, &canonical);
+    check_ok(hooke_system_acceleration(system, 0.004, place, v, found));
+    canonical_acceleration(&canonical, 0.004, place, v, expected);
+    check_same_bits((int64_t)3 * N, found, expected);
   }
 }
 

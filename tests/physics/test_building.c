@@ -263,6 +263,7 @@ static hooke_options *numbers_of(const struct kind *kind, int64_t first, int64_t
     if (strcmp(hooke_options_row(options, row, "type"), "numbers") != 0) continue;
     if (hooke_options_row_number(options, row, "whole") == 1.0) continue; /* particles */
     if (strcmp(name, kind->without) == 0) continue;
+    if (hooke_options_row(options, row, "family")[0]) continue; /* of all members alike */
     for (int64_t k = 0; k < each * MEMBERS; k++)
       value[k] = 0.3 + 0.2 * (double)row + 0.7 * (double)(k * k + k);
     check_ok(hooke_options_set_numbers(options, name, each * count, value + each * first));

@@ -22,7 +22,7 @@ static void force_along(double s, double *value, void *ctx) {
     q[k] = curve->scene->q[k] + s * curve->dq[k];
     v[k] = curve->scene->v[k] + s * curve->dv[k];
   }
-  check_ok(hooke_system_force(curve->scene->system, 0.3, q, v, value));
+  check_ok(hooke_system_force(curve->scene->system, LAW_TIME, q, v, value));
 }
 
 static void draw_direction(struct random_source *source, double size, double *direction) {
@@ -34,7 +34,7 @@ static void compare_product(const struct law_scene *scene, const double *dq, con
   double expected[LAW_SIZE], product[LAW_SIZE];
   struct force_curve curve = {scene, dq, dv};
   differentiate(LAW_SIZE, force_along, 0.01, &curve, expected);
-  check_ok(hooke_system_derivative_product(scene->system, 0.3, scene->q, scene->v, dq, dv, product));
+  check_ok(hooke_system_derivative_product(scene->system, LAW_TIME, scene->q, scene->v, dq, dv, product));
   const double size = largest(LAW_SIZE, expected);
   check_between(size, least, 1e4);
   for (int k = 0; k < LAW_SIZE; k++)
@@ -75,7 +75,8 @@ static void take_blocks(const struct law_scene *scene, struct blocks *blocks) {
   blocks->dfdq = new_doubles(9 * blocks->count);
   blocks->dfdv = new_doubles(9 * blocks->count);
   check_ok(hooke_system_derivative_pattern(scene->system, blocks->row_start, blocks->column));
-  check_ok(hooke_system_derivative_blocks(scene->system, scene->q, scene->v, blocks->dfdq, blocks->dfdv));
+  check_ok(hooke_system_derivative_blocks_at(scene->system, LAW_TIME, scene->q, scene->v, blocks->dfdq,
+                                             blocks->dfdv));
 }
 
 static void release_blocks(struct blocks *blocks) {
@@ -136,8 +137,8 @@ TEST(test_blocks_are_products) {
       for (int c = 0; c < LAW_SIZE; c++) {
         memset(unit, 0, sizeof unit);
         unit[c] = 1.0;
-        check_ok(hooke_system_derivative_product(scene.system, 0.3, scene.q, scene.v, which ? zero : unit,
-                                                 which ? unit : zero, product));
+        check_ok(hooke_system_derivative_product(scene.system, LAW_TIME, scene.q, scene.v,
+                                                 which ? zero : unit, which ? unit : zero, product));
         for (int row = 0; row < LAW_SIZE; row++) {
           check_close(matrix[row * LAW_SIZE + c], product[row], 1e-13 * size);
         }
@@ -145,9 +146,9 @@ TEST(test_blocks_are_products) {
     }
     /* either array may be left out */
     owned_doubles *again = new_doubles(9 * blocks.count);
-    check_ok(hooke_system_derivative_blocks(scene.system, scene.q, scene.v, again, NULL));
+    check_ok(hooke_system_derivative_blocks_at(scene.system, LAW_TIME, scene.q, scene.v, again, NULL));
     check_same_bits(9 * blocks.count, again, blocks.dfdq);
-    check_ok(hooke_system_derivative_blocks(scene.system, scene.q, scene.v, NULL, again));
+    check_ok(hooke_system_derivative_blocks_at(scene.system, LAW_TIME, scene.q, scene.v, NULL, again));
     check_same_bits(9 * blocks.count, again, blocks.dfdv);
     free(matrix);
     release_blocks(&blocks);

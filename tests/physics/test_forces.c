@@ -27,7 +27,7 @@ static void energy_along(double s, double *value, void *ctx) {
   double q[LAW_SIZE];
   memcpy(q, curve->q, sizeof q);
   q[curve->coordinate] += s;
-  *value = hooke_system_energy(curve->system, "potential", q, NULL);
+  *value = hooke_system_energy_at(curve->system, "potential", LAW_TIME, q, NULL);
 }
 
 TEST(test_force_is_gradient) {
@@ -38,7 +38,7 @@ TEST(test_force_is_gradient) {
       owned_law_scene scene;
       double force[LAW_SIZE], slope;
       law_scene_create(&laws[k], seed, &scene);
-      check_ok(hooke_system_force(scene.system, 0.0, scene.q, rest, force));
+      check_ok(hooke_system_force(scene.system, LAW_TIME, scene.q, rest, force));
       const double size = largest(LAW_SIZE, force);
       check_between(size, 1.0, 1000.0);
       for (int32_t c = 0; c < LAW_SIZE; c++) {
@@ -100,7 +100,7 @@ static void energy_in_time(double s, double *value, void *ctx) {
     q[k] = curve->q[k] + s * curve->v[k];
     v[k] = curve->v[k] + s * curve->acceleration[k];
   }
-  *value = hooke_system_energy(curve->system, "total", q, v);
+  *value = hooke_system_energy_at(curve->system, "total", LAW_TIME, q, v);
 }
 
 TEST(test_dissipated_power) {
@@ -114,9 +114,9 @@ TEST(test_dissipated_power) {
       curve.system = scene.system;
       curve.q = scene.q;
       curve.v = scene.v;
-      check_ok(hooke_system_acceleration(scene.system, 0.0, scene.q, scene.v, curve.acceleration));
+      check_ok(hooke_system_acceleration(scene.system, LAW_TIME, scene.q, scene.v, curve.acceleration));
       differentiate(1, energy_in_time, 0.01, &curve, &rate);
-      const double power = hooke_system_dissipated_power(scene.system, scene.q, scene.v);
+      const double power = hooke_system_dissipated_power_at(scene.system, LAW_TIME, scene.q, scene.v);
       const double size = norm(scene.v) * norm(curve.acceleration);
       check_close(power, -rate, 1e-8 * size);
       if (laws[k].damped || laws[k].drag)

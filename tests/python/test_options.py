@@ -13,11 +13,8 @@ def test_the_tables_are_those_of_the_library():
     assert {"method", "step", "duration", "every", "rtol", "atol", "atol_velocity"} <= set(
         hooke.Options.for_run()
     )
-    curve = {"curve", *(f"curve.{key}" for key in ("strain", "elongation", "force", "falling", "coefficients"))}
-    assert {"law", "stiffness", "damping", "damping_ratio", "rest_length", "rest_scale", "compression"} == set(
-        hooke.Options.for_springs()
-    ) - curve
-    assert curve <= set(hooke.Options.for_springs())
+    of_springs = ("law", "stiffness", "damping", "damping_ratio", "curve", "rest_length", "rest_scale", "stiffness_scale", "compression")
+    assert set(of_springs) == {name for name in hooke.Options.for_springs() if "." not in name}
     assert {"rope", "cloth", "lattice", "mesh"} <= set(hooke.part_kinds())
     step = next(row for row in hooke.Options.for_run().rows if row.name == "step")
     assert step.unit == "s" and step.type == "number" and step.doc
@@ -198,3 +195,14 @@ def test_lists_of_words():
     for wrong in (5, b"ab", (1, 2), {"a": 1}):
         with pytest.raises(hooke.BadValue):
             scene["title"] = wrong
+
+
+def test_a_number_or_what_follows_time():
+    springs = hooke.Options.for_springs().set(stiffness=3, rest_scale={"motion": "harmonic", "amplitude": 0.2, "frequency": 1})
+    assert springs["rest_scale"] is None and springs["rest_scale.amplitude"] == 0.2 and springs["rest_scale.mean"] == 1
+    springs["rest_scale"] = 0.9  # the last one counts
+    assert springs["rest_scale"] == 0.9 and not springs.is_set("rest_scale.motion")
+    springs["rest_scale.motion"] = "table"
+    assert springs["rest_scale"] is None and springs.is_set("rest_scale")
+    with pytest.raises(hooke.BadValue, match=r"rest_scale\.frequency.*>= 0"):
+        springs["rest_scale"] = {"motion": "harmonic", "amplitude": 0.2, "frequency": -1}

@@ -6,8 +6,25 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const double following[2] = {0.001, 0.0065}, stiffnesses[2] = {1.2, 0.7}, rests[2] = {0.9, 1.15};
+
+void canonical_follow(hooke_options *options, const char *family) {
+  const char *const factor[2] = {"stiffness_scale", "rest_scale"};
+  const double *const value[2] = {stiffnesses, rests};
+  char name[64];
+  for (int k = 0; k < 2; k++) {
+    snprintf(name, sizeof name, "%s%s.motion", family, factor[k]);
+    check_ok(hooke_options_set_text(options, name, "table"));
+    snprintf(name, sizeof name, "%s%s.time", family, factor[k]);
+    check_ok(hooke_options_set_numbers(options, name, 2, following));
+    snprintf(name, sizeof name, "%s%s.value", family, factor[k]);
+    check_ok(hooke_options_set_numbers(options, name, 2, value[k]));
+  }
+}
 
 void canonical_create(const hooke_system *system, struct canonical *canonical) {
   const int64_t n = hooke_system_particle_count(system), m = hooke_system_count(system, "springs");
@@ -19,6 +36,7 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
   canonical->gamma = new_doubles(m);
   canonical->rest_length = new_doubles(m);
   canonical->pull_only = new_block(m, 1);
+  canonical->follows = new_block(m, 1);
   canonical->inverse_mass = new_doubles(n);
   canonical->triple_count = hooke_system_count(system, "bending");
   canonical->triples = new_block(3 * canonical->triple_count, (int64_t)sizeof(int64_t));
@@ -64,9 +82,13 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
   int64_t spring = 0;
   for (int64_t g = 0; g < hooke_system_group_count(system, "springs"); g++) {
     const int64_t size = hooke_system_group_size(system, "springs", g);
-    const int pulls = strncmp(hooke_system_group_name(system, "springs", g), "pull", 4) == 0;
+    const char *name = hooke_system_group_name(system, "springs", g);
+    const int pulls = strncmp(name, "pull", 4) == 0,
+              follows = strstr(name, "follows") ? CANONICAL_FOLLOWS : 0;
     assert_true(spring + size <= m);
     memset(canonical->pull_only + spring, pulls, (size_t)size);
+    memset(canonical->follows + spring,
+           follows && strstr(name, "strain") ? follows | CANONICAL_BY_STRAIN : follows, (size_t)size);
     spring += size;
   }
   assert_int_equal(spring, m);
@@ -78,6 +100,7 @@ void canonical_destroy(struct canonical *canonical) {
   free(canonical->gamma);
   free(canonical->rest_length);
   free(canonical->pull_only);
+  free(canonical->follows);
   free(canonical->triples);
   free(canonical->coefficient);
   free(canonical->corners);
@@ -106,10 +129,38 @@ static double brake(const struct canonical *canonical, double gamma, double rate
   return gamma == 0.0 && canonical->leaves_out ? 0.0 : gamma * rate;
 }
 
-static void add_spring(const struct canonical *canonical, int64_t k, const double *q, const double *v,
-                       const double *seen, double *force) {
+/* The cubic through two samples, whose slopes at both are that of the line. */
+static double between(double t, const double value[2]) {
+  const double first = following[0], last = following[1];
+  if (t <= first) return value[0];
+  if (t >= last) return value[1];
+  const double width = last - first, s = (t - first) / width, rise = value[1] - value[0];
+  const double m = width * (rise / width), c2 = 3.0 * rise - 2.0 * m - m,
+               c3 = 2.0 * (value[0] - value[1]) + m + m;
+  return value[0] + s * (m + s * (c2 + s * c3));
+}
+
+struct numbers {
+  double kappa, gamma, l0;
+};
+
+static struct numbers scaled(const struct canonical *canonical, int64_t k, double stiffness, double rest) {
+  const struct numbers given = {canonical->kappa[k], canonical->gamma[k], canonical->rest_length[k]};
+  const double divisor = canonical->follows[k] & CANONICAL_BY_STRAIN ? rest : 1.0;
+  if (!canonical->follows[k]) return given;
+  return (struct numbers){given.kappa * (stiffness / divisor), given.gamma * (1.0 / divisor),
+                          given.l0 * rest};
+}
+
+static struct numbers numbers_at(const struct canonical *canonical, int64_t k, double t) {
+  return scaled(canonical, k, between(t, stiffnesses), between(t, rests));
+}
+
+static void add_spring(const struct canonical *canonical, int64_t k, double t, const double *q,
+                       const double *v, const double *seen, double *force) {
   const int64_t i = canonical->ends[2 * k], j = canonical->ends[2 * k + 1];
-  const double kappa = canonical->kappa[k], gamma = canonical->gamma[k], l0 = canonical->rest_length[k];
+  const struct numbers now = numbers_at(canonical, k, t);
+  const double kappa = now.kappa, gamma = now.gamma, l0 = now.l0;
   const double dx = q[3 * i] - q[3 * j], dy = q[3 * i + 1] - q[3 * j + 1], dz = q[3 * i + 2] - q[3 * j + 2];
   const double r = sqrt((dx * dx + dy * dy) + dz * dz);
   const double ir = r > 0.0 ? 1.0 / r : 0.0;
@@ -338,7 +389,7 @@ void canonical_accelerate(const struct canonical *canonical, double t, const dou
   double *force = acceleration;
   memset(force, 0, (size_t)(3 * n) * sizeof(double));
   for (int64_t k = 0; k < canonical->spring_count; k++)
-    add_spring(canonical, k, q, v, seen, force);
+    add_spring(canonical, k, t, q, v, seen, force);
   for (int64_t k = 0; k < canonical->triple_count; k++)
     add_triple(canonical, k, q, force);
   for (int64_t k = 0; k < canonical->tetrahedron_count; k++)
@@ -489,18 +540,19 @@ static int64_t *damper_order(const struct canonical *canonical, int64_t *count) 
   return order;
 }
 
-static void damp_spring(const struct canonical *canonical, int64_t k, double time, const double *q,
+static void damp_spring(const struct canonical *canonical, int64_t k, double t, double time, const double *q,
                         double *v) {
+  const struct numbers now = numbers_at(canonical, k, t);
   const int64_t i = canonical->ends[2 * k], j = canonical->ends[2 * k + 1];
   const double *w = canonical->inverse_mass;
   const double dx = q[3 * i] - q[3 * j], dy = q[3 * i + 1] - q[3 * j + 1], dz = q[3 * i + 2] - q[3 * j + 2];
   const double r = sqrt((dx * dx + dy * dy) + dz * dz), ir = r > 0.0 ? 1.0 / r : 0.0;
   const double rate = rate_of(i, j, dx, dy, dz, ir, v);
-  double impulse = damper_share(time, canonical->gamma[k], w[i] + w[j]) * rate;
+  double impulse = damper_share(time, now.gamma, w[i] + w[j]) * rate;
   if (canonical->pull_only[k]) {
-    const double least = -(time * (canonical->kappa[k] * (r - canonical->rest_length[k])));
+    const double least = -(time * (now.kappa * (r - now.l0)));
     if (impulse < least) impulse = least;
-    if (r <= canonical->rest_length[k]) impulse = 0.0;
+    if (r <= now.l0) impulse = 0.0;
   }
   const double s = impulse * ir, b[3] = {s * dx, s * dy, s * dz};
   for (int a = 0; a < 3; a++) {
@@ -560,13 +612,13 @@ static void damp_in_wind(const struct canonical *canonical, int64_t p, double ti
 }
 
 /* Springs in their order, tetrahedra and anchors by number, then drag; or all of it backwards. */
-static void damp(const struct canonical *canonical, double time, int backwards, int64_t springs,
+static void damp(const struct canonical *canonical, double at, double time, int backwards, int64_t springs,
                  const int64_t *order, const double *q, double *v) {
   const int64_t t = canonical->tetrahedron_count, n = canonical->anchor_count;
   for (int part = 0; part < 5; part++) {
     const int what = backwards ? 4 - part : part;
     for (int64_t k = 0; what == 0 && k < springs; k++)
-      damp_spring(canonical, order[backwards ? springs - 1 - k : k], time, q, v);
+      damp_spring(canonical, order[backwards ? springs - 1 - k : k], at, time, q, v);
     for (int64_t k = 0; what == 1 && k < t; k++)
       damp_tetrahedron(canonical, backwards ? t - 1 - k : k, time, q, v);
     for (int64_t k = 0; what == 2 && k < n; k++)
@@ -593,9 +645,9 @@ static void shardlow(const struct canonical *canonical, double t, double end, do
   undamped.altitude[1] = new_doubles(t_count);
   undamped.anchor[1] = new_doubles(n);
   int64_t springs, *order = damper_order(canonical, &springs);
-  damp(canonical, h / 2.0, 0, springs, order, q, v);
+  damp(canonical, t, h / 2.0, 0, springs, order, q, v);
   verlet(&undamped, t, end, h, q, v, a);
-  damp(canonical, h / 2.0, 1, springs, order, q, v);
+  damp(canonical, end, h / 2.0, 1, springs, order, q, v);
   free(order);
   free(undamped.gamma);
   free(undamped.altitude[1]);
@@ -671,8 +723,9 @@ static void add_row(const struct canonical *canonical, int count, const int64_t 
 static void add_rows(const struct canonical *canonical, double *stiffness, double *damping) {
   const double pair[2] = {1.0, 1.0}, triple[3] = {1.0, 2.0, 1.0};
   for (int64_t k = 0; k < canonical->spring_count; k++) {
-    add_row(canonical, 2, canonical->ends + 2 * k, pair, canonical->kappa[k], stiffness);
-    add_row(canonical, 2, canonical->ends + 2 * k, pair, canonical->gamma[k], damping);
+    const struct numbers most = scaled(canonical, k, stiffnesses[0], rests[0]);
+    add_row(canonical, 2, canonical->ends + 2 * k, pair, most.kappa, stiffness);
+    add_row(canonical, 2, canonical->ends + 2 * k, pair, most.gamma, damping);
   }
   for (int64_t k = 0; k < canonical->triple_count; k++)
     add_row(canonical, 3, canonical->triples + 3 * k, triple, canonical->coefficient[k], stiffness);

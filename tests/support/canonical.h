@@ -10,12 +10,19 @@
 
 #include "hooke/system.h"
 
+/* Springs of groups whose name has the word "follows" in it follow time, by tables of two samples each, which
+ * are straight lines as far as rounding goes; those with "strain" in it by the strain law. The options of
+ * such a group, or of a family of a part ("stretch."), are set by canonical_follow(). */
+enum { CANONICAL_FOLLOWS = 1, CANONICAL_BY_STRAIN = 2 };
+void canonical_follow(hooke_options *options, const char *family);
+
 struct canonical {
   int64_t particle_count, spring_count;
   int64_t *ends;                       /* 2 spring_count */
   double *kappa, *gamma, *rest_length; /* spring_count */
   int32_t leaves_out;                  /* 1: skips dampings of zero, which are multiplied otherwise */
   unsigned char *pull_only;            /* spring_count */
+  unsigned char *follows;              /* spring_count: CANONICAL_FOLLOWS and so on; 0: it does not */
   int64_t triple_count;
   int64_t *triples;    /* 3 triple_count */
   double *coefficient; /* triple_count */

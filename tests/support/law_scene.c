@@ -42,6 +42,12 @@ const struct law laws[LAW_COUNT] = {
     {.name = "curve", .law = "strain", .damped = 1, .curve = 1},
     {.name = "curve, no rest length", .law = "length", .zero_rest = 1, .damped = 1, .curve = 1},
     {.name = "curve, pull only", .law = "length", .pull_only = 1, .curve = 1},
+    {.name = "strain law in time, damped", .law = "strain", .damped = 1, .follows = 1},
+    {.name = "length law in time, pull only, damped",
+     .law = "length",
+     .damped = 1,
+     .pull_only = 1,
+     .follows = 1},
 };
 
 struct material {
@@ -83,15 +89,30 @@ static void draw_spring(struct random_source *source, const struct law *law, int
   }
 }
 
-static void add_springs(const struct law *law, const struct material *material, struct law_scene *scene) {
+/* Factors about 1.19 and 0.74 at LAW_TIME, by which what is given is divided. */
+static void follow(struct material *material, hooke_options *options) {
+  const double turn = 6.28318530717958647693;
+  set_options(options,
+              "rest_scale.motion=harmonic rest_scale.amplitude=0.2 rest_scale.frequency=1 "
+              "stiffness_scale.motion=harmonic stiffness_scale.mean=0.9 stiffness_scale.amplitude=-0.2 "
+              "stiffness_scale.frequency=0.5 stiffness_scale.phase=-0.1");
+  for (int k = 0; k < LAW_SPRINGS; k++) {
+    material->rest_length[k] /= 1.0 + 0.2 * sin(turn * LAW_TIME);
+    material->stiffness[k] /= 0.9 - 0.2 * sin(turn * 0.5 * LAW_TIME - 0.1);
+  }
+}
+
+static void add_springs(const struct law *law, const struct material *given, struct law_scene *scene) {
+  struct material material = *given;
   hooke_options *options = options_with("springs", "law=%s", law->law);
+  if (law->follows) follow(&material, options);
   const double coefficients[3] = {12.0, 2.0, 0.2};
   if (law->curve)
     check_ok(hooke_options_set_numbers(options, "curve.coefficients", 3, coefficients));
   else
-    check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material->stiffness));
-  if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_SPRINGS, material->damping));
-  check_ok(hooke_options_set_numbers(options, "rest_length", LAW_SPRINGS, material->rest_length));
+    check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material.stiffness));
+  if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_SPRINGS, material.damping));
+  check_ok(hooke_options_set_numbers(options, "rest_length", LAW_SPRINGS, material.rest_length));
   if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(scene->system, "springs", LAW_SPRINGS, scene->ends, options));
   hooke_options_destroy(options);

@@ -151,8 +151,9 @@ static void set_random(struct random_source *source, hooke_options *options, con
 
 static void set_rest_length(struct random_source *source, hooke_options *options, int64_t count,
                             const int64_t *ends, const double *position, int length_law, int apart,
-                            double *rest) {
-  const double scale = random_whole(source, 0, 1) ? random_between(source, 0.8, 1.2) : 1.0;
+                            int follows, double *rest) {
+  const double drawn = random_whole(source, 0, 1) ? random_between(source, 0.8, 1.2) : 1.0;
+  const double scale = follows ? 1.0 : drawn;
   if (random_whole(source, 0, 2) == 0 && (length_law || apart)) {
     check_ok(hooke_options_set_text(options, "rest_length", "initial"));
     for (int64_t k = 0; k < count; k++) {
@@ -167,6 +168,7 @@ static void set_rest_length(struct random_source *source, hooke_options *options
     set_random(source, options, "rest_length", count, 0.2, 1.5, rest);
   }
   check_ok(hooke_options_set_number(options, "rest_scale", scale));
+  if (follows) canonical_follow(options, "");
   for (int64_t k = 0; k < count; k++)
     rest[k] *= scale;
 }
@@ -183,7 +185,7 @@ static void add_group(struct random_source *source, struct random_scene_request 
   int64_t *ends = wanted->ends + 2 * wanted->count;
   double *kappa = wanted->kappa + wanted->count, *gamma = wanted->gamma + wanted->count,
          *rest = wanted->rest_length + wanted->count;
-  char name[32];
+  char name[48];
   const int length_law = (int)random_whole(source, 0, 1);
   const int pulls = (request.features & SCENE_PULL_ONLY) && random_whole(source, 0, 1);
   draw_ends(source, request.particles, count, ends);
@@ -192,14 +194,18 @@ static void add_group(struct random_source *source, struct random_scene_request 
   if ((request.features & SCENE_DAMPING) && random_whole(source, 0, 3)) {
     set_random(source, options, "damping", count, 0.0, 0.5, gamma);
   }
+  const int follows = (request.features & SCENE_FOLLOWS) && number % 4;
   set_rest_length(source, options, count, ends, position, length_law, ends_apart(count, ends, position),
-                  rest);
+                  follows, rest);
   for (int64_t k = 0; k < count && !length_law; k++) {
     kappa[k] /= rest[k];
     gamma[k] /= rest[k];
   }
   if (pulls) check_ok(hooke_options_set_number(options, "compression", 0.0));
-  snprintf(name, sizeof name, "%s%lld", pulls ? "pull" : "group", (long long)number);
+  snprintf(name, sizeof name, "%s%lld%s", pulls ? "pull" : "group", (long long)number,
+           !follows     ? ""
+           : length_law ? "-follows"
+                        : "-follows-strain");
   check_ok(hooke_system_add_springs(system, name, count, ends, options));
   hooke_options_destroy(options);
   wanted->count += count;
@@ -450,7 +456,11 @@ static void add_part(struct random_source *source, struct random_scene_request r
   set_shape(request, kind, options);
   const char *family[2][3] = {{"structural", "shear", "bend"}, {"stretch", "bend", NULL}};
   for (int k = 0; k < 3 && family[rope][k] != NULL; k++) {
+    char dotted[32];
+    snprintf(dotted, sizeof dotted, "%s.", family[rope][k]);
     if (k == 0 || random_whole(source, 0, 3)) set_family(source, options, family[rope][k], request.features);
+    if (request.features & SCENE_FOLLOWS && hooke_options_is_set(options, family[rope][k]))
+      canonical_follow(options, dotted);
   }
   if (request.triples > 0 && strcmp(kind, "lattice") != 0)
     check_ok(hooke_options_set_number(options, "bending", 0.3));
@@ -464,7 +474,8 @@ static void add_part(struct random_source *source, struct random_scene_request r
     }
   }
   char name[32];
-  snprintf(name, sizeof name, "%s-%s", request.features & SCENE_PULL_ONLY ? "pull" : "part", kind);
+  snprintf(name, sizeof name, "%s-%s%s", request.features & SCENE_PULL_ONLY ? "pull" : "part", kind,
+           request.features & SCENE_FOLLOWS ? "-follows-strain" : "");
   check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
   hooke_options_destroy(options);
 }

@@ -15,7 +15,8 @@ enum {
   SCENE_DRIVEN = 32, /* up to three particles: harmonic, table, callback */
   SCENE_CALLBACK = 64,
   SCENE_COINCIDENT = 128, /* some coincident particles */
-  SCENE_EVERYTHING = 255
+  SCENE_EVERYTHING = 255,
+  SCENE_FOLLOWS = 256 /* beyond everything: springs that follow time, as canonical.h has them */
 };
 
 /* What particles move in: drag of each, a wind, quadratic drag of each, and parts in a fluid. */

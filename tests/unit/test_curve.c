@@ -27,7 +27,7 @@ static hooke_system *pair(const char *words) {
 }
 
 static struct hk_law law_at(const hooke_system *system, double length) {
-  const struct hk_spring spring = hk_springs_find(system->springs, 0);
+  const struct hk_spring spring = hk_springs_find(system->springs, 0, 0.0);
   return hk_spring_law(&spring, length);
 }
 
@@ -99,7 +99,7 @@ TEST(springs_that_only_pull_have_the_positive_part) {
 
 static double stiffest(const char *words) {
   owned_system *system = pair(words);
-  const struct hk_spring spring = hk_springs_find(system->springs, 0);
+  const struct hk_spring spring = hk_springs_find(system->springs, 0, 0.0);
   return hk_curve_stiffest(spring.curve, spring.rest_length);
 }
 
@@ -167,9 +167,9 @@ TEST(variants_keep_a_curve_and_scale_it) {
     variant.compression = 1;
     check_ok(hk_variant_make(system, &variant, &made, &map));
     for (double r = 0.2; r < 3.0; r += 0.13) {
-      const struct hk_spring spring = hk_springs_find(system->springs, 1);
+      const struct hk_spring spring = hk_springs_find(system->springs, 1, 0.0);
       const int taut = r > spring.rest_length;
-      const struct hk_spring other = hk_springs_find(made->springs, 1);
+      const struct hk_spring other = hk_springs_find(made->springs, 1, 0.0);
       const struct hk_law law = hk_spring_law(&spring, r), same = hk_spring_law(&other, r);
       check_close(same.tension, taut ? 1.1 * law.tension : 0.0, 1e-12);
       check_close(same.energy, taut ? 1.1 * law.energy : 0.0, 1e-12);

@@ -469,7 +469,7 @@ TEST(messages_give_file_line_column_and_path) {
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]],\n  'stifness': 1}]}",
          "t.json:3:3: springs[0].stifness: unknown key 'stifness'; did you mean 'stiffness'? allowed: name, "
          "between, law, "
-         "stiffness, curve, damping, damping_ratio, rest_length, rest_scale, compression");
+         "stiffness, curve, damping, damping_ratio, rest_length, rest_scale, stiffness_scale, compression");
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'stiffness': 1}]}",
          "t.json:2:14: springs[0].between: is required but missing; allowed: an array of pairs of particles");
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]]}]}",

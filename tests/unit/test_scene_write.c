@@ -179,6 +179,29 @@ TEST(strands_come_back) {
   hooke_system_destroy(system);
 }
 
+/* Of one material and of many, by both laws, in parts, and dropped members among them. */
+TEST(springs_that_follow_time_come_back) {
+  const char *const words[] = {
+      "law=strain stiffness=3 damping=0.2 rest_length=0.7,1.1,0.3 rest_scale.motion=harmonic rest_scale.mean=1.1 "
+      "rest_scale.amplitude=-0.3 rest_scale.frequency=2 rest_scale.phase=0.1",
+      "law=length stiffness=3,0,5 damping=0.1 stiffness_scale.motion=table stiffness_scale.time=-1,0.1,2 "
+      "stiffness_scale.value=0.2,1,0",
+      "stiffness=3 rest_scale.motion=table rest_scale.time=0,1 rest_scale.value=1,0.5 stiffness_scale=2"};
+  const int64_t ends[6] = {0, 1, 2, 1, 3, 0};
+  owned_scene *read = NULL;
+  owned_system *system = new_system();
+  small_part(
+      system, "rope", "line",
+      "from=0.1,0.2,0.3 to=1.7,0.1,-0.6 segments=13 mass=0.7 stretch.stiffness=3 stretch.damping_ratio=0.3 "
+      "stretch.rest_scale.motion=harmonic stretch.rest_scale.amplitude=0.3 stretch.rest_scale.frequency=2");
+  for (int k = 0; k < 3; k++)
+    small_group(system, "springs", "some", 3, ends, words[k]);
+  check_ok(hooke_system_commit(system));
+  assert_true(system->springs->scaled);
+  write_and_read(system, &read);
+  check_same_system(hooke_scene_system(read), system);
+}
+
 /* Triples are equal to the bit, beside those of parts; an empty group keeps its place. */
 TEST(bending_comes_back) {
   const double coefficient[2] = {0.1 + 0.2, 1.0 / 3.0}, zero = 0.0;

@@ -43,7 +43,7 @@ static void check_batches(const hooke_system *system) {
   assert_int_equal(at, count);
   at = 0;
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++) {
       const struct hk_spring spring = hk_batch_spring(&batch, k);
       assert_true(at < count);

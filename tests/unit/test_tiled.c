@@ -248,7 +248,7 @@ TEST(test_small) {
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   struct hk_spring_batch batch;
-  hk_begin_batches(&batch);
+  hk_begin_batches(HOOKE_AS_GIVEN, &batch);
   assert_true(hk_next_batch(system, &batch));
   assert_int_equal(batch.count, PAIRS);
   for (int64_t k = 0; k < PAIRS; k++) {

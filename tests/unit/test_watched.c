@@ -173,8 +173,7 @@ static hooke_system *one_spring(struct springs law) {
 
 static double tension(const hooke_system *system, double r, double rate) {
   const double q[] = {0, 0, 0, r, 0, 0}, v[] = {0, 0, 0, rate, 0, 0};
-  struct hk_watched watched = {.kind = HOOKE_WATCHED_TENSION,
-                               .spring = hk_run_spring(&system->springs->run[0], 0)};
+  struct hk_watched watched = {.kind = HOOKE_WATCHED_TENSION, .spring = 0};
   return hk_watched_value(&watched, system, 0.0, q, v);
 }
 

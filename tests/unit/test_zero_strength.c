@@ -294,6 +294,7 @@ TEST(canonical_sum_agrees) {
   whole.gamma = network.damping;
   whole.rest_length = new_doubles(network.count);
   whole.pull_only = new_block(network.count, 1);
+  whole.follows = new_block(network.count, 1);
   for (int64_t k = 0; k < network.count; k++)
     whole.rest_length[k] = REST;
   assert_int_equal(c.spring_count, SPRINGS);
@@ -303,6 +304,7 @@ TEST(canonical_sum_agrees) {
   check_same_bits(3 * PARTICLES, found, expected);
   free(whole.rest_length);
   free(whole.pull_only);
+  free(whole.follows);
   hooke_system_destroy(system);
 }
 

@@ -23,7 +23,7 @@ static int64_t step_with(const hooke_system *system, const double *q, const doub
   hk_motion_load(system, moved, q, v);
   int64_t lost = 0;
   for (int k = 0; k < 2; k++) {
-    hk_motion_pass(system, moved, &move);
+    hk_motion_pass(system, moved, 0.0, &move);
     lost += moved->coincident;
   }
   hk_motion_store(moved, out, out + 3 * n);

@@ -143,13 +143,28 @@ static int32_t require_slot(const hooke_options *options, const char *name, stru
   return fail_unknown(options, name);
 }
 
-/* Takes ownership of `value`, and makes the enclosing families present. */
-static void put(hooke_options *options, struct slot *slot, const struct hk_option_value *value) {
+static void clear(struct slot *slot) {
   hk_option_value_clear(&slot->value);
+  slot->is_set = 0;
+}
+
+static void clear_members(hooke_options *options, const struct slot *slot) {
+  const int64_t family = slot - options->slot;
+  for (int64_t k = family + 1; k < options->slot_count && options->slot[k].family >= family; k++)
+    clear(&options->slot[k]);
+}
+
+/* Takes ownership of `value`, and makes the enclosing families present. A number in place of a family, and
+ * the reverse: the last one counts. */
+static void put(hooke_options *options, struct slot *slot, const struct hk_option_value *value) {
+  clear(slot);
+  if (slot->row->type != HOOKE_OPTION_FAMILY && slot->row->family) clear_members(options, slot);
   slot->value = *value;
   slot->is_set = 1;
-  for (int64_t family = slot->family; family >= 0; family = options->slot[family].family)
+  for (int64_t family = slot->family; family >= 0; family = options->slot[family].family) {
+    hk_option_value_clear(&options->slot[family].value);
     options->slot[family].is_set = 1;
+  }
 }
 
 int32_t hk_options_set_from(hooke_options *options, const hooke_options *from) {
@@ -159,6 +174,20 @@ int32_t hk_options_set_from(hooke_options *options, const hooke_options *from) {
     if (!from->slot[k].is_set) continue;
     status = hk_option_value_copy(&from->slot[k].value, &value);
     if (status == HOOKE_OK) put(options, &options->slot[k], &value);
+  }
+  return status;
+}
+
+int32_t hk_options_set_value(hooke_options *options, const char *name, const hooke_options *from,
+                             const char *named) {
+  struct slot *to = find_slot(options, name), *of = find_slot(from, named);
+  const int64_t members = to->row->family ? count_rows(to->row->family) : 0;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k <= members && status == HOOKE_OK; k++) {
+    struct hk_option_value value;
+    if (!of[k].is_set) continue;
+    status = hk_option_value_copy(&of[k].value, &value);
+    if (status == HOOKE_OK) put(options, &to[k], &value);
   }
   return status;
 }
@@ -234,13 +263,8 @@ int32_t hk_options_add_word(hooke_options *options, const char *name, const char
 int32_t hooke_options_unset(hooke_options *options, const char *name) {
   struct slot *slot;
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
-  hk_option_value_clear(&slot->value);
-  slot->is_set = 0;
-  int64_t family = slot - options->slot;
-  for (int64_t k = family + 1; k < options->slot_count && options->slot[k].family >= family; k++) {
-    hk_option_value_clear(&options->slot[k].value);
-    options->slot[k].is_set = 0;
-  }
+  clear(slot);
+  clear_members(options, slot);
   return HOOKE_OK;
 }
 
@@ -291,23 +315,23 @@ static int32_t refuse_elsewhere(const hooke_options *options, const struct slot 
   char list[TEXT_SIZE] = "";
   for (int64_t k = 0; k < options->slot_count; k++) {
     const struct hk_option_row *row = options->slot[k].row;
-    if (row->only && strcmp(row->only, chosen) == 0)
+    if (options->slot[k].family == slot->family && row->only && strcmp(row->only, chosen) == 0)
       hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", row->name);
   }
   return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\"; allowed with \"%s\": %s",
-                 options->slot[0].name, slot->row->only, chosen, list);
+                 options->slot[slot->family + 1].row->name, slot->row->only, chosen, list);
 }
 
 int32_t hk_options_check_required(const hooke_options *options) {
-  const char *first = options->slot[0].name, *chosen = hooke_options_text(options, first);
   for (int64_t k = 0; k < options->slot_count; k++) {
-    const struct slot *slot = &options->slot[k];
+    const struct slot *slot = &options->slot[k], *first = &options->slot[slot->family + 1];
+    const char *chosen = slot->row->only ? hooke_options_text(options, first->name) : "";
     char with[NAME_SIZE] = "";
     if (slot->row->only && strcmp(slot->row->only, chosen) != 0) {
       if (slot->is_set) return refuse_elsewhere(options, slot, chosen);
       continue;
     }
-    if (slot->row->only) hk_print(with, sizeof with, " with %s \"%s\"", first, chosen);
+    if (slot->row->only) hk_print(with, sizeof with, " with %s \"%s\"", first->row->name, chosen);
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
     if (slot->family >= 0 && !is_family(&options->slot[slot->family])) continue;
     char allowed[HOOKE_OPTION_ALLOWED];

@@ -33,7 +33,7 @@ struct hk_option_row {
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;
   const char *only;                     /* of the table's first row, a choice: the word that it belongs to */
-  const struct hk_option_table *family; /* also of HOOKE_OPTION_NUMBERS: in place of the numbers */
+  const struct hk_option_table *family; /* also of numbers: in their place */
   const char *doc;
   const char *example; /* as text: an example value */
 };
@@ -89,6 +89,11 @@ int32_t hk_options_set_in_unit(hooke_options *options, const char *name, int64_t
 
 /* Sets what is set in options of the same table. HOOKE_NO_MEMORY. */
 int32_t hk_options_set_from(hooke_options *options, const hooke_options *from);
+
+/* Sets an option and its members to those of another one that has the same row, if they are set.
+ * HOOKE_NO_MEMORY. */
+int32_t hk_options_set_value(hooke_options *options, const char *name, const hooke_options *from,
+                             const char *named);
 
 /* 1 if the family `name` is present. */
 int32_t hk_options_has_family(const hooke_options *options, const char *name);

@@ -92,12 +92,20 @@ static void add_count(const struct hk_option_row *row, char *text, int64_t size)
               plural ? " each" : "");
 }
 
+static void add_members(const struct hk_option_row *row, char *text, int64_t size) {
+  hk_append(text, (size_t)size, "an object of ");
+  for (int32_t k = 0; k < row->family->row_count; k++)
+    hk_append(text, (size_t)size, "%s%s", k ? ", " : "", row->family->rows[k].name);
+}
+
 void hk_option_describe(const struct hk_option_row *row, char *text, int64_t size) {
   text[0] = '\0';
   switch (row->type) {
   case HOOKE_OPTION_NUMBER:
     hk_append(text, (size_t)size, row->whole ? "a whole number" : "a number");
     add_bounds(row, text, size);
+    if (row->family) hk_append(text, (size_t)size, ", or ");
+    if (row->family) add_members(row, text, size);
     break;
   case HOOKE_OPTION_NUMBERS:
     add_count(row, text, size);
@@ -115,9 +123,7 @@ void hk_option_describe(const struct hk_option_row *row, char *text, int64_t siz
     hk_append(text, (size_t)size, "a text");
     break;
   case HOOKE_OPTION_FAMILY:
-    hk_append(text, (size_t)size, "an object of ");
-    for (int32_t k = 0; k < row->family->row_count; k++)
-      hk_append(text, (size_t)size, "%s%s", k ? ", " : "", row->family->rows[k].name);
+    add_members(row, text, size);
     break;
   }
 }

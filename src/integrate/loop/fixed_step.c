@@ -86,7 +86,7 @@ void hk_integrator_move_on(hooke_integrator *it, struct hk_move *move) {
 int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move *move) {
   if (it->by_tiles) {
     it->count.force_evaluations++;
-    hk_motion_pass(it->system, it->motion, move);
+    hk_motion_pass(it->system, it->motion, t, move);
     return HOOKE_OK;
   }
   const int summed = it->system->sums_after_drag && !hk_move_brakes(move->kind);

@@ -223,7 +223,8 @@ static int32_t step(hooke_integrator *it) {
 /* Whether a step takes the damping explicitly, at the predicted velocity, or solves for it. With A = h^2 M^-1
  * K and B = h M^-1 C the explicit step is stable where A + 2 B <= 4; of one mode it is up to A < 4 - 2 B +
  * B^2, B < 2. The bound below holds wherever the particles are: of every element it takes the stiffness and
- * the damping in all directions, and gives each particle its row of g g^T. So the choice depends on the
+ * the damping in all directions, those of springs that follow time the largest of all times, and gives each
+ * particle its row of g g^T. So the choice depends on the
  * system and the step alone, and a run that goes on from any of its states makes the same one.
  * */
 static const double MARGIN = 0.8; /* of the bound */
@@ -232,12 +233,13 @@ static double larger(double along, double across, double over) {
   return fmax(0.0, fmax(along, across)) / over;
 }
 
-/* Stiffness and damping of all elements but drag at every particle, 2n. */
-static void add_rows(const hooke_system *system, double *stiffness, double *damping) {
+/* Stiffness and damping of all elements of these kinds at every particle, 2n. */
+static void add_rows(const hooke_system *system, double t, int32_t kinds, double *stiffness,
+                     double *damping) {
   struct hk_element room;
   struct hk_elements at;
-  hk_begin_elements(system, 0.0, system->position, NULL, &at);
-  at.kinds = ~HOOKE_UNIFORM;
+  hk_begin_elements(system, t, system->position, NULL, &at);
+  at.kinds = kinds;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     e = hk_element_at_most(&at, e, &room);
     const double k = larger(e->k_along, e->k_across, e->over), c = larger(e->c_along, e->c_across, e->over);
@@ -254,7 +256,8 @@ static int32_t find_bound(const hooke_system *system, double *bound) {
   const int64_t n = system->particle_count;
   double *stiffness = hk_new(2 * n, sizeof(double)), *damping = stiffness ? stiffness + n : NULL;
   if (stiffness == NULL) return HOOKE_NO_MEMORY;
-  add_rows(system, stiffness, damping);
+  add_rows(system, HOOKE_STIFFEST, HOOKE_LOOPED, stiffness, damping);
+  add_rows(system, 0.0, ~(HOOKE_UNIFORM | HOOKE_LOOPED), stiffness, damping);
   *bound = INFINITY;
   for (int64_t p = 0; p < n; p++) {
     const double w = system->inverse_mass[p], k = w * stiffness[p], c = w * damping[p];
@@ -268,8 +271,8 @@ static int32_t find_bound(const hooke_system *system, double *bound) {
  * with curves whose stiffness has no bound, and with altitude springs, of which one of seven altitudes acts,
  * with weights of its own. */
 static int32_t depends_on_state(const hooke_system *system) {
-  int32_t depends =
-      system->altitudes->count > 0 || hk_springs_curved(system->springs, system->position).unbounded > 0;
+  int32_t depends = system->altitudes->count > 0 ||
+                    hk_springs_curved(system->springs, HOOKE_AS_GIVEN, system->position).unbounded > 0;
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const int32_t both = HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY;
     depends |= (system->springs->run[r].shape & both) == both;

@@ -24,7 +24,7 @@ int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   it->own_memory += it->size * (int64_t)sizeof(double);
   for (int64_t k = 0; k < it->size; k++)
     descent->rows[k] = NAN;
-  descent->weight = hk_springs_curved(system->springs, system->position).tension;
+  descent->weight = hk_springs_curved(system->springs, HOOKE_STIFFEST, system->position).tension;
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     if (row->add_stiffness) row->add_stiffness(system, &descent->stiffness);
@@ -40,8 +40,7 @@ void hk_descent_release(struct hk_descent *descent) {
 }
 
 /* 1 if they were there before. */
-static int take_rows(const struct hk_motion *m, double *rows) {
-  int same = 1;
+static int take_rows(const struct hk_motion *m, int same, double *rows) {
   for (int a = 0; a < 3; a++) {
     for (int64_t p = 0; p < m->n; p++) {
       same &= rows[3 * p + a] == m->q[a][p];
@@ -63,9 +62,11 @@ static double slack_of(const struct hk_descent *descent, const struct hk_motion 
 }
 
 double hk_descent_energy(struct hk_descent *descent, const hooke_integrator *it) {
-  if (take_rows(it->motion, descent->rows)) return descent->energy;
-  double t = it->t;
-  const struct hk_energies at = hk_state_energies(&(hooke_state){.t = &t, .q = descent->rows}, it->system);
+  const int same = descent->t == descent->known || !it->system->springs->scaled;
+  if (take_rows(it->motion, same, descent->rows)) return descent->energy;
+  descent->known = descent->t;
+  const struct hk_energies at =
+      hk_state_energies(&(hooke_state){.t = &descent->t, .q = descent->rows}, it->system);
   descent->energy = at.potential;
   descent->slack = slack_of(descent, it->motion, descent->stiffness, at.elastic);
   return descent->energy;

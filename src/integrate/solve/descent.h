@@ -20,6 +20,7 @@
 
 struct hk_descent {
   double *rows;         /* positions whose energy is known, as rows of x y z; NULL: the stage has no P */
+  double t, known;      /* the time whose U is meant, that of the equations; and that of the energy below */
   double energy, slack; /* of these, and what rounding may make of it [J] */
   double stiffness, weight, drag; /* sums over the scene, for the slack */
 };

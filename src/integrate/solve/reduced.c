@@ -163,8 +163,9 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
     fields.q[a] = motion->q[a];
     fields.v[a] = motion->v[a];
   }
-  for (int64_t k = 0; k < system->springs->run_count; k++) {
-    const struct hk_run *run = &system->springs->run[k];
+  struct hk_run_walk walk;
+  hk_begin_runs(system->springs, t, &walk);
+  for (const struct hk_run *run; (run = hk_next_run(&walk)) != NULL;) {
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       (run->curve ? hk_spring_fill_tangent : hk_tangent_fill)(run, &fields, alpha, beta, &reduced->tangent);
   }
@@ -436,8 +437,9 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
   }
   const double *const from[3] = {bq, bq + n, bq + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
-  for (int64_t k = 0; k < system->springs->run_count; k++) {
-    const struct hk_run *run = &system->springs->run[k];
+  struct hk_run_walk walk;
+  hk_begin_runs(system->springs, reduced->t, &walk);
+  for (const struct hk_run *run; (run = hk_next_run(&walk)) != NULL;) {
     if (run->shape & HOOKE_RUN_DAMPED) hk_tangent_damping(run, &reduced->tangent, from, to);
   }
   for (int32_t k = 0; k < system->force_row_count; k++) {

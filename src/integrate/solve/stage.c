@@ -450,6 +450,7 @@ int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equ
   const int guarded = stage->descent.rows != NULL;
   double height = NAN, slack = 0.0;
   stage->at = *equations;
+  stage->descent.t = equations->t;
   hk_stage_save(stage, stage->begin);
   if (guarded) {
     if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);

@@ -12,6 +12,7 @@
 #include "io/file/text.h"
 #include "model/callbacks.h"
 #include "model/force/drive.h"
+#include "model/force/scaling.h"
 #include "model/part_record.h"
 #include "model/system.h"
 
@@ -83,7 +84,7 @@ static void add_table(struct hk_text *text, const hooke_options *options, const 
     snprintf(name, sizeof name, "%s%s", prefix, row->name);
     if (!hooke_options_is_set(options, name) || hk_option_has_word(left_out, name, (int64_t)strlen(name)))
       continue;
-    if (row->type != HOOKE_OPTION_FAMILY) {
+    if (!hk_options_has_family(options, name)) {
       add_value(text, options, name, row);
       continue;
     }
@@ -254,14 +255,53 @@ static void add_curve(struct hk_text *text, const struct hk_curve *curve) {
   hk_text_close(text, '}');
 }
 
+static void add_course(struct hk_text *text, const struct hk_course *course, const char *amplitude,
+                       const char *values) {
+  const int32_t columns = course->width > 1 ? course->width : 0;
+  hk_text_word(text, "motion", course->samples > 0 ? "table" : "harmonic");
+  if (course->samples > 0) {
+    add_numbers(text, "time", course->samples, 0, course->time);
+    add_numbers(text, values, course->width * course->samples, columns, course->value);
+  } else {
+    if (course->width == 1) {
+      hk_text_number(text, "mean", course->mean[0]);
+      hk_text_number(text, amplitude, course->amplitude[0]);
+    } else {
+      add_numbers(text, amplitude, course->width, 0, course->amplitude);
+    }
+    hk_text_number(text, "frequency", course->frequency);
+    hk_text_number(text, "phase", course->phase);
+  }
+}
+
+/* The stiffness that over l0 is kappa, to the bit: within a unit in the last place of their product. */
+static double stiffness_of(double kappa, double l0) {
+  const double whole = kappa * l0, less = nextafter(whole, 0.0);
+  return whole / l0 == kappa ? whole : less / l0 == kappa ? less : nextafter(whole, (double)INFINITY);
+}
+
+/* Springs that follow time, which does not leave the law open. */
+static void add_scaling(struct hk_text *text, const struct hk_group *group) {
+  const struct hk_course *const course[] = {&group->scaling->rest, &group->scaling->stiffness};
+  for (int k = 0; k < 2; k++) {
+    hk_text_open(text, k == 0 ? "rest_scale" : "stiffness_scale", '{');
+    add_course(text, course[k], "amplitude", "value");
+    hk_text_close(text, '}');
+  }
+}
+
+/* Numbers of the strain law, of which a quotient has the bits again. */
+static void multiply_by_lengths(struct hk_group *all) {
+  for (int k = HOOKE_KAPPA; k <= HOOKE_GAMMA; k++)
+    for (int64_t i = 0; i < all->count; i++)
+      all->number[k][i] = stiffness_of(all->number[k][i], all->number[HOOKE_REST_LENGTH][i]);
+}
+
 /* The numbers of members, whatever law they were given by; a curve has its own. */
-static void add_columns(struct hk_text *text, const struct hk_scene_list *list,
+static void add_columns(struct hk_text *text, const struct hk_scene_list *list, int32_t strain,
                         const struct hk_group *group) {
   const int32_t *width = group->force->width;
-  const int32_t strain = group->curve && group->curve->strain;
   if (group->force->kind & HOOKE_LOOPED) hk_text_word(text, "law", strain ? "strain" : "length");
-  for (int64_t k = 0; k < group->count && strain; k++) /* divided again, a quotient has its bits */
-    group->number[HOOKE_GAMMA][k] *= group->number[HOOKE_REST_LENGTH][k];
   if (group->curve)
     add_curve(text, group->curve);
   else
@@ -282,10 +322,15 @@ static void add_group(struct writer *to, const struct hk_scene_list *list, const
     all.curve = group->curve;
     if (all.count > 0) all.force->recall(to->system, first, &all);
     open_member(to, list, group->name, all.count, all.particle);
-    if (group->options)
+    if (group->options) {
       add_options(&to->json, group->options, NULL);
-    else
-      add_columns(&to->json, list, &all);
+    } else {
+      const int32_t strain =
+          (group->scaling && group->scaling->strain) || (group->curve && group->curve->strain);
+      if (group->scaling) add_scaling(&to->json, group);
+      if (strain) multiply_by_lengths(&all);
+      add_columns(&to->json, list, strain, &all);
+    }
     hk_text_close(&to->json, '}');
   } else {
     to->json.status = HOOKE_NO_MEMORY;
@@ -310,20 +355,6 @@ static void add_bodies(struct writer *to, const struct hk_scene_list *list) {
     if (body->part >= 0) continue; /* its part says so */
     open_member(to, list, body->name, body->count, &body->particle);
     hk_text_close(&to->json, '}');
-  }
-}
-
-static void add_course(struct hk_text *text, const struct hk_course *course, const char *amplitude,
-                       const char *values) {
-  const int32_t columns = course->width > 1 ? course->width : 0;
-  hk_text_word(text, "motion", course->samples > 0 ? "table" : "harmonic");
-  if (course->samples > 0) {
-    add_numbers(text, "time", course->samples, 0, course->time);
-    add_numbers(text, values, course->width * course->samples, columns, course->value);
-  } else {
-    add_numbers(text, amplitude, course->width, 0, course->amplitude);
-    hk_text_number(text, "frequency", course->frequency);
-    hk_text_number(text, "phase", course->phase);
   }
 }
 

@@ -34,6 +34,7 @@ enum {
 
 struct hk_curve;
 struct hk_run;
+struct hk_scaling;
 struct hk_tiled_loops;
 struct hk_energy_set;
 struct hk_triangle_set;
@@ -56,8 +57,13 @@ struct hk_run {
   const uint8_t *batch; /* NULL, or mixed: strided batch of each spring, which has its material */
   const struct hk_strided_material *of_batches;
   const struct hk_curve *curve;         /* NULL: linear springs (model/force/curve.h) */
+  const struct hk_scaling *scaling;     /* NULL, or by what the numbers above are multiplied at a time */
+  double scale;                         /* factor on the tension of the curve */
   hk_spring_loop *loop, *undamped_loop; /* the second leaves damping out */
 };
+
+/* Pieces of a run that begin at multiples of this are added as the whole is, to the bit. */
+enum { HOOKE_RUN_PIECE = 256 };
 
 static inline ptrdiff_t hk_run_head(const struct hk_run *run, ptrdiff_t k) {
   return run->shape & HOOKE_RUN_INDEXED ? run->head[k] : run->start + k;

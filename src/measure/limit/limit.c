@@ -86,7 +86,8 @@ static int32_t create(hooke_measurement *m) {
   struct hk_limit *limit = m->object = hk_new(1, sizeof *limit);
   if (limit == NULL) return HOOKE_NO_MEMORY;
   limit->measurement = m;
-  limit->system = m->system;
+  limit->at = hk_system_at(m->system, 0.0);
+  limit->system = &limit->at;
   limit->run = m->run;
   limit->options = m->options;
   limit->budget = &limit->endless;
@@ -178,8 +179,8 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
   const int32_t status = nonlinear
-                             ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method,
-                                                          row->predicted, accuracy, budget, &m)
+                             ? hk_limit_measure_nonlinear(limit->measurement->system, state, limit->run,
+                                                          row->method, row->predicted, accuracy, budget, &m)
                              : hk_limit_measure(limit->system, q, hooke_state_velocity((hooke_state *)state),
                                                 limit->run, row->method, row->predicted,
                                                 row->has_mode ? row->mode : NULL, accuracy, budget, &m);
@@ -212,6 +213,7 @@ int32_t hk_limit_look(struct hk_limit *limit, const double *q, const double *v, 
   forget(limit);
   forget_smallest(limit);
   remember(limit, q, v, t);
+  limit->at.moment = t;
   int32_t status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
   if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, limit->q, v);
   return status == HOOKE_OK ? find_participation(limit) : status;
@@ -236,6 +238,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct walk *walk = ctx;
   struct hk_limit *limit = walk->limit;
   forget(limit);
+  limit->at.moment = hooke_state_time(state);
   walk->status =
       begin_part(limit, (double)walk->frame++ / (double)walk->frame_count, 0.0, "limits along the run");
   if (walk->status == HOOKE_OK) walk->status = hk_limit_predict_rows(limit, state->q, state->v);
@@ -274,7 +277,7 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
     return hk_fail(HOOKE_BAD_VALUE, "run",
                    "limits along a run need the options of the run; they were not given");
   }
-  int32_t status = hooke_integrator_create(limit->system, limit->run, &integrator);
+  int32_t status = hooke_integrator_create(limit->measurement->system, limit->run, &integrator);
   if (status != HOOKE_OK) return status;
   forget(limit);
   forget_smallest(limit);

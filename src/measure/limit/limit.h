@@ -27,7 +27,8 @@ struct hk_limit_mode {
 
 struct hk_limit {
   const hooke_measurement *measurement;
-  const hooke_system *system;
+  const hooke_system *system; /* the measurement's, as `at` has it at the time of the last state */
+  hooke_system at;
   const hooke_options *run, *options; /* of the measurement; `run` may be NULL */
   int32_t row_count;
   struct hk_limit_row row[HOOKE_LISTED_METHODS];

@@ -60,7 +60,7 @@ static void tell_left_out(const struct teller *t) {
     say(t, "tipping", HOOKE_OF_PART,
         "rigid bodies tipped over by gravity or tensions: %lld; that is growth by physics, and left out",
         (long long)t->limit->tipping);
-  const struct hk_curved curved = hk_springs_curved(t->limit->system->springs, t->limit->q);
+  const struct hk_curved curved = hk_springs_curved(t->limit->system->springs, t->limit->time, t->limit->q);
   if (curved.fall > 0)
     say(t, "falling", HOOKE_OF_PART,
         "springs with a curve that falls: %lld, and there now: %lld; that is negative stiffness, by which motion "

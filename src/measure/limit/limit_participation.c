@@ -77,7 +77,7 @@ static void find_elements(const hooke_system *system, const double *q, const dou
   const struct hk_force_row *force = NULL;
   int64_t group = -1, in_group = 0;
   struct hk_elements at;
-  hk_begin_elements(system, 0.0, q, NULL, &at);
+  hk_begin_elements(system, system->moment, q, NULL, &at);
   at.by_number = 1;
   at.flow = v;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
@@ -197,7 +197,7 @@ static const char *force_name(int32_t force) {
 void hk_limiting_add(const hooke_system *system, int64_t spring, double share,
                      struct hk_limiting_list *list) {
   if (spring < 0 || list->count > HOOKE_MOST_LIMITING) return;
-  const struct hk_spring found = hk_springs_find(system->springs, spring);
+  const struct hk_spring found = hk_springs_find(system->springs, spring, system->moment);
   list->row[list->count++] =
       (struct hk_limiting){.spring = spring,
                            .first = found.head,

@@ -57,10 +57,11 @@ static struct set particle_set(const hooke_system *system, const struct hk_parti
 static double find_kappa(const hooke_system *system, int64_t number, double *mean_log) {
   double found = 0.0, sum = 0.0;
   int64_t count = 0;
+  struct hk_scaler scaler = {.t = system->moment};
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const double kappa = hk_run_spring(run, k).kappa;
+      const double kappa = hk_run_spring_at(run, k, &scaler).kappa;
       if (run->first + k == number) found = kappa;
       if (kappa > 0.0) sum += log(kappa), count++;
     }

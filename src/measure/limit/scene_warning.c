@@ -122,7 +122,7 @@ static void look_at_fluids(struct looking *l) {
 static double largest_rounding(const hooke_system *system, const double *v) {
   struct hk_elements at;
   double stiffest = 0.0, lightest = 0.0;
-  hk_begin_elements(system, 0.0, system->position, v, &at);
+  hk_begin_elements(system, system->moment, system->position, v, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     double far = 0.0;
     for (int j = 0; j < e->count; j++)

@@ -70,7 +70,7 @@ static int32_t look(const hooke_integrator *it, const hooke_state *state, void *
   if (warner->told[ABOVE_LIMIT] || warner->told[NEVER_STABLE]) return 0;
   const double margin = warner->told[NEAR_LIMIT] ? 0.0 : MARGIN, most = it->schedule.step / (1.0 - margin);
   int64_t particle;
-  hk_node_blocks_fill(&warner->blocks, state->q, state->v);
+  hk_node_blocks_fill(&warner->blocks, *state->t, state->q, state->v);
   const double limit = hk_step_bound_of(&warner->blocks, it->method->name, most, &particle);
   return limit < most ? tell(warner, it, state, particle, limit) : 0;
 }

@@ -92,10 +92,11 @@ int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path
 static void note_forces(struct hk_needs *needs, int64_t frame, const hooke_state *state) {
   const struct hk_springs *springs = needs->m->system->springs;
   if (frame == 0) memset(needs->largest_force, 0, (size_t)springs->count * sizeof(double));
+  struct hk_scaler scaler = {.t = hooke_state_time(state)};
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring_at(run, k, &scaler);
       struct hk_stretch stretch;
       hk_spring_stretch(&spring, hooke_state_position(state), hooke_state_velocity(state), &stretch);
       double *largest = &needs->largest_force[run->first + k];

@@ -162,12 +162,13 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
     if (group->dropped > 0 && group->count > 0) return refuse_gaps(reading, group);
     known = 1;
     count += group->count;
-    if (index >= 0 && index < group->count) watched->spring = hk_springs_find(system->springs, first + index);
+    if (index >= 0 && index < group->count) watched->spring = first + index;
     index -= group->count;
   }
   if (!known) return refuse_name(reading, "group of springs", group_name);
   if (asked >= count) return refuse_index(reading, text, "spring", count);
-  if (watched->kind != HOOKE_WATCHED_STRAIN || watched->spring.rest_length > 0.0) return HOOKE_OK;
+  const struct hk_spring spring = hk_springs_find(system->springs, watched->spring, HOOKE_AS_GIVEN);
+  if (watched->kind != HOOKE_WATCHED_STRAIN || spring.rest_length > 0.0) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, reading->where,
                  "%.80s:%lld.strain: a spring of rest length 0 has no strain; allowed: length, tension", text,
                  (long long)asked);
@@ -293,7 +294,7 @@ static int mark_group(const hooke_system *system, const char *text, uint8_t *mar
     if (strcmp(group_name(system, g), text) != 0) continue;
     found = 0;
     for (int64_t k = 0; k < system->group[g].count; k++) {
-      const struct hk_spring spring = hk_springs_find(system->springs, first + k);
+      const struct hk_spring spring = hk_springs_find(system->springs, first + k, HOOKE_AS_GIVEN);
       mark[spring.head] = mark[spring.tail] = 1;
     }
   }

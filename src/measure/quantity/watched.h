@@ -28,8 +28,8 @@ struct hk_watched {
   enum hk_watched_kind kind;
   int32_t is_period; /* of the quantity inside */
   int32_t axis;
-  int64_t particle;        /* of a coordinate */
-  struct hk_spring spring; /* of a length, strain or tension */
+  int64_t particle; /* of a coordinate */
+  int64_t spring;   /* its number: of a length, strain or tension */
 };
 
 struct hk_watched_list {

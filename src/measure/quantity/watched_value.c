@@ -1,6 +1,7 @@
 /* Values of watched quantities, the period of one, and all of them over the frames of a run. */
 #include "core/memory.h"
 #include "measure/quantity/watched.h"
+#include "model/particles.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,9 +29,10 @@ double hk_watched_value(const struct hk_watched *watched, const hooke_system *sy
   default:
     break;
   }
-  hk_spring_stretch(&watched->spring, q, v, &s);
+  const struct hk_spring spring = hk_springs_find(system->springs, watched->spring, t);
+  hk_spring_stretch(&spring, q, v, &s);
   if (watched->kind == HOOKE_WATCHED_LENGTH) return s.length;
-  const double rest = watched->spring.rest_length;
+  const double rest = spring.rest_length;
   return watched->kind == HOOKE_WATCHED_STRAIN ? (s.length - rest) / rest : s.tension;
 }
 

@@ -24,7 +24,7 @@ static int32_t make_states(struct hk_soundness *s) {
   double *block = hk_new(2 * HOOKE_SOUNDNESS_STATES * size, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   for (int k = 0; k < HOOKE_SOUNDNESS_STATES; k++)
-    s->at[k] = (struct hk_soundness_state){INFINITY, hk_part(&block, size), hk_part(&block, size)};
+    s->at[k] = (struct hk_soundness_state){INFINITY, hk_part(&block, size), hk_part(&block, size), NAN};
   return HOOKE_OK;
 }
 
@@ -46,20 +46,21 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
 }
 
 /* The bound where the step is not clear of it. */
-static double see_bound(struct hk_soundness *s, const double *q, const double *v) {
+static double see_bound(struct hk_soundness *s, const hooke_state *state) {
   const double clear = s->step / hk_soundness_limit_share;
   if (s->blocks.system == NULL) return 0.0;
-  hk_node_blocks_fill(&s->blocks, q, v);
+  hk_node_blocks_fill(&s->blocks, *state->t, state->q, state->v);
   const double bound = hk_step_bound_of(&s->blocks, s->method, clear, NULL);
   return bound < clear ? bound : INFINITY;
 }
 
 static void see_step(struct hk_soundness *s, const hooke_state *state) {
-  const double bound = see_bound(s, hooke_state_position(state), hooke_state_velocity(state));
+  const double bound = see_bound(s, state);
   struct hk_soundness_state *at = &s->at[s->count > 0];
   if (isinf(bound) || (s->count > 0 && bound > at->bound)) return;
   const size_t bytes = 3 * (size_t)s->system->particle_count * sizeof(double);
   at->bound = bound;
+  at->t = hooke_state_time(state);
   memcpy(at->q, hooke_state_position(state), bytes);
   memcpy(at->v, hooke_state_velocity(state), bytes);
 }
@@ -78,7 +79,8 @@ int32_t hk_soundness_find_limits(struct hk_soundness *s, struct hk_budget *budge
   for (int k = 0; k < HOOKE_SOUNDNESS_STATES && !isnan(s->step) && status == HOOKE_OK; k++) {
     double limit = s->at[k].bound;
     if (isinf(limit)) continue;
-    status = hk_limit_sure(s->system, s->at[k].q, s->at[k].v, s->method, budget, &limit);
+    const hooke_system at = hk_system_at(s->system, s->at[k].t);
+    status = hk_limit_sure(&at, s->at[k].q, s->at[k].v, s->method, budget, &limit);
     s->unknown_limit |= !(limit > 0.0) && s->system->mover_count > 0;
     if (!(limit > 0.0) && s->system->mover_count > 0) continue;
     if (s->step > hk_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);

@@ -13,6 +13,7 @@ enum { HOOKE_SOUNDNESS_STATES = 2 };
 struct hk_soundness_state {
   double bound;  /* [s]; 0: none is known, infinity: the step is clear of it */
   double *q, *v; /* 3n each */
+  double t;
 };
 
 struct hk_soundness {

@@ -34,7 +34,7 @@ static double length_at(const struct hk_spring *spring, const double *q) {
 static void find_shortest(struct making *making) {
   const hooke_system *system = making->system;
   for (int64_t s = 0; s < system->springs->count; s++) {
-    const struct hk_spring spring = hk_springs_find(system->springs, s);
+    const struct hk_spring spring = hk_springs_find(system->springs, s, system->moment);
     const double r = length_at(&spring, making->q);
     if (r > 0.0 && !(system->constrained[spring.head] && system->constrained[spring.tail]))
       making->shortest = fmin(making->shortest, r);
@@ -101,7 +101,7 @@ static int join_spring(struct making *making, const struct hk_spring *spring, do
 }
 
 static void keep_spring(struct making *making, struct hk_twin *twin, int64_t number) {
-  const struct hk_spring spring = hk_springs_find(making->system->springs, number);
+  const struct hk_spring spring = hk_springs_find(making->system->springs, number, making->system->moment);
   const double before = length_at(&spring, making->q), after = length_at(&spring, twin->origin);
   struct hk_element e = {.count = 0};
   hk_spring_element(&spring, making->q, NULL, &e);
@@ -124,7 +124,7 @@ static void keep_spring(struct making *making, struct hk_twin *twin, int64_t num
 /* Other springs are springs in the twin, and drag is drag. */
 static void keep_others(struct making *making, struct hk_twin *twin) {
   struct hk_elements at;
-  hk_begin_elements(making->system, 0.0, making->q, NULL, &at);
+  hk_begin_elements(making->system, making->system->moment, making->q, NULL, &at);
   at.flow = making->v;
   at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {

@@ -61,10 +61,11 @@ static void see_curved(struct hk_linearised *lin, const struct hk_spring *spring
 }
 
 static void see_runs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
+  struct hk_scaler scaler = {.t = lin->system->moment};
   for (int64_t r = 0; r < lin->run_count; r++) {
     const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring_at(run, k, &scaler);
       const double scale = spring_scale ? spring_scale[run->first + k] : 1.0;
       if (!moves(lin->system, &spring)) continue;
       if (spring.curve)
@@ -79,7 +80,7 @@ static void see_batches(struct hk_linearised *lin, const double *q) {
   int32_t *head = lin->ends, *tail = lin->ends + lin->own.count;
   int64_t slot = 0;
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(lin->system, &batch);) {
+  for (hk_begin_batches(lin->system->moment, &batch); hk_next_batch(lin->system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++, slot++) {
       const struct hk_spring spring = hk_batch_spring(&batch, k);
       head[slot] = batch.head[k];
@@ -126,7 +127,7 @@ static int32_t new_elements(struct hk_linearised *lin) {
 
 static void see_others(struct hk_linearised *lin, const double *q, const double *v) {
   struct hk_elements at;
-  hk_begin_elements(lin->system, 0.0, q, NULL, &at);
+  hk_begin_elements(lin->system, lin->system->moment, q, NULL, &at);
   at.kinds = HOOKE_OTHERS;
   at.flow = v;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
@@ -149,7 +150,7 @@ static void add_row(const struct hk_linearised *lin, const struct hk_element *e,
 /* Adds the rows of the other elements at q, of their stiffness or of their damping. */
 static void add_rows(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   struct hk_elements at;
-  hk_begin_elements(lin->system, 0.0, q, NULL, &at);
+  hk_begin_elements(lin->system, lin->system->moment, q, NULL, &at);
   at.kinds = HOOKE_CONSTANT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     add_row(lin, e, damping, sum);
@@ -377,7 +378,7 @@ static double others_energy(const struct hk_linearised *lin, const double *x) {
   const double *const from[3] = {x, x + n, x + 2 * n}, a = lin->constant_k, b = lin->constant_c;
   double sum = a > 0.0 ? a * hk_rigid_energy(&lin->rigid, from, 1) : 0.0;
   struct hk_elements at;
-  hk_begin_elements(lin->system, 0.0, lin->system->position, NULL, &at);
+  hk_begin_elements(lin->system, lin->system->moment, lin->system->position, NULL, &at);
   at.kinds = HOOKE_CONSTANT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     sum += hk_element_energy(e, a * e->k_along + b * e->c_along, a * e->k_across + b * e->c_across, 1, from);

@@ -55,7 +55,7 @@ int64_t hk_naming_heaviest(const hooke_system *system, const struct hk_force_row
   double most = -1.0;
   int64_t found = -1;
   struct hk_elements at;
-  hk_begin_elements(system, 0.0, system->position, NULL, &at);
+  hk_begin_elements(system, system->moment, system->position, NULL, &at);
   at.by_number = 1;
   at.only = only;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {

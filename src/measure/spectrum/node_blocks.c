@@ -52,11 +52,11 @@ int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *
 int32_t hk_node_blocks_create(const hooke_system *system, const double *q, const double *v,
                               struct hk_node_blocks *blocks) {
   const int32_t status = hk_node_blocks_begin(system, blocks);
-  if (status == HOOKE_OK) hk_node_blocks_fill(blocks, q, v);
+  if (status == HOOKE_OK) hk_node_blocks_fill(blocks, system->moment, q, v);
   return status;
 }
 
-void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q, const double *v) {
+void hk_node_blocks_fill(struct hk_node_blocks *blocks, double t, const double *q, const double *v) {
   const hooke_system *system = blocks->system;
   const size_t bytes = 6 * (size_t)system->particle_count * sizeof(double);
   memset(blocks->stiffness, 0, bytes);
@@ -66,7 +66,7 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q, const d
   blocks->unknown = v == NULL && hk_system_is_not_linear(system);
   struct hk_element room;
   struct hk_elements at;
-  hk_begin_elements(system, 0.0, q, NULL, &at);
+  hk_begin_elements(system, t, q, NULL, &at);
   at.flow = v;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (at.k == at.count && at.batches % HOOKE_BATCHES_PER_LOOK == 0 &&

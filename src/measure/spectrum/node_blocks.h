@@ -25,7 +25,7 @@ int32_t hk_node_blocks_create(const hooke_system *system, const double *q, const
 /* Without positions yet. */
 int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *blocks);
 /* Recomputes them at other positions, in the existing memory. */
-void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q, const double *v);
+void hk_node_blocks_fill(struct hk_node_blocks *blocks, double t, const double *q, const double *v);
 void hk_node_blocks_release(struct hk_node_blocks *blocks);
 
 /* A limit of steps: h (h kk K + k K + c C) < M. */

@@ -17,7 +17,7 @@ static const double POSITION_ROUNDING = 1e-14;
 static void find_strengths(const hooke_system *system, const double *q, double *strength) {
   struct hk_elements at;
   if (system->bodies->of == NULL) return;
-  hk_begin_elements(system, 0.0, q, NULL, &at);
+  hk_begin_elements(system, system->moment, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++) {
       const int32_t body = system->bodies->of[e->particle[j]];
@@ -69,12 +69,13 @@ static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, dou
 /* Forces of springs become those of springs that are stiffer by their factors. */
 static void scale_springs(const hooke_system *system, const double *q, const double *spring_scale,
                           double *const f[3]) {
+  struct hk_scaler scaler = {.t = system->moment};
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const double more = spring_scale[run->first + k] - 1.0;
       if (more == 0.0) continue;
-      const struct hk_spring spring = hk_run_spring(run, k);
+      const struct hk_spring spring = hk_run_spring_at(run, k, &scaler);
       struct hk_stretch s;
       hk_spring_stretch(&spring, q, NULL, &s);
       for (int a = 0; a < 3; a++) {
@@ -93,7 +94,7 @@ static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *st
   int32_t status = hk_motion_create(system, 0, NULL, &motion);
   if (status != HOOKE_OK) return status;
   hk_motion_load(system, motion, q, still);
-  status = hk_motion_forces_without(system, motion, 0.0, HOOKE_CALLED);
+  status = hk_motion_forces_without(system, motion, system->moment, HOOKE_CALLED);
   for (int a = 0; a < 3 && system->falls; a++) {
     for (int64_t p = 0; p < system->particle_count; p++)
       motion->f[a][p] += system->mass[p] * hk_fall(system, p, a);

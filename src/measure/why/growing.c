@@ -20,7 +20,7 @@ static int32_t multiply(struct hk_growing *g, const double *q, double a, double 
   memset(g->out, 0, 3 * (size_t)system->particle_count * sizeof(double));
   if (g->budget) hk_budget_spend(g->budget, hk_work_of_pass(system));
   struct hk_elements at;
-  hk_begin_elements(system, 0.0, q, NULL, &at);
+  hk_begin_elements(system, g->t, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (at.k == at.count && at.batches % HOOKE_BATCHES_PER_LOOK == 0 &&
         hk_budget_ends(g->budget, "the motion that grows"))

@@ -10,6 +10,7 @@
 
 struct hk_growing {
   const hooke_system *system;
+  double t;                 /* of the positions that are asked about */
   double *x, *out;          /* 3n, in rows of x y z; x.Mx = 1 after an iteration */
   struct hk_budget *budget; /* when it ends every quotient is 0 */
 };

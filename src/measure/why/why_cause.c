@@ -214,7 +214,7 @@ static struct steepest find_steepest(const hooke_system *system) {
   struct steepest found = {.force = NULL};
   double most = -1.0;
   struct hk_elements at;
-  hk_begin_elements(system, 0.0, system->position, NULL, &at);
+  hk_begin_elements(system, system->moment, system->position, NULL, &at);
   at.by_number = 1;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count && at.force->members; j++) {
@@ -452,7 +452,8 @@ static void tell_coincident(struct hk_inquiry *inquiry) {
 }
 
 static void tell_falling(struct hk_inquiry *inquiry) {
-  const struct hk_curved curved = hk_springs_curved(inquiry->system->springs, hk_inquiry_last(inquiry)->q);
+  const hooke_state *last = hk_inquiry_last(inquiry);
+  const struct hk_curved curved = hk_springs_curved(inquiry->system->springs, *last->t, last->q);
   if (curved.fall > 0)
     hk_append(
         inquiry->why->sentence, sizeof inquiry->why->sentence,

@@ -31,8 +31,9 @@ static void take(struct hk_inquiry *inquiry, const double *q, double t, double l
 static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, const double *v, double t,
                            int64_t particle) {
   double limit = 0.0;
+  const hooke_system at = hk_system_at(inquiry->system, t);
   const int32_t status =
-      hk_limit_predict_within(inquiry->system, q, v, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
+      hk_limit_predict_within(&at, q, v, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
                               inquiry->memory_limit - inquiry->memory_used, &inquiry->budget, &limit);
   if (status == HOOKE_NO_MEMORY) return status;
   if (status == HOOKE_OK && inquiry->run->schedule.step > limit) take(inquiry, q, t, limit, limit, particle);
@@ -54,7 +55,8 @@ static int32_t find_growing_participation(struct hk_inquiry *inquiry, double h) 
   double a = 1.0, b = 0.0, most;
   hk_growing_rule(inquiry->system, method_of(inquiry), h, &a, &b, &most);
   violation->has_participation = 1;
-  return hk_participation_find(inquiry->system, violation->q, NULL, inquiry->growing.x, a, 0.5 * b,
+  const hooke_system at = hk_system_at(inquiry->system, violation->time);
+  return hk_participation_find(&at, violation->q, NULL, inquiry->growing.x, a, 0.5 * b,
                                &violation->participation);
 }
 
@@ -76,6 +78,7 @@ static int32_t by_growth(struct hk_inquiry *inquiry, const double *q, double t, 
   if (never) most = 0.0;
   const int32_t status = begin_growing(inquiry);
   if (status != HOOKE_OK || growing->x == NULL) return status;
+  growing->t = t;
   double quotient = hk_growing_turn(growing, q, a, b, most, LEAST_RISE, MOST_TURNS);
   if (!(quotient > most)) return HOOKE_OK;
   quotient = fmax(quotient, hk_growing_turn(growing, q, a, b, INFINITY, LEAST_RISE, MORE_TURNS));
@@ -90,7 +93,7 @@ int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   if (violation->found || violation->tries >= MOST_TRIES || !hk_step_is_bounded(method_of(inquiry)))
     return HOOKE_OK;
   if (!hk_all_finite(inquiry->run->size, q)) return HOOKE_OK;
-  hk_node_blocks_fill(blocks, q, state->v);
+  hk_node_blocks_fill(blocks, t, q, state->v);
   if (hk_budget_ends(&inquiry->budget, "bounds")) return HOOKE_OK;
   const int32_t bodies = inquiry->system->mover_count > 0; /* without a bound, nor growing motion */
   if (bodies && inquiry->large) return HOOKE_OK;
@@ -124,6 +127,7 @@ static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   if (status != HOOKE_OK || !inquiry->violation.found || inquiry->growing.x == NULL || q == NULL)
     return status;
   if (!hk_growing_rule(inquiry->system, method_of(inquiry), run->schedule.step, &a, &b, &most)) return status;
+  inquiry->growing.t = run->t0;
   const double above = hk_growing_quotient(&inquiry->growing, q, a, b) / most;
   if (!(above > 1.0)) return HOOKE_OK;
   hk_participation_release(&inquiry->violation.participation);

@@ -79,11 +79,10 @@ void hk_spring_fill_tangent(const struct hk_run *run, const struct hk_fields *fi
 /* ---- sums ---- */
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
-  (void)t;
   if (system->strided->count > 0 || system->tiled->particles > 0) {
     const struct hk_move keep = {
         .kind = HOOKE_MOVE_KEEP, .stride = hk_motion_stride(motion), .f = motion->f[0]};
-    hk_motion_pass(system, motion, &keep);
+    hk_motion_pass(system, motion, t, &keep);
     return HOOKE_OK;
   }
   struct hk_fields fields;
@@ -93,10 +92,10 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     fields.f[a] = motion->f[a];
   }
   int64_t shortness = 0;
-  for (int64_t k = 0; k < system->springs->run_count; k++) {
-    const struct hk_run *run = &system->springs->run[k];
+  struct hk_run_walk walk;
+  hk_begin_runs(system->springs, t, &walk);
+  for (const struct hk_run *run; (run = hk_next_run(&walk)) != NULL;)
     shortness += motion->zero ? run->undamped_loop(run, &fields) : run->loop(run, &fields);
-  }
   hk_motion_keep_short(motion, shortness);
   return 0;
 }
@@ -104,7 +103,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
 static int64_t passed(const hooke_system *system, const double *before, const double *now, int64_t ends[2]) {
   struct hk_spring_batch batch;
   int64_t count = 0;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count; k++) {
       const int64_t i = 3 * (int64_t)batch.head[k], j = 3 * (int64_t)batch.tail[k];
       if (!(batch.rest_length[k] > 0.0) || !hk_spring_turned(before + i, before + j, now + i, now + j))
@@ -118,11 +117,10 @@ static int64_t passed(const hooke_system *system, const double *before, const do
 }
 
 static double energy(const hooke_system *system, double t, const double *q) {
-  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   double length[HOOKE_SPRING_BATCH], stored[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(t, &batch); hk_next_batch(system, &batch);) {
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     hk_some_energies(&springs, q, length, stored);
     for (int64_t k = 0; k < batch.count && batch.curve; k++) {
@@ -149,11 +147,10 @@ static void find_heat_of_cables(const struct hk_spring_batch *batch, const doubl
 }
 
 static double heat(const hooke_system *system, double t, const double *q, const double *v) {
-  (void)t;
   struct hk_sum sum = {0.0, 0.0};
   double lost[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(t, &batch); hk_next_batch(system, &batch);) {
     if (!batch.damped) continue;
     const struct hk_some_springs springs = hk_batch_springs(&batch);
     if (batch.pull_only)
@@ -185,12 +182,45 @@ static void add_curved_product(const struct hk_run *run, const struct hk_derivat
   }
 }
 
-static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  const struct hk_derivative_rows rows = {point->q, point->v, point->dq, point->dv, out};
+static int32_t does_work(const hooke_system *system) {
+  return system->springs->scaled;
+}
+
+/* The derivative of the energy S W(r, l0) of a spring by time, with S and l0 of the actuators: with the
+ * strain law, W = l0 w(r/l0), dW/dl0 = (W - T r)/l0; with the length law -T. */
+static double power_of(const struct hk_run *run, int64_t k, const double *q, struct hk_scaler *scaler) {
+  const struct hk_spring spring = hk_run_spring_at(run, k, scaler), given = hk_run_spring(run, k);
+  struct hk_spring unscaled = spring;
+  struct hk_stretch s;
+  hk_spring_stretch(&spring, q, NULL, &s);
+  if (s.slack) return 0.0;
+  unscaled.scale = run->scale;
+  unscaled.kappa = spring.kappa / scaler->force;
+  const struct hk_law law = hk_spring_law(&spring, s.length);
+  const double w = scaler->force > 0.0 ? hk_spring_law(&unscaled, s.length).energy : 0.0;
+  const double by_length =
+      run->scaling->strain ? (law.energy - law.tension * s.length) / spring.rest_length : -law.tension;
+  return scaler->force_rate * w + by_length * (given.rest_length * scaler->rate.rest_length);
+}
+
+static double power(const hooke_system *system, double t, const double *q, const double *v) {
+  struct hk_sum sum = {0.0, 0.0};
+  struct hk_scaler scaler = {.t = t};
+  (void)v;
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const struct hk_run *run = &system->springs->run[r];
-    (run->curve ? add_curved_product : hk_spring_set(0)->derivative)(run, &rows);
+    for (int64_t k = 0; k < run->count && run->scaling; k++)
+      hk_sum_add(&sum, power_of(run, k, q, &scaler));
   }
+  return hk_sum_value(&sum);
+}
+
+static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
+  const struct hk_derivative_rows rows = {point->q, point->v, point->dq, point->dv, out};
+  struct hk_run_walk walk;
+  hk_begin_runs(system->springs, point->t, &walk);
+  for (const struct hk_run *run; (run = hk_next_run(&walk)) != NULL;)
+    (run->curve ? add_curved_product : hk_spring_set(0)->derivative)(run, &rows);
   return 0;
 }
 
@@ -212,11 +242,11 @@ static void add_pair(const struct hk_pattern *pattern, int64_t i, int64_t j, con
 
 static void add_blocks(const hooke_system *system, double t, const double *q, const double *v,
                        const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  (void)t;
+  struct hk_scaler scaler = {.t = t};
   for (int64_t r = 0; r < system->springs->run_count; r++) {
     const struct hk_run *run = &system->springs->run[r];
     for (int64_t n = 0; n < run->count; n++) {
-      const struct hk_spring spring = hk_run_spring(run, n);
+      const struct hk_spring spring = hk_run_spring_at(run, n, &scaler);
       struct hk_spring_slope s;
       double stiff[9], damp[9];
       if (!hk_spring_slope_find(&spring, q, v, &s)) continue;
@@ -262,12 +292,12 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
 
 static void elements(const hooke_system *system, double t, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  (void)t;
+  struct hk_scaler scaler = {.t = t};
   const struct hk_run *run = &system->springs->run[hk_springs_run(system->springs, first)];
   for (int64_t k = 0; k < wanted; k++) {
     while (first + k >= run->first + run->count)
       run++;
-    const struct hk_spring spring = hk_run_spring(run, first + k - run->first);
+    const struct hk_spring spring = hk_run_spring_at(run, first + k - run->first, &scaler);
     hk_spring_element(&spring, q, v, &out[k]);
   }
 }
@@ -276,7 +306,7 @@ static void elements(const hooke_system *system, double t, const double *q, cons
 static int64_t stored_elements(struct hk_elements *at) {
   if (!at->system->tiled->stored) return -1;
   struct hk_spring_batch batch;
-  hk_begin_batches(&batch);
+  hk_begin_batches(at->t, &batch);
   batch.row = at->place[0];
   batch.done = at->place[1];
   batch.at = at->place[2];
@@ -297,10 +327,10 @@ static double stiffest(const struct hk_spring *spring) {
   return spring->scale * hk_curve_stiffest(spring->curve, spring->rest_length);
 }
 
-struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q) {
+struct hk_curved hk_springs_curved(const struct hk_springs *springs, double t, const double *q) {
   struct hk_curved sum = {0};
   for (int64_t s = 0; s < springs->count && springs->curved > 0; s++) {
-    const struct hk_spring spring = hk_springs_find(springs, s);
+    const struct hk_spring spring = hk_springs_find(springs, s, t);
     struct hk_stretch at;
     hk_spring_stretch(&spring, q, NULL, &at);
     sum.unbounded += isinf(stiffest(&spring));
@@ -315,7 +345,7 @@ const struct hk_element *hk_element_at_most(const struct hk_elements *at, const 
                                             struct hk_element *widened) {
   const struct hk_springs *springs = at->system->springs;
   if (springs->curved == 0 || at->force != &hk_force_springs) return e;
-  const struct hk_spring spring = hk_springs_find(springs, hk_element_number(at));
+  const struct hk_spring spring = hk_springs_find(springs, hk_element_number(at), at->t);
   const double most = stiffest(&spring);
   *widened = *e;
   widened->k_along = fmax(isinf(most) ? 0.0 : most, e->k_along);
@@ -324,7 +354,7 @@ const struct hk_element *hk_element_at_most(const struct hk_elements *at, const 
 
 static void add_stiffness(const hooke_system *system, double *sum) {
   struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_STIFFEST, &batch); hk_next_batch(system, &batch);) {
     for (int64_t k = 0; k < batch.count && batch.curve; k++) {
       const struct hk_spring spring = hk_batch_spring(&batch, k);
       const double most = stiffest(&spring);
@@ -361,6 +391,9 @@ static void add_run(hooke_system *system, const struct hk_piece *piece) {
   run->gammas = piece->number[HOOKE_GAMMA];
   run->rest_lengths = piece->number[HOOKE_REST_LENGTH];
   run->curve = piece->group->curve;
+  run->scaling = piece->group->scaling;
+  springs->scaled |= run->scaling != NULL;
+  run->scale = 1.0;
   run->loop = run->curve ? add_curved : hk_spring_set(0)->loop[run->shape];
   run->undamped_loop =
       run->curve ? add_curved_undamped : hk_spring_set(0)->loop[run->shape & ~HOOKE_RUN_DAMPED];
@@ -390,7 +423,7 @@ static int64_t memory(const hooke_system *system) {
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_spring_batch batch;
   hk_check_whole(value, system->springs->count);
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+  for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
     hk_check_add(value, batch.head, batch.count, sizeof *batch.head);
     hk_check_add(value, batch.tail, batch.count, sizeof *batch.tail);
     hk_check_add(value, batch.kappa, batch.count, sizeof(double));
@@ -399,11 +432,18 @@ static void check(const hooke_system *system, uint32_t *value) {
     hk_check_whole(value, batch.pull_only);
     if (batch.curve) hk_curve_check(batch.curve, value);
   }
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
+    if (run->scaling == NULL) continue;
+    hk_check_whole(value, run->first);
+    hk_check_whole(value, run->count);
+    hk_scaling_check(run->scaling, value);
+  }
 }
 
 static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
   for (int64_t k = 0; k < to->count; k++) {
-    const struct hk_spring spring = hk_springs_find(system->springs, first + k);
+    const struct hk_spring spring = hk_springs_find(system->springs, first + k, HOOKE_AS_GIVEN);
     to->particle[0][k] = (int32_t)spring.head;
     to->particle[1][k] = (int32_t)spring.tail;
     to->number[HOOKE_KAPPA][k] = spring.kappa;
@@ -431,6 +471,8 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .passed = passed,
                                               .energy = energy,
                                               .heat = heat,
+                                              .does_work = does_work,
+                                              .power = power,
                                               .add_product = add_product,
                                               .add_blocks = add_blocks,
                                               .elements = elements,

@@ -27,7 +27,7 @@ static const struct hk_option_row spring_rows[] = {
     HOOKE_OPTION("rest_length", HOOKE_OPTION_EACH("m"), "initial",
                  "rest length, one number or one for each spring; > 0 with the strain law; initial: as added",
                  .words = "initial"),
-    HOOKE_OPTION("rest_scale", HOOKE_OPTION_POSITIVE(NULL), "1", "factor on the rest length"),
+    HOOKE_SCALE_OPTIONS,
     HOOKE_OPTION("compression", .type = HOOKE_OPTION_FLAG, "true",
                  "false: the spring only pulls, like a cable"),
 };
@@ -38,9 +38,9 @@ int64_t hk_springs_run(const struct hk_springs *springs, int64_t number) {
   return hk_runs_find(&springs->run->first, springs->run_count, sizeof *springs->run, number);
 }
 
-struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number) {
+struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number, double t) {
   const struct hk_run *run = &springs->run[hk_springs_run(springs, number)];
-  return hk_run_spring(run, number - run->first);
+  return hk_run_spring_at(run, number - run->first, &(struct hk_scaler){.t = t});
 }
 
 /* ---- damping ratios ---- */
@@ -139,14 +139,15 @@ static int32_t check_units(const hooke_options *options) {
 int32_t hk_springs_find_material(const hooke_system *system, const hooke_options *options,
                                  struct hk_group *group) {
   const int strain = is_strain(options);
-  const double scale = hooke_options_number(options, "rest_scale");
+  const double scale = hk_scale_number(options, "rest_scale"),
+               more = hk_scale_number(options, "stiffness_scale");
   const int64_t given = hooke_options_number_count(options, "rest_length");
   double *const *number = group->number;
   hk_group_fill(group, options);
   for (int64_t k = 0; k < group->count; k++) {
     const double length =
         scale * (given > 0 ? number[HOOKE_REST_LENGTH][k] : initial_length(group, system->position, k));
-    const double stiffness = group->curve ? group->curve->slope : number[HOOKE_KAPPA][k];
+    const double stiffness = group->curve ? group->curve->slope : more * number[HOOKE_KAPPA][k];
     const double damping = number[HOOKE_GAMMA][k];
     if (strain && !(length > 0.0)) return refuse_rest_length(k, given, length);
     number[HOOKE_REST_LENGTH][k] = length;
@@ -191,6 +192,10 @@ int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *ad
   if (status == HOOKE_OK) group.pull_only = hooke_options_number(added->options, "compression") == 0.0;
   if (status == HOOKE_OK)
     status = hk_curve_from_options(added->options, is_strain(added->options), group.pull_only, &group.curve);
+  if (status == HOOKE_OK && group.curve)
+    hk_curve_scale(group.curve, hk_scale_number(added->options, "stiffness_scale"));
+  if (status == HOOKE_OK)
+    status = hk_scaling_create(added->options, is_strain(added->options), &group.scaling);
   if (status == HOOKE_OK) status = hk_springs_find_material(system, added->options, &group);
   if (status == HOOKE_OK && !added->from_part) status = keep_options(added->options, &group);
   return hk_group_end(system, status, &group);

@@ -7,6 +7,7 @@
 #include "kernel/spring/spring_loops.h"
 #include "model/force/curve.h"
 #include "model/force/element.h"
+#include "model/force/scaling.h"
 #include "model/sum/runs.h"
 #include "model/vector3.h"
 
@@ -15,6 +16,7 @@ extern const struct hk_option_table hk_spring_options;
 /* All springs of a committed system, in their order. */
 struct hk_springs {
   int64_t count;
+  int32_t scaled; /* 1: numbers of some follow time */
   int64_t run_count;
   struct hk_run *run;
   struct hk_stored stored;
@@ -30,8 +32,10 @@ struct hk_spring {
   double scale;                 /* factor on the tension of the curve */
 };
 
-static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
-  const struct hk_material m = hk_run_material(run, k);
+/* As it is at the time of the scaler. */
+static inline struct hk_spring hk_run_spring_at(const struct hk_run *run, int64_t k,
+                                                struct hk_scaler *scaler) {
+  const struct hk_material m = hk_scaled(hk_run_material(run, k), run->scaling, scaler);
   return (struct hk_spring){hk_run_head(run, k),
                             hk_run_tail(run, k),
                             m.kappa,
@@ -39,7 +43,7 @@ static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k
                             m.rest_length,
                             (run->shape & HOOKE_RUN_PULL_ONLY) != 0,
                             run->curve,
-                            1.0};
+                            run->scaling ? run->scale * scaler->force : run->scale};
 }
 
 /* The one place of a tension: every spring here, and linear ones in the loops of springs, to the bit. */
@@ -48,6 +52,11 @@ HOOKE_INLINE struct hk_law hk_spring_law(const struct hk_spring *spring, double 
   if (!spring->curve) return (struct hk_law){0.5 * tension * stretch, tension, spring->kappa};
   const struct hk_law law = hk_curve_law(spring->curve, stretch, spring->rest_length);
   return (struct hk_law){spring->scale * law.energy, spring->scale * law.tension, spring->scale * law.slope};
+}
+
+/* As it was given. */
+static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
+  return hk_run_spring_at(run, k, &(struct hk_scaler){.t = HOOKE_AS_GIVEN});
 }
 
 /* A spring at given ends: length, direction (zeros if it has none), tension and rate of stretch; v may be
@@ -127,7 +136,7 @@ struct hk_curved {
   int64_t unbounded, fall, falling;
   double tension;
 };
-struct hk_curved hk_springs_curved(const struct hk_springs *springs, const double *q);
+struct hk_curved hk_springs_curved(const struct hk_springs *springs, double t, const double *q);
 
 /* A spring as an element. */
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
@@ -148,8 +157,8 @@ double hk_critical_damping(double kappa, double mass);
  * HOOKE_BAD_VALUE, of group `number`. */
 int32_t hk_springs_find_damping(const hooke_system *system, struct hk_group *group, int64_t number);
 
-/* Finds the run of a spring, and the spring. */
+/* Finds the run of a spring, and the spring at a time. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
-struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number);
+struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number, double t);
 
 #endif

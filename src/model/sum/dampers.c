@@ -19,7 +19,7 @@ struct colours {
   int32_t pulling; /* 1: some only pull */
   int64_t *first;  /* classes + 1 */
   int32_t *head, *tail;
-  int64_t *slot; /* of each spring of the system, -1 of one without a colour, until all are made */
+  int64_t *slot; /* of each spring, -1 of one without a colour; until all are made, if none follows time */
 };
 
 /* Colours at each particle: all below `low`, and those in `above`, from begin[p] on, `count` of them. */
@@ -192,6 +192,22 @@ static double *new_numbers(struct hk_dampers *d, int64_t count, int32_t *status)
   return numbers;
 }
 
+static void take_numbers(const hooke_system *system, double t, struct hk_dampers *d) {
+  const struct colours *colours = &d->colours;
+  struct hk_scaler scaler = {.t = t};
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const int64_t at = colours->slot[run->first + k];
+      if (at < 0) continue;
+      const struct hk_spring spring = hk_run_spring_at(run, k, &scaler);
+      const double w = system->inverse_mass[spring.head] + system->inverse_mass[spring.tail];
+      d->impulse_per_rate[at] = hk_damper_part(d->h * spring.gamma * w) / w;
+      if (colours->pulling) d->kappa[at] = spring.kappa, d->rest_length[at] = spring.rest_length;
+    }
+  }
+}
+
 static int32_t take_springs(const hooke_system *system, struct hk_dampers *d) {
   const struct colours *colours = &d->colours;
   int32_t status = HOOKE_OK;
@@ -200,17 +216,7 @@ static int32_t take_springs(const hooke_system *system, struct hk_dampers *d) {
     d->kappa = new_numbers(d, colours->springs, &status);
     d->rest_length = new_numbers(d, colours->springs, &status);
   }
-  for (int64_t r = 0; r < system->springs->run_count && status == HOOKE_OK; r++) {
-    const struct hk_run *run = &system->springs->run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const int64_t at = colours->slot[run->first + k];
-      if (at < 0) continue;
-      const struct hk_spring spring = hk_run_spring(run, k);
-      const double w = system->inverse_mass[spring.head] + system->inverse_mass[spring.tail];
-      d->impulse_per_rate[at] = hk_damper_part(d->h * spring.gamma * w) / w;
-      if (colours->pulling) d->kappa[at] = spring.kappa, d->rest_length[at] = spring.rest_length;
-    }
-  }
+  if (status == HOOKE_OK) take_numbers(system, 0.0, d);
   return status;
 }
 
@@ -234,10 +240,13 @@ int32_t hk_dampers_create(const hooke_system *system, double h, struct hk_damper
   int32_t status = create_colours(system, &d->colours);
   if (status == HOOKE_OK) status = take_springs(system, d);
   if (status == HOOKE_OK) status = take_others(system, d);
-  hk_free(d->colours.slot);
-  d->colours.slot = NULL;
+  if (!system->springs->scaled) {
+    hk_free(d->colours.slot);
+    d->colours.slot = NULL;
+  }
   d->memory += (int64_t)sizeof *d + (d->colours.classes + 1) * (int64_t)sizeof(int64_t) +
-               2 * d->colours.springs * (int64_t)sizeof(int32_t);
+               2 * d->colours.springs * (int64_t)sizeof(int32_t) +
+               (d->colours.slot ? system->springs->count * (int64_t)sizeof(int64_t) : 0);
   if (status == HOOKE_OK)
     *out = d;
   else
@@ -377,6 +386,7 @@ static void drag(const struct hk_dampers *d, const struct hk_motion *motion) {
 }
 
 void hk_dampers_sweep(struct hk_dampers *d, struct hk_motion *motion, double t, int32_t backwards) {
+  if (d->system->springs->scaled) take_numbers(d->system, t, d);
   struct sweep sweep = {d, motion, backwards};
   if (backwards) {
     drag(d, motion);

@@ -18,7 +18,8 @@ int32_t hk_dampers_create(const hooke_system *system, double h, struct hk_damper
 void hk_dampers_destroy(struct hk_dampers *dampers);
 int64_t hk_dampers_memory(const struct hk_dampers *dampers);
 
-/* Changes the velocities of `motion`, whose particles have the caller's numbers, in the wind of time t. */
+/* Changes the velocities of `motion`, whose particles have the caller's numbers, by the dampers of time t and
+ * in its wind. */
 void hk_dampers_sweep(struct hk_dampers *dampers, struct hk_motion *motion, double t, int32_t backwards);
 
 #endif

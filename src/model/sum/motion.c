@@ -374,12 +374,13 @@ struct hk_moved hk_motion_moved(const struct hk_motion *motion) {
   return (struct hk_moved){motion->w, motion->q[0], motion->v[0], hk_motion_stride(motion)};
 }
 
-void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
+void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, double t,
+                    const struct hk_move *move) {
   struct tile_move to = {system, motion, move};
-  const int64_t shortness =
-      system->strided->count > 0
-          ? hk_strided_batches_pass(system, motion, move)
-          : hk_tiled_pass(system->tiled, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
+  const int64_t shortness = system->strided->count > 0
+                                ? hk_strided_batches_pass(system, motion, t, move)
+                                : hk_tiled_pass(system->tiled, motion, t,
+                                                move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
   hk_motion_keep_short(motion, shortness);
 }
 

@@ -15,16 +15,17 @@ static void take_plain(const struct hk_run *run, struct hk_spring_batch *batch) 
     batch->head[k] = first + k;
     batch->tail[k] = first + k + run->offset;
   }
+  const struct hk_spring all = hk_run_spring_at(run, 0, &batch->scaler);
   for (int64_t k = 0; k < batch->count && batch->done == 0; k++) {
-    batch->kappa[k] = run->kappa;
-    batch->gamma[k] = run->gamma;
-    batch->rest_length[k] = run->rest_length;
+    batch->kappa[k] = all.kappa;
+    batch->gamma[k] = all.gamma;
+    batch->rest_length[k] = all.rest_length;
   }
 }
 
 static void take_any(const struct hk_run *run, struct hk_spring_batch *batch) {
   for (int64_t k = 0; k < batch->count; k++) {
-    const struct hk_spring spring = hk_run_spring(run, batch->done + k);
+    const struct hk_spring spring = hk_run_spring_at(run, batch->done + k, &batch->scaler);
     batch->head[k] = (int32_t)spring.head;
     batch->tail[k] = (int32_t)spring.tail;
     batch->kappa[k] = spring.kappa;
@@ -39,6 +40,7 @@ static void take_run(const struct hk_run *run, struct hk_spring_batch *batch) {
   batch->pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
   batch->consecutive = (run->shape & HOOKE_RUN_INDEXED) == 0;
   batch->curve = run->curve;
+  batch->scale = run->curve ? hk_run_spring_at(run, 0, &batch->scaler).scale : 1.0;
   if (batch->consecutive && !(run->shape & HOOKE_RUN_MIXED))
     take_plain(run, batch);
   else
@@ -71,19 +73,14 @@ static void take_ends(const struct hk_tiled *tiled, int64_t tile, struct hk_spri
   }
 }
 
-/* Matches the loops of the tiled batch to the bit. */
 static void take_material(const struct hk_tiled *tiled, const struct hk_tiled_kind *kind,
                           struct hk_spring_batch *batch) {
-  const int32_t form = kind->shape & HOOKE_TILED_MIXED;
   for (int64_t k = 0; k < batch->count; k++) {
-    const double length = form ? tiled->rest_length[batch->at + k] : kind->rest_length;
-    batch->rest_length[k] = length;
-    batch->kappa[k] = form == HOOKE_TILED_MIXED    ? tiled->kappa[batch->at + k]
-                      : form == HOOKE_TILED_STRAIN ? kind->kappa / length
-                                                   : kind->kappa;
-    batch->gamma[k] = form == HOOKE_TILED_MIXED    ? tiled->gamma[batch->at + k]
-                      : form == HOOKE_TILED_STRAIN ? kind->gamma / length
-                                                   : kind->gamma;
+    const struct hk_material m =
+        hk_scaled(hk_tiled_material(tiled, kind, batch->at + k), kind->scaling, &batch->scaler);
+    batch->kappa[k] = m.kappa;
+    batch->gamma[k] = m.gamma;
+    batch->rest_length[k] = m.rest_length;
   }
 }
 

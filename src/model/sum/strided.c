@@ -46,7 +46,7 @@ static void put_behind(struct finder *finder, int32_t before, int32_t item) {
   }
 }
 
-static int32_t new_batch(struct finder *finder, int64_t offset, int64_t low, int32_t shape) {
+static int32_t new_batch(struct finder *finder, int64_t offset, int64_t low, const struct hk_run *run) {
   struct hk_strided_batches *strided = finder->strided;
   if (strided->count == HOOKE_MOST_STRIDED) return -1;
   const int64_t bytes = finder->particles / HOOKE_STRIDED_UNIT + 1;
@@ -54,8 +54,12 @@ static int32_t new_batch(struct finder *finder, int64_t offset, int64_t low, int
   uint8_t *present = hk_new(bytes, sizeof *present);
   finder->failed |= present == NULL;
   if (present == NULL) return -1;
-  strided->batch[k] = (struct hk_strided_batch){
-      .offset = offset, .first = low, .last = low, .shape = shape, .present = present};
+  strided->batch[k] = (struct hk_strided_batch){.offset = offset,
+                                                .first = low,
+                                                .last = low,
+                                                .shape = run->shape & HOOKE_RUN_PULL_ONLY,
+                                                .present = present,
+                                                .scaling = run->scaling};
   finder->after[2 * k + 1] = bit_of(2 * k + 1);
   finder->after[2 * k + 2] = bit_of(2 * k + 2);
   strided->memory += bytes;
@@ -63,20 +67,21 @@ static int32_t new_batch(struct finder *finder, int64_t offset, int64_t low, int
 }
 
 /* Strided batch of a spring; -1 if there is none. */
-static int32_t choose(struct finder *finder, int64_t low, int64_t high, int32_t shape) {
+static int32_t choose(struct finder *finder, int64_t low, int64_t high, const struct hk_run *run) {
   const int64_t offset = high - low;
+  const int32_t shape = run->shape & HOOKE_RUN_PULL_ONLY;
   for (int32_t k = 0; k < finder->strided->count; k++) {
     const struct hk_strided_batch *batch = &finder->strided->batch[k];
-    if (batch->offset == offset && batch->shape == shape && !has_spring(batch, low) &&
-        keeps_order(finder, k, finder->at[low], finder->at[high]))
+    if (batch->offset == offset && batch->shape == shape && batch->scaling == run->scaling &&
+        !has_spring(batch, low) && keeps_order(finder, k, finder->at[low], finder->at[high]))
       return k;
   }
-  return new_batch(finder, offset, low, shape);
+  return new_batch(finder, offset, low, run);
 }
 
 static int add_spring(struct finder *finder, const struct hk_run *run, int64_t k) {
   const int64_t low = hk_run_lower(run, k), high = hk_run_upper(run, k);
-  const int32_t chosen = choose(finder, low, high, run->shape & HOOKE_RUN_PULL_ONLY);
+  const int32_t chosen = choose(finder, low, high, run);
   if (chosen < 0) return 0;
   struct hk_strided_batch *batch = &finder->strided->batch[chosen];
   put_behind(finder, finder->at[low], 2 * chosen + 2);

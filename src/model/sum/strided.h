@@ -17,6 +17,9 @@ struct hk_strided_batch {
   int64_t offset, first, last; /* lowest and highest lower end */
   int32_t shape;               /* HOOKE_RUN_*, never indexed */
   uint8_t *present;            /* a bit for each particle: a spring begins there */
+  /* as of their runs; and the units of values of the material up to those of each number */
+  const struct hk_scaling *scaling;
+  int32_t units[HOOKE_STRIDED_NUMBERS];
 };
 
 /* `count` 0: the springs do not form batches, or too few of them for batches to pay. */
@@ -49,9 +52,9 @@ int64_t hk_rings_memory(const struct hk_rings *rings);
 struct hk_motion;
 struct hooke_system;
 
-/* One pass over the stepped particles of `motion`; returns the number of springs with a rest length but no
- * direction. */
-int64_t hk_strided_batches_pass(const struct hooke_system *system, struct hk_motion *motion,
+/* One pass over the stepped particles of `motion` at time t; returns the number of springs with a rest length
+ * but no direction. */
+int64_t hk_strided_batches_pass(const struct hooke_system *system, struct hk_motion *motion, double t,
                                 const struct hk_move *move);
 
 #endif

@@ -180,6 +180,7 @@ static int32_t take(const struct hk_springs *springs, int64_t particles, struct 
     for (int64_t u = 0; u < all; u++)
       material->unit[NUMBERS * u + j] = (uint32_t)(HOOKE_STRIDED_UNIT * j);
     if (sharing->differs[batch][j] && status == HOOKE_OK) status = store(springs, strided, batch, j, &units);
+    strided->batch[batch].units[j] = units;
   }
   const int64_t kept = HOOKE_STRIDED_UNIT * (int64_t)units;
   if (status == HOOKE_OK) status = hk_grow((void **)&material->value, kept, kept, sizeof *material->value);

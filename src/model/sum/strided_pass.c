@@ -5,6 +5,7 @@
 #include "model/sum/motion.h"
 #include "model/sum/strided.h"
 
+#include <math.h>
 #include <string.h>
 
 /* In a system larger than the second-level cache data are prefetched: particles reached by springs for the
@@ -22,8 +23,10 @@ struct partition {
 
 struct hk_rings {
   int32_t workers;
+  double t; /* of the scaled values, NAN before the first */
   int64_t reach, border_stride, memory;
   double *block;
+  double *value[HOOKE_MOST_STRIDED]; /* of batches that follow time, as they are then; else NULL */
   struct partition *partition;
 };
 
@@ -69,20 +72,67 @@ static int64_t ring_size(const struct hk_strided_batch *batch) {
   return 3 * hk_ring_stride(ring_capacity(batch) - 1);
 }
 
+/* Values that a motion has of its own, whatever number they are. */
+static int64_t scaled_values(const struct hk_strided_batch *batch) {
+  return batch->scaling ? HOOKE_STRIDED_UNIT * (int64_t)batch->units[HOOKE_STRIDED_NUMBERS - 1] : 0;
+}
+
+static void take_values(const struct hk_strided_batches *strided, struct hk_rings *rings, double *next) {
+  rings->t = NAN;
+  for (int32_t k = 0; k < strided->count; next += scaled_values(&strided->batch[k++])) {
+    if (strided->batch[k].scaling == NULL) continue;
+    rings->value[k] = next;
+    for (int32_t m = 0; m < rings->workers; m++)
+      rings->partition[m].view[k].material.value = next;
+  }
+}
+
+/* Shared numbers come first, one unit each, then the units of each number in turn. */
+static void scale_batch(const struct hk_strided_batches *strided, int32_t k, struct hk_rings *rings) {
+  const struct hk_strided_batch *batch = &strided->batch[k];
+  const double *given = strided->material[k].value;
+  struct hk_scaler scaler = {.t = rings->t};
+  hk_scaler_find(&scaler, batch->scaling);
+  const double by[HOOKE_STRIDED_NUMBERS] = {[HOOKE_STRIDED_KAPPA] = scaler.by.kappa,
+                                            [HOOKE_STRIDED_GAMMA] = scaler.by.gamma,
+                                            [HOOKE_STRIDED_REST] = scaler.by.rest_length};
+  int64_t at = 0;
+  for (int32_t j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
+    for (; at < (int64_t)HOOKE_STRIDED_UNIT * (j + 1); at++)
+      rings->value[k][at] = given[at] * by[j];
+  for (int32_t j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
+    for (; at < (int64_t)HOOKE_STRIDED_UNIT * batch->units[j]; at++)
+      rings->value[k][at] = given[at] * by[j];
+  for (int32_t m = 0; m < rings->workers; m++) {
+    struct hk_strided_view *view = &rings->partition[m].view[k];
+    for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
+      view->shared[j] = *hk_strided_number(&view->material, batch->first, j);
+  }
+}
+
+static void scale(const struct hk_strided_batches *strided, double t, struct hk_rings *rings) {
+  if (t == rings->t) return;
+  rings->t = t;
+  for (int32_t k = 0; k < strided->count; k++)
+    if (strided->batch[k].scaling) scale_batch(strided, k, rings);
+}
+
 struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32_t workers) {
   struct hk_rings *rings = hk_new(1, sizeof *rings);
   if (rings == NULL) return NULL;
-  int64_t numbers = 0;
-  for (int32_t k = 0; k < strided->count; k++)
+  int64_t numbers = 0, values = 0;
+  for (int32_t k = 0; k < strided->count; k++) {
     numbers += ring_size(&strided->batch[k]);
+    values += scaled_values(&strided->batch[k]);
+  }
   rings->workers = workers;
   rings->reach = strided->reach;
   rings->border_stride = 2 * strided->reach + HOOKE_STRIDED_UNIT;
   numbers += workers > 1 ? 6 * rings->border_stride : 0;
   rings->partition = hk_new(workers, sizeof *rings->partition);
-  rings->block = hk_new(workers * numbers, sizeof(double));
+  rings->block = hk_new(workers * numbers + values, sizeof(double));
   rings->memory = (int64_t)sizeof *rings + workers * (int64_t)sizeof *rings->partition +
-                  workers * numbers * (int64_t)sizeof(double);
+                  (workers * numbers + values) * (int64_t)sizeof(double);
   if (rings->partition == NULL || rings->block == NULL) {
     hk_rings_destroy(rings);
     return NULL;
@@ -94,6 +144,7 @@ struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32
     rings->partition[m].border = next;
     next += workers > 1 ? 6 * rings->border_stride : 0;
   }
+  take_values(strided, rings, next);
   return rings;
 }
 
@@ -253,10 +304,11 @@ static void go_over(int32_t worker, int32_t workers, void *ctx) {
   finish(task, partition);
 }
 
-int64_t hk_strided_batches_pass(const hooke_system *system, struct hk_motion *motion,
+int64_t hk_strided_batches_pass(const hooke_system *system, struct hk_motion *motion, double t,
                                 const struct hk_move *move) {
   struct task task = {system, motion, move};
   int64_t lost = 0;
+  if (system->springs->scaled) scale(system->strided, t, motion->rings);
   hk_pool_run(motion->pool, go_over, &task);
   for (int32_t m = 0; m < hk_pool_members(motion->pool); m++)
     lost += motion->rings->partition[m].lost;

@@ -299,7 +299,10 @@ static int32_t make(struct maker *maker, const double *inverse_mass) {
   struct hk_tiled *tiled = maker->tiled;
   int32_t status = number(maker, inverse_mass);
   if (status != HOOKE_OK) return status;
-  hk_tiled_sort_kinds(maker->springs, tiled, maker->kind_of);
+  if (!hk_tiled_sort_kinds(maker->springs, tiled, maker->kind_of)) {
+    hk_tiled_release(tiled);
+    return HOOKE_OK;
+  }
   tiled->tile = hk_new(tiled->tiles, sizeof *tiled->tile);
   tiled->batch = hk_new(tiled->tiles * tiled->kinds, sizeof *tiled->batch);
   tiled->degree = hk_new(tiled->particles, sizeof *tiled->degree);

@@ -21,6 +21,7 @@ struct hk_tiled_kind {
   int32_t shape;   /* HOOKE_TILED_* */
   int32_t uniform; /* one rest length */
   double kappa, gamma, rest_length;
+  const struct hk_scaling *scaling; /* as of their runs */
 };
 
 struct hk_tiled_tile {
@@ -55,6 +56,17 @@ struct hk_tiled {
   int64_t rows, list, ring; /* sizes of a window, a list of a tile and a ring */
 };
 
+/* The material of spring `at`, of that kind, as given: to the bit that of the loops of tiled batches. */
+static inline struct hk_material hk_tiled_material(const struct hk_tiled *tiled,
+                                                   const struct hk_tiled_kind *kind, int64_t at) {
+  const int32_t form = kind->shape & HOOKE_TILED_MIXED;
+  if (form == HOOKE_TILED_MIXED)
+    return (struct hk_material){tiled->kappa[at], tiled->gamma[at], tiled->rest_length[at]};
+  const double length = form ? tiled->rest_length[at] : kind->rest_length,
+               divisor = form == HOOKE_TILED_STRAIN ? length : 1.0;
+  return (struct hk_material){kind->kappa / divisor, kind->gamma / divisor, length};
+}
+
 /* HOOKE_NO_MEMORY. Moves material from the springs to the tiled batch. Makes none if runs or strided batches
  * are as good. */
 int32_t hk_tiled_create(struct hk_springs *springs, int64_t particle_count, const double *inverse_mass,
@@ -69,8 +81,9 @@ int64_t hk_tiled_spring_memory(const struct hk_tiled *tiled);
 int32_t hk_tiled_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
                         int32_t *order, int32_t *slot);
 
-/* Finds the kinds of the springs of all runs, in tiled->kind; kind_of has one for each run. */
-void hk_tiled_sort_kinds(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of);
+/* Finds the kinds of the springs of all runs, in tiled->kind; kind_of has one for each run. 0 if there are
+ * too many. */
+int32_t hk_tiled_sort_kinds(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of);
 
 /* Numbers in window, list and ring. */
 int64_t hk_tiled_numbers(const struct hk_tiled *tiled);
@@ -86,9 +99,10 @@ typedef void hk_tile(int64_t from, int64_t count, double *const f[3], void *ctx)
 
 struct hk_motion;
 
-/* One pass over all particles of `motion`, whose tiles are in working numbers; returns the number of springs
- * with a rest length but no direction. Workers of its pool process their own tiles at the same time, each in
- * ascending order. */
-int64_t hk_tiled_pass(const struct hk_tiled *tiled, struct hk_motion *motion, hk_tile *tile, void *ctx);
+/* One pass over all particles of `motion` at time t, whose tiles are in working numbers; returns the number
+ * of springs with a rest length but no direction. Workers of its pool process their own tiles at the same
+ * time, each in ascending order. */
+int64_t hk_tiled_pass(const struct hk_tiled *tiled, struct hk_motion *motion, double t, hk_tile *tile,
+                      void *ctx);
 
 #endif

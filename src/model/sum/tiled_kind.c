@@ -19,8 +19,13 @@ static int fits_spring(const struct hk_tiled_kind *kind, const struct hk_spring 
   return same_bits(spring->kappa, kind->kappa / divisor) && same_bits(spring->gamma, kind->gamma / divisor);
 }
 
+static int is_alike(const struct hk_tiled_kind *kind, const struct hk_run *run) {
+  return ((kind->shape & HOOKE_TILED_PULL_ONLY) != 0) == ((run->shape & HOOKE_RUN_PULL_ONLY) != 0) &&
+         kind->scaling == run->scaling;
+}
+
 static int fits(const struct hk_tiled_kind *kind, const struct hk_run *run) {
-  if (((kind->shape & HOOKE_TILED_PULL_ONLY) != 0) != ((run->shape & HOOKE_RUN_PULL_ONLY) != 0)) return 0;
+  if (!is_alike(kind, run)) return 0;
   const int64_t count = run->shape & HOOKE_RUN_MIXED ? run->count : 1;
   for (int64_t k = 0; k < count; k++) {
     const struct hk_spring spring = hk_run_spring(run, k);
@@ -40,8 +45,11 @@ static double multiple(double divisor, double length, int off) {
 static int make(const struct hk_run *run, struct hk_tiled_kind *kind) {
   const struct hk_spring spring = hk_run_spring(run, 0);
   const int32_t pull = spring.pull_only ? HOOKE_TILED_PULL_ONLY : 0;
-  *kind = (struct hk_tiled_kind){
-      .shape = HOOKE_TILED_LENGTHS | pull, .uniform = 1, .kappa = spring.kappa, .gamma = spring.gamma};
+  *kind = (struct hk_tiled_kind){.shape = HOOKE_TILED_LENGTHS | pull,
+                                 .uniform = 1,
+                                 .kappa = spring.kappa,
+                                 .gamma = spring.gamma,
+                                 .scaling = run->scaling};
   if (fits(kind, run)) return 1;
   kind->shape = HOOKE_TILED_STRAIN | pull;
   for (int stiff = -1; stiff <= 1; stiff++) {
@@ -75,12 +83,22 @@ static int divides(const struct hk_tiled *tiled) {
   return strain != 0;
 }
 
-static void by_spring(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of) {
+static int by_spring(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of) {
   tiled->kinds = 2;
   tiled->kind[0] = (struct hk_tiled_kind){.shape = HOOKE_TILED_MIXED};
   tiled->kind[1] = (struct hk_tiled_kind){.shape = HOOKE_TILED_MIXED | HOOKE_TILED_PULL_ONLY};
-  for (int64_t r = 0; r < springs->run_count; r++)
-    kind_of[r] = (springs->run[r].shape & HOOKE_RUN_PULL_ONLY) != 0;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    const struct hk_run *run = &springs->run[r];
+    int32_t c = 0;
+    while (c < tiled->kinds && !is_alike(&tiled->kind[c], run))
+      c++;
+    if (c == HOOKE_TILED_KINDS) return 0;
+    if (c == tiled->kinds)
+      tiled->kind[tiled->kinds++] = (struct hk_tiled_kind){
+          .shape = tiled->kind[(run->shape & HOOKE_RUN_PULL_ONLY) != 0].shape, .scaling = run->scaling};
+    kind_of[r] = c;
+  }
+  return 1;
 }
 
 static void look_at_lengths(const struct hk_springs *springs, struct hk_tiled *tiled,
@@ -114,9 +132,12 @@ static void share_lengths(struct hk_tiled *tiled) {
   }
 }
 
-void hk_tiled_sort_kinds(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of) {
+int32_t hk_tiled_sort_kinds(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of) {
   const int lawful = by_law(springs, tiled, kind_of);
-  if (!lawful || (divides(tiled) && springs->count <= FEW_SPRINGS)) by_spring(springs, tiled, kind_of);
+  if (!lawful || (divides(tiled) && springs->count <= FEW_SPRINGS)) {
+    if (!by_spring(springs, tiled, kind_of)) return 0;
+  }
   look_at_lengths(springs, tiled, kind_of);
   share_lengths(tiled);
+  return 1;
 }

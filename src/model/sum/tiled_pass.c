@@ -134,6 +134,7 @@ struct pass {
   struct hk_motion *motion;
   hk_tile *tile;
   void *ctx;
+  struct hk_scaler scaler[HOOKE_TILED_KINDS]; /* of each kind */
 };
 
 static int64_t least(int64_t a, int64_t b) {
@@ -183,19 +184,47 @@ static struct hk_tiled_springs springs_at(const struct hk_tiled *tiled, const st
   return springs;
 }
 
+/* Their material at the time of the pass, which each has of its own unless the kind shares all of it. */
+struct scaled {
+  double kappa[HOOKE_TILED_BATCH], gamma[HOOKE_TILED_BATCH], rest_length[HOOKE_TILED_BATCH];
+};
+
+static void scale(const struct pass *pass, int32_t c, int64_t at, int64_t count, struct scaled *to,
+                  struct hk_tiled_springs *springs) {
+  const struct hk_tiled_kind *kind = &pass->tiled->kind[c];
+  struct hk_scaler scaler = pass->scaler[c];
+  for (int64_t k = 0; k < count; k++) {
+    const struct hk_material m =
+        hk_scaled(hk_tiled_material(pass->tiled, kind, at + k), kind->scaling, &scaler);
+    springs->kappa = to->kappa[k] = m.kappa;
+    springs->gamma = to->gamma[k] = m.gamma;
+    springs->rest_length = to->rest_length[k] = m.rest_length;
+  }
+  springs->kappas = to->kappa;
+  springs->gammas = to->gamma;
+  springs->rest_lengths = to->rest_length;
+}
+
+static int32_t shape_of(const struct hk_tiled *tiled, const struct hk_tiled_kind *kind) {
+  const int32_t own = kind->scaling && kind->shape & HOOKE_TILED_MIXED ? HOOKE_TILED_MIXED : 0;
+  return kind->shape | own | (tiled->wide ? HOOKE_TILED_WIDE : 0);
+}
+
 /* Computes the next `count` springs, of one kind and one tile, into the ring. */
 static void fill_kind(const struct pass *pass, struct partition *partition, int64_t tile, int32_t c,
                       int64_t count) {
   const struct hk_tiled *tiled = pass->tiled;
   const struct hk_tiled_kind *kind = &tiled->kind[c];
   const double *low = partition->rows + HOOKE_TILED_ROW * (tile * HOOKE_TILE % tiled->rows);
-  const int32_t shape = pass->motion->zero ? kind->shape & ~HOOKE_TILED_DAMPED : kind->shape;
-  hk_tiled_fill *fill = pass->motion->tiled->loops->fill[shape | (tiled->wide ? HOOKE_TILED_WIDE : 0)];
+  const int32_t left_out = pass->motion->zero ? HOOKE_TILED_DAMPED : 0;
+  hk_tiled_fill *fill = pass->motion->tiled->loops->fill[shape_of(tiled, kind) & ~left_out];
+  struct scaled scaled;
   const int64_t first = tile > 0 ? tiled->tile[tile - 1].end : 0, end = partition->done + count;
   while (partition->done < end) {
     const int64_t at = partition->done % tiled->ring,
                   some = least(least(end - partition->done, tiled->ring - at), HOOKE_TILED_BATCH);
-    const struct hk_tiled_springs springs = springs_at(tiled, kind, partition->done);
+    struct hk_tiled_springs springs = springs_at(tiled, kind, partition->done);
+    if (kind->scaling) scale(pass, c, partition->done, some, &scaled, &springs);
     partition->lost += fill(&springs, (ptrdiff_t)some, low, partition->rows,
                             partition->forces + HOOKE_TILED_FORCE * (partition->done - first),
                             partition->forces + HOOKE_TILED_FORCE * (tiled->list + at));
@@ -240,8 +269,13 @@ static void go_over(int32_t worker, int32_t workers, void *ctx) {
   }
 }
 
-int64_t hk_tiled_pass(const struct hk_tiled *tiled, struct hk_motion *motion, hk_tile *tile, void *ctx) {
-  struct pass pass = {tiled, motion, tile, ctx};
+int64_t hk_tiled_pass(const struct hk_tiled *tiled, struct hk_motion *motion, double t, hk_tile *tile,
+                      void *ctx) {
+  struct pass pass = {.tiled = tiled, .motion = motion, .tile = tile, .ctx = ctx};
+  for (int32_t c = 0; c < tiled->kinds; c++) {
+    pass.scaler[c].t = t;
+    if (tiled->kind[c].scaling) hk_scaler_find(&pass.scaler[c], tiled->kind[c].scaling);
+  }
   int64_t lost = 0;
   hk_pool_run(motion->pool, go_over, &pass);
   for (int32_t m = 0; m < motion->tiled->workers; m++)

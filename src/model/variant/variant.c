@@ -158,6 +158,7 @@ static int32_t keep_group(const struct hk_variant_maker *maker, const struct hk_
   int32_t status = hk_curve_copy(group->curve, kept.pull_only, &kept.curve);
   if (status == HOOKE_OK) status = hk_group_allocate(&kept, group->name);
   if (status == HOOKE_OK) collect(maker, first, &kept);
+  if (status == HOOKE_OK) status = hk_scaling_copy(group->scaling, &kept.scaling);
   if (status == HOOKE_OK && group->options) status = take_options(maker, group->options, &kept);
   if (status == HOOKE_OK && (kept.count > 0 || group->count == 0))
     return hk_system_add_group(maker->made, &kept);
