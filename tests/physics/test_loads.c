@@ -194,6 +194,29 @@ TEST(divergence_is_seen_beside_a_load) {
   assert_true(hooke_state_time(state) < 10.0);
 }
 
+/* Of two loads on a pendulum's end, the small one is not needed, and the large one is. */
+TEST(needs_finds_loads_and_loses_none) {
+  owned_system *system = small_system(2, (double[]){0, 0, 0, 1, 0, 0}, NULL, 1.0, 1);
+  small_group(system, "springs", "rod", 1, (int64_t[]){0, 1}, "stiffness=100");
+  add_load(system, 1, "force=0,3,0");
+  add_load(system, 1, "motion=harmonic force=1e-4,0,0 frequency=1");
+  check_ok(hooke_system_commit(system));
+  owned_options *run =
+                    run_options((struct run){.method = "rk4", .step = 0.01, .duration = 0.2, .every = 0.02}),
+                *options = options_with("needs", "want=1e-3");
+  owned_measurement *needs;
+  check_ok(hooke_measurement_create("needs", system, run, options, &needs));
+  check_ok(hooke_measurement_run(needs, NULL));
+  for (int k = 0; k < 2; k++) {
+    const int64_t row = hooke_measurement_find(needs, "rows", "without", k ? "loads[1]" : "loads[0]");
+    assert_true(row >= 0);
+    assert_string_equal(hooke_measurement_text(needs, "rows", row, "kind"), "loads");
+    assert_true(hooke_measurement_number(needs, "rows", row, "needed") == (k == 0));
+    const double change = hooke_measurement_number(needs, "rows", row, "error");
+    check_close(change, k ? 1e-4 / 6.0 * 0.2 * 0.2 * 0.2 * 2.0 * acos(-1.0) : 0.06, k ? 1e-6 : 1e-3);
+  }
+}
+
 TEST(a_particle_that_is_held_or_missing_is_refused) {
   const int64_t wrong[2] = {1, 7}, both[2] = {1, 0}, second = 1;
   owned_system *system = small_system(3, (double[]){0, 0, 0, 1, 0, 0, 2, 0, 0}, NULL, 1.0, 1);

@@ -103,6 +103,23 @@ def test_loads_are_those_of_the_scene(tmp_path):
     assert system.energy(*[np.ones((1, 3))] * 2) == 3 - 4
 
 
+def test_gravity_factors_are_those_of_the_scene(tmp_path):
+    built = hooke.Scene(gravity=[0, -10, 0]).particles([[0, 0, 0], [1, 0, 0]], mass=1, gravity_factor=[0.5, -2]).rope(
+        "line", from_=[0, 1, 0], to=[1, 1, 0], segments=1, mass=1, gravity_factor=0.25)
+    with pytest.raises(hooke.BadValue, match=r"particles.gravity_factor: 3 factors for 2 particles"):
+        hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1, gravity_factor=[1, 2, 3])
+    built.save(tmp_path / "factors.json")
+    system = hooke.System()
+    system.add_particles(np.zeros((4, 3)), mass=1)
+    system.set_gravity([0, -10, 0])
+    system.set_gravity_factor([0.5, -2], count=2)
+    system.set_gravity_factor(0.25, first=2)
+    systems = [scene.system for scene in (built, hooke.Scene.parse(built.text), hooke.Scene.load(tmp_path / "factors.json"))]
+    for one in (*systems, system):
+        q = one.state().q
+        assert one.acceleration(q, 0 * q)[:, 1].tolist() == [-5, 20, -2.5, -2.5]
+
+
 def test_anchors_are_those_of_the_scene(tmp_path):
     built = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1)
     built.anchors("wall", particles=[1], points=[[1, 2, 0]], stiffness=6, damping=0.3, rest_length=0.5)

@@ -551,6 +551,35 @@ TEST(drives_take_the_keys_of_their_motion) {
          "t.json:2:77: driven[0].position: 1 row given; allowed: 2 or more rows of 3 numbers each [m]");
 }
 
+TEST(loads_take_the_keys_of_their_motion) {
+  refuse(
+      "{'hooke': 1, " TWO ",\n'loads': [{'particles': [0], 'force': [0,0,1], 'frequency': 1}]}",
+      "t.json:2:61: loads[0].frequency: belongs to motion 'harmonic'; allowed with 'constant': nothing more");
+  refuse("{'hooke': 1, " TWO ",\n'loads': [{'particles': [0], 'force': [0,0]}]}",
+         "t.json:2:40: loads[0].force[0]: 0 is not allowed; allowed: a row of 3 numbers");
+  refuse("{'hooke': 1, " TWO ",\n'loads': [{'particles': [0], 'force': [0,0,[1,2,3]]}]}",
+         "t.json:2:44: loads[0].force[2]: an array of 3 is not allowed; allowed: a number");
+  refuse(
+      "{'hooke': 1, " TWO ",\n'loads': [{'particles': [0, 2], 'force': [0,0,1]}]}",
+      "t.json:2:29: loads[0].particles[1]: there is no particle 2; allowed: 0 to 1, as numbers begin at 0");
+  refuse(
+      "{'hooke': 1, 'particles': {'position': [[0,0,0],[1,0,0]], 'mass': 1, 'pinned': [1]},\n'loads': "
+      "[{'particles': [0, 1], 'force': [0,0,1]}]}",
+      "t.json:2:29: loads[0].particles[1]: particle 1 is pinned; allowed: particles that are neither pinned nor driven");
+  refuse(
+      "{'hooke': 1, " TWO ",\n'loads': [{'name': 'wind', 'particles': [0], 'force': [0,0,1]}]}",
+      "t.json:2:12: loads[0].name: unknown key 'name'; did you mean 'time'? allowed: particles, motion, force, "
+      "frequency, phase, time");
+}
+
+TEST(factors_of_gravity_are_one_or_one_a_particle) {
+  refuse("{'hooke': 1, 'particles': {'position': [[0,0,0],[1,0,0]], 'mass': 1,\n'gravity_factor': [1,2,3]}}",
+         "t.json:2:19: particles.gravity_factor: 3 factors for 2 particles; allowed: one, or one for each");
+  refuse("{'hooke': 1, 'parts': [{'kind': 'rope', 'segments': 2, 'to': [1,0,0], 'from': [0,0,0], 'mass': 1,\n"
+         "'gravity_factor': [1,2]}]}",
+         "t.json:2:19: parts[0].gravity_factor: 2 factors for 3 particles; allowed: one, or one for each");
+}
+
 TEST(syntax_errors_give_line_and_column) {
   char *text = json("{'hooke': 1,\n 'title': 'a'\n 'gravity': [0,0,0]}");
   hooke_scene *scene = NULL;

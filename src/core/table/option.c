@@ -319,7 +319,8 @@ static int32_t refuse_elsewhere(const hooke_options *options, const struct slot 
       hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", row->name);
   }
   return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\"; allowed with \"%s\": %s",
-                 options->slot[slot->family + 1].row->name, slot->row->only, chosen, list);
+                 options->slot[slot->family + 1].row->name, slot->row->only, chosen,
+                 list[0] ? list : "nothing more");
 }
 
 int32_t hk_options_check_required(const hooke_options *options) {
