@@ -1,8 +1,6 @@
 #include "print.h"
 
 #include "hooke.h"
-#include "os.h"
-
 #include <errno.h>
 #include <float.h>
 #include <inttypes.h>
@@ -112,34 +110,57 @@ void cli_print_padded(FILE *file, int32_t width, const char *text) {
     fputc(' ', file);
 }
 
+void cli_string_add(struct cli_string *string, const char *format, ...) {
+  const size_t used = string->bytes ? strlen(string->bytes) : 0;
+  va_list args, again;
+  va_start(args, format);
+  va_copy(again, args);
+  const size_t size = (size_t)vsnprintf(NULL, 0, format, args) + 1;
+  char *longer = realloc(string->bytes, used + size);
+  if (longer)
+    vsnprintf(longer + used, size, format, again);
+  else
+    string->status = HOOKE_NO_MEMORY;
+  if (longer) string->bytes = longer;
+  va_end(again);
+  va_end(args);
+}
+
 /* $'...', with bytes by number unless they are plain characters. */
-static void print_escaped(FILE *file, const char *text) {
-  fputs("$'", file);
+static void escape(struct cli_string *string, const char *text) {
+  cli_string_add(string, "$'");
   for (int32_t length; *text; text += length) {
     length = any_length(text);
     if (*text == '\n')
-      fputs("\\n", file);
+      cli_string_add(string, "\\n");
     else if (plain_length(text))
-      fprintf(file, "%s%.*s", *text == '\'' || *text == '\\' ? "\\" : "", length, text);
+      cli_string_add(string, "%s%.*s", *text == '\'' || *text == '\\' ? "\\" : "", length, text);
     else
       for (int32_t i = 0; i < length; i++)
-        fprintf(file, "\\%03o", (unsigned)(unsigned char)text[i]);
+        cli_string_add(string, "\\%03o", (unsigned)(unsigned char)text[i]);
   }
-  fputc('\'', file);
+  cli_string_add(string, "'");
+}
+
+void cli_string_quote(struct cli_string *string, const char *text) {
+  static const char bare[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+-@%";
+  if (!is_plain(text)) {
+    escape(string, text);
+  } else if (text[0] && strspn(text, bare) == strlen(text)) {
+    cli_string_add(string, "%s", text);
+  } else {
+    cli_string_add(string, "'");
+    for (; *text; text++)
+      cli_string_add(string, *text == '\'' ? "'\\''" : "%c", *text);
+    cli_string_add(string, "'");
+  }
 }
 
 void cli_print_quoted(FILE *file, const char *text) {
-  static const char bare[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,:=+-@%";
-  if (!is_plain(text)) {
-    print_escaped(file, text);
-  } else if (text[0] && strspn(text, bare) == strlen(text)) {
-    fputs(text, file);
-  } else {
-    fputc('\'', file);
-    for (; *text; text++)
-      *text == '\'' ? fputs("'\\''", file) : fputc(*text, file);
-    fputc('\'', file);
-  }
+  struct cli_string quoted = {.bytes = NULL};
+  cli_string_quote(&quoted, text);
+  if (quoted.bytes) fputs(quoted.bytes, file);
+  free(quoted.bytes);
 }
 
 int cli_print_flush(void) {
@@ -147,14 +168,6 @@ int cli_print_flush(void) {
   errno = 0;
   if (fflush(stdout) != 0 && first == 0) first = errno;
   return first;
-}
-
-int32_t cli_print_end(FILE *stream, char **text) {
-  const int fine = stream && !ferror(stream);
-  if (stream && cli_os_close_text(stream, text) == 0 && fine && *text) return HOOKE_OK;
-  free(*text);
-  *text = NULL;
-  return HOOKE_NO_MEMORY;
 }
 
 void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text) {

@@ -35,11 +35,16 @@ void cli_print_padded(FILE *file, int32_t width, const char *text);
  * failure. */
 int cli_print_flush(void);
 
-/* Closes a stream of cli_os_open_text(), which may be NULL. HOOKE_NO_MEMORY, with `text` NULL, unless it
- * holds everything. */
-int32_t cli_print_end(FILE *stream, char **text);
+/* A text that grows; begins as zeros. */
+struct cli_string {
+  char *bytes;    /* for free(); NULL: none yet */
+  int32_t status; /* HOOKE_NO_MEMORY: something is left out */
+};
+void cli_string_add(struct cli_string *string, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Text as one word of a shell command, quoted if necessary; as $'...' if cli_print_text() would change it. */
+/* Adds a text as one word of a shell command, quoted if necessary; as $'...' if cli_print_text() would change
+ * it. The second prints it. */
+void cli_string_quote(struct cli_string *string, const char *text);
 void cli_print_quoted(FILE *file, const char *text);
 
 /* Text broken at blanks before column `width`; lines after the first start at column `indent`. */

@@ -19,7 +19,7 @@ OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "p
                ("hooke_system_members", "particles"), ("hooke_system_body_particles", "particles"),
                ("hooke_system_with_force", "force"),
                *((f"hooke_{name}", what) for what in "qv"
-                 for name in ("integrator_get", "integrator_put", "system_energy"))}
+                 for name in ("integrator_get", "integrator_put", "system_energy", "system_energy_at"))}
 # Handles that a callback takes for its `ctx`, by the names of their parameters.
 BY_CONTEXT = {"estimate": "hooke_measurement"}
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}

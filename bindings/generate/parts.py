@@ -54,9 +54,11 @@ DICTS = {
 }
 # What methods add that is not "a <kind>".
 ADDED = {"springs": "a group of springs", "bending": "a group of triples that resist bending", "driven": "prescribed motion",
-         "anchors": "a group of springs from a particle to a fixed point", "bodies": "existing particles as one rigid body"}
+         "anchors": "a group of springs from a particle to a fixed point", "bodies": "existing particles as one rigid body",
+         "loads": "a force on particles"}
 # Keys with the particles of what a scene lists, each a number or ("part", number), and their types.
-LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bodies": "particles", "driven": "particles"}
+LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bodies": "particles", "driven": "particles",
+         "loads": "particles"}
 PARTICLES = {"between": "Sequence[Sequence[Particle]] | IntArray", "triples": "Sequence[Sequence[Particle]] | IntArray",
              "particles": "Particle | Sequence[Particle] | IntArray"}
 TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str", "object": "dict[str, Quantity]"}
@@ -112,7 +114,8 @@ def method(kind, schema):
     required = [f"{argument(key)}: {type_of(key, keys[key])}" for key in keys if key in needed and key != "motion"]
     optional = [f"{argument(key)}: {type_of(key, keys[key])} | None = None" for key in keys if key not in needed]
     if "motion" in keys:
-        arguments = ["self: S", *required, "*", 'motion: str = "harmonic"', *optional]
+        first = keys["motion"].get("default", "harmonic")
+        arguments = ["self: S", *required, "*", f'motion: str = "{first}"', *(one for one in optional if "motion:" not in one)]
     else:
         arguments = ["self: S", "name: str | None = None", "*", *required, *optional]
     note = [f"        {NOTES[kind]}", ""] if kind in NOTES else []

@@ -28,6 +28,8 @@ def scalar(row):
         schema["exclusiveMinimum" if row.above_low else "minimum"] = number(row.low)
     if row.high is not None and row.high < LARGEST:
         schema["maximum"] = number(row.high)
+    if row.name == "pinned" and not row.words:  # explicit particles, which may have names
+        schema["type"] = ["integer", "string"]
     return {**schema, "type": ["number", "string"], "pattern": QUANTITY} if row.units else schema
 
 
@@ -41,6 +43,8 @@ def numbers(row):
     items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
     rows, width = array(items, row.columns, row.columns) if row.columns else items, row.columns or 1
     ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
+    if row.flat:
+        ways.insert(0, rows)
     if (row.min_count, row.max_count, row.columns) == (1, None, None):
         ways.insert(0, scalar(row))
     if row.words:
@@ -117,7 +121,7 @@ def schema():
     name = {"type": "string", "description": "of the part, and the first word of its groups"}
     parts = {kind: tables.table(rows[kind], definitions.get(kind, {}), kind={"const": kind}, name=name) for kind in kinds}
     objects = {name: tables.table(hooke.options_of(name).rows, definitions[name])
-               for name in ("particles", "springs", "bending", "anchors", "bodies", "driven", "run")}
+               for name in ("particles", "springs", "bending", "anchors", "bodies", "driven", "loads", "run")}
     keys, version = tables.table(hooke.options_of("scene").rows, {})["properties"], template["properties"].pop("hooke")
     template["properties"] = {"hooke": version, **keys, **template["properties"]}
     template["properties"]["parts"]["items"] = {

@@ -4,7 +4,6 @@
 
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 
 /* Before anything else: failed writes do not end the process, bytes of standard streams are not translated,
  * and terminals take UTF-8. */
@@ -40,11 +39,6 @@ int32_t cli_os_is_other_than_file(const char *path);
 /* Creates an empty file for this user alone, under a name that nobody had and nobody guesses: the six X at
  * the end of `path` become other letters. Returns 0, or -1 with errno. */
 int cli_os_make_file(char *path);
-
-/* A stream into memory: `text`, for free(), holds everything, with a NUL, after cli_os_close_text(), which
- * returns 0 if all went well. NULL: it could not be opened. */
-FILE *cli_os_open_text(char **text, size_t *size);
-int cli_os_close_text(FILE *stream, char **text);
 
 /* Opens a page in the reader's browser, which stays when the program ends. Returns 0 if there is none. */
 int32_t cli_os_show_page(const char *page);

@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -72,15 +73,6 @@ int32_t cli_os_is_same_file(const char *one, const char *other) {
 int cli_os_make_file(char *path) {
   const int descriptor = mkstemp(path);
   return descriptor < 0 ? -1 : close(descriptor);
-}
-
-FILE *cli_os_open_text(char **text, size_t *size) {
-  return open_memstream(text, size);
-}
-
-int cli_os_close_text(FILE *stream, char **text) {
-  (void)text;
-  return fclose(stream);
 }
 
 int32_t cli_os_show_page(const char *page) {

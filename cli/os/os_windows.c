@@ -92,29 +92,6 @@ int cli_os_make_file(char *path) {
   return descriptor < 0 ? -1 : _close(descriptor);
 }
 
-/* A file that is removed when it is closed. */
-FILE *cli_os_open_text(char **text, size_t *size) {
-  char folder[MAX_PATH + 1], path[MAX_PATH + 1];
-  *text = NULL;
-  *size = 0;
-  if (GetTempPathA(sizeof folder, folder) == 0 || GetTempFileNameA(folder, "hk", 0, path) == 0) return NULL;
-  return fopen(path, "w+bD");
-}
-
-int cli_os_close_text(FILE *stream, char **text) {
-  const long length = fflush(stream) == 0 ? ftell(stream) : -1;
-  char *whole = length >= 0 ? malloc((size_t)length + 1) : NULL;
-  rewind(stream);
-  if (whole && fread(whole, 1, (size_t)length, stream) == (size_t)length) {
-    whole[length] = '\0';
-    *text = whole;
-  } else {
-    free(whole);
-  }
-  fclose(stream);
-  return *text ? 0 : -1;
-}
-
 int32_t cli_os_show_page(const char *page) {
   return (intptr_t)ShellExecuteA(NULL, "open", page, NULL, NULL, SW_SHOWNORMAL) > 32;
 }

@@ -3,23 +3,13 @@
 #define HOOKE_CLI_COMMAND_H
 
 #include "arguments.h"
+#include "print.h"
 
-#include <stdio.h>
-
-/* An option of a run, for a command to print. */
-struct cli_setting {
-  const char *name, *text; /* text NULL: to be left out */
-};
-
-/* Prints the current command as one of `verb`, with `settings`, which a NULL name ends, replacing its own,
- * and without the options that only show how a run diverges.
- * For another verb than the current one, only the given options of a run are kept. */
-void cli_command_print(FILE *file, const struct cli_arguments *arguments, const char *verb,
-                       const struct cli_setting *settings);
-
-/* The same, as a run, in a text for free(). HOOKE_NO_MEMORY, with NULL. */
-int32_t cli_command_make(const struct cli_arguments *arguments, const struct cli_setting *settings,
-                         char **command);
+/* Adds the current command as one of `verb`, with the options of a run that are set in `changes` (NULL: none)
+ * replacing its own, and without the options that only show how a run diverges. For another verb than the
+ * current one, only the given options of a run are kept. */
+void cli_command_add(struct cli_string *text, const struct cli_arguments *arguments, const char *verb,
+                     const hooke_options *changes);
 
 /* Labels a diagnosis with the command of each advice, the column "command"; none where the scene has to
  * change. HOOKE_NO_MEMORY */

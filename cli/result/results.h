@@ -23,11 +23,4 @@ int cli_results_make(const struct cli_arguments *arguments, const char *kind,
                      int (*check)(const struct cli_arguments *arguments),
                      int (*ready)(struct cli_results *results), int (*tell)(struct cli_results *results));
 
-/* In words. */
-void cli_study_results_print(const struct cli_results *results);
-void cli_needs_results_print(const struct cli_results *results);
-
-/* 1: the reference, and with it every error of a study, is trusted up to the end of the run. */
-int32_t cli_study_trusts_all(const hooke_measurement *study);
-
 #endif

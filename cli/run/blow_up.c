@@ -1,14 +1,13 @@
 #include "blow_up.h"
 
-#include "claims.h"
+#include "measured.h"
 #include "command.h"
 #include "report.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
-
-static const char report_name[] = "why.html";
 
 /* ---- what happened ---- */
 
@@ -42,23 +41,31 @@ static void tell_try(const struct cli_run *run) {
 
 /* ---- where to see more ---- */
 
-void cli_blow_up_print_why(FILE *file, const struct cli_run *run) {
-  char number[HOOKE_NUMBER_SIZE];
-  const int chosen = cli_arguments_text(run->arguments, "want") != NULL;
+/* By the scene; what --want chose is named. */
+static void add_scene(struct cli_string *text, const struct cli_run *run) {
   const double step = hooke_options_number(run->options, "step");
-  const char *report = hooke_build_fact("chartjs")[0] ? report_name : NULL;
-  const struct cli_setting settings[] = {
-      {"method", chosen ? cli_run_method(run) : NULL},
-      {"step", chosen && !isnan(step) ? cli_format_number(step, number) : NULL},
-      {"report", report},
-      {NULL, NULL}};
-  if (!run->output || run->page) {
-    cli_command_print(file, run->arguments, "why", settings);
-    return;
+  hooke_options *chosen = NULL;
+  int32_t status = HOOKE_OK;
+  if (cli_arguments_text(run->arguments, "want")) {
+    status = hooke_options_create("run", &chosen);
+    if (status == HOOKE_OK) status = hooke_options_set_text(chosen, "method", cli_run_method(run));
+    if (status == HOOKE_OK && !isnan(step)) status = hooke_options_set_number(chosen, "step", step);
   }
-  fputs("hooke why ", file);
-  cli_print_quoted(file, run->output);
-  if (report) fprintf(file, " --report %s", report);
+  if (status == HOOKE_OK)
+    cli_command_add(text, run->arguments, "why", chosen);
+  else
+    text->status = status;
+  hooke_options_destroy(chosen);
+}
+
+void cli_blow_up_add_why(struct cli_string *text, const struct cli_run *run) {
+  if (!run->output || run->page) {
+    add_scene(text, run);
+  } else {
+    cli_string_add(text, "hooke why ");
+    cli_string_quote(text, run->output);
+  }
+  if (hooke_build_fact("chartjs")[0]) cli_string_add(text, " --report why.html");
 }
 
 /* ---- what is kept ---- */
@@ -95,8 +102,9 @@ void cli_blow_up_tell(const struct cli_run *run) {
   tell_what(run);
   if (run->arguments->quiet) return;
   tell_try(run);
-  fputs("see: ", stderr);
-  cli_blow_up_print_why(stderr, run);
-  fputc('\n', stderr);
+  struct cli_string why = {.bytes = NULL};
+  cli_blow_up_add_why(&why, run);
+  if (why.status == HOOKE_OK) fprintf(stderr, "see: %s\n", why.bytes);
+  free(why.bytes);
   tell_kept(run);
 }

@@ -8,8 +8,8 @@
 /* The first line alone with --quiet. */
 void cli_blow_up_tell(const struct cli_run *run);
 
-/* The command that explains the run: by its output, else by the scene with the options of the run; those that
- * --want chose are named. */
-void cli_blow_up_print_why(FILE *file, const struct cli_run *run);
+/* Adds the command that explains the run: by its output, else by the scene with the options of the run; those
+ * that --want chose are named. */
+void cli_blow_up_add_why(struct cli_string *text, const struct cli_run *run);
 
 #endif

@@ -51,7 +51,32 @@ int64_t cli_run_coincident(const struct cli_run *run);
 void cli_run_print(const struct cli_run *run);
 void cli_run_print_final(const struct cli_run *run);
 
+/* Runs the scene, with --want or its own method, into a trajectory that is removed once `show` has written it
+ * as `page`. `path` names it, for cli_os_make_file(). After a blow-up, up to `beyond` frames show how
+ * it goes on. Everything is reported; returns the exit code. */
+typedef int cli_show(const struct cli_run *run);
+int cli_run_to_show(const struct cli_arguments *arguments, char *path, const char *page, double beyond,
+                    cli_show *show);
+
 /* 1 if frames after divergence were asked for. */
 int32_t cli_run_goes_beyond(const struct cli_run *run);
+
+/* ---- its error: the wanted one (--want), and the estimated one ---- */
+
+/* Reads --want, refuses it beside a step or a tolerance on the command line, and picks a method and its step
+ * or tolerance, which it reports. Does nothing without --want. */
+int cli_want_pick(struct cli_run *run);
+
+/* Estimates the error of the finished run; not without --want under --no-estimate. */
+int32_t cli_want_measure(struct cli_run *run);
+
+/* 1 if the wanted error was not met and something finer is set in the options of the run. */
+int32_t cli_want_goes_on(struct cli_run *run);
+
+/* What the estimate says of the run. */
+void cli_want_print(const struct cli_run *run);
+
+/* Exit code of a finished run. */
+int cli_want_exit_code(const struct cli_run *run);
 
 #endif

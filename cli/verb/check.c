@@ -1,10 +1,9 @@
 /* hooke check: validates a scene and reports its size, memory and step limits, without running it. */
-#include "claims.h"
+#include "measured.h"
 #include "fit.h"
 #include "os.h"
 #include "print.h"
 #include "report.h"
-#include "rows.h"
 #include "setup.h"
 #include "watch.h"
 

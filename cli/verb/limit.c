@@ -1,10 +1,8 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
-#include "claims.h"
-#include "limiting.h"
+#include "measured.h"
 #include "print.h"
 #include "report.h"
 #include "results.h"
-#include "rows.h"
 
 #include <errno.h>
 #include <math.h>
@@ -57,10 +55,6 @@ static int make_ready(struct cli_results *l) {
 
 /* ---- words ---- */
 
-static double number_of(const struct cli_results *l, const char *what) {
-  return cli_number(l->found, "limit", what);
-}
-
 static const struct cli_column columns[] = {
     {"bound", "safe bound", "[s]", 12, "%.6g", "none", "no step", 0},
     {"predicted", "predicted", "[s]", 12, "%.6g", "none", "no step", 0},
@@ -88,10 +82,10 @@ static void print_table(const hooke_measurement *limit) {
 static void print_words(const struct cli_results *l) {
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, at t = %s s\n", cli_setup_title(l->arguments, &l->setup),
-          cli_format_rounded(number_of(l, "time"), text));
+          cli_format_rounded(cli_number(l->found, "limit", "time"), text));
   cli_claims_print(l->arguments, l->found, INDENT, NULL);
-  printf("\nfastest motion %.6g rad/s, fastest damping %.6g 1/s\n\n", number_of(l, "frequency_max"),
-         number_of(l, "rate_max"));
+  printf("\nfastest motion %.6g rad/s, fastest damping %.6g 1/s\n\n",
+         cli_number(l->found, "limit", "frequency_max"), cli_number(l->found, "limit", "rate_max"));
   print_table(l->found);
   if (hooke_measurement_row_count(l->found, "blame") > 0) printf("\n");
   cli_limiting_print(l->found);
@@ -112,7 +106,7 @@ static int tell(struct cli_results *l) {
                      hooke_last_error());
     code = HOOKE_EXIT_DIVERGED;
   }
-  if (isnan(number_of(l, "frequency_max"))) return code;
+  if (isnan(cli_number(l->found, "limit", "frequency_max"))) return code;
   return cli_setup_write_report(l->arguments, &l->setup, l->found, code);
 }
 

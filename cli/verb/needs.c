@@ -1,14 +1,116 @@
 /* hooke needs: the ingredients that a scene needs for a wanted accuracy, and a lean scene without the rest.
  */
-#include "claims.h"
-#include "os.h"
+#include "measured.h"
 #include "print.h"
 #include "report.h"
 #include "results.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { WIDTH = 110, LABEL = 14 };
+
+/* ---- the table ---- */
+
+static void print_head(int32_t width) {
+  printf("%-*s %10s %12s %10s %10s %10s\n", width, "without", "change", "evaluations", "ns a", "wall time",
+         "largest");
+  printf("%-*s %10s %12s %10s %10s %10s\n", width, "", "[m]", "of forces", "step", "[s]", "step [s]");
+}
+
+static double number(const hooke_measurement *needs, const char *table, int64_t row, const char *what) {
+  return hooke_measurement_number(needs, table, row, what);
+}
+
+static void print_costs(const hooke_measurement *needs, const char *table, int64_t row) {
+  const double wall = number(needs, table, row, "wall_seconds"), steps = number(needs, table, row, "steps");
+  printf(" %12.0f", number(needs, table, row, "force_evaluations"));
+  cli_rows_print_cell(10, steps > 0.0 ? 1e9 * wall / steps : (double)NAN);
+  cli_rows_print_cell(10, wall);
+  cli_rows_print_as(10, number(needs, table, row, "step_limit"), "%.4g", "none", NULL);
+}
+
+static void print_row(const hooke_measurement *needs, int64_t row, int32_t width) {
+  const char *note = hooke_measurement_text(needs, "rows", row, "note");
+  const double error = number(needs, "rows", row, "error"), needed = number(needs, "rows", row, "needed");
+  cli_print_padded(stdout, width, hooke_measurement_text(needs, "rows", row, "without"));
+  if (isnan(error)) {
+    printf("  needed: ");
+    cli_print_wrapped(stdout, width + LABEL, width + LABEL, WIDTH, note);
+    return;
+  }
+  cli_rows_print_cell(10, error);
+  print_costs(needs, "rows", row);
+  const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
+  cli_say("  %s%s%s\n", verdict, note[0] ? "; " : "", note);
+}
+
+static void print_table(const hooke_measurement *needs) {
+  static const char full[] = "nothing (the full scene)";
+  const int32_t width = cli_rows_width(needs, "rows", "without", strlen(full));
+  print_head(width);
+  printf("%-*s %10s", width, full, "");
+  print_costs(needs, "full", 0);
+  printf("\n");
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++)
+    print_row(needs, row, width);
+}
+
+/* ---- resolutions ---- */
+
+static void print_cells(const hooke_measurement *needs, int64_t part, const char *const numbers[3]) {
+  char text[64] = "";
+  for (int a = 0; a < 3; a++) {
+    const double cells = number(needs, "parts", part, numbers[a]);
+    if (!isnan(cells)) cli_append(text, sizeof text, "%s%.0f", text[0] ? " x " : "", cells);
+  }
+  printf(" %14s", text[0] ? text : "-");
+}
+
+static void print_parts(const hooke_measurement *needs) {
+  static const char *const has[] = {"cells", "cells_second", "cells_third"};
+  static const char *const wanted[] = {"wanted", "wanted_second", "wanted_third"};
+  static const char *const numbers[] = {"change", "change_fine", "order", "error"};
+  const int32_t width = cli_rows_width(needs, "parts", "part", strlen("part"));
+  printf("%-*s %14s %12s %12s %8s %12s %14s\n", width, "part", "cells N", "N to 2N [m]", "2N to 4N [m]",
+         "order", "left [m]", "want asks for");
+  for (int64_t part = 0; part < hooke_measurement_row_count(needs, "parts"); part++) {
+    const char *note = hooke_measurement_text(needs, "parts", part, "note");
+    cli_print_padded(stdout, width, hooke_measurement_text(needs, "parts", part, "part"));
+    print_cells(needs, part, has);
+    for (int k = 0; k < 4; k++)
+      cli_rows_print_cell(k == 2 ? 8 : 12, number(needs, "parts", part, numbers[k]));
+    print_cells(needs, part, wanted);
+    printf("\n");
+    if (note[0]) {
+      printf("%*s", width + 1, "");
+      cli_print_wrapped(stdout, width + 1, width + 1, WIDTH, note);
+    }
+  }
+}
+
+static void print_words(const struct cli_results *results) {
+  const hooke_measurement *needs = results->found;
+  const double spread = cli_number(needs, "needs", "spread");
+  cli_say("%s, %g m wanted\n", cli_setup_title(results->arguments, &results->setup),
+          cli_number(needs, "needs", "want"));
+  cli_claims_print(results->arguments, needs, LABEL, results->command);
+  if (isnan(cli_number(needs, "full", "step_error"))) return;
+  printf("\n");
+  if (cli_arguments_asks(results->arguments, "refine")) {
+    print_parts(needs);
+    return;
+  }
+  print_table(needs);
+  printf("\nchange: the largest distance of a watched position at any time; wall time: the least of equal "
+         "runs, which take up to\n%.0f %% longer\n",
+         100.0 * (spread - 1.0));
+  if (cli_claim(needs, "saving") && !results->command) printf("-o LEAN.json writes the lean scene\n");
+}
+
+/* ---- the verb ---- */
 
 static int check(const struct cli_arguments *arguments) {
   const char *output = cli_arguments_text(arguments, "output");
@@ -30,17 +132,6 @@ static int require(struct cli_results *results) {
 
 /* ---- the lean scene ---- */
 
-/* HOOKE_NO_MEMORY */
-static int32_t make_command(const char *file, char **command) {
-  size_t size;
-  FILE *stream = cli_os_open_text(command, &size);
-  if (stream) {
-    fputs("hooke run ", stream);
-    cli_print_quoted(stream, file);
-  }
-  return cli_print_end(stream, command);
-}
-
 static int write_lean(struct cli_results *results) {
   const char *output = cli_arguments_text(results->arguments, "output");
   const hooke_system *lean = hooke_needs_lean(results->found);
@@ -51,7 +142,11 @@ static int write_lean(struct cli_results *results) {
     cli_report_words(results->arguments, "%s", hooke_last_error());
     return cli_exit_code(status);
   }
-  int32_t made = make_command(output, &results->command);
+  struct cli_string command = {.bytes = NULL};
+  cli_string_add(&command, "hooke run ");
+  cli_string_quote(&command, output);
+  results->command = command.bytes;
+  int32_t made = command.status;
   if (made == HOOKE_OK) made = hooke_measurement_label(results->found, "command", results->command);
   if (made == HOOKE_OK) made = hooke_measurement_label(results->found, "output", output);
   return made == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(results->arguments);
@@ -62,7 +157,7 @@ static int tell(struct cli_results *results) {
   int code = write_lean(results);
   if (results->arguments->json && cli_claims_print_json(results->arguments, NULL, results->found) != HOOKE_OK)
     code = cli_report_missing_words(results->arguments);
-  if (!results->arguments->json) cli_needs_results_print(results);
+  if (!results->arguments->json) print_words(results);
   cli_print_flush();
   code = cli_setup_write_report(results->arguments, &results->setup, results->found, code);
   if (results->outcome != HOOKE_STOPPED) return code;

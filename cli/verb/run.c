@@ -4,8 +4,6 @@
 #include "fit.h"
 #include "os.h"
 #include "report.h"
-#include "run.h"
-#include "want.h"
 
 #include <errno.h>
 #include <inttypes.h>

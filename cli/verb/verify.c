@@ -1,8 +1,7 @@
 /* hooke verify: checks that a slice of a result reproduces from its scene. */
-#include "claims.h"
+#include "measured.h"
 #include "print.h"
 #include "report.h"
-#include "rows.h"
 #include "setup.h"
 #include "watch.h"
 

@@ -3,7 +3,8 @@
 #include "os.h"
 #include "print.h"
 #include "report.h"
-#include "run.h"
+#include "measured.h"
+#include "run_results.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -13,14 +14,10 @@
 
 enum { MOST_VIEWS = 8 };
 
-static double number_of(const hooke_measurement *view, const char *what) {
-  return hooke_measurement_number(view, "view", 0, what);
-}
-
 /* The omitted part, "every 10th" of something; "" if nothing is omitted. */
 static void describe_stride(const hooke_measurement *view, const char *what, char *text, size_t size) {
   static const char *const endings[] = {"th", "st", "nd", "rd"};
-  const int stride = (int)number_of(view, what), last = stride / 10 % 10 == 1 ? 0 : stride % 10;
+  const int stride = (int)cli_number(view, "view", what), last = stride / 10 % 10 == 1 ? 0 : stride % 10;
   text[0] = '\0';
   if (stride > 1) snprintf(text, size, ", every %d%s", stride, endings[last < 4 ? last : 0]);
 }
@@ -37,14 +34,15 @@ struct shown {
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *view,
                         const char *name) {
   char frames[64], springs[64];
-  const double damaged = number_of(view, "damaged");
-  const int all = number_of(view, "frames") + damaged == number_of(view, "frames_there") &&
-                  number_of(view, "springs") == number_of(view, "springs_there");
+  const double damaged = cli_number(view, "view", "damaged");
+  const int all = cli_number(view, "view", "frames") + damaged == cli_number(view, "view", "frames_there") &&
+                  cli_number(view, "view", "springs") == cli_number(view, "view", "springs_there");
   describe_stride(view, "frame_stride", frames, sizeof frames);
   describe_stride(view, "spring_stride", springs, sizeof springs);
   cli_report_words(arguments, "%s: %.2f MB, %.0f of %.0f frames%s, %.0f of %.0f springs%s%s", name,
-                   number_of(view, "bytes") / 1e6, number_of(view, "frames"), number_of(view, "frames_there"),
-                   frames, number_of(view, "springs"), number_of(view, "springs_there"), springs,
+                   cli_number(view, "view", "bytes") / 1e6, cli_number(view, "view", "frames"),
+                   cli_number(view, "view", "frames_there"), frames, cli_number(view, "view", "springs"),
+                   cli_number(view, "view", "springs_there"), springs,
                    all ? "" : "; --frames, --springs, --size and --beyond allow more");
   if (damaged > 0.0)
     cli_report_words(arguments, "%.0f damaged frame%s skipped: the numbers are not those that were written",
@@ -114,14 +112,12 @@ static int open_trajectory(const struct cli_arguments *arguments, struct shown *
 
 /* What was run for the page is called by its scene, as its trajectory is removed. */
 static int label(const struct cli_run *run, hooke_measurement *view) {
-  size_t size;
-  char *why = NULL;
-  FILE *stream = cli_os_open_text(&why, &size);
-  if (stream) cli_blow_up_print_why(stream, run);
-  int32_t status = cli_print_end(stream, &why);
+  struct cli_string why = {.bytes = NULL};
+  cli_blow_up_add_why(&why, run);
+  int32_t status = why.status;
   if (status == HOOKE_OK) status = hooke_measurement_label(view, "scene", run->arguments->scene);
-  if (status == HOOKE_OK) status = hooke_measurement_label(view, "command", why);
-  free(why);
+  if (status == HOOKE_OK) status = hooke_measurement_label(view, "command", why.bytes);
+  free(why.bytes);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 

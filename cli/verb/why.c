@@ -1,11 +1,9 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
-#include "claims.h"
+#include "measured.h"
 #include "command.h"
 #include "fit.h"
-#include "limiting.h"
 #include "print.h"
 #include "report.h"
-#include "rows.h"
 #include "setup.h"
 #include "watch.h"
 
@@ -58,11 +56,6 @@ static int32_t run_again(struct why *why) {
   return status;
 }
 
-static int32_t blew_up(const char *status) {
-  return strcmp(status, "diverged") == 0 || strcmp(status, "solver-failed") == 0 ||
-         strcmp(status, "step-limit") == 0;
-}
-
 /* From the first and the last frame of the output. */
 static int32_t read_output(struct why *why) {
   hooke_state *first = NULL, *last = NULL;
@@ -74,7 +67,7 @@ static int32_t read_output(struct why *why) {
   if (status == HOOKE_OK) status = find_bound(why, last);
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
-    if (blew_up(why->status))
+    if (cli_is_among("diverged solver-failed step-limit", why->status))
       status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last, why->arguments->more,
                                      &why->why);
   }

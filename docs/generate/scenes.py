@@ -64,7 +64,7 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         kind, "") + bound
 
 
-BELOW = ("particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "run")
+BELOW = ("particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "loads", "run")
 
 
 def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: Sequence[str],

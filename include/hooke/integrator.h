@@ -88,8 +88,8 @@ HOOKE_API int32_t hooke_integrator_create_second_order(int64_t size, hooke_force
 
 HOOKE_API void hooke_integrator_destroy(hooke_integrator *integrator);
 
-/* The integrator's own copy of its options, with `every` and `atol_velocity` filled in; valid as long as the
- * integrator lives. */
+/* The integrator's own copy of its options, with `every`, `atol` and `atol_velocity` filled in; valid as
+ * long as the integrator lives. */
 HOOKE_API const hooke_options *hooke_integrator_options(const hooke_integrator *integrator);
 
 /* ---- watching: at most one observer of each kind; NULL removes it ---- */

@@ -17,10 +17,10 @@ extern "C" {
 
 typedef struct hooke_options hooke_options;
 
-/* Creates options of the table `name`, which the caller sets and destroys: "run", "springs", "altitude" and
- * "anchors" (of a group), a kind of part ("cloth", ...), a kind of measurement ("study", ...), "limits" on
- * loading, or "scene", "particles", "driven" and "bending", the remaining keys of a scene. The message of
- * HOOKE_BAD_VALUE lists them all; HOOKE_NO_MEMORY. */
+/* Creates options of the table `name`, which the caller sets and destroys: "run", "springs", "altitude",
+ * "anchors" and "loads" (of a group), a kind of part ("cloth", ...), a kind of measurement ("study", ...),
+ * "limits" on loading, or "scene", "particles", "driven" and "bending", the remaining keys of a scene. The
+ * message of HOOKE_BAD_VALUE lists them all; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_options_create(const char *name, hooke_options **options);
 
 /* A copy of `options` with all values; the caller owns it. HOOKE_NO_MEMORY. */
@@ -69,7 +69,7 @@ HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
  *   "words"    the choices, or the words accepted in place of numbers, separated by blanks
  *   "family"   the family of the row
  *   "only"     the word of the table's first row, a choice, with which it may be given
- *   "units"    the units that a text may name, separated by commas: "s, ms, us, ns, min, h"
+ *   "units"    the units that a text may name, separated by commas: "s, ms, us, ns, ps, fs, min, h"
  *   "example"  a value for a first try, in the syntax of hooke_options_set_text() */
 HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
 
@@ -78,8 +78,8 @@ HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t ro
  *   "above_low", "whole"    1 if low is not allowed; if only whole numbers are
  *   "required"              1 if it has to be given; for a member of a family, where the family is given, and
  * with "only", where that is chosen "min_count", "max_count" of the type "numbers"; NaN: any count "columns"
- * numbers come in rows of this many in a scene "word_lists"            1 if several words and numbers may be
- * mixed */
+ * numbers come in rows of this many in a scene, "flat" 1 if one row may do without its brackets "word_lists"
+ * 1 if several words and numbers may be mixed */
 HOOKE_API double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property);
 
 #ifdef __cplusplus

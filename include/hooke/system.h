@@ -89,6 +89,13 @@ HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count
 /* Pins particles: inverse mass 0. Naming one twice is allowed; commit refuses a moving one. */
 HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
 
+/* Names a particle: a name takes the place of its number in scenes and in what is watched, such as "tip.y".
+ * It is no number, has no '.', ':' or blank, and is not that of a part or of a group, which commit refuses.
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_name_particle(hooke_system *system, const char *name, int64_t particle);
+/* The particle of a name; -1 if there is none. */
+HOOKE_API int64_t hooke_system_named_particle(const hooke_system *system, const char *name);
+
 /* Adds a group of `count` springs between the pairs in `ends` (2 count particle numbers, different within a
  * pair), with options "springs". `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL,
  * HOOKE_NO_MEMORY. */
@@ -115,6 +122,13 @@ HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *na
 HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *particles, const hooke_options *options);
 
+/* Adds a force to each of `count` free particles (repeats are allowed), with options "loads": F constant,
+ * with the energy -F.q, or with the motion "harmonic" F sin(2 pi frequency t + phase), or with "table"
+ * piecewise cubic through rows of F, as displacements of drives are. HOOKE_BAD_VALUE for a particle that is
+ * pinned or driven, at commit if that came later; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_loads(hooke_system *system, int64_t count, const int64_t *particles,
+                                         const hooke_options *options);
+
 /* Makes particles one rigid body: mass, centre and inertia are theirs (points in a line and single points are
  * bodies, too), all forces act on them as on any other, and members of forces inside the body are dropped at
  * commit. Positions and velocities stay those of the particles: every step takes the body's motion from three
@@ -130,6 +144,13 @@ HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, 
 
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
+
+/* Factors phi of gravity, of any sign, on `count` particles from number `first` on, `factor_count` being 1
+ * (shared) or `count`: a = w f + phi g, so weight less buoyancy over weight. They act on bodies where they
+ * are, and turn them, and are of the particles that exist; those to come have 1. HOOKE_BAD_VALUE,
+ * HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_set_gravity_factor(hooke_system *system, int64_t first, int64_t count,
+                                                  int64_t factor_count, const double *factor);
 
 /* Ether drag f = -c v on every free particle, c >= 0 [N s/m]. It also brakes free fall, which spring damping
  * does not. Drag of each particle, quadratic drag and a wind are options of a scene: hooke_options_create()
@@ -181,7 +202,7 @@ HOOKE_API int32_t hooke_system_commit(hooke_system *system);
 HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
 HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
 /* A count; -1 for any other word:
- *   "springs", "bending" (triples), "altitude" (tetrahedra), "anchors": members of a force,
+ *   "springs", "bending" (triples), "altitude" (tetrahedra), "anchors", "loads": members of a force,
  *       before commit all that were added, afterwards those that act: commit drops those that
  *       have neither stiffness nor damping
  *   "dropped_springs"  springs that commit has dropped for having neither
@@ -196,9 +217,9 @@ HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
  *              number of springs */
 HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *what);
 
-/* Groups of a force: "springs", "bending", "altitude" or "anchors". Their number, -1 for another word; the
- * name of group `group`, "" if it has none, NULL if there is no such group; the number of its members, 0 if
- * there is none. */
+/* Groups of a force: "springs", "bending", "altitude", "anchors" or "loads". Their number, -1 for another
+ * word; the name of group `group`, "" if it has none, NULL if there is no such group; the number of its
+ * members, 0 if there is none. */
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
@@ -224,14 +245,14 @@ HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 
 /* Number of particles of one member of a force: 2 of a spring, 3 of bending, 4 of a tetrahedron, 1 of an
- * anchor; 0 for a force without members and for another word. */
+ * anchor or a load; 0 for a force without members and for another word. */
 HOOKE_API int64_t hooke_member_particles(const char *force);
 /* Copies particles, stiffness [N/m], damping [N s/m] and rest length [m] of all hooke_system_count(system,
  * force) members of a force, in order. Arrays have one number a member, `particles` hooke_member_particles()
  * numbers; each array may be NULL. For bending the stiffness is its coefficient and the other numbers are
- * zero. Altitude springs have stiffness [N], damping [N s] and 7 rest lengths each, in the order above; these
- * are negative if the volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is. HOOKE_BAD_CALL before commit;
- * HOOKE_BAD_VALUE for another word. */
+ * zero; of loads all three are. Altitude springs have stiffness [N], damping [N s] and 7 rest lengths each,
+ * in the order above; these are negative if the volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is.
+ * HOOKE_BAD_CALL before commit; HOOKE_BAD_VALUE for another word. */
 HOOKE_API int32_t hooke_system_members(const hooke_system *system, const char *force, int64_t *particles,
                                        double *stiffness, double *damping, double *rest_length);
 /* Copies the point of every anchor [m] (3 each). HOOKE_BAD_CALL before commit. */
@@ -245,20 +266,20 @@ HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int6
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
 
 /* Names of the forces that this system computes ("springs", "bending", "altitude", "anchors", "fluid_drag",
- * "drag", "quadratic_drag", "wind", "callback", "gravity"), NULL past the last; absent forces cost nothing.
- */
+ * "drag", "quadratic_drag", "wind", "loads", "callback", "gravity"), NULL past the last; absent forces cost
+ * nothing. */
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
 
 /* ---- forces and energies at q, v (3n each), committed systems only ----
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
  * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
 
-/* Force on every particle [N], 3n: springs, bending, altitude springs, anchors, drag, callback,
- * m g on free particles. */
+/* Force on every particle [N], 3n: springs, bending, altitude springs, anchors, drag, loads, callback,
+ * m phi g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; that of the rigid motion
- * in a body; of an overdamped system the velocity f/gamma [m/s]. */
+/* Acceleration of every particle [m/s^2], 3n: w f + phi g, zero where pinned or driven; that of the rigid
+ * motion in a body; of an overdamped system the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */
@@ -280,10 +301,11 @@ HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, con
 HOOKE_API int32_t hooke_system_derivative_blocks_at(const hooke_system *system, double t, const double *q,
                                                     const double *v, double *dfdq, double *dfdv);
 
-/* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "gravity" (the
- * sum of -m g.q); "potential", their sum; "total". The kinetic energy needs v alone, the others q alone;
- * arrays that are not needed may be NULL. A callback has no energy. NaN for another word. Sums are
- * compensated (Neumaier 1974). They overflow to infinity. The first function is of time 0. */
+/* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "loads" (the
+ * sum of -F.q of constant ones), "gravity" (of -m phi g.q); "potential", their sum; "total". The kinetic
+ * energy needs v alone, the others q alone; arrays that are not needed may be NULL. A callback has no energy.
+ * NaN for another word. Sums are compensated (Neumaier 1974). They overflow to infinity. The first function
+ * is of time 0. */
 HOOKE_API double hooke_system_energy(const hooke_system *system, const char *what, const double *q,
                                      const double *v);
 HOOKE_API double hooke_system_energy_at(const hooke_system *system, const char *what, double t,

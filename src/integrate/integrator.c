@@ -19,12 +19,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static int32_t unknown_method(const char *name) {
-  char names[256];
-  hk_method_list(names, sizeof names);
-  return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"; allowed: %s", name, names);
-}
-
 /* ---- generalized coordinates, whose callbacks are those of the caller ---- */
 
 static int32_t call_force(int64_t n, double t, const double *q, const double *v, double *out, void *ctx) {
@@ -63,10 +57,11 @@ static int32_t make_system(struct hk_generalized *c) {
   int32_t status = zeros ? hooke_system_create(&c->system) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
     status = hooke_system_add_particles(c->system, particles, zeros, NULL, 1, &mass, NULL);
-  if (status == HOOKE_OK)
-    status = hooke_system_set_force(c->system, call_force, c->product ? call_product : NULL, c);
-  if (status == HOOKE_OK) c->system->force_scale = c->inverse_mass;
-  if (status == HOOKE_OK) status = hooke_system_commit(c->system);
+  if (status == HOOKE_OK) {
+    hooke_system_set_force(c->system, call_force, c->product ? call_product : NULL, c);
+    c->system->force_scale = c->inverse_mass;
+    status = hooke_system_commit(c->system);
+  }
   hk_free(zeros);
   return status;
 }
@@ -104,23 +99,15 @@ static int32_t create_coordinates(int64_t size, hooke_force *given, hooke_force_
 static int32_t create(const hooke_options *options, hooke_integrator **out) {
   int32_t status = hk_run_options_require(options, "options");
   if (status != HOOKE_OK) return status;
-  const char *name = hooke_options_text(options, "method");
-  const struct hk_method *method = hk_method_find(name);
-  if (method == NULL) return unknown_method(name);
-  if (method->steps == NULL) {
-    return hk_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
-                   method->needs);
-  }
+  const struct hk_method *method;
+  status = hk_method_take(hooke_options_text(options, "method"), &method);
+  if (status != HOOKE_OK) return status;
   hooke_integrator *it = hk_handle_new("hooke_integrator", sizeof *it);
   if (it == NULL) return HOOKE_NO_MEMORY;
   it->method = method;
   it->diverged_at = NAN;
   status = hooke_options_copy(options, &it->options);
   if (status == HOOKE_OK) status = hk_schedule_read(method, it->options, &it->schedule);
-  if (status == HOOKE_OK && !hooke_options_is_set(it->options, "atol_velocity")) {
-    status =
-        hooke_options_set_number(it->options, "atol_velocity", hooke_options_number(it->options, "atol"));
-  }
   if (status == HOOKE_OK)
     *out = it;
   else
@@ -150,6 +137,7 @@ static int32_t start_threads(hooke_integrator *it) {
 /* `it` is the integrator from here on, with its problem still missing. */
 static int32_t take_system(hooke_integrator *it, const hooke_system *system, hooke_integrator **out) {
   int32_t status = hk_method_require(it->method, system);
+  if (status == HOOKE_OK) status = hk_run_fill_tolerances(system, it->options);
   it->system = system;
   it->size = 3 * system->particle_count;
   if (it->method->by_tiles && system->mover_count == 0 && !system->overdamped && hk_goes_by_tiles(system))
@@ -195,6 +183,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
   it->rate_ctx = ctx;
   it->size = size;
   status = hk_method_require(it->method, NULL);
+  if (status == HOOKE_OK) status = hk_run_fill_tolerances(NULL, it->options);
   if (status == HOOKE_OK) status = hk_recent_create(size, 0, 1, &it->recent);
   if (status == HOOKE_OK && (it->rows = hk_rows_new(2 * size)) == NULL) status = HOOKE_NO_MEMORY;
   return finish(it, status, out);
@@ -202,7 +191,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
 
 void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
-  if ((it->own || it->around) && it->method->steps->destroy) it->method->steps->destroy(it);
+  if (it->own || it->around) it->method->steps->destroy(it);
   hk_motion_destroy(it->motion);
   hk_pool_destroy(it->pool);
   hk_recent_release(&it->recent);

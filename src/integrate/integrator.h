@@ -160,6 +160,10 @@ struct hooke_integrator {
 extern const struct hk_option_table hk_run_options;
 /* HOOKE_BAD_VALUE for the argument `where` unless these are options of a run. */
 int32_t hk_run_options_require(const hooke_options *options, const char *where);
+/* Sets atol and atol_velocity where they are not given: by the extent of a system (NULL: 1 m), the diagonal
+ * of the box of all its particles, and by the duration (none: 1 s). Options without them follow rtol and the
+ * duration, to the bit. HOOKE_NO_MEMORY. */
+int32_t hk_run_fill_tolerances(const hooke_system *system, hooke_options *options);
 
 /* Reports progress within a long step, if it is due: HOOKE_STOPPED. */
 int32_t hk_integrator_tell(hooke_integrator *integrator);
@@ -251,7 +255,7 @@ int32_t hk_divergence_keep(hooke_integrator *integrator);
 int32_t hk_divergence_glance(hooke_integrator *integrator, hooke_state *state);
 /* Divergence: records the energy at the start; then HOOKE_DIVERGED, with the last good state restored into
  * `state`, if the state has left every physical bound. Without `energy` only non-finite numbers count. */
-int32_t hk_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
+void hk_divergence_begin(hooke_integrator *integrator, const hooke_state *state);
 int32_t hk_divergence_check(hooke_integrator *integrator, hooke_state *state, int32_t energy);
 /* Repeats a check that another run passed at this state. */
 void hk_divergence_follow(hooke_integrator *integrator, const hooke_state *state);

@@ -152,6 +152,17 @@ void hk_method_list(char *list, size_t size) {
     list_method(table[k], list, size);
 }
 
+int32_t hk_method_take(const char *name, const struct hk_method **method) {
+  char names[256];
+  *method = hk_method_find(name);
+  if (*method && (*method)->steps) return HOOKE_OK;
+  if (*method)
+    return hk_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
+                   (*method)->needs);
+  hk_method_list(names, sizeof names);
+  return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"; allowed: %s", name, names);
+}
+
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
   const int problem = problem_of(system);
   const int32_t solves = problem == FIRST_ORDER && method->solved;

@@ -88,6 +88,8 @@ extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, 
     hk_backward_euler, hk_tr_bdf2, hk_implicit_midpoint, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd,
     hk_arkode_esdirk;
 
+/* Row of this name. HOOKE_BAD_VALUE, with those that there are; HOOKE_NOT_BUILT. */
+int32_t hk_method_take(const char *name, const struct hk_method **method);
 /* Row of this name, or NULL; its stability, of unknown kind if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);
 const struct hk_stability *hk_method_stability(const char *name);

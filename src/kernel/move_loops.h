@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* With k = `kick`, d = `drift`, a = w f + g, or w f without gravity, where f has c v taken away before if
- * there is drag:
+/* With k = `kick`, d = `drift`, a = w f + g, or w f without gravity, or w f + (phi g) with its factors, where
+ * f has c v taken away before if there is drag:
  *   nothing
  *   keep              f is kept
  *   kick then drift   v += k a, q += d v(new)
@@ -42,6 +42,7 @@ struct hk_move {
   int32_t kind;
   int32_t heavy; /* there is gravity */
   double kick, drift, drag, gravity[3];
+  const double *gravity_factor; /* phi, as many as w; NULL: none, as in passes that sum forces as well */
   ptrdiff_t stride;
   double *f, *half;    /* forces that are kept; u; 3 components each */
   double *start, *sum; /* of q and of v: 6 components each */

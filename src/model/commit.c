@@ -26,9 +26,12 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
 }
 
 static int32_t take_groups_over(hooke_system *system) {
+  const int64_t springs = hk_system_first_group(system, &hk_force_springs);
   int32_t status = HOOKE_OK;
-  for (int64_t g = 0; g < system->group_count; g++)
-    hk_group_drop(&system->group[g], system->bodies);
+  for (int64_t g = 0; g < system->group_count && status == HOOKE_OK; g++)
+    status = hk_springs_find_damping(system, &system->group[g], g - springs);
+  for (int64_t g = 0; g < system->group_count && status == HOOKE_OK; g++)
+    hk_group_drop(&system->group[g], system);
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
     const int64_t count = hk_system_groups_of(system, force); /* without any there may be no array */
@@ -144,7 +147,7 @@ static int32_t choose_forces(hooke_system *system) {
     const struct hk_force_row *row = hk_force_table(k);
     if (!hk_force_is_present(system, row)) continue;
     system->force_row[system->force_row_count++] = row;
-    system->drag_is_within |= row->add != NULL && k > hk_force_number(&hk_force_drag);
+    system->sums_after_drag |= row->add && k > hk_force_number(&hk_force_drag);
   }
   return HOOKE_OK;
 }
@@ -152,11 +155,10 @@ static int32_t choose_forces(hooke_system *system) {
 /* Of what depends on the callback force, which two systems with one model do not share. */
 static void forget_own(hooke_system *system) {
   system->force_row = NULL;
-  system->drag_is_within = 0;
   system->span = NULL;
   system->pin = NULL;
   system->idle_count = system->span_count = system->pin_count = 0;
-  system->force_row_count = 0;
+  system->force_row_count = system->sums_after_drag = 0;
 }
 
 void hk_system_undo(hooke_system *system) {
@@ -182,6 +184,8 @@ int32_t hooke_system_commit(hooke_system *system) {
   int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
+  if (status == HOOKE_OK) status = hk_groups_check_free(system);
+  if (status == HOOKE_OK) status = hk_names_check(system);
   if (status == HOOKE_OK) status = hk_medium_check(system);
   if (status == HOOKE_OK) status = hk_overdamped_check(system);
   if (status == HOOKE_OK) status = hk_movers_commit(system);

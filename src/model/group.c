@@ -25,6 +25,8 @@ void hk_group_release_columns(struct hk_group *group) {
     hk_free(group->particle[k]);
   for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++)
     hk_free(group->number[k]);
+  hk_free(group->ratio);
+  group->ratio = NULL;
   memset(group->particle, 0, sizeof group->particle);
   memset(group->number, 0, sizeof group->number);
 }
@@ -38,6 +40,12 @@ void hk_group_release(struct hk_group *group) {
 
 /* ---- dropping ---- */
 
+static void swap_numbers(double *number, int64_t a, int64_t b) {
+  const double kept = number[a];
+  number[a] = number[b];
+  number[b] = kept;
+}
+
 void hk_group_swap(struct hk_group *group, int64_t a, int64_t b) {
   for (int e = 0; e < group->force->member_particles; e++) {
     const int32_t kept = group->particle[e][a];
@@ -46,12 +54,10 @@ void hk_group_swap(struct hk_group *group, int64_t a, int64_t b) {
   }
   for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++) {
     const int32_t width = group->force->width[k];
-    for (int64_t w = 0; w < width; w++) {
-      const double kept = group->number[k][width * a + w];
-      group->number[k][width * a + w] = group->number[k][width * b + w];
-      group->number[k][width * b + w] = kept;
-    }
+    for (int64_t w = 0; w < width; w++)
+      swap_numbers(group->number[k], width * a + w, width * b + w);
   }
+  if (group->ratio) swap_numbers(group->ratio, a, b);
 }
 
 int32_t hk_group_resists(const struct hk_group *group) {
@@ -59,7 +65,9 @@ int32_t hk_group_resists(const struct hk_group *group) {
   return !group->pull_only && options && hk_options_find(options, "compression") != NULL;
 }
 
-static int acts(const struct hk_group *group, int64_t k) {
+static int acts(const struct hk_group *group, int64_t k, const hooke_system *system) {
+  if (group->force->on_free)
+    return !system->constrained[group->particle[0][k]]; /* not in a body that is held */
   const double *kappa = group->number[HOOKE_KAPPA], *gamma = group->number[HOOKE_GAMMA];
   return group->force->is_drag || kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
 }
@@ -73,14 +81,14 @@ static int is_inside(const struct hk_group *group, int64_t k, const struct hk_bo
   return inside;
 }
 
-void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
+void hk_group_drop(struct hk_group *group, const hooke_system *system) {
   const double *gamma = group->number[HOOKE_GAMMA];
   int64_t acting = 0;
   group->damped = 0;
   for (int64_t k = 0; k < group->count; k++) {
-    const int inside = is_inside(group, k, bodies);
+    const int inside = is_inside(group, k, system->bodies);
     group->inside += inside;
-    if (inside || !acts(group, k)) continue;
+    if (inside || !acts(group, k, system)) continue;
     group->damped |= gamma && gamma[k] != 0.0;
     if (k != acting) hk_group_swap(group, k, acting);
     acting++;

@@ -7,7 +7,6 @@
 
 #include <stddef.h>
 
-struct hk_bodies;
 struct hk_force_row;
 struct hooke_system;
 
@@ -33,6 +32,7 @@ struct hk_group {
   /* until commit, of each member; NULL if the force has no such number */
   int32_t *particle[HOOKE_MEMBER_PARTICLES];
   double *number[HOOKE_GROUP_NUMBERS];
+  double *ratio; /* of springs, damping ratios, from which commit finds gamma; NULL: none */
 };
 
 /* Allocates the columns of its force and count, and copies the name. HOOKE_NO_MEMORY. */
@@ -47,7 +47,7 @@ int32_t hk_group_resists(const struct hk_group *group);
 
 /* Moves members that have neither stiffness nor damping, and those inside a body, behind the others, in
  * stable order, and excludes them from the count; and the reverse. */
-void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies);
+void hk_group_drop(struct hk_group *group, const struct hooke_system *system);
 void hk_group_take_back(struct hk_group *group);
 
 /* What a call adds (group_add.c): `particles` of every member, and options unless the force has none. */
@@ -67,6 +67,9 @@ int32_t hk_group_begin(const struct hooke_system *system, const struct hk_additi
 void hk_group_fill(struct hk_group *group, const hooke_options *options);
 /* Adds the group, or releases it after a failure; returns that. */
 int32_t hk_group_end(struct hooke_system *system, int32_t status, struct hk_group *group);
+
+/* HOOKE_BAD_VALUE, with the place, for the first member that is to be on a free particle and is not. */
+int32_t hk_groups_check_free(const struct hooke_system *system);
 
 /* Takes ownership of the group and adds it to the table, or releases it: HOOKE_NO_MEMORY. */
 int32_t hk_system_add_group(struct hooke_system *system, struct hk_group *group);

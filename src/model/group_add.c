@@ -21,14 +21,37 @@ static int32_t refuse_repeated(const struct hk_force_row *force, const int64_t *
   return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", force->place, (long long)k);
 }
 
+/* 1, with a message, for a particle that does not move freely and has to. */
+static int refuse_held(const hooke_system *system, int64_t particle) {
+  const uint8_t how = system->constrained[particle];
+  if (how == 0) return 0;
+  hk_fail(HOOKE_BAD_VALUE, NULL, "particle %lld is %s; allowed: particles that are neither pinned nor driven",
+          (long long)particle, how == HOOKE_IS_PINNED ? "pinned" : "driven");
+  return 1;
+}
+
+int32_t hk_groups_check_free(const hooke_system *system) {
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    for (int64_t k = 0; k < group->count && group->force->on_free; k++) {
+      if (!refuse_held(system, group->particle[0][k])) continue;
+      fail_at(group->force, k, 0);
+      return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", group->force->name,
+                            (long long)(g - hk_system_first_group(system, group->force)));
+    }
+  }
+  return HOOKE_OK;
+}
+
 static int32_t check_particles(const hooke_system *system, const struct hk_addition *added) {
   const struct hk_force_row *force = added->force;
   const int ends = force->member_particles;
   for (int64_t k = 0; k < added->count; k++) {
     const int64_t *particle = added->particles + ends * k;
     for (int e = 0; e < ends; e++) {
-      if (particle[e] >= 0 && particle[e] < system->particle_count) continue;
-      hk_fail_index(NULL, "there is no particle", (double)particle[e], system->particle_count);
+      const int exists = particle[e] >= 0 && particle[e] < system->particle_count;
+      if (exists && !(force->on_free && refuse_held(system, particle[e]))) continue;
+      if (!exists) hk_fail_index(NULL, "there is no particle", (double)particle[e], system->particle_count);
       return fail_at(force, k, e);
     }
     for (int e = 1; e < ends && !force->is_drag; e++) { /* a segment repeats its end */
@@ -42,7 +65,8 @@ static int32_t check_particles(const hooke_system *system, const struct hk_addit
 /* One number, or one row of `columns` for each member. */
 static int32_t check_counts(const struct hk_addition *added) {
   const struct hk_option_table *table = added->force->options;
-  for (int32_t r = 0; table && r < table->row_count; r++) {
+  const int each_has = added->force->width[HOOKE_KAPPA] > 0;
+  for (int32_t r = 0; table && each_has && r < table->row_count; r++) {
     const struct hk_option_row *row = &table->rows[r];
     const int64_t each = row->columns > 0 ? row->columns : 1;
     if (row->type != HOOKE_OPTION_NUMBERS) continue;

@@ -30,8 +30,9 @@ struct hooke_system {
 
   double gravity[3];
   int32_t has_gravity;
-  double drag;        /* of all particles; 0: none, or one of each (model/medium.h) */
-  int32_t overdamped; /* 1: gamma x' = f, with drag for gamma */
+  double *gravity_factor; /* phi of every particle, with room for whole blocks after them; NULL: 1 */
+  double drag;            /* of all particles; 0: none, or one of each (model/medium.h) */
+  int32_t overdamped;     /* 1: gamma x' = f, with drag for gamma */
   /* From commit on: what forces and stiffnesses are divided by for a rate, the masses or gamma of every
    * particle; and drag, if it is one number without wind, and the acceleration by gravity: 0 in an overdamped
    * system, where they are gamma and a force. */
@@ -50,7 +51,7 @@ struct hooke_system {
   struct hk_drive_group *drive;
   int32_t force_row_count; /* from commit on: the present forces */
   const struct hk_force_row **force_row;
-  int32_t drag_is_within; /* 1: some of them comes after drag in the sum */
+  int32_t sums_after_drag; /* 1: some of them comes after drag in the sum */
 
   struct hk_springs *springs;         /* from commit on */
   struct hk_strided_batches *strided; /* from commit on, for all springs or none */
@@ -67,6 +68,12 @@ struct hooke_system {
   struct hk_system_rest *rest; /* what few read (model/system.h) */
   int32_t borrows; /* 1: by hooke_system_with_force(), all but what depends on its force is another's */
 };
+
+/* Acceleration by gravity of a particle along an axis. */
+static inline double hk_fall(const hooke_system *system, int64_t particle, int axis) {
+  const double *factor = system->gravity_factor;
+  return factor ? factor[particle] * system->fall[axis] : system->fall[axis];
+}
 
 /* 1 if a particle moves with a thing that has coordinates of its own. */
 static inline int32_t hk_is_carried(const hooke_system *system, int64_t particle) {

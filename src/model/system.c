@@ -39,11 +39,12 @@ static void release_model(hooke_system *system) {
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
   hk_movers_release(system);
+  hk_names_release(system);
   hk_medium_release(system->medium);
   hk_system_drop_derived(system, 0);
-  void *const block[] = {system->position,      system->velocity, system->mass,
-                         system->constrained,   system->group,    system->part,
-                         system->rest->derived, system->drive,    system->rest->input};
+  void *const block[] = {system->position, system->velocity,   system->mass,           system->constrained,
+                         system->group,    system->part,       system->gravity_factor, system->rest->derived,
+                         system->drive,    system->rest->input};
   for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
     hk_free(block[k]);
 }
@@ -63,6 +64,8 @@ int32_t hk_system_resize(hooke_system *system, int64_t used, int64_t capacity) {
     status = hk_grow((void **)&system->velocity, 3 * used, 3 * capacity, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, used, capacity, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, used, capacity, sizeof(uint8_t));
+  if (status == HOOKE_OK && system->gravity_factor)
+    status = hk_grow((void **)&system->gravity_factor, used, capacity + HOOKE_STRIDED_UNIT, sizeof(double));
   if (status == HOOKE_OK) system->rest->particle_capacity = capacity;
   return status;
 }
@@ -117,6 +120,8 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
     }
     memset(system->constrained + n, 0, (size_t)count);
   }
+  for (int64_t k = 0; k < count && system->gravity_factor; k++)
+    system->gravity_factor[n + k] = 1.0;
   for (int64_t k = 0; k < count; k++)
     system->mass[n + k] = mass_count == 0 ? 0.0 : mass[mass_count == 1 ? 0 : k];
   system->particle_count = n + count;
@@ -143,6 +148,42 @@ int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
   for (int k = 0; k < 3; k++)
     system->gravity[k] = system->has_gravity ? gravity[k] : 0.0;
   return HOOKE_OK;
+}
+
+/* Makes factors, all 1. */
+static int32_t need_factors(hooke_system *system) {
+  const int64_t n = system->particle_count, capacity = system->rest->particle_capacity;
+  if (system->gravity_factor) return HOOKE_OK;
+  system->gravity_factor = hk_new(capacity + HOOKE_STRIDED_UNIT, sizeof(double));
+  for (int64_t p = 0; p < n && system->gravity_factor; p++)
+    system->gravity_factor[p] = 1.0;
+  return system->gravity_factor ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+int32_t hooke_system_set_gravity_factor(hooke_system *system, int64_t first, int64_t count,
+                                        int64_t factor_count, const double *factor) {
+  int32_t status = hk_system_require_open(system), changes = 0;
+  if (status == HOOKE_OK && (first < 0 || count < 0 || first > system->particle_count - count))
+    status =
+        hk_fail_index("first", "there is no particle", (double)first, system->particle_count - count + 1);
+  if (status == HOOKE_OK && factor_count != 1 && factor_count != count)
+    status = hk_fail(HOOKE_BAD_VALUE, "gravity_factor",
+                     "%lld factors for %lld particles; allowed: one, or one for each",
+                     (long long)factor_count, (long long)count);
+  if (status == HOOKE_OK) status = hk_require_finite("gravity_factor", factor_count, 1, factor);
+  for (int64_t k = 0; status == HOOKE_OK && k < factor_count; k++)
+    changes |= factor[k] != 1.0;
+  if (status == HOOKE_OK && changes) status = need_factors(system);
+  for (int64_t k = 0; status == HOOKE_OK && k < count && system->gravity_factor; k++)
+    system->gravity_factor[first + k] = factor[factor_count == 1 ? 0 : k];
+  return status;
+}
+
+int32_t hk_set_gravity_factor(hooke_system *system, int64_t first, const hooke_options *options) {
+  const int64_t given = hooke_options_number_count(options, "gravity_factor");
+  if (given == 0) return HOOKE_OK;
+  return hooke_system_set_gravity_factor(system, first, system->particle_count - first, given,
+                                         hooke_options_numbers(options, "gravity_factor"));
 }
 
 int32_t hooke_system_set_force(hooke_system *system, hooke_force *force, hooke_force_product *product,

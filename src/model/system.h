@@ -41,6 +41,12 @@ struct hk_system_rest {
   struct hk_linear linear;
   void *own[HOOKE_FORCES]; /* from commit on: data of a force without a member of its own here */
 
+  int64_t name_count;
+  struct hk_particle_name {
+    char *text;
+    int64_t particle;
+  } * name;
+
   int64_t derived_count, derived_capacity;
   struct hk_derived *derived;
 
@@ -58,12 +64,22 @@ int32_t hk_overdamped_check_forces(const hooke_system *system);
 int32_t hk_overdamped_begin(hooke_system *system);
 void hk_overdamped_undo(hooke_system *system);
 
+/* For commit: HOOKE_BAD_VALUE if a particle has the name of a part or of a group. */
+int32_t hk_names_check(const hooke_system *system);
+void hk_names_release(hooke_system *system);
+
 /* Reopens a system after a failure of commit midway: releases all that commit makes. */
 void hk_system_undo(hooke_system *system);
+
+/* The option `gravity_factor` of what has just added the particles from `first` on. */
+int32_t hk_set_gravity_factor(hooke_system *system, int64_t first, const hooke_options *options);
 
 /* Memory for so many particles, of which `used` are kept; there may be no velocities any more.
  * HOOKE_NO_MEMORY. */
 int32_t hk_system_resize(hooke_system *system, int64_t used, int64_t capacity);
+
+/* Diagonal of the box that holds some positions [m]; 0 for none. */
+double hk_diagonal(int64_t count, const double *position);
 
 /* HOOKE_BAD_CALL unless the system is still open (the second: committed). */
 int32_t hk_system_require_open(const hooke_system *system);

@@ -3,9 +3,11 @@
 #include "model/force/drive.h"
 #include "model/sum/spring_batch.h"
 #include "model/system.h"
+#include "model/vector3.h"
 
 #include "core/status.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -23,6 +25,17 @@ const double *hooke_system_mass(const hooke_system *system) {
 
 const double *hooke_system_inverse_mass(const hooke_system *system) {
   return system->inverse_mass;
+}
+
+double hk_diagonal(int64_t count, const double *position) {
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, longest = 0.0;
+  for (int64_t k = 0; k < 3 * count; k++) {
+    low[k % 3] = fmin(low[k % 3], position[k]);
+    high[k % 3] = fmax(high[k % 3], position[k]);
+  }
+  for (int a = 0; a < 3 && count > 0; a++)
+    longest = fmax(longest, high[a] - low[a]);
+  return count > 0 ? fmax(longest, hk_distance3(high, low)) : 0.0; /* squares of tiny sides are 0 */
 }
 
 int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q) {
@@ -77,6 +90,8 @@ static int64_t memory(const hooke_system *system) {
   bytes += system->rest->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            (system->overdamped ? 2 : 1) * system->particle_count * (int64_t)sizeof(double) +
            (system->constrained_count + system->pin_count) * (int64_t)sizeof(int32_t);
+  if (system->gravity_factor)
+    bytes += (system->rest->particle_capacity + HOOKE_STRIDED_UNIT) * (int64_t)sizeof(double);
   bytes += hk_movers_memory(system);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +

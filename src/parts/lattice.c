@@ -15,6 +15,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_PINNED(
         "bottom top",
         "particles held still: numbers within the lattice, or words; bottom is the layer at the origin"),
+    HOOKE_PART_GRAVITY,
     HOOKE_PART_RIGID,
     HOOKE_PART_FAMILY("structural", "springs between neighbours along x, y and z"),
     HOOKE_PART_FAMILY("shear", "springs along all diagonals of the faces and of the body of every cell"),

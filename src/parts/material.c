@@ -3,7 +3,6 @@
 #include "core/memory.h"
 #include "core/status.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -113,13 +112,6 @@ static double reduced_mass(const struct hk_part *part, const int64_t *ends) {
   if (part->inner_mass > 0.0) return 0.5 * part->inner_mass;
   const double a = part->system->mass[ends[0]], b = part->system->mass[ends[1]];
   return a * (b / (a + b));
-}
-
-/* By the product, or by the roots where that leaves the range of numbers. */
-double hk_critical_damping(double kappa, double mass) {
-  const double product = kappa * mass;
-  const int fits = product >= DBL_MIN && product <= DBL_MAX;
-  return 2.0 * (fits ? sqrt(product) : sqrt(kappa) * sqrt(mass));
 }
 
 int32_t hk_part_set_damping(const struct hk_part *part, const char *family, int64_t count,

@@ -3,6 +3,7 @@
 #ifndef HOOKE_PARTS_MATERIAL_H
 #define HOOKE_PARTS_MATERIAL_H
 
+#include "model/force/spring.h"
 #include "parts/part.h"
 
 /* A number of a family of springs, such as its stiffness; 1 if it was given. */
@@ -18,9 +19,6 @@ int32_t hk_part_derive(const struct hk_part *part, const char *family, const cha
 int32_t hk_part_check_masses(const struct hk_part *part);
 /* The option `mass` [kg]; 0: not given. */
 double hk_part_total_mass(const struct hk_part *part);
-
-/* 2 sqrt(kappa m). */
-double hk_critical_damping(double kappa, double mass);
 
 /* Sets the option damping [N s] of springs from the damping_ratio of their family: kd = gamma l0, gamma = 2
  * zeta sqrt(kappa m/2), l0 the rest length of each of `count`, m the part's inner mass; without an inner mass

@@ -31,6 +31,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_MASS("by area"),
     HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass"),
     HOOKE_OPTION("pinned", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, 0), NULL, "numbers of particles held still"),
+    HOOKE_PART_GRAVITY,
     HOOKE_PART_RIGID,
     HOOKE_PART_FAMILY("structural", "springs along the edges"),
     HOOKE_PART_FAMILY("bend", "springs between the vertices opposite to each other across an edge"),

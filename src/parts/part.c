@@ -199,6 +199,7 @@ static int32_t build(const struct hooke_part_kind *kind, struct hk_part *part) {
   if (status == HOOKE_OK) status = kind->build(part);
   if (status == HOOKE_OK) status = pin_numbers(part);
   if (status == HOOKE_OK) status = pin_words(kind, part);
+  if (status == HOOKE_OK) status = hk_set_gravity_factor(part->system, part->first, part->options);
   return status;
 }
 

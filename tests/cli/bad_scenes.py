@@ -38,6 +38,7 @@ ROPE = part(LINE + ",", '"pinned": ["start"],', '"stretch": { "stiffness": 100 }
     { "between": [[["line", 0], ["line", 4]]], "stiffness": 1 }
   ]
 }""")
+NAMED = ROPE.replace('"springs": [', '"names": {"tip": ["line", 4]},\n  "springs": [')
 DENSE = ROPE.replace(' "mass": 1,\n      "pinned": ["start"],', '\n      "density": 1,')
 CLOTH = part('"kind": "cloth", "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 1]], "size": [3, 3], "mass": 1,',
              '"pinned": "top-corners",', '"structural": { "stiffness": 10, "damping": 0.1 }')
@@ -181,6 +182,29 @@ BAD = {
         "7:71", "parts[0].stretch.damping_ratio", "both given", "a family has one of them"),
     "damping-ratio-negative": (DENSE.replace("100", '100, "damping_ratio": -0.5'),
         "7:55", "parts[0].stretch.damping_ratio", "-0.5", "a number >= 0"),
+    "damping-of-group-twice": (CHAIN.replace("0.1", '0.1, "damping_ratio": 0.5'),
+        "9:87", "springs[0].damping_ratio", "both given", "a group has one of them"),
+    "damping-of-group-count": (CHAIN.replace('"damping": 0.1', '"damping_ratio": [1, 2, 3]'),
+        "9:71", "springs[0].damping_ratio", "3 values for 2 springs", "one, or one for each"),
+    "damping-of-group-huge": (CHAIN.replace('"damping": 0.1', '"damping_ratio": 1e300').replace("100", "1e200"),
+        "9:73", "springs[0].damping_ratio", "1e+300 of spring 0", "up to 1e300"),
+    "damping-of-group-overdamped": (CHAIN.replace('1,\n  "', '1, "dynamics": "overdamped", "drag": 1,\n  "', 1)
+        .replace('"damping": 0.1', '"damping_ratio": 0'),
+        "9:71", "springs[0].damping_ratio", "is not allowed", "damping is 0"),
+    "name-unknown": (NAMED.replace('["line", 4]]]', '"tap"]]'),
+        "12:33", "springs[0].between[0][1]", 'unknown particle "tap"', 'did you mean "tip"?'),
+    "name-of-part": (NAMED.replace('"tip"', '"line"'), "10:21", "names.line", "is the name of a part", "another name"),
+    "name-of-group": (NAMED.replace('{ "be', '{ "name": "tip", "be'), "10:20", "names.tip", "is the name of a group", "another name"),
+    "name-number": (NAMED.replace('"tip"', '"12"'), "10:12", "names", '"12"', "no number, without '.', ':' and blanks"),
+    "name-dotted": (NAMED.replace('"tip"', '"a.b"'), "10:12", "names", '"a.b"', "no number, without '.', ':' and blanks"),
+    "name-colon": (NAMED.replace('"tip"', '"a:b"'), "10:12", "names", '"a:b"', "no number, without '.', ':' and blanks"),
+    "name-blank": (NAMED.replace('"tip"', '"a b"'), "10:12", "names", '"a b"', "no number, without '.', ':' and blanks"),
+    "name-twice": (NAMED.replace('4]}', '4], "tip": ["line", 3]}'), "10:40", "names.tip", "particle 4 already", "each name once"),
+    "name-of-name": (NAMED.replace('["line", 4]}', '"line"}'), "10:20", "names.tip", '"line"', 'a particle, or ["part", index]'),
+    "name-of-nothing": (NAMED.replace('4]}', '5]}'), "10:29", "names.tip[1]", 'part "line" has no particle 5', "0 to 4"),
+    "names-array": (NAMED.replace('{"tip": ["line", 4]}', '["tip"]'), "10:12", "names", "an array of 1", "an object"),
+    "pinned-name-unknown": (CHAIN.replace("[0]", '["tip"]').replace('"hooke": 1', '"hooke": 1, "names": {"top": 0}'),
+        "6:16", "particles.pinned[0]", 'unknown particle "tip"', 'did you mean "top"?'),
     "lattice-size": (LATTICE.replace("3]", "1]"), "5:106", "parts[0].size[2]", "1 is not", "3 whole numbers >= 2"),
     "lattice-edges": (LATTICE.replace("0], [0, 0, 1]", "0]"), "5:56", "parts[0].edges", "2 rows", "3 rows of 3 numbers"),
     "lattice-huge": (LATTICE.replace("3, 3, 3", "2000, 2000, 2000"),

@@ -21,12 +21,13 @@ LOADABLE = LIBRARY and b"__asan_init" not in pathlib.Path(LIBRARY).read_bytes()
 
 # Faulty scenes that a schema cannot detect: combinations, existence, integers written with a point.
 BEYOND_A_SCHEMA = {
-    "bending-of-no-length", "between-range", "between-real", "between-same", "density-of-no-length", "driven-pinned", "driven-range", "driven-twice", "file-missing",
-    "file-not-hdf5", "lattice-flat", "lattice-huge", "lattice-of-no-length", "lattice-pinned-range", "mass-count",
-    "mesh-corners", "mesh-crowded", "mesh-file-missing", "mesh-file-scene", "mesh-flat", "mesh-range", "mesh-twice",
-    "mesh-unused", "mesh-welded", "part-index", "part-names", "part-pinned-range", "part-unknown", "pinned-moving",
-    "pinned-range", "pinned-real", "rest-length-coincident", "rope-of-no-length", "segments-real", "stiffness-count",
-    "strand-flat", "strand-nearly-straight", "strand-of-no-length",
+    "bending-of-no-length", "between-range", "between-real", "between-same", "damping-of-group-count", "damping-of-group-huge",
+    "density-of-no-length", "driven-pinned", "driven-range", "driven-twice", "file-missing", "file-not-hdf5", "lattice-flat",
+    "lattice-huge", "lattice-of-no-length", "lattice-pinned-range", "mass-count", "mesh-corners", "mesh-crowded",
+    "mesh-file-missing", "mesh-file-scene", "mesh-flat", "mesh-range", "mesh-twice", "mesh-unused", "mesh-welded",
+    "name-of-group", "name-of-nothing", "name-of-part", "name-unknown", "part-index", "part-names", "part-pinned-range",
+    "part-unknown", "pinned-moving", "pinned-name-unknown", "pinned-range", "pinned-real", "rest-length-coincident",
+    "rope-of-no-length", "segments-real", "stiffness-count", "strand-flat", "strand-nearly-straight", "strand-of-no-length",
     "table-order", "table-rows", "velocity-rows",
 }  # fmt: skip
 

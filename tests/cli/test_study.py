@@ -340,11 +340,11 @@ def test_ctrl_c_while_the_reference_is_checked(start, write):
 @pytest.mark.parametrize(
     "words, code, wanted",
     [
-        (["--want", "1parsec"], 2, "allowed: m, km, cm, mm, um, nm"),
+        (["--want", "1parsec"], 2, "allowed: m, km, cm, mm, um, nm, angstrom, in, ft"),
         (["--want", "1s"], 2, "no unit 's'"),
         (["--want", "0mm"], 2, "> 0"),
         (["--want", "mm"], 2, "a number > 0 [m]"),
-        (["--budget", "5m"], 2, "allowed: s, ms, us, ns, min, h"),
+        (["--budget", "5m"], 2, "allowed: s, ms, us, ns, ps, fs, min, h"),
         (["--points", "5"], 2, ">= 6"),
         (["--methods", "rk5"], 2, "did you mean rk4?"),
         (["--methods", "rk4,rk4"], 2, "named twice"),

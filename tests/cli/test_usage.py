@@ -13,7 +13,7 @@ RUN_OPTIONS = {  # expected in --help for each: unit and default
     "duration": ("[s]", "none"),
     "every": ("[s]", "none"),
     "rtol": ("", "1e-6"),
-    "atol": ("[m]", "1e-9"),
+    "atol": ("[m]", "none"),
     "atol-velocity": ("[m/s]", "none"),
     "max-order": ("", "none"),
     "max-steps": ("", "none"),
@@ -66,7 +66,7 @@ def test_help_of_study_has_both_tables_and_the_units(hooke):
         assert f" --{flag} " in answer.out, flag
     for flag in ["step", "rtol", "atol", "method"]:
         assert f" --{flag} " not in answer.out, flag
-    for units in ["s, ms, us, ns, min, h", "m, km, cm, mm, um, nm"]:
+    for units in ["s, ms, us, ns, ps, fs, min, h", "m, km, cm, mm, um, nm, angstrom, in, ft"]:
         assert answer.out.count(f"\n  {units}\n") == 1
     assert max(map(len, answer.out.splitlines())) <= 110
 

@@ -64,6 +64,8 @@ TEST(test_small_scenes) {
                                                   .triples = (int64_t)(round * (seed * 71 % 400)),
                                                   .tetrahedra = (int64_t)(round * (seed * 37 % 90)),
                                                   .anchors = (int64_t)(seed * 29 % 3 * 11),
+                                                  .loads = (int64_t)(features / 2 % 3 * 3 * (int64_t)round),
+                                                  .factors = features % 5 == 3,
                                                   .features = features});
     }
   }
@@ -80,6 +82,8 @@ TEST(test_large_scenes) {
                                                 .triples = 5003 / share,
                                                 .tetrahedra = 1501 / share,
                                                 .anchors = k % 2 ? 1009 / share : 0,
+                                                .loads = k == 1 ? 9 : 0,
+                                                .factors = k % 2 == 1,
                                                 .features = features[k]});
   }
 }
@@ -97,6 +101,7 @@ TEST(test_parts) {
                                                   .triples = m % 2 ? 5 : 0,
                                                   .tetrahedra = k % 3 == 1 && m % 2 ? 4 : 0,
                                                   .anchors = m % 3 == 1 ? 5 : 0,
+                                                  .loads = k % 4 == 1 && m % 3 == 2 ? 4 : 0,
                                                   .features = features,
                                                   .cloth = {size[k], size[m]},
                                                   .rope = 1 + (k * sizes + m) % 70});
@@ -132,6 +137,8 @@ TEST(test_lattices) {
     compare_scene((struct random_scene_request){.seed = 12000 + k,
                                                 .particles = alone ? 7 : 40,
                                                 .springs = alone ? 0 : 30,
+                                                .loads = k == 3 || k == 4 ? 3 : 0,
+                                                .factors = k % 3 == 1,
                                                 .features = (int32_t)(k * 53) & SCENE_EVERYTHING,
                                                 .lattice = {n[0], n[1], n[2]}});
   }

@@ -402,6 +402,8 @@ TEST(test_misuse) {
   check_status(hooke_integrator_get(loop.integrator, -1, particle, q, NULL), HOOKE_BAD_VALUE);
   check_status(hooke_integrator_put(loop.integrator, 2, (int64_t[]){2, 3}, q, bad), HOOKE_BAD_VALUE);
   check_message("velocity[1][1]");
+  check_status(hooke_integrator_put(loop.integrator, 2, (int64_t[]){2, 3}, bad, q), HOOKE_BAD_VALUE);
+  check_message("position[1][1]");
   check_ok(hooke_integrator_sync(loop.integrator, loop.state)); /* nothing was written */
   check_same_state(loop.state, before);
   hooke_state_destroy(small);

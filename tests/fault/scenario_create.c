@@ -30,12 +30,14 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   const double coefficient = 0.5;
   hooke_options *springs = make_options(a, "springs", "damping=0.5 rest_length=initial"),
                 *altitude = make_options(a, "altitude", "stiffness=5"),
-                *anchors = make_options(a, "anchors", "stiffness=5");
-  if (anchors == NULL) goto end;
+                *anchors = make_options(a, "anchors", "stiffness=5"),
+                *ratio = make_options(a, "springs", "stiffness=5 damping_ratio=0.1");
+  if (ratio == NULL) goto end;
   TRY(a, hooke_options_set_numbers(springs, "stiffness", 10, stiffness));
   TRY(a, hooke_system_add_springs(system, "edges", 10, ends, springs));
   TRY(a, try_words(springs, "law=length stiffness=3 compression=false"));
   TRY(a, hooke_system_add_springs(system, "cables", 3, ends, springs));
+  TRY(a, hooke_system_add_springs(system, "ratio", 4, ends, ratio));
   TRY(a, hooke_system_add_bending(system, "beam", 2, triples, 1, &coefficient));
   TRY(a, hooke_system_add_altitude(system, "volume", 2, tetrahedra, altitude));
   TRY(a, hooke_system_add_anchors(system, "wall", 3, triples, anchors));
@@ -43,12 +45,23 @@ end:
   hooke_options_destroy(springs);
   hooke_options_destroy(altitude);
   hooke_options_destroy(anchors);
+  hooke_options_destroy(ratio);
+}
+
+static void add_loads(struct attempt *a, hooke_system *system) {
+  const int64_t loaded[] = {1, 2};
+  hooke_options *loads = make_options(a, "loads", "motion=table force=0,0,0;0,1,0 time=0,1");
+  if (loads == NULL) return;
+  TRY(a, hooke_system_add_loads(system, 2, loaded, loads));
+end:
+  hooke_options_destroy(loads);
 }
 
 static void add_drives(struct attempt *a, hooke_system *system) {
   const int64_t pinned[] = {0}, shaken[] = {5}, led[] = {7}, called[] = {8};
   const double time[] = {0, 1, 2}, path[] = {0, 0, 0, 0.1, 0, 0, 0, 0.1, 0};
   TRY(a, hooke_system_pin(system, 1, pinned));
+  TRY(a, hooke_system_name_particle(system, "tip", 5));
   TRY(a, hooke_system_drive_harmonic(system, 1, shaken, (double[]){0, 0.1, 0}, 2.0, 0.3));
   TRY(a, hooke_system_drive_table(system, 1, led, 3, time, path));
   TRY(a, hooke_system_drive_callback(system, 1, called, shake, NULL));
@@ -136,6 +149,7 @@ SCENARIO(by_hand) {
   add_springs(a, system);
   if (a->gave_up) goto end;
   add_drives(a, system);
+  if (!a->gave_up) add_loads(a, system);
   if (a->gave_up) goto end;
   TRY(a, hooke_system_commit(system));
   ask_everything(a, system);
@@ -148,8 +162,8 @@ static const struct {
   const char *kind, *words;
 } parts[] = {
     {"rope", "from=0,0,0 to=1,0,0 segments=5 density=0.1 stretch.stiffness=20 bend.stiffness=1 bending=0.01 "
-             "pinned=start,end fluid_drag.density=1 fluid_drag.diameter=0.1 fluid_drag.normal=1 "
-             "fluid_drag.tangential=0.1"},
+             "pinned=start,end gravity_factor=0.3 fluid_drag.density=1 fluid_drag.diameter=0.1 "
+             "fluid_drag.normal=1 fluid_drag.tangential=0.1"},
     {"cloth", "origin=0,1,0 edges=1,0,0,0,0,1 size=5,4 mass=0.3 structural.stiffness=20 shear.stiffness=5 "
               "bend.stiffness=1 pinned=top-corners"},
     {"lattice", "origin=0,2,0 edges=1,0,0,0,1,0,0,0,1 size=3,3,3 mass=0.3 structural.stiffness=20 "

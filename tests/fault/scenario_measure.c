@@ -1,6 +1,8 @@
 /* Limits, why, needs, study, comparison, pick, cost. Times are not among the results. */
 #include "scenarios.h"
 
+#include <string.h>
+
 /* From the start, since a failed attempt may have left it. */
 static int32_t go_along(hooke_measurement *limit, const hooke_state *start, hooke_state *state) {
   const int32_t status = hooke_state_copy(start, state);
@@ -112,11 +114,19 @@ end:
   release(&m);
 }
 
+/* By a reference, if no step is given, whose picking may not fail here. */
 SCENARIO(estimate) {
   struct made m = {.system = make_oscillator(a)};
-  m.run = make_options(a, "run", "method=%s step=0.02 duration=0.4 every=0.1", (const char *)with);
+  const char *words = with;
+  m.run = make_options(a, "run", "%s", words);
   m.measurement = make_measurement(a, "estimate", m.system, NULL, "want=1e-7");
   if (m.measurement == NULL) goto end;
+  if (strstr(words, "step") == NULL) {
+    fault_pause();
+    const int32_t status = hooke_estimate_pick(m.measurement, "verlet", m.run);
+    fault_resume();
+    TRY(a, status);
+  }
   TRY(a, hooke_integrator_create(m.system, m.run, &m.integrator));
   TRY(a, hooke_state_create(m.system, &m.state));
   TRY(a, hooke_integrator_on_frame(m.integrator, hooke_estimate_see, m.measurement));
@@ -170,8 +180,13 @@ const struct scenario measuring[] = {
     {"needs", needs, NULL, 300, NULL, NULL},
     {"study", study, NULL, 100, "sundials gsl", NULL},
     {"pick", pick, NULL, 2000, NULL, NULL},
-    {"estimate", estimate, "verlet", 1, "lapack", NULL},
-    {"estimate, judged at its beginning", estimate, "implicit-midpoint", 1, "lapack", NULL},
+    {"estimate", estimate, "method=verlet step=0.02 duration=0.4 every=0.1", 1, "lapack", NULL},
+    {"estimate, judged at its beginning", estimate,
+     "method=implicit-midpoint step=0.02 duration=0.4 every=0.1", 1, "lapack", NULL},
+    {"estimate, and by rk4", estimate, "method=shardlow step=0.02 duration=0.4 every=0.1", 1, "lapack", NULL},
+    {"estimate, at the limit", estimate, "method=symplectic-euler step=0.19 duration=7.6 every=0.19", 1,
+     "lapack", NULL},
+    {"estimate, by a reference", estimate, "duration=0.4 every=0.1", 1, "lapack", NULL},
     {"compare", compare, NULL, 3, "sundials", NULL},
     {"cost", cost, NULL, 5, "lapack", NULL},
     {"cost, groups left out", cost, "", 5, "lapack", NULL},

@@ -84,18 +84,23 @@ end:
 
 #define SHORT_RUN "method=%s step=1e-3 duration=4e-3 every=1e-3"
 
-/* Three particles in a rigid body that another pulls at. */
-SCENARIO(run_body) {
+/* Three particles in a rigid body that another pulls at, or without inertia. */
+static void run_four(struct attempt *a, const char *method, int32_t overdamped) {
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2, 2}, v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0},
                mass = 1.0;
   const int64_t ends[] = {0, 1, 2, 3}, body[] = {0, 1, 2};
-  struct made m = {.run = make_options(a, "run", SHORT_RUN, (const char *)with)};
+  struct made m = {.run = make_options(a, "run", SHORT_RUN, method)};
   m.options = make_options(a, "springs", "stiffness=10");
   if (m.options == NULL) goto end;
   TRY(a, hooke_system_create(&m.system));
-  TRY(a, hooke_system_add_particles(m.system, 4, q, v, 1, &mass, NULL));
+  TRY(a, hooke_system_add_particles(m.system, 4, q, overdamped ? NULL : v, 1, &mass, NULL));
   TRY(a, hooke_system_add_springs(m.system, "springs", 2, ends, m.options));
-  TRY(a, hooke_system_add_body(m.system, "body", 3, body, 1));
+  if (overdamped) {
+    TRY(a, hooke_system_set_drag(m.system, 2.0));
+    TRY(a, hooke_system_set_dynamics(m.system, "overdamped"));
+  } else {
+    TRY(a, hooke_system_add_body(m.system, "body", 3, body, 1));
+  }
   TRY(a, hooke_system_commit(m.system));
   TRY(a, hooke_integrator_create(m.system, m.run, &m.integrator));
   TRY(a, hooke_state_create(m.system, &m.state));
@@ -103,6 +108,14 @@ SCENARIO(run_body) {
   take_state(a, m.state);
 end:
   release(&m);
+}
+
+SCENARIO(run_body) {
+  run_four(a, with, 0);
+}
+
+SCENARIO(run_overdamped) {
+  run_four(a, with, 1);
 }
 
 static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
@@ -183,6 +196,9 @@ const struct scenario running[] = {
     {"run, rigid body, rk4", run_body, "rk4", 1, NULL, NULL},
     {"run, rigid body, tr-bdf2", run_body, "tr-bdf2", 1, NULL, NULL},
     {"run, rigid body, cvode-bdf", run_body, "cvode-bdf", 1, "sundials", NULL},
+    {"run, overdamped, rk4", run_overdamped, "rk4", 1, NULL, NULL},
+    {"run, overdamped, backward-euler", run_overdamped, "backward-euler", 1, NULL, NULL},
+    {"run, overdamped, cvode-bdf", run_overdamped, "cvode-bdf", 1, "sundials", NULL},
     {"run, second order, verlet", run_second_order, "verlet", 1, NULL, NULL},
     {"run, second order, tr-bdf2", run_second_order, "tr-bdf2", 1, NULL, NULL},
     {"run, first order, rk4", run_first_order, "rk4", 1, NULL, NULL},

@@ -3,7 +3,7 @@
  *
  * The first byte selects the calls, the rest is the file. Most inputs have a matching check value.
  *
- * Lines of: src/io/checkpoint/checkpoint.c src/io/checkpoint/checkpoint_form.c
+ * Lines of: src/io/checkpoint/checkpoint.c
  * Longest input: 640 */
 #include "fuzz.h"
 
@@ -11,7 +11,6 @@
 
 #include "core/crc32.h"
 #include "io/checkpoint/checkpoint_file.h"
-#include "io/checkpoint/checkpoint_form.h"
 #include "memory_folder.h"
 
 #include <fcntl.h>

@@ -6,6 +6,7 @@
 #include "small.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Two periods: at their end a phase that is off shows a twelfth of what it does between, so that who judges
  * the end alone claims too much. */
@@ -160,38 +161,92 @@ TEST(test_callbacks_are_not_called_again_unless_asked) {
   }
 }
 
-/* Pushes from the third run on, which no force does: runs begin where time goes back. */
+/* Pushes from a run on, which no force does, and in each later one by a share of that: runs begin where time
+ * goes back. */
 struct liar {
-  double time;
+  const char *reason;
+  int64_t from;
+  double push, share, time;
   int64_t runs;
 };
 
 static int32_t lie(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   struct liar *liar = ctx;
   (void)n, (void)q, (void)v;
-  liar->runs += t < liar->time - 0.2;
+  liar->runs += t < liar->time - 0.03;
   liar->time = t;
-  force[3] += liar->runs < 3 ? 0.0 : 100.0;
+  if (liar->runs >= liar->from) force[3] += liar->push * pow(liar->share, (double)(liar->runs - liar->from));
   return 0;
 }
 
-/* A run, one at half the step and one at twice agree, and the other method never comes near. */
+/* A run, one at half the step and one at twice agree, and the other method never comes near. One that comes
+ * nearer each time, or breaks off, does not contradict, and a finer run that breaks off says nothing. */
 TEST(test_what_another_method_contradicts_is_not_known) {
-  struct liar liar = {0.0, 0};
-  owned_system *plain = small_oscillator(OMEGA), *system = NULL;
-  check_ok(hooke_system_with_force(plain, lie, NULL, &liar, &system));
-  owned_options *own = options_with("estimate", "callbacks=1"),
-                *options = run_options((struct run){
-                    .method = "implicit-midpoint", .step = 2.5e-3, .duration = 0.5, .every = EVERY});
-  owned_measurement *estimate;
-  check_ok(hooke_measurement_create("estimate", system, NULL, own, &estimate));
-  estimated_run(system, options, estimate);
-  assert_true(isnan(number_of(estimate, "estimate")) && isnan(number_of(estimate, "rms")));
-  assert_true(text_of(estimate, "by") == NULL && isnan(number_of(estimate, "known_until")));
-  assert_string_equal(text_of(estimate, "reason"), "another method, tr-bdf2, says otherwise");
+  struct liar liars[] = {{"another method, tr-bdf2, says otherwise", 3, 100.0, 1.0, 0.0, 0},
+                         {"", 3, 100.0, 0.7, 0.0, 0},
+                         {"", 3, NAN, 1.0, 0.0, 0},
+                         {"a finer run did not come to its end", 1, NAN, 1.0, 0.0, 0}};
+  owned_system *plain = small_oscillator(OMEGA);
+  for (int k = 0; k < 4; k++) {
+    owned_system *system = NULL;
+    check_ok(hooke_system_with_force(plain, lie, NULL, &liars[k], &system));
+    owned_options *own = options_with("estimate", "callbacks=1"),
+                  *options = run_options((struct run){
+                      .method = "implicit-midpoint", .step = 2.5e-3, .duration = 0.5, .every = EVERY});
+    owned_measurement *estimate;
+    check_ok(hooke_measurement_create("estimate", system, NULL, own, &estimate));
+    const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
+    assert_string_equal(text_of(estimate, "reason"), liars[k].reason);
+    assert_true(liars[k].runs >= liars[k].from);
+    if (liars[k].reason[0] == '\0') {
+      assert_true(found >= truly);
+      continue;
+    }
+    assert_true(isnan(found) && isnan(number_of(estimate, "rms")));
+    assert_true(text_of(estimate, "by") == NULL && isnan(number_of(estimate, "known_until")));
+  }
 }
 
-/* No tighter tolerance is possible, and looser ones tell. */
+/* Stops what follows a run. */
+static int32_t stop_at(double done, const char *what, void *ctx) {
+  return done >= 0.0 && strcmp(what, ctx) == 0;
+}
+
+TEST(test_what_is_interrupted_is_not_known) {
+  owned_system *system = small_oscillator(OMEGA);
+  owned_options *options =
+      run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = DURATION, .every = EVERY});
+  static char pieces[][24] = {"error, heat", "error, half the step", "error, another method"};
+  owned_measurement *estimate;
+  owned_state *end = start_state(system);
+  hooke_state_set_time(end, DURATION);
+  check_ok(estimate_of(system, NAN, &estimate));
+  estimated_run(system, options, estimate);
+  for (int k = 0; k < 3; k++) {
+    hooke_measurement_on_progress(estimate, stop_at, pieces[k]);
+    check_status(hooke_measurement_run(estimate, end), HOOKE_STOPPED);
+    assert_int_equal(isnan(number_of(estimate, "estimate")) != 0, k > 0); /* known before its heat */
+    assert_string_equal(text_of(estimate, "reason"), k > 0 ? "interrupted" : "");
+  }
+}
+
+/* Another method takes more memory than runs: many particles are left to the method itself. */
+TEST(test_many_particles_are_not_judged_by_another_method) {
+  enum { MANY = 10001 };
+  double *zeros = new_doubles(3 * MANY);
+  owned_system *system = small_system(MANY, zeros, zeros, 1.0, 0);
+  free(zeros);
+  owned_options *options = run_options((struct run){.method = "rk4", .step = 0.01, .duration = 0.1});
+  owned_measurement *estimate;
+  owned_system *falling = small_falling(system);
+  system = NULL;
+  check_ok(estimate_of(falling, NAN, &estimate));
+  hooke_measurement_on_progress(estimate, stop_at, "error, another method");
+  estimated_run(falling, options, estimate);
+  check_between(number_of(estimate, "estimate"), 0.0, 1e-12);
+}
+
+/* No tighter tolerance is possible, and looser ones tell, unless nothing moves. */
 TEST(test_the_tightest_tolerance_is_judged_by_looser_ones) {
   if (!hooke_method_is_built("cvode-adams")) skip();
   owned_system *system = small_oscillator(OMEGA);
@@ -202,6 +257,15 @@ TEST(test_the_tightest_tolerance_is_judged_by_looser_ones) {
   const double truly = estimated_run(system, options, estimate);
   check_between(number_of(estimate, "estimate") / truly, 1.0, 300.0);
   assert_string_equal(text_of(estimate, "by"), "tolerance");
+  owned_system *rests = small_system(1, (double[]){0, 0, 0}, (double[]){0, 0, 0}, 1.0, 0);
+  check_ok(hooke_system_commit(rests));
+  owned_measurement *of_rest;
+  check_ok(hooke_options_set_number(options, "rtol", 1e-14));
+  check_ok(estimate_of(rests, NAN, &of_rest));
+  estimated_run(rests, options, of_rest);
+  assert_true(isnan(number_of(of_rest, "estimate")) && isnan(number_of(of_rest, "last_piece")));
+  check_between((double)strncmp(text_of(of_rest, "reason"), "the run is too long, or its tolerance", 37), 0.0,
+                0.0);
 }
 
 static double number_of_run(const hooke_system *system, const char *method, double step, const char *what) {
@@ -372,6 +436,8 @@ TEST(test_runs_that_are_not_sound_meet_no_want) {
     owned_options *options = run_options((struct run){.method = cases[k].method,
                                                       .step = cases[k].step,
                                                       .rtol = 0.05,
+                                                      .atol = 1e-9,
+                                                      .atol_velocity = 1e-9,
                                                       .duration = k < 2 ? 40 * cases[k].step : DURATION,
                                                       .every = k < 2 ? cases[k].step : EVERY});
     check_ok(estimate_of(system, 1e6, &estimate));
@@ -448,6 +514,22 @@ static double picked_over_bound(const hooke_system *system, const char *method) 
   return step / bound;
 }
 
+/* Steps as long as frames are apart, and times that no step fits but tiny ones. */
+TEST(test_steps_that_hardly_fit) {
+  owned_system *system = small_oscillator(OMEGA);
+  owned_options *large = run_options(
+                    (struct run){.method = "verlet", .step = EVERY, .duration = DURATION, .every = EVERY}),
+                *tiny = run_options((struct run){
+                    .method = "symplectic-euler", .step = 5e-5, .duration = 1.00005, .every = 1.0});
+  owned_measurement *estimate, *other;
+  check_ok(estimate_of(system, 1e-9, &estimate));
+  double truly = estimated_run(system, large, estimate);
+  check_between(number_of(estimate, "estimate"), truly, 3.5 * truly);
+  check_ok(estimate_of(system, 1e-9, &other));
+  truly = estimated_run(system, tiny, other);
+  check_between(number_of(other, "estimate"), truly, 4.0 * truly);
+}
+
 TEST(test_a_picked_step_may_pass_the_bound_but_not_the_limit) {
   if (!hooke_method_is_built("cvode-adams") || !hooke_build_fact("lapack")[0]) skip();
   owned_system *system = sagging_block();
@@ -464,23 +546,29 @@ TEST(test_what_cannot_be_asked_for) {
   check_status(estimate_of(system, INFINITY, &estimate), HOOKE_BAD_VALUE);
   check_ok(estimate_of(system, NAN, &estimate));
   check_status(hooke_estimate_pick(estimate, NULL, options), HOOKE_BAD_CALL);
+  owned_options *of_no_run = options_with("estimate", "want=1");
+  check_status(hooke_estimate_pick(estimate, NULL, of_no_run), HOOKE_BAD_VALUE);
   check_status(hooke_estimate_refine(estimate, options), HOOKE_UNSUITED);
   assert_int_equal(hooke_estimate_see(0, state, estimate), 0); /* of no run that has begun */
   check_status(hooke_measurement_run(estimate, state), HOOKE_BAD_CALL);
   check_status(hooke_measurement_run(estimate, NULL), HOOKE_BAD_VALUE);
-  assert_true(isnan(number_of(estimate, "estimate")));
+  assert_true(isnan(number_of(estimate, "estimate")) && isnan(number_of(estimate, "memory_bytes")));
   assert_true(text_of(estimate, "by") == NULL);
   hooke_measurement_destroy(estimate);
   hooke_measurement *cost;
   check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
   check_status(hooke_estimate_pick(cost, NULL, options), HOOKE_BAD_CALL);
   check_message("needs a measurement of the kind \"estimate\", this is a \"cost\"");
+  check_status(hooke_estimate_refine(cost, options), HOOKE_BAD_CALL);
   assert_int_equal(hooke_estimate_see(0, state, cost), 0);
   hooke_measurement_destroy(cost);
   /* the run of another system */
   owned_system *other = small_oscillator(2.0 * OMEGA);
   owned_integrator *integrator =
       start_run(other, (struct run){.method = "rk4", .step = 0.01, .duration = 0.1});
+  owned_measurement *other_cost;
+  check_ok(hooke_measurement_create("cost", other, NULL, NULL, &other_cost));
+  check_status(hooke_estimate_begin(other_cost, integrator, state), HOOKE_BAD_CALL);
   check_ok(estimate_of(system, 1e-3, &estimate));
   check_status(hooke_estimate_begin(estimate, integrator, state), HOOKE_BAD_VALUE);
   check_message("integrator: is not one of the system that the estimate is for");
@@ -490,6 +578,9 @@ TEST(test_what_cannot_be_asked_for) {
   /* stable at no step without damping */
   check_ok(estimate_of(system, 1e-3, &estimate));
   check_status(hooke_estimate_pick(estimate, "forward-euler", options), HOOKE_UNSUITED);
+  check_message("forward-euler has no step that is stable here");
+  check_ok(hooke_options_unset(options, "duration"));
+  check_status(hooke_estimate_pick(estimate, NULL, options), HOOKE_BAD_VALUE);
   hooke_measurement_destroy(estimate);
 }
 
@@ -512,9 +603,16 @@ TEST(test_states_that_do_not_fit_are_refused) {
     check_status(hooke_estimate_begin(estimate, integrator, wrong[k]), HOOKE_BAD_VALUE);
     assert_int_equal(hooke_estimate_see(0, wrong[k], estimate), HOOKE_BAD_VALUE);
     check_message("does not fit a problem of 6");
+    check_status(hooke_measurement_run(estimate, wrong[k]), HOOKE_BAD_VALUE);
     assert_int_equal(hooke_estimate_see(0, state, estimate), 0);
     check_status(hooke_integrator_recent(integrator, 0, wrong[k]), HOOKE_BAD_VALUE);
     hooke_state_destroy(wrong[k]);
   }
+  /* the end of a run that showed no frames */
+  hooke_state_set_time(state, 0.1);
+  check_ok(hooke_estimate_begin(estimate, integrator, state));
+  hooke_state_set_time(state, 0.2);
+  check_ok(hooke_measurement_run(estimate, state));
+  assert_string_equal(text_of(estimate, "reason"), "the run did not come to its end");
   hooke_state_destroy(state);
 }

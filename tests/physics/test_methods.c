@@ -102,6 +102,7 @@ TEST(test_methods_take_what_they_say) {
   assert_int_equal(taken[0], hooke_method_count());
   for (int k = 1; k < 4; k++)
     check_between(taken[k], 5.0, (double)hooke_method_count() - 1.0);
+  assert_string_equal(hooke_method_meant("velocity-verlet-with-more-letters-than-a-name"), "");
   assert_int_equal(hooke_method_is_suited("no-such-method", "bodies"), -1);
   assert_int_equal(hooke_method_is_suited("verlet", "no such problem"), -1);
 }

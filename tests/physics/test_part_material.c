@@ -105,6 +105,45 @@ TEST(a_pair_swings_as_its_ratio_says) {
   check_close((length - 0.8) / 0.2, exp(-2.0 * acos(-1.0) * zeta / sqrt(1.0 - zeta * zeta)), 1e-8);
 }
 
+/* A mass of 1 kg on 1800 N/m, let go 1 m from rest: the spring of a user interface, by the closed form. */
+TEST(a_group_overshoots_as_its_ratio_says) {
+  const double q0[] = {0, 0, 0, 11, 0, 0};
+  const int64_t ends[] = {0, 1};
+  double q[6];
+  owned_system *system = small_system(2, q0, NULL, 1.0, 1);
+  small_group(system, "springs", NULL, 1, ends, "law=length stiffness=1800 rest_length=10 damping_ratio=0.6");
+  check_ok(hooke_system_commit(system));
+  const double turn = acos(-1.0) / (sqrt(1800.0) * 0.8); /* from one end of the swing to the other */
+  const struct run run = {.method = "rk4", .step = turn / 1000, .duration = turn, .every = turn};
+  run_to_end(system, run, q, NULL);
+  check_close(10.0 - q[3], 0.0947802, 1e-6);
+  run_to_end(system, (struct run){.method = "rk4", .step = 1e-4, .duration = 0.4, .every = 0.4}, q, NULL);
+  check_close(q[3], 10.000044149, 1e-9);
+}
+
+/* c = 2 zeta sqrt(kappa mu), where a held end is infinitely heavy; of two held ones there is none. */
+TEST(a_group_is_damped_as_its_ends_are_held) {
+  const double q[] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0}, mass[] = {1, 2, 3, 5}, amplitude[] = {0, 0, 1};
+  const int64_t ends[] = {1, 2, 0, 1, 2, 3, 3, 0}, pinned = 0, driven = 3;
+  const double zeta[] = {0.1, 0.2, 0.3, 0.4}, kappa = 36.0 / 1.5, free = 2.0 * 3.0 / (2.0 + 3.0);
+  for (int each = 0; each < 2; each++) {
+    double gamma[4];
+    owned_system *system = new_system();
+    check_ok(hooke_system_add_particles(system, 4, q, NULL, 4, mass, NULL));
+    small_group(system, "springs", NULL, 4, ends, "stiffness=36 rest_scale=0.75 damping_ratio=%s",
+                each ? "0.1,0.2,0.3,0.4" : "0.1");
+    check_ok(hooke_system_pin(system, 1, &pinned));
+    check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
+    check_ok(hooke_system_commit(system));
+    const int64_t kept = hooke_system_count(system, "springs");
+    assert_int_equal(kept, 4);
+    check_ok(hooke_system_members(system, "springs", NULL, NULL, gamma, NULL));
+    const double mu[] = {free, 2.0, 3.0, 0.0};
+    for (int k = 0; k < 4; k++)
+      check_close(gamma[k], 2.0 * zeta[each ? k : 0] * sqrt(kappa * mu[k]), 1e-14);
+  }
+}
+
 TEST(every_direction_has_its_own) {
   hooke_options *options = new_cloth(21, 31, "density", 0.3);
   set_options(options, "structural.stiffness=40 structural.damping_ratio=0.1 shear.stiffness=7 "

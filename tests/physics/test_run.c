@@ -258,6 +258,41 @@ TEST(test_step_observer_of_adaptive_methods) {
   check_between((double)watch.calls, (double)(steps - 1), (double)steps);
 }
 
+/* Times and positions of the states at checkpoints. */
+struct points {
+  int count;
+  double number[4][7];
+};
+
+static int32_t see_point(int64_t step, const hooke_state *state, void *ctx) {
+  struct points *points = ctx;
+  (void)step;
+  assert_true(points->count < 4);
+  double *to = points->number[points->count++];
+  to[0] = hooke_state_time(state);
+  memcpy(to + 1, hooke_state_position(state), 6 * sizeof *to);
+  return 0;
+}
+
+/* Steps one by one come by the same checkpoints as a run, and start anew there. */
+TEST(test_checkpoints_of_steps_by_hand) {
+  owned_system *system = small_oscillator(10.0);
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const struct run run = {.method = hooke_method_name(m), .duration = 1.0, .checkpoint = 0.3};
+    if (!hooke_method_is_built(run.method) || !hooke_method_is_adaptive(run.method)) continue;
+    owned_integrator *whole = start_run(system, run), *steps = start_run(system, run);
+    owned_state *end = start_state(system), *state = start_state(system);
+    struct points points = {.count = 0}, same = {.count = 0};
+    check_ok(hooke_integrator_on_checkpoint(whole, see_point, &points));
+    check_ok(hooke_integrator_on_checkpoint(steps, see_point, &same));
+    check_ok(hooke_integrator_run(whole, end));
+    while (hooke_state_time(state) < 1.0)
+      check_ok(hooke_integrator_step(steps, state, 1));
+    assert_int_equal(points.count, 3);
+    check_same_bits(3 * 7, same.number[0], points.number[0]);
+  }
+}
+
 TEST(test_step_limit) {
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   owned_system *system = small_oscillator(3.0);

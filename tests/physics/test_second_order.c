@@ -219,6 +219,7 @@ TEST(test_refusals) {
   check_refused(3, swing, 2, 1.0, "2 for 3 coordinates");
   check_refused(3, swing, 3, 0.0, "inverse_mass[0]");
   check_refused(3, swing, 1, NAN, "inverse_mass[0]");
+  check_refused(3, swing, 1, INFINITY, "inverse_mass[0]");
   check_status(hooke_state_create_second_order(0, &state), HOOKE_BAD_VALUE);
   start_problem(&p, (struct run){.method = "verlet", .step = 1e-2, .duration = 1.0}, &it, &state);
   check_ok(hooke_state_create_second_order(2, &other));
@@ -227,6 +228,10 @@ TEST(test_refusals) {
   hooke_state_position(state)[0] = NAN;
   check_status(hooke_integrator_run(it, state), HOOKE_BAD_VALUE);
   check_message("position[0]");
+  hooke_state_position(state)[0] = 0.0;
+  hooke_state_velocity(state)[0] = NAN;
+  check_status(hooke_integrator_run(it, state), HOOKE_BAD_VALUE);
+  check_message("velocity[0]");
   hooke_state_destroy(other);
   hooke_state_destroy(state);
 }

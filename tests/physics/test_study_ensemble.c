@@ -196,7 +196,7 @@ TEST(a_pendulum_has_statistics) {
 
 TEST(a_crumpling_cloth_has_statistics) {
   test_ensembles(small_crumpling_cloth(4),
-                 (struct study){.duration = 5.0,
+                 (struct study){.duration = 6.0,
                                 .every = 0.1,
                                 .members = 10.0,
                                 .methods = "cvode-adams,backward-euler",

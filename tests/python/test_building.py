@@ -66,6 +66,27 @@ def test_springs_have_the_keywords_of_their_table():
     assert keywords == {line.split()[0] for line in hooke.describe("anchors").splitlines()}
 
 
+def test_loads_are_those_of_the_scene(tmp_path):
+    built = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1, pinned=[0]).rope(
+        "line", from_=[0, 1, 0], to=[1, 1, 0], segments=2, mass=1, pinned="start", stretch=dict(stiffness=5))
+    built.loads([1, ("line", 2)], force=(0, -3, 0))
+    built.loads(1, motion="harmonic", force=[1, 0, 0], frequency=2)
+    built.loads(particles=[("line", 1)], motion="table", force=[[0, 0, 0], [0, 0, 1]], time=[0, 1])
+    with pytest.raises(hooke.BadValue, match=r"loads\[3\].particles\[0\]: particle 0 is pinned"):
+        built.loads([0], force=[1, 0, 0])
+    built.save(tmp_path / "loads.json")
+    for scene in (built, hooke.Scene.parse(built.text), hooke.Scene.load(tmp_path / "loads.json")):
+        force = scene.system.force(scene.system.state().q, np.zeros((5, 3)), t=0.125)[[1, 3, 4]]
+        expected = [[1, -3, 0], [0, 0, force[1, 2]], [0, -3, 0]]
+        np.testing.assert_allclose(force, expected, atol=1e-12)
+        assert 0.1 < force[1, 2] < 0.15
+    system = hooke.System()
+    system.add_particles([[0, 0, 0]], mass=2)
+    system.add_loads(0, force=[4, 0, 0])
+    system.commit()
+    assert system.energy(*[np.ones((1, 3))] * 2) == 3 - 4
+
+
 def test_anchors_are_those_of_the_scene(tmp_path):
     built = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1)
     built.anchors("wall", particles=[1], points=[[1, 2, 0]], stiffness=6, damping=0.3, rest_length=0.5)
@@ -108,10 +129,13 @@ def test_keywords_are_those_of_the_schema():
         return set(inspect.signature(method).parameters) - {"self"}
 
     properties = schema["properties"]
-    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "bending", "anchors", "parts", "bodies", "driven"}
+    pieces = set(properties) - {"$schema", "hooke", "names", "particles", "springs", "bending", "anchors", "parts", "bodies",
+                                "driven", "loads"}
     assert keywords(hooke.Scene.__init__) == pieces
+    assert keywords(hooke.Scene.names) == {"names"}
     assert keywords(hooke.Scene.bodies) == set(_keys(schema, properties["bodies"]["items"]))
     assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))
+    assert keywords(hooke.Scene.loads) == set(_keys(schema, properties["loads"]["items"]))
     assert keywords(hooke.Scene.driven) == set(_keys(schema, properties["driven"]["items"]))
 
 
@@ -291,7 +315,7 @@ def test_an_error_comes_at_once_names_its_keyword_and_changes_nothing(call, mess
 @pytest.mark.parametrize(
     "call, message",
     [
-        (lambda: hooke.Scene(gravity=(1, 2)), "gravity: its shape is (2,), allowed is (3,)"),
+        (lambda: hooke.Scene(gravity=(1, 2)), "gravity: 2 numbers given; allowed: 3 numbers [m/s^2]"),
         (lambda: hooke.Scene(drag=-1), "drag: -1 is not allowed"),
         (lambda: hooke.Scene(drag="much"), 'drag: "much" is not allowed; allowed: one or more numbers >= 0 [N s/m]'),
         (lambda: hooke.Scene(drag=[1, -1]), "drag[1]: -1 is not allowed"),
@@ -380,3 +404,24 @@ def test_all_faults_of_a_scene_are_told():
     with pytest.raises(hooke.BadValue) as told:
         hooke.Scene.parse(text)
     assert [line.split(": ")[1] for line in str(told.value).splitlines()] == ["gravty", "particles.mass"]
+
+
+def test_names_take_the_place_of_numbers(tmp_path):
+    built = hooke.Scene().particles([[0, 1, 0], [1, 1, 0]], mass=1, pinned=[0])
+    built.rope("line", from_=(0, 0, 0), to=(1, 0, 0), segments=4, mass=1, stretch={"stiffness": 9})
+    built.names({"tip": 1, "fairlead": ("line", 0)})
+    built.springs(between=[("tip", "fairlead"), [("line", 4), "tip"]], stiffness=3, damping_ratio=0.2)
+    built.anchors(particles=["fairlead"], stiffness=2)
+    assert built.system.spring_ends[:2].tolist() == [[1, 2], [6, 1]]
+    text = json.dumps({**json.loads(built.text), "anchors": [{"particles": ["fairlead"], "stiffness": 2}]})
+    read = hooke.Scene.parse(text)
+    same(built.system, read.system)
+    read.save(tmp_path / "named.json")
+    assert json.loads((tmp_path / "named.json").read_text())["names"] == {"tip": 1, "fairlead": 2}
+    found = hooke.study(read, "rk4", steps=0.01, duration=0.1, every=0.05, watch="tip.y")
+    assert list(found.watched) == ["tip.y"]
+    with pytest.raises(hooke.BadValue, match=re.escape('particles[0]: there is no particle called "top"; allowed: tip')):
+        hooke.Scene().particles([[0, 0, 0]], mass=1).names({"tip": 0}).anchors(particles=["top"], stiffness=1)
+    for name in ("tip", "1", "1e3", "a.b", "a:b", "a b", ""):
+        with pytest.raises(hooke.BadValue, match="^names"):
+            hooke.Scene().particles([[0, 0, 0]], mass=1).names({"tip": 0}).names({name: 0})

@@ -49,7 +49,7 @@ def test_series(comparison):
 
 
 def test_the_tolerances_are_those_of_the_run():
-    """Also that of velocities, which a row of a ladder has not."""
+    """Also that of velocities, in a ladder, too."""
     options = {"rtol": 1e-5, "atol": 3e-8, "atol_velocity": 1e-3, "duration": 1.0}
     runs = [hooke.run(build_oscillator(), method="cvode-adams", **{**options, **other}).counts
             for other in ({}, {"atol_velocity": 3e-8})]  # fmt: skip
@@ -58,7 +58,7 @@ def test_the_tolerances_are_those_of_the_run():
     assert (found.steps[0], found.force_evaluations[0]) == (runs[0]["steps"], runs[0]["force_evaluations"])
     assert (found.rtol[0], found.atol[0]) == (1e-5, 3e-8)
     ladder = hooke.study(build_oscillator(), "cvode-adams", tolerances=1e-5, **options)
-    assert ladder.steps[0] == runs[1]["steps"]
+    assert ladder.steps[0] == runs[0]["steps"]
 
 
 def test_a_recommendation_afterwards():

@@ -13,7 +13,7 @@ def test_the_tables_are_those_of_the_library():
     assert {"method", "step", "duration", "every", "rtol", "atol", "atol_velocity"} <= set(
         hooke.Options.for_run()
     )
-    assert {"law", "stiffness", "damping", "rest_length", "rest_scale", "compression"} == set(
+    assert {"law", "stiffness", "damping", "damping_ratio", "rest_length", "rest_scale", "compression"} == set(
         hooke.Options.for_springs()
     )
     assert {"rope", "cloth", "lattice", "mesh"} <= set(hooke.part_kinds())
@@ -65,7 +65,7 @@ def test_numbers_of_a_part_may_name_units():
     named = hooke.Scene().cloth(mass="200g", structural={"stiffness": "2kN", "damping": "1 mN s"}, **square).system
     assert all(np.array_equal(a, b) for a, b in zip(plain.spring_material, named.spring_material))
     assert np.array_equal(plain.inverse_masses, named.inverse_masses)
-    with pytest.raises(hooke.BadValue, match="mass: there is no unit 'mg/m' here; allowed: kg, t, g, mg, ug;"):
+    with pytest.raises(hooke.BadValue, match="mass: there is no unit 'mg/m' here; allowed: kg, t, g, mg, ug, lb;"):
         hooke.Scene().cloth(mass="200 mg/m", structural={"stiffness": "2kN"}, **square).system
 
 
@@ -180,7 +180,9 @@ def test_an_unknown_keyword_of_a_run_is_refused(system):
 def test_the_options_of_an_integrator_are_complete_and_fixed(system):
     integrator = hooke.Integrator(system, method="forward-euler", step=1e-3, duration=0.5)
     assert integrator.options["every"] == pytest.approx(0.005)
-    assert integrator.options["atol_velocity"] == integrator.options["atol"] == 1e-9
+    extent = np.linalg.norm(np.ptp(system.state().q, axis=0))
+    assert integrator.options["atol"] == pytest.approx(1e-9 * extent, rel=1e-14, abs=0)
+    assert integrator.options["atol_velocity"] == pytest.approx(integrator.options["atol"] / 0.5, rel=1e-14, abs=0)
     with pytest.raises(hooke.BadCall):
         integrator.options["step"] = 1
 

@@ -359,3 +359,24 @@ def test_an_error_is_estimated_where_that_is_asked_for(tmp_path):
 def test_a_want_that_cannot_be_kept_is_refused(options, word):
     with pytest.raises(hooke.BadValue, match=word):
         hooke.run(build_oscillator(), duration=1.0, **options)
+
+
+def oscillator_in(length, time, mass):
+    """Of 1 rad/s, stretched by a half, in units of so many m, s and kg."""
+    position = [[0, 0, 0], [1.5 * length, 0, 0]]
+    scene = hooke.Scene().particles(position, mass=mass, pinned=[0])
+    return scene.springs(between=[[0, 1]], law="length", stiffness=mass / time / time, rest_length=length)
+
+
+@pytest.mark.parametrize("method", [method.name for method in hooke.methods() if method.adaptive])
+def test_tolerances_are_in_the_scale_of_a_scene(method):
+    """To the bit, where units are powers of two."""
+
+    def run(*units, **options):
+        ran = hooke.run(oscillator_in(*units), method=method, duration=100 * units[1], every=units[1], estimate=True, **options)
+        return ran.counts["steps"], ran.state.q[1, 0] / units[0], ran.error.estimate / units[0]
+
+    assert run(2.0**-33, 2.0**-47, 2.0**-86) == run(2.0**40, 2.0**20, 2.0**-20) == run(1, 1, 1)
+    steps, position, error = run(1e-10, 1e-14, 1e-26)  # of an atom, in decimal units, which rounding tells apart
+    assert steps == pytest.approx(run(1, 1, 1)[0], rel=0.12)
+    assert abs(position - (1 + 0.5 * np.cos(100))) <= error < 2e-3

@@ -52,6 +52,9 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
   check_ok(hooke_system_members(system, "anchors", canonical->anchored, canonical->anchor[0],
                                 canonical->anchor[1], canonical->anchor[2]));
   check_ok(hooke_system_anchor_points(system, canonical->anchor_point));
+  canonical->load_count = hooke_system_count(system, "loads");
+  canonical->loaded = new_block(canonical->load_count, (int64_t)sizeof(int64_t));
+  check_ok(hooke_system_members(system, "loads", canonical->loaded, NULL, NULL, NULL));
   const int64_t pieces = canonical->piece_count = hooke_system_count(system, "fluid_drag");
   canonical->pieces = new_block(3 * pieces, (int64_t)sizeof(int64_t));
   canonical->normal = new_doubles(pieces);
@@ -83,6 +86,7 @@ void canonical_destroy(struct canonical *canonical) {
   free(canonical->altitude_pull_only);
   free(canonical->anchored);
   free(canonical->anchor_point);
+  free(canonical->loaded);
   for (int k = 0; k < 3; k++)
     free(canonical->anchor[k]);
   free(canonical->inverse_mass);
@@ -245,6 +249,16 @@ static void add_anchor(const struct canonical *canonical, int64_t k, const doubl
     force[3 * canonical->anchored[k] + a] -= tension * ir * d[a];
 }
 
+static void add_loads(const struct canonical *canonical, double t, double *force) {
+  const int64_t n = canonical->load_count;
+  double *zero = new_doubles(3 * n), *load = new_doubles(3 * n);
+  check_ok(hooke_system_force(canonical->loads, t, zero, zero, load));
+  for (int64_t k = 0; k < 3 * n; k++)
+    force[3 * canonical->loaded[k / 3] + k % 3] += load[k];
+  free(zero);
+  free(load);
+}
+
 /* ---- drag in a medium ---- */
 
 static double wind_of(const struct canonical *canonical, int a) {
@@ -340,12 +354,13 @@ void canonical_accelerate(const struct canonical *canonical, double t, const dou
   }
   add_drag(canonical, canonical->drags, 0, v, force);
   add_drag(canonical, canonical->quadratic, 1, v, force);
+  if (canonical->load_count > 0) add_loads(canonical, t, force);
   if (canonical->force != NULL) assert_int_equal(canonical->force(n, t, q, seen, force, canonical->ctx), 0);
   for (int64_t p = 0; p < n; p++) {
     for (int a = 0; a < 3; a++) {
       double *f = &force[3 * p + a];
       *f = w[p] * *f;
-      if (canonical->gravity != NULL) *f += canonical->gravity[a];
+      if (canonical->gravity != NULL) *f += canonical_fall(canonical, 3 * p + a);
       if (w[p] == 0.0) *f = 0.0;
     }
   }

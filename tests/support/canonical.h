@@ -2,9 +2,9 @@
  *
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first
  * end, subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs
- * likewise, anchors likewise, segments in a fluid, triangles in a fluid, drag, quadratic drag, the callback.
- * The acceleration is w f, then gravity is added to it. Particles that are constrained (pinned or driven)
- * have none. */
+ * likewise, anchors likewise, segments in a fluid, triangles in a fluid, drag, quadratic drag, loads in
+ * ascending number, the callback. The acceleration is w f, then gravity is added to it, or its product with a
+ * factor of the particle. Particles that are constrained (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
 
@@ -24,12 +24,16 @@ struct canonical {
   double *altitude[3];               /* stiffness, damping; 7 rest lengths, with a sign */
   unsigned char *altitude_pull_only; /* tetrahedron_count */
   int64_t anchor_count;
-  int64_t *anchored;     /* anchor_count: the particle of each */
-  double *anchor_point;  /* 3 anchor_count */
-  double *anchor[3];     /* stiffness, damping and rest length */
-  double *inverse_mass;  /* particle_count */
-  const double *gravity; /* NULL: none */
-  double drag;           /* 0: none */
+  int64_t *anchored;    /* anchor_count: the particle of each */
+  double *anchor_point; /* 3 anchor_count */
+  double *anchor[3];    /* stiffness, damping and rest length */
+  int64_t load_count;
+  int64_t *loaded;           /* load_count: the particle of each */
+  const hooke_system *loads; /* of load_count particles, each with the load of that number; NULL: none */
+  double *inverse_mass;      /* particle_count */
+  const double *gravity;     /* NULL: none */
+  const double *factor;      /* of gravity, particle_count; NULL: 1 */
+  double drag;               /* 0: none */
   /* particle_count, or NULL: drag of each particle, in place of the number where there is a wind (NULL: none)
    */
   const double *drags, *quadratic, *wind;
@@ -42,6 +46,12 @@ struct canonical {
   void (*place)(double t, double *q, double *v, void *place_ctx);
   void *place_ctx;
 };
+
+/* Gravity's share of component k of the accelerations. */
+static inline double canonical_fall(const struct canonical *canonical, int64_t k) {
+  const double g = canonical->gravity ? canonical->gravity[k % 3] : 0.0;
+  return canonical->factor ? canonical->factor[k / 3] * g : g;
+}
 
 /* Copies the numbers of a committed system. Springs of groups whose name begins with "pull" only pull; the
  * caller fills in gravity, drag of all kinds, wind and callback. */

@@ -232,10 +232,9 @@ static void find_push(const struct canonical *canonical, const struct canonical_
   }
   for (int i = 0; i < 3; i++)
     acceleration[i] = body->inverse_mass * sum[i];
-  if (canonical->gravity != NULL && body->inverse_mass > 0.0) {
-    for (int i = 0; i < 3; i++)
-      acceleration[i] += canonical->gravity[i];
-  } else if (canonical->gravity != NULL) { /* about a pin */
+  for (int i = 0; i < 3 && canonical->gravity != NULL && body->inverse_mass > 0.0; i++)
+    acceleration[i] += body->lift * canonical->gravity[i];
+  if (canonical->gravity != NULL && (body->inverse_mass == 0.0 || canonical->factor != NULL)) {
     matrix_of(own->turn, m);
     to_space(m, body->centre, arm);
     cross(arm, canonical->gravity, turning);
@@ -316,7 +315,7 @@ static void kick_all(const struct stepped *s, double h, double *v, struct own *o
   const struct canonical *canonical = s->canonical;
   for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
     double a = canonical->inverse_mass[k / 3] * s->f[k];
-    if (canonical->gravity != NULL) a += canonical->gravity[k % 3];
+    if (canonical->gravity != NULL) a += canonical_fall(canonical, k);
     if (is_loose(s, k)) v[k] += h * a;
   }
   for (int64_t b = 0; b < s->count; b++)
@@ -399,7 +398,7 @@ static void find_slope(const struct stepped *s, double t, const double *y, doubl
   for (int64_t k = 0; k < size; k++) {
     rate[k] = is_loose(s, k) ? v[k] : 0.0;
     rate[size + k] = canonical->inverse_mass[k / 3] * s->f[k];
-    if (canonical->gravity != NULL) rate[size + k] += canonical->gravity[k % 3];
+    if (canonical->gravity != NULL) rate[size + k] += canonical_fall(canonical, k);
   }
   for (int64_t b = 0; b < s->count; b++) {
     const struct own *at = (const struct own *)(const void *)(y + 2 * size) + b;

@@ -11,7 +11,8 @@ struct canonical_body {
   const int32_t *particle; /* ascending */
   double mass, inverse_mass;
   const double *inertia, *inverse_inertia; /* 3 each, of the body's axes */
-  const double *centre;                    /* of mass, from the point, in these axes */
+  const double *centre;                    /* of mass or weight, from the point, in these axes */
+  double lift;                             /* factor of gravity */
   const double *place;                     /* of each particle, likewise */
   int32_t rank;                            /* 0: one point, 1: points in a line, 2: neither */
   const int32_t *base;                     /* index of the particles a, b, c */

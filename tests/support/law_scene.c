@@ -37,6 +37,8 @@ const struct law laws[LAW_COUNT] = {
      .altitude = 1},
     {.name = "anchors", .law = "strain", .anchors = 1},
     {.name = "anchors, damped", .law = "length", .damped = 1, .gravity = 1, .anchors = 1},
+    {.name = "loads", .law = "length", .gravity = 1, .loads = 1},
+    {.name = "factors of gravity", .law = "strain", .gravity = 1, .factors = 1},
 };
 
 struct material {
@@ -167,6 +169,13 @@ static void add_anchors(const struct law *law, struct random_source *source, con
   hooke_options_destroy(options);
 }
 
+static void add_loads(hooke_system *system) {
+  owned_options *options = options_with("loads", "force=3,-20,7");
+  check_ok(hooke_system_add_loads(system, 3, (int64_t[]){2, 5, 2}, options));
+  set_options(options, "force=-1,0.5,30");
+  check_ok(hooke_system_add_loads(system, 2, (int64_t[]){5, 7}, options));
+}
+
 void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene) {
   struct random_source source = {seed};
   struct material material;
@@ -189,6 +198,9 @@ void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *sc
   if (law->bending) add_bending(&source, scene->system);
   if (law->altitude) add_altitude(law, &source, scene->q, scene->system);
   if (law->anchors) add_anchors(law, &source, scene->q, scene->system);
+  if (law->loads) add_loads(scene->system);
+  for (int p = 0; p < LAW_PARTICLES && law->factors; p++)
+    check_ok(hooke_system_set_gravity_factor(scene->system, p, 1, 1, (double[]){0.5 * p - 2.0}));
   const double gravity[] = {0.3, -9.81, 1.7};
   if (law->gravity) check_ok(hooke_system_set_gravity(scene->system, gravity));
   if (law->drag) check_ok(hooke_system_set_drag(scene->system, 0.37));

@@ -133,6 +133,9 @@ static hooke_system *whole_net(void) {
   options = options_of("anchors", "stiffness", "5");
   check_ok(hooke_system_add_anchors(system, NULL, 1, numbers, options));
   hooke_options_destroy(options);
+  options = options_of("loads", "force", "5,0,0");
+  check_ok(hooke_system_add_loads(system, 1, numbers, options));
+  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   return system;
 }
@@ -149,7 +152,7 @@ static void add_systems(struct pool *pool) {
 }
 
 static void add_options(struct pool *pool) {
-  static const char *const tables[] = {"springs", "altitude", "anchors", "mesh",
+  static const char *const tables[] = {"springs", "altitude", "anchors", "loads", "mesh",
                                        "scene",   "study",    "limits",  "view"};
   pool_add(pool, "hooke_options", "run",
            run_options((struct run){.method = "rk4", .step = 0.1, .duration = 0.5}));

@@ -360,6 +360,24 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
   free(damping);
 }
 
+/* ---- loads ---- */
+
+/* Load k alone on particle k of the twin; particles from 6 on are never held. */
+static void add_loads(struct random_scene_request request, struct random_scene *scene) {
+  static const char *const words[] = {"force=3,-20,7", "motion=harmonic force=9,2,-30 frequency=40 phase=0.3",
+                                      "motion=table force=0,0,0;30,10,-9;1,2,3 time=-0.01,0.002,0.01"};
+  double *place = new_doubles(3 * request.loads);
+  scene->loads = small_system(request.loads, place, NULL, 1.0, 0);
+  for (int64_t k = 0; k < request.loads; k++) {
+    const int64_t particle = 6 + k * 7 % (request.particles - 6);
+    owned_options *options = options_with("loads", "%s", words[k % 3]);
+    check_ok(hooke_system_add_loads(scene->system, 1, &particle, options));
+    check_ok(hooke_system_add_loads(scene->loads, 1, &k, options));
+  }
+  check_ok(hooke_system_commit(scene->loads));
+  free(place);
+}
+
 /* ---- anchors ---- */
 
 static void add_anchors(struct random_source *source, struct random_scene_request request,
@@ -451,6 +469,14 @@ static void add_part(struct random_source *source, struct random_scene_request r
   hooke_options_destroy(options);
 }
 
+static void add_factors(struct random_scene *scene) {
+  const int64_t n = hooke_system_particle_count(scene->system);
+  scene->factor = new_doubles(n);
+  for (int64_t p = 0; p < n; p++)
+    scene->factor[p] = 0.3 * (double)(p % 11) - 1.1;
+  check_ok(hooke_system_set_gravity_factor(scene->system, 0, n, n, scene->factor));
+}
+
 /* ---- whole ---- */
 
 static void place_driven(double t, double *q, double *v, void *ctx) {
@@ -513,6 +539,7 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   add_tetrahedra(&heights, request, position, scene->system);
   struct random_source points = {request.seed + 277};
   add_anchors(&points, request, position, scene->system);
+  if (request.loads > 0) add_loads(request, scene);
   free(position);
   struct random_source bends = {request.seed + 77};
   int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t));
@@ -522,6 +549,7 @@ void random_scene_create(struct random_scene_request request, struct random_scen
     scene->gravity[a] = random_between(&source, -10.0, 10.0);
   const double drag = random_between(&source, 0.01, 0.5);
   if (request.features & SCENE_GRAVITY) check_ok(hooke_system_set_gravity(scene->system, scene->gravity));
+  if (request.factors) add_factors(scene);
   if (request.features & SCENE_DRAG) check_ok(hooke_system_set_drag(scene->system, drag));
   if (request.medium) add_medium(request, drag, scene);
   if (request.features & SCENE_CALLBACK) {
@@ -542,6 +570,8 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   scene->canonical.quadratic = scene->quadratic;
   scene->canonical.wind = request.medium & MEDIUM_WIND ? scene->wind : NULL;
   scene->canonical.force = request.features & SCENE_CALLBACK ? random_scene_force : NULL;
+  scene->canonical.loads = scene->loads;
+  scene->canonical.factor = scene->factor;
   if (scene->driven_count == 0) return;
   scene->driver = start_run(scene->system, (struct run){.method = "forward-euler", .step = 1.0});
   scene->driven_state = start_state(scene->system);
@@ -554,9 +584,11 @@ void random_scene_destroy(struct random_scene *scene) {
   hooke_integrator_destroy(scene->driver);
   hooke_state_destroy(scene->driven_state);
   hooke_system_destroy(scene->system);
+  hooke_system_destroy(scene->loads);
+  free(scene->factor);
   free(scene->drags);
   free(scene->quadratic);
-  scene->system = NULL;
+  scene->system = scene->loads = NULL;
 }
 
 void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v) {

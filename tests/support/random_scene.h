@@ -27,6 +27,8 @@ struct random_scene_request {
   int64_t triples;    /* of bending; if there are any, parts have bending as well */
   int64_t tetrahedra; /* of altitude springs; damped and pulling only like springs */
   int64_t anchors;    /* damped like springs */
+  int64_t loads;      /* constant, harmonic and by tables, in turn */
+  int32_t factors;    /* 1: factors of gravity */
   int32_t features;
   int32_t cloth[2];     /* size of a cloth that is added as a part; 0: none */
   int32_t lattice[3];   /* size of a lattice that is added as a part; 0: none */
@@ -44,6 +46,8 @@ struct random_scene {
       *driver; /* of any method: it moves driven particles to their positions at the time of a state */
   hooke_state *driven_state;
   double gravity[3], wind[3];
+  hooke_system *loads;       /* of canonical.loads */
+  double *factor;            /* canonical.factor */
   double *drags, *quadratic; /* NULL: none */
 };
 

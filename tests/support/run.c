@@ -28,6 +28,7 @@ hooke_options *run_options(struct run run) {
   set_number(options, "checkpoint", run.checkpoint);
   set_number(options, "rtol", run.rtol);
   set_number(options, "atol", run.atol);
+  set_number(options, "atol_velocity", run.atol_velocity);
   set_number(options, "threads", run.threads);
   return options;
 }

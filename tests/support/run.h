@@ -10,7 +10,7 @@
 struct run {
   const char *method;
   double step, duration, every, checkpoint;
-  double rtol, atol;
+  double rtol, atol, atol_velocity;
   int32_t threads;
   const char *newton, *linear_solver, *verlet_damping; /* NULL: the default */
   /* 0: 1e-12, with which a step is its formula; BY_DEFAULT: that of the library */

@@ -22,6 +22,12 @@ static hooke_system *damped_chain(int driven) {
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   check_ok(hooke_system_set_drag(system, 0.2));
   if (driven == 2) {
+    const int64_t loaded[2] = {1, 2};
+    owned_options *load = options_with("loads", "motion=harmonic force=2,-1,3 frequency=2");
+    check_ok(hooke_system_add_loads(system, 2, loaded, load));
+    check_ok(hooke_options_unset(load, "frequency"));
+    set_options(load, "motion=constant force=1,4,0");
+    check_ok(hooke_system_add_loads(system, 1, loaded, load));
     const double time[] = {0, 0.3, 0.8}, velocity[] = {0, 0, 0, 2, 1, 0, 1, 3, 1};
     owned_options *options = options_with("scene", "drag=0.2,0.1,0.3,0.2,0.1,0.1 quadratic_drag=0.1");
     check_ok(hooke_options_set_numbers(options, "wind.time", 3, time));
@@ -42,7 +48,7 @@ static hooke_system *damped_chain(int driven) {
 struct watch {
   const hooke_system *system;
   struct hk_balance balance;
-  double (*power)(const hooke_system *system, const double *q, const double *v);
+  double (*power)(const hooke_system *system, double t, const double *q, const double *v);
   int64_t count;
   double residual[FRAMES + 1];
 };
@@ -60,7 +66,7 @@ static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
     if (watch->power == NULL) return 0;
     watch->balance.dissipated_power = watch->power;
     watch->balance.power_out =
-        watch->power(watch->system, hooke_state_position(state), hooke_state_velocity(state));
+        watch->power(watch->system, 0.0, hooke_state_position(state), hooke_state_velocity(state));
     return 0;
   }
   check_ok(hk_balance_step(&watch->balance, state));
@@ -82,7 +88,7 @@ static void run_watched(struct watch *watch, const char *method, double step) {
 }
 
 static int32_t holds(const char *method, int driven,
-                     double (*power)(const hooke_system *system, const double *q, const double *v),
+                     double (*power)(const hooke_system *system, double t, const double *q, const double *v),
                      double *ratio) {
   hooke_system *system = damped_chain(driven);
   struct watch coarse = {.system = system, .power = power}, fine = coarse;
@@ -119,12 +125,12 @@ TEST(what_is_left_over_is_the_error_of_the_method) {
   }
 }
 
-static double a_fiftieth_too_much(const hooke_system *system, const double *q, const double *v) {
-  return 1.02 * hooke_system_dissipated_power(system, q, v);
+static double a_fiftieth_too_much(const hooke_system *system, double t, const double *q, const double *v) {
+  return 1.02 * hooke_system_dissipated_power_at(system, t, q, v);
 }
 
-static double none(const hooke_system *system, const double *q, const double *v) {
-  (void)system, (void)q, (void)v;
+static double none(const hooke_system *system, double t, const double *q, const double *v) {
+  (void)system, (void)t, (void)q, (void)v;
   return 0.0;
 }
 

@@ -24,7 +24,7 @@ enum {
 };
 
 struct features {
-  int damped, drag, gravity, driven;
+  int damped, drag, gravity, driven, factors;
 };
 
 static void add_particles(struct random_source *random, hooke_system *system) {
@@ -118,6 +118,8 @@ static hooke_system *mixed_system(uint64_t seed, struct features with, const dou
     check_ok(hooke_system_add_body(system, NULL, sizes[b], members, 1));
   }
   if (with.gravity) check_ok(hooke_system_set_gravity(system, gravity));
+  for (int k = 0; k < N && with.factors; k++)
+    check_ok(hooke_system_set_gravity_factor(system, k, 1, 1, (double[]){0.3 * k - 4.0}));
   if (with.drag) check_ok(hooke_system_set_drag(system, 0.4));
   if (with.driven) drive(system);
   if (with.driven && with.drag) check_ok(hooke_system_set_force(system, pulse, NULL, NULL));
@@ -135,11 +137,29 @@ static void fill_bodies(const hooke_system *system, struct canonical_body *body)
                                       .inverse_mass = from->inverse_mass,
                                       .inertia = from->inertia,
                                       .inverse_inertia = from->inverse_inertia,
-                                      .centre = from->centre,
+                                      .centre = from->heavy,
+                                      .lift = from->lift,
                                       .place = from->place,
                                       .rank = from->rank,
                                       .base = from->base,
                                       .triad = from->triad};
+  }
+}
+
+/* By sums over the particles, in any order. */
+static void check_weights(const hooke_system *system) {
+  for (int b = 0; b < BODIES; b++) {
+    const struct hk_body *body = system->mover[b].thing;
+    double lift = 0.0, heavy[3] = {0.0};
+    for (int64_t k = 0; k < body->count; k++) {
+      const int32_t p = body->particle[k];
+      const double share = system->constrained[p] ? 0.0 : system->mass[p] / body->mass;
+      lift += share * system->gravity_factor[p];
+      for (int a = 0; a < 3; a++)
+        heavy[a] += share * system->gravity_factor[p] * body->place[3 * k + a];
+    }
+    check_close(body->lift, lift, 1e-13);
+    check_close(largest_difference(3, body->heavy, heavy), 0.0, 1e-13);
   }
 }
 
@@ -152,11 +172,13 @@ static void compare(uint64_t seed, struct features with, const char *method) {
   struct canonical_body body[BODIES];
   canonical_create(system, &canonical);
   canonical.gravity = with.gravity ? gravity : NULL;
+  canonical.factor = system->gravity_factor;
   canonical.drag = with.drag ? 0.4 : 0.0;
   canonical.place = with.driven ? place : NULL;
   canonical.place_ctx = system;
   canonical.force = with.driven && with.drag ? pulse : NULL;
   fill_bodies(system, body);
+  if (with.factors) check_weights(system);
   hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
   hooke_state *state = start_state(system);
   double q[3 * N], v[3 * N];
@@ -178,7 +200,8 @@ static void compare(uint64_t seed, struct features with, const char *method) {
 
 TEST(steps_are_the_plain_loops) {
   for (int features = 0; features < 16; features++) {
-    const struct features with = {features & 1, features >> 1 & 1, features >> 2 & 1, features >> 3};
+    const struct features with = {features & 1, features >> 1 & 1, features >> 2 & 1, features >> 3,
+                                  features % 3 == 0};
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
       if (!is_fixed_step(method) || !hooke_method_is_suited(method, "bodies")) continue;

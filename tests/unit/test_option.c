@@ -288,13 +288,13 @@ TEST(refusals_give_value_and_allowed) {
               "step: 1e-999 is so small that it would become 0; allowed: a number > 0 and <= 10 [s]");
   refuse_text(o, "step", "1e999",
               "step: 1e999 is beyond the largest number, 1.8e308; allowed: a number > 0 and <= 10 [s]");
-  refuse_text(
-      o, "step", "3 km/h",
-      "step: there is no unit 'km/h' here; allowed: s, ms, us, ns, min, h; a number without one is in s");
+  refuse_text(o, "step", "3 km/h",
+              "step: there is no unit 'km/h' here; allowed: s, ms, us, ns, ps, fs, min, h; a number without "
+              "one is in s");
   refuse_text(o, "step", "ms", "step: \"ms\" is not allowed; allowed: a number > 0 and <= 10 [s]");
-  refuse_text(
-      o, "step", "3ms2ms",
-      "step: there is no unit 'ms2ms' here; allowed: s, ms, us, ns, min, h; a number without one is in s");
+  refuse_text(o, "step", "3ms2ms",
+              "step: there is no unit 'ms2ms' here; allowed: s, ms, us, ns, ps, fs, min, h; a number without "
+              "one is in s");
   refuse_text(o, "step", "1e400ms",
               "step: 1e400ms is beyond the largest number, 1.8e308; allowed: a number > 0 and <= 10 [s]");
   refuse_text(o, "step", "1min", "step: 60 is not allowed; allowed: a number > 0 and <= 10 [s]");

@@ -469,7 +469,7 @@ TEST(messages_give_file_line_column_and_path) {
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]],\n  'stifness': 1}]}",
          "t.json:3:3: springs[0].stifness: unknown key 'stifness'; did you mean 'stiffness'? allowed: name, "
          "between, law, "
-         "stiffness, damping, rest_length, rest_scale, compression");
+         "stiffness, damping, damping_ratio, rest_length, rest_scale, compression");
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'stiffness': 1}]}",
          "t.json:2:14: springs[0].between: is required but missing; allowed: an array of pairs of particles");
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]]}]}",
@@ -484,9 +484,10 @@ TEST(messages_give_file_line_column_and_path) {
 }
 
 TEST(indices_are_whole_numbers) {
-  refuse("{'hooke': 1, " TWO ", 'springs': [{'between': [[0, 1.0]], 'stiffness': 1}]}",
-         "t.json:1:100: springs[0].between[0][1]: 1.0 is not allowed; allowed: the number of a particle, or "
-         "['part', index]");
+  refuse(
+      "{'hooke': 1, " TWO ", 'springs': [{'between': [[0, 1.0]], 'stiffness': 1}]}",
+      "t.json:1:100: springs[0].between[0][1]: 1.0 is not allowed; allowed: the number of a particle, its name, or "
+      "['part', index]");
   refuse("{'hooke': 1,\n'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0.0]}}",
          "t.json:2:60: particles.pinned[0]: 0.0 is not allowed; allowed: a whole number, without a point");
   refuse("{'hooke': 1.0, " TWO "}",

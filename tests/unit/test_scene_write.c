@@ -236,6 +236,130 @@ TEST(anchors_come_back) {
   hk_variant_release(&variant);
 }
 
+/* Loads are equal to the bit, and as they were given; a variant leaves a group out. */
+TEST(loads_come_back) {
+  static const char *const words[] = {"force=0.1,2,-3",
+                                      "motion=harmonic force=0.1,0,0 frequency=1.5 phase=0.3",
+                                      "motion=table force=0,0,0;0.1,0.2,0.3 time=0.1,0.7"};
+  owned_scene *read = NULL;
+  owned_system *system = new_system(), *made = NULL;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  add_strand(system, 1);
+  for (int k = 0; k < 3; k++) {
+    owned_options *options = options_with("loads", "%s", words[k]);
+    check_ok(hooke_system_add_loads(system, 2, (int64_t[]){5, 4 + k}, options));
+  }
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  check_same_system(hooke_scene_system(read), system);
+  assert_true(hk_system_check_value(hooke_scene_system(read)) == hk_system_check_value(system));
+  const char *flat = strstr(hooke_scene_text(read, "text"), "\"force\": [0.1, 2");
+  assert_non_null(flat);
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.group[hk_system_first_group(system, &hk_force_loads) + 1] = 1;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  assert_int_equal(hooke_system_count(made, "loads"), 4);
+  int64_t particle[4];
+  check_ok(hooke_system_members(made, "loads", particle, NULL, NULL, NULL));
+  assert_true(particle[0] == 5 && particle[1] == 4 && particle[2] == 5 && particle[3] == 6);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+}
+
+/* By the numbers that the particles have in the scene; in a variant those that are there. */
+TEST(names_come_back) {
+  const double position[] = {0, 1, 0, 1, 1, 0};
+  owned_system *system = small_part(NULL, "rope", "line",
+                                    "from=0,0,0 to=1,0,0 segments=2 mass=1 stretch.stiffness=9"),
+               *made = NULL;
+  owned_scene *read = NULL;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  check_ok(hooke_system_add_particles(system, 2, position, NULL, 1, (double[]){2.0}, NULL));
+  check_ok(hooke_system_name_particle(system, "tip", 2));
+  check_ok(hooke_system_name_particle(system, "bob", 4));
+  check_ok(hooke_system_commit(system));
+  check_status(hooke_system_name_particle(system, "late", 0), HOOKE_BAD_CALL);
+  check_ok(hooke_scene_of_system(system, NULL, NULL, "memory", NULL, &read));
+  check_ok(hooke_scene_commit(read));
+  const hooke_system *again = hooke_scene_system(read);
+  assert_int_equal(hooke_system_named_particle(again, "tip"), 4);
+  assert_int_equal(hooke_system_named_particle(again, "bob"), 1);
+  assert_int_equal(hooke_system_named_particle(again, "top"), -1);
+  check_same_bits(3, again->position + 3, system->position + 12);
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.part[0] = 1;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  assert_int_equal(hooke_system_named_particle(made, "tip"), -1);
+  assert_int_equal(hooke_system_named_particle(made, "bob"), 1);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+}
+
+/* Of particles and parts, as options of a part and as set after it; in a variant at half the resolution it is
+ * that of the same points. */
+TEST(gravity_factors_come_back) {
+  const double place[6] = {0, 5, 0, 1, 5, 0}, factor[2] = {-0.3, 2.0};
+  owned_scene *read = NULL;
+  owned_system *system = small_system(2, place, NULL, 1.0, 0), *made = NULL;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
+  small_part(system, "rope", "one",
+             "from=0,0,0 to=1,0,0 segments=4 mass=1 stretch.stiffness=5 "
+             "gravity_factor=0.1,0.2,0.3,0.4,0.5");
+  small_part(system, "rope", "two",
+             "from=0,1,0 to=1,1,0 segments=3 mass=1 stretch.stiffness=5 gravity_factor=0.7");
+  small_part(system, "rope", "three", "from=0,2,0 to=1,2,0 segments=2 mass=1 stretch.stiffness=5");
+  check_ok(hooke_system_set_gravity_factor(system, 0, 2, 2, factor));
+  check_ok(hooke_system_set_gravity_factor(system, 8, 1, 1, factor));
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  check_same_system(hooke_scene_system(read), system);
+  check_same_bits(14, hooke_scene_system(read)->gravity_factor, system->gravity_factor);
+  assert_true(hk_system_check_value(hooke_scene_system(read)) == hk_system_check_value(system));
+  assert_non_null(strstr(hooke_scene_text(read, "text"), "\"gravity_factor\": [0.1, 0.2, 0.3, 0.4, 0.5]"));
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.scale[0] = 0.5;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  const double right[12] = {-0.3, 2.0, 0.1, 0.3, 0.5, 0.7, -0.3, 0.7, 0.7, 1.0, 1.0, 1.0};
+  assert_int_equal(made->particle_count, 12);
+  for (int p = 0; p < 12; p++)
+    check_close(made->gravity_factor[p], right[p], 1e-15);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+}
+
+/* One for all stays a ratio, which finds the same damping where other particles are held; several become
+ * dampings. A variant without damping has none. */
+TEST(damping_ratios_come_back) {
+  const double position[] = {0, 0, 0, 1, 0, 0, 3, 0, 0};
+  const int64_t ends[] = {0, 1, 1, 2};
+  double gamma[4];
+  owned_system *system = small_system(3, position, NULL, 0.3, 1), *made = NULL;
+  hooke_scene *read;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  small_group(system, "springs", "one", 2, ends, "stiffness=7 damping_ratio=0.3 rest_scale=0.9");
+  small_group(system, "springs", "two", 2, ends, "stiffness=7,9 damping_ratio=0.1,0.7");
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  assert_non_null(strstr(hooke_scene_text(read, "text"), "\"damping_ratio\": 0.3"));
+  hooke_scene_destroy(read);
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.damping = 1;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  check_ok(hooke_system_members(made, "springs", NULL, NULL, gamma, NULL));
+  assert_true(gamma[0] == 0.0 && gamma[1] == 0.0 && gamma[2] == 0.0 && gamma[3] == 0.0);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+}
+
 /* Driven as before: at some times, to the same positions to the bit. */
 TEST(drives_come_back) {
   const double at[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[3] = {1, 2, 3}, amplitude[3] = {0.1, 0, 0.2};

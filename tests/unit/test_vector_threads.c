@@ -37,7 +37,12 @@ TEST(same_bits) {
   run_by(scene.system, (struct run){.method = "rk4", .step = 1e-6, .duration = DURATION}, exact);
   check_between(largest(size, exact + size), 1e-4, 1e-3); /* velocities, from rest: the scale of errors */
   for (int m = 0; m < 2; m++) {
-    struct run run = {.method = methods[m], .rtol = 1e-8, .atol = 1e-10, .duration = DURATION, .threads = 1};
+    struct run run = {.method = methods[m],
+                      .rtol = 1e-8,
+                      .atol = 1e-10,
+                      .atol_velocity = 1e-10,
+                      .duration = DURATION,
+                      .threads = 1};
     run_by(scene.system, run, one);
     check_between(largest_difference(size, one + size, exact + size), 0.0, 1e-10);
     for (run.threads = 2; run.threads <= 3; run.threads++) {

@@ -373,6 +373,7 @@ double hooke_options_row_number(const hooke_options *options, int64_t row, const
       {"min_count", counted && of->min_count > 0 ? (double)of->min_count : NAN},
       {"max_count", counted && of->max_count > 0 ? (double)of->max_count : NAN},
       {"columns", of->columns > 0 ? (double)of->columns : NAN},
+      {"flat", of->flat},
       {"word_lists", of->word_lists},
   };
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)

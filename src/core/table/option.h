@@ -24,9 +24,11 @@ struct hk_option_row {
   double low, high;     /* bounds of every number, inclusive; equal: no bounds */
   int32_t above_low;    /* 1: `low` itself is not allowed */
   int32_t whole;        /* 1: whole numbers only */
+  int32_t particles;    /* 1: numbers of particles, which a scene may also name */
   int32_t required;
   int64_t min_count, max_count; /* of HOOKE_OPTION_NUMBERS; max_count 0: any */
   int32_t columns;              /* in a scene numbers come in rows of this many ([[x,y,z],...]); 0: flat */
+  int32_t flat;                 /* 1: a single row may also be flat ([x,y,z]) */
   const char *words; /* separated by blanks: the words allowed instead of numbers, or the choices */
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;

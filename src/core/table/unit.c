@@ -17,13 +17,16 @@ static const struct {
   int32_t exponent;
   double factor;
 } units[] = {
-    {"m", "m", "kcmun", 0, 0},      {"s", "s", "mun", 0, 0},
+    {"Hz", "Hz", "km", 0, 0},       {"m", "m", "kcmun", 0, 0},
+    {"m", "angstrom", "", -10, 0},  {"m", "in", "", 0, 0.0254},
+    {"m", "ft", "", 0, 0.3048},     {"s", "s", "munpf", 0, 0},
     {"s", "min", "", 0, 60},        {"s", "h", "", 0, 3600},
     {"kg", "kg", "", 0, 0},         {"kg", "t", "", 3, 0},
-    {"kg", "g", "mu", -3, 0},       {"kg/m", "kg/m", "", 0, 0},
-    {"kg/m", "g/m", "m", -3, 0},    {"kg/m^2", "kg/m^2", "", 0, 0},
-    {"kg/m^2", "g/m^2", "", -3, 0}, {"kg/m^3", "kg/m^3", "", 0, 0},
-    {"kg/m^3", "g/cm^3", "", 3, 0}, {"N", "N", "Mkmun", 0, 0},
+    {"kg", "g", "mu", -3, 0},       {"kg", "lb", "", 0, 0.45359237},
+    {"kg/m", "kg/m", "", 0, 0},     {"kg/m", "g/m", "m", -3, 0},
+    {"kg/m^2", "kg/m^2", "", 0, 0}, {"kg/m^2", "g/m^2", "", -3, 0},
+    {"kg/m^3", "kg/m^3", "", 0, 0}, {"kg/m^3", "g/cm^3", "", 3, 0},
+    {"N", "N", "Mkmun", 0, 0},      {"N", "lbf", "", 0, 4.4482216152605},
     {"N/m", "N/m", "Mk", 0, 0},     {"N/m", "N/mm", "", 3, 0},
     {"N/m", "N/cm", "", 2, 0},      {"N/m", "mN/m", "", -3, 0},
     {"N/m", "Pa m", "k", 0, 0},     {"N s", "N s", "km", 0, 0},
@@ -31,7 +34,7 @@ static const struct {
     {"N s/m", "kg/s", "", 0, 0},    {"N m", "N m", "mu", 0, 0},
     {"N m^2", "N m^2", "km", 0, 0}, {"N m^2", "N mm^2", "", -6, 0},
     {"m/s", "m/s", "kcmu", 0, 0},   {"m/s", "km/h", "", 0, 1.0 / 3.6},
-    {"m/s^2", "m/s^2", "cm", 0, 0}, {"Hz", "Hz", "km", 0, 0},
+    {"m/s^2", "m/s^2", "cm", 0, 0}, {"m/s^2", "g0", "", 0, 9.80665},
     {"rad", "rad", "m", 0, 0},      {"rad", "deg", "", 0, 0.017453292519943295},
     {"MB", "MB", "", 0, 0},         {"MB", "GB", "", 3, 0},
     {"MB", "kB", "", -3, 0},        {"GB", "GB", "", 0, 0},
@@ -39,8 +42,8 @@ static const struct {
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 
-static const char prefixes[] = "Mkcmun";
-static const int32_t exponents[] = {6, 3, -2, -3, -6, -9};
+static const char prefixes[] = "Mkcmunpf";
+static const int32_t exponents[] = {6, 3, -2, -3, -6, -9, -12, -15};
 
 /* Each base stands before a blank and a bracket, or before a comma or the end. */
 static int is_one_of(const char *bases, const char *base) {

@@ -15,7 +15,8 @@ struct hk_unit {
 /* The unit with this name, of one of `bases`. */
 struct hk_unit hk_unit_find(const char *bases, const char *name, int64_t length);
 
-/* Writes the names of all units of `bases`: "s, ms, us, ns, min, h"; "" if `bases` has no other unit. */
+/* Writes the names of all units of `bases`: "s, ms, us, ns, ps, fs, min, h"; "" if `bases` has no other unit.
+ */
 void hk_unit_list(const char *bases, char *list, int64_t size);
 
 /* Lengths in characters of the number that `text` begins with (0: none), and of that number, blanks and a

@@ -1,12 +1,13 @@
 /* Definition of "diverged": a non-finite component; or, if energy can only come from the scene itself (no
  * callbacks, no drives), a rise of energy by more than 100 times the initial energy and the energy from
- * gravity since then:
+ * gravity since then, and from constant loads, which count as gravity throughout:
  *   E(t) - E(0) > 100 (T(0) + U(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
  * The last terms are for a scene at rest: the energy from gravity in one step (forward Euler has it in v
- * before q has moved), and the effect of errors: U is that of springs, bending, altitude springs and anchors,
- * K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate, which rounding takes some
- * 1e9 steps to reach; with error control d includes atol, and u is atol_velocity. Energies below the smallest
- * normal number prove nothing, and neither do those of a scene that begins with energies above the largest.
+ * before q has moved; of loads F^2/m in place of M g^2), and the effect of errors: U is that of springs,
+ * bending, altitude springs and anchors, K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest
+ * coordinate, which rounding takes some 1e9 steps to reach; with error control d includes atol, and u is
+ * atol_velocity. Energies below the smallest normal number prove nothing, and neither do those of a scene
+ * that begins with energies above the largest.
  *
  * The last state that passed is kept in `recent`. If a large scene has no space there, the caller's state is
  * that state until the next one is stored by an exchange: the motion then holds the state to restore if the
@@ -42,12 +43,13 @@ int32_t hk_all_finite(int64_t count, const double *value) {
 /* Energy that a scene at rest may acquire. */
 static double least_energy(const hooke_integrator *it, const hooke_state *state) {
   const hooke_system *system = it->system;
-  const double *g = system->gravity;
-  double mass = 0.0, stiffness = 0.0, extent = 0.0;
+  double mass = 0.0, stiffness = 0.0, extent = 0.0, force = 0.0, kick = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     mass += system->constrained[p] || system->overdamped ? 0.0 : system->mass[p];
   for (int32_t k = 0; k < system->force_row_count; k++) {
-    if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &stiffness);
+    const struct hk_force_row *row = system->force_row[k];
+    if (row->add_stiffness) row->add_stiffness(system, &stiffness);
+    if (row->add_pull && !system->overdamped) row->add_pull(system, &force, &kick);
   }
   for (int64_t k = 0; k < state->size; k++)
     extent = fmax(extent, fabs(state->q[k]));
@@ -57,10 +59,10 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
     return 0.5 * stiffness * d * d + 0.5 * mass * u * u;
   }
   const double d = ROUNDING * extent, h = it->schedule.step;
-  return 0.5 * mass * ((g[0] * g[0] + g[1] * g[1]) + g[2] * g[2]) * h * h + 0.5 * stiffness * d * d;
+  return 0.5 * kick * h * h + 0.5 * stiffness * d * d;
 }
 
-int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
+void hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
   it->energies.system = NULL;
   if (has_energy_bound(it)) {
@@ -74,7 +76,6 @@ int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   hk_recent_keep(&it->recent, state, 0);
   it->good.t = *state->t;
   it->good.unkept = 0;
-  return HOOKE_OK;
 }
 
 static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
@@ -104,8 +105,7 @@ void hk_store_good(const hooke_integrator *it, hooke_state *state) {
 int32_t hk_divergence_keep(hooke_integrator *it) {
   struct hk_recent *recent = &it->recent;
   const int was_empty = recent->capacity == 0;
-  const int32_t status =
-      recent->capacity == 0 ? hk_recent_extend(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
+  const int32_t status = was_empty ? hk_recent_extend(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   if (was_empty && recent->count > 0) hk_store_good(it, recent->state[0]);
   if (it->good.unkept) hk_store_good(it, hk_recent_next(recent, it->good.step));

@@ -60,6 +60,7 @@ void hk_integrator_move_of(const hooke_integrator *it, int32_t kind, double kick
   const struct hk_motion *m = it->motion;
   move->kind = kind;
   move->heavy = system->falls;
+  move->gravity_factor = system->falls ? system->gravity_factor : NULL;
   move->kick = kick;
   move->drift = drift;
   move->drag = m->zero ? 0.0 : system->brake;
@@ -81,14 +82,14 @@ void hk_integrator_move_on(hooke_integrator *it, struct hk_move *move) {
   hk_integrator_each(it, move_share, move);
 }
 
-/* Drag is part of the move, except where something comes after it in the sum of forces. */
+/* Drag is part of the move, except where a force comes after it in the sum. */
 int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move *move) {
   if (it->by_tiles) {
     it->count.force_evaluations++;
     hk_motion_pass(it->system, it->motion, move);
     return HOOKE_OK;
   }
-  const int summed = it->system->drag_is_within && !hk_move_brakes(move->kind);
+  const int summed = it->system->sums_after_drag && !hk_move_brakes(move->kind);
   const int32_t status = hk_integrator_forces_without(it, t, summed ? 0 : HOOKE_UNIFORM);
   if (summed) move->drag = 0.0;
   if (status == HOOKE_OK) hk_integrator_move_on(it, move);

@@ -59,14 +59,12 @@ int32_t hk_integrator_place(hooke_integrator *to, const hooke_integrator *from, 
 }
 
 int32_t hk_integrator_run_on(hooke_integrator *it, const hooke_state *first, hooke_state *state) {
-  int32_t status = hk_run_check_state(it, state);
-  if (status == HOOKE_OK) status = hk_run_check_state(it, first);
-  if (status == HOOKE_OK) status = hk_run_check_duration(it);
-  if (status != HOOKE_OK) return status;
   hooke_state *start = NULL;
-  status = hk_state_create_sized(hooke_state_size(first), first->has_v, &start);
-  if (status == HOOKE_OK) status = hooke_state_copy(first, start);
-  if (status == HOOKE_OK) status = hk_run_begin(it, start);
+  int32_t status = hk_run_check_whole(it, state);
+  if (status == HOOKE_OK) status = hk_state_create_sized(hooke_state_size(first), first->has_v, &start);
+  if (status != HOOKE_OK) return status;
+  hooke_state_copy(first, start);
+  status = hk_run_begin(it, start);
   if (status == HOOKE_OK) {
     const int fixed = !it->method->adaptive;
     const int64_t step = fixed ? (int64_t)llround((*state->t - *start->t) / it->schedule.step) : 0;
@@ -93,8 +91,7 @@ static int is_frame_missing(const hooke_integrator *it) {
 }
 
 int32_t hooke_integrator_resume(hooke_integrator *it, hooke_state *state) {
-  int32_t status = hk_run_check_state(it, state);
-  if (status == HOOKE_OK) status = hk_run_check_duration(it);
+  int32_t status = hk_run_check_whole(it, state);
   if (status == HOOKE_OK && !can_go_on(it, state)) {
     status = hk_fail(HOOKE_BAD_CALL, NULL,
                      "there is no run to go on with: neither was a checkpoint "

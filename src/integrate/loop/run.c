@@ -43,8 +43,10 @@ int32_t hk_run_begin_later(hooke_integrator *it, hooke_state *state) {
   int32_t status = hk_run_place_driven(it, state);
   if (status == HOOKE_OK) status = check_numbers(it, state);
   if (status == HOOKE_OK && it->system) status = hk_movers_check_state(it->system, state);
-  if (status == HOOKE_OK) status = hk_divergence_begin(it, state);
-  if (status == HOOKE_OK) status = it->method->steps->begin(it, state);
+  if (status == HOOKE_OK) {
+    hk_divergence_begin(it, state);
+    status = it->method->steps->begin(it, state);
+  }
   if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
   hk_passages_begin(it, it->t0);
   if (status == HOOKE_OK) it->phase = HOOKE_BEGUN;
@@ -128,8 +130,9 @@ int32_t hk_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
   return status;
 }
 
-int32_t hk_run_check_duration(const hooke_integrator *it) {
-  if (it->schedule.frames > 0) return HOOKE_OK;
+int32_t hk_run_check_whole(const hooke_integrator *it, const hooke_state *state) {
+  const int32_t status = hk_run_check_state(it, state);
+  if (status != HOOKE_OK || it->schedule.frames > 0) return status;
   return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
 }
 
@@ -140,8 +143,7 @@ int32_t hk_run_to_end(hooke_integrator *it, hooke_state *state) {
 }
 
 int32_t hk_run_whole(hooke_integrator *it, hooke_state *state) {
-  int32_t status = hk_run_check_state(it, state);
-  if (status == HOOKE_OK) status = hk_run_check_duration(it);
+  int32_t status = hk_run_check_whole(it, state);
   if (status != HOOKE_OK) return status;
   status = hk_run_begin(it, state);
   if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);

@@ -8,10 +8,10 @@
 
 enum { HOOKE_CHECK_STEPS = 1000 };
 
-/* HOOKE_BAD_VALUE for a state of another size, and without a duration. The first also restarts threads in a
+/* HOOKE_BAD_VALUE for a state of another size, and for a whole run without a duration. Restart threads in a
  * child of fork(). */
 int32_t hk_run_check_state(const hooke_integrator *integrator, const hooke_state *state);
-int32_t hk_run_check_duration(const hooke_integrator *integrator);
+int32_t hk_run_check_whole(const hooke_integrator *integrator, const hooke_state *state);
 
 /* Moves driven particles to their prescribed positions at the time of the state, whatever the caller wrote
  * there. */

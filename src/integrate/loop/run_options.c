@@ -3,7 +3,9 @@
 
 #include "core/number.h"
 #include "core/status.h"
+#include "model/system.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -29,9 +31,10 @@ static const struct hk_option_row run_rows[] = {
                  "for it (implicit), or explicitly where that is stable for certain (auto)"),
     HOOKE_OPTION("rtol", HOOKE_OPTION_BETWEEN(1e-15, 0.1), "1e-6",
                  "relative tolerance of an error-controlled method"),
-    HOOKE_OPTION("atol", HOOKE_OPTION_POSITIVE("m"), "1e-9", "absolute tolerance of positions"),
+    HOOKE_OPTION("atol", HOOKE_OPTION_POSITIVE("m"), NULL,
+                 "absolute tolerance of positions; 1e-3 rtol times the extent of the scene if not given"),
     HOOKE_OPTION("atol_velocity", HOOKE_OPTION_POSITIVE("m/s"), NULL,
-                 "absolute tolerance of velocities; the number of atol if not given"),
+                 "absolute tolerance of velocities; atol over the duration if not given"),
     HOOKE_OPTION("max_order", HOOKE_OPTION_WHOLE(1, 12), NULL,
                  "highest order that cvode-bdf (up to 5) or cvode-adams (up to 12) may use, or the order of "
                  "arkode-esdirk (3 to 5); if not given the highest, which cvode-bdf at rtol >= 1e-6 lowers "
@@ -56,6 +59,25 @@ const struct hk_option_table hk_run_options = {"run", HOOKE_OPTION_ROWS(run_rows
 
 int32_t hk_run_options_require(const hooke_options *options, const char *where) {
   return hk_options_require(options, &hk_run_options, where, "hooke_options_create(\"run\", ...)");
+}
+
+/* ---- tolerances ---- */
+
+static const double OF_EXTENT = 1e-3, LARGEST = 1e300;
+
+int32_t hk_run_fill_tolerances(const hooke_system *system, hooke_options *options) {
+  const double diagonal = system ? hk_diagonal(system->particle_count, system->position) : 0.0;
+  const double extent = diagonal > 0.0 ? diagonal : 1.0, rtol = hooke_options_number(options, "rtol");
+  const double duration = hooke_options_number(options, "duration");
+  double atol = hooke_options_number(options, "atol");
+  int32_t status = HOOKE_OK;
+  if (isnan(atol)) {
+    atol = fmin(fmax(OF_EXTENT * rtol * extent, DBL_MIN), LARGEST);
+    status = hooke_options_set_number(options, "atol", atol);
+  }
+  if (status != HOOKE_OK || hooke_options_is_set(options, "atol_velocity")) return status;
+  const double per_second = isnan(duration) ? atol : atol / duration;
+  return hooke_options_set_number(options, "atol_velocity", fmin(fmax(per_second, DBL_MIN), LARGEST));
 }
 
 /* ---- schedule ---- */
@@ -144,8 +166,7 @@ int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
   if (isnan(s->every)) {
     s->frame_steps = isnan(step) ? 0 : (int64_t)fmax(1.0, round(s->duration / 100.0 / step));
     s->every = isnan(step) ? s->duration / 100.0 : (double)s->frame_steps * step;
-    const int32_t status = hooke_options_set_number(options, "every", s->every);
-    if (status != HOOKE_OK) return status;
+    hooke_options_set_number(options, "every", s->every);
   }
   /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1
    * on */

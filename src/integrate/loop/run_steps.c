@@ -8,7 +8,6 @@
 #include <math.h>
 
 static const double LOOK = 1e-3; /* [s] between two clock readings */
-static const int64_t MOST_STRIDE = 1 << 20;
 
 int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
   if (it->system == NULL || (it->system->drive_count == 0 && !it->system->overdamped)) return HOOKE_OK;
@@ -68,7 +67,7 @@ int32_t hk_run_tell(hooke_integrator *it, int64_t steps) {
   struct hk_teller *teller = &it->teller;
   if (teller->progress == NULL || (teller->left -= steps) > 0) return HOOKE_OK;
   const double now = hk_clock_seconds(), since = now - teller->looked;
-  if (since < 0.5 * LOOK && teller->stride < MOST_STRIDE) teller->stride *= 2;
+  if (since < 0.5 * LOOK) teller->stride *= 2;
   if (since > 2.0 * LOOK && teller->stride > 1) teller->stride /= 2;
   teller->left = teller->stride;
   teller->looked = now;

@@ -33,8 +33,8 @@ static int where(void *memory, sunrealtype *t, sunrealtype *gamma, N_Vector *y) 
 static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   own->where = where;
   int flag = ARKodeSetLinearSolver(own->memory, own->linear, NULL);
-  if (flag == ARK_SUCCESS) flag = ARKodeSetEpsLin(own->memory, hk_sundials_linear_share(it));
-  if (flag != ARK_SUCCESS || !hk_unknowns_have_products(it) || hk_sundials_linear_is_own(it)) return flag;
+  flag = hk_first_flag(flag, ARKodeSetEpsLin(own->memory, hk_sundials_linear_share(it)));
+  if (flag != ARK_SUCCESS || own->unknowns.rows == NULL || hk_sundials_linear_is_own(it)) return flag;
   return ARKodeSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 
@@ -42,19 +42,16 @@ static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
   own->memory = ARKStepCreate(NULL, hk_sundials_slope, 0.0, own->y, own->context);
   if (own->memory == NULL) return ARK_MEM_FAIL;
   int flag = HOOKE_ARKODE_LISTEN(own->memory, own);
-  if (flag == ARK_SUCCESS) flag = ARKodeSetUserData(own->memory, it);
-  if (flag == ARK_SUCCESS) {
-    flag = ARKodeSVtolerances(own->memory, hooke_options_number(it->options, "rtol"), own->tolerance);
-  }
-  if (flag == ARK_SUCCESS) {
-    flag = ARKStepSetTableNum(own->memory, tables[order - LOWEST_ORDER], ARKODE_ERK_NONE);
-  }
+  const double rtol = hooke_options_number(it->options, "rtol");
+  flag = hk_first_flag(flag, ARKodeSetUserData(own->memory, it));
+  flag = hk_first_flag(flag, ARKodeSVtolerances(own->memory, rtol, own->tolerance));
+  flag = hk_first_flag(flag, ARKStepSetTableNum(own->memory, tables[order - LOWEST_ORDER], ARKODE_ERK_NONE));
   /* stages predicted from earlier steps: less than half the linear iterations */
-  if (flag == ARK_SUCCESS) flag = ARKodeSetInterpolantType(own->memory, ARK_INTERP_LAGRANGE);
-  if (flag == ARK_SUCCESS) flag = ARKodeSetPredictorMethod(own->memory, HIGHEST_ORDER_PREDICTOR);
+  flag = hk_first_flag(flag, ARKodeSetInterpolantType(own->memory, ARK_INTERP_LAGRANGE));
+  flag = hk_first_flag(flag, ARKodeSetPredictorMethod(own->memory, HIGHEST_ORDER_PREDICTOR));
   /* where a force jumps, such as where a damped spring that only pulls becomes slack, a step may have to
    * shrink far */
-  if (flag == ARK_SUCCESS) flag = ARKodeSetMaxErrTestFails(own->memory, MOST_FAILURES);
+  flag = hk_first_flag(flag, ARKodeSetMaxErrTestFails(own->memory, MOST_FAILURES));
   return flag == ARK_SUCCESS ? attach_solver(it, own) : flag;
 }
 

@@ -52,7 +52,7 @@ static const double DAMPING_OF_ORDER_3 = 0.0692;
  * HOOKE_NO_MEMORY. */
 static int32_t create_choice(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
-  if (!hk_unknowns_have_products(it) || own->unknowns.free_count == 0 || !own->unknowns.has_v ||
+  if (own->unknowns.rows == NULL || !own->unknowns.has_v ||
       !isnan(hooke_options_number(it->options, "max_order")) ||
       hooke_options_number(it->options, "rtol") < LOOSE_RTOL)
     return HOOKE_OK;
@@ -143,7 +143,7 @@ static void change(struct hk_order_choice *c, int32_t low) {
   c->low = low;
   c->steps = c->looks = c->short_windows = 0;
   c->quiet_until = low ? 0 : c->quiet_next;
-  if (!low && c->quiet_next < INT64_MAX / 8) c->quiet_next *= 4;
+  if (!low) c->quiet_next *= 4;
 }
 
 /* Checks, with the solution y at the integrator's time; if that changes `low` the solver has to restart from
@@ -204,8 +204,8 @@ static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   }
   own->where = where;
   int flag = CVodeSetLinearSolver(own->memory, own->linear, NULL);
-  if (flag == CV_SUCCESS) flag = CVodeSetEpsLin(own->memory, hk_sundials_linear_share(it));
-  if (flag != CV_SUCCESS || !hk_unknowns_have_products(it) || hk_sundials_linear_is_own(it)) return flag;
+  flag = hk_first_flag(flag, CVodeSetEpsLin(own->memory, hk_sundials_linear_share(it)));
+  if (flag != CV_SUCCESS || own->unknowns.rows == NULL || hk_sundials_linear_is_own(it)) return flag;
   return CVodeSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 
@@ -213,12 +213,11 @@ static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
   own->memory = CVodeCreate(is_bdf(it) ? CV_BDF : CV_ADAMS, own->context);
   if (own->memory == NULL) return CV_MEM_FAIL;
   int flag = HOOKE_CVODE_LISTEN(own->memory, own);
-  if (flag == CV_SUCCESS) flag = CVodeInit(own->memory, hk_sundials_slope, 0.0, own->y);
-  if (flag == CV_SUCCESS) flag = CVodeSetUserData(own->memory, it);
-  if (flag == CV_SUCCESS) {
-    flag = CVodeSVtolerances(own->memory, hooke_options_number(it->options, "rtol"), own->tolerance);
-  }
-  if (flag == CV_SUCCESS) flag = CVodeSetMaxOrd(own->memory, order);
+  const double rtol = hooke_options_number(it->options, "rtol");
+  flag = hk_first_flag(flag, CVodeInit(own->memory, hk_sundials_slope, 0.0, own->y));
+  flag = hk_first_flag(flag, CVodeSetUserData(own->memory, it));
+  flag = hk_first_flag(flag, CVodeSVtolerances(own->memory, rtol, own->tolerance));
+  flag = hk_first_flag(flag, CVodeSetMaxOrd(own->memory, order));
   return flag == CV_SUCCESS ? attach_solver(it, own) : flag;
 }
 

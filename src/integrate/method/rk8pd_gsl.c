@@ -132,7 +132,7 @@ static int32_t attempt(hooke_integrator *it, struct hk_rk8pd *own, double h, dou
 }
 
 /* Steps end at the goal, where the run loop needs the solution: nothing is interpolated. Two equal steps to
- * it rather than a long and a short one. */
+ * it rather than a long and a short one, unless rounding of times alone puts it beyond the next step. */
 static int32_t step(hooke_integrator *it) {
   struct hk_rk8pd *own = it->own;
   if (own->step == 0.0) {
@@ -141,7 +141,7 @@ static int32_t step(hooke_integrator *it) {
   }
   for (;;) {
     const double left = it->goal - it->t;
-    const int32_t reaches = own->step >= left;
+    const int32_t reaches = own->step >= left * (1.0 - 1e-9);
     const double h = reaches ? left : fmin(own->step, 0.5 * left), end = reaches ? it->goal : it->t + h;
     if (!(end > it->t)) {
       return hk_fail(HOOKE_SOLVER_FAILED, NULL,

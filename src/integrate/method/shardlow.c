@@ -37,7 +37,6 @@ static int32_t create(hooke_integrator *it) {
 static void destroy(hooke_integrator *it) {
   struct shardlow *own = it->around;
   if (it->own) hk_verlet.steps->destroy(it);
-  if (own == NULL) return;
   hk_dampers_destroy(own->dampers);
   hk_free(own->zero);
   hk_free(own);

@@ -22,7 +22,7 @@ static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
     for (int64_t p = 0; p < m->n; p++) {
       const double w = system->inverse_mass[p];
       place[p] = q[p] + a * v[p];
-      speed[p] = v[p] + a * (w * m->f[c][p] + (w == 0.0 ? 0.0 : system->fall[c]));
+      speed[p] = v[p] + a * (w * m->f[c][p] + (w == 0.0 ? 0.0 : hk_fall(system, p, c)));
     }
   }
   hk_body_stage_explicit(stage, a, stage->others + 2 * it->size);

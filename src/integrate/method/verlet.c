@@ -49,7 +49,8 @@ static int32_t create(hooke_integrator *it) {
   const int64_t stride = hk_motion_stride(it->motion);
   own->implicit =
       hk_system_is_damped(it->system, ~HOOKE_UNIFORM) && !it->explicit_damping && !it->motion->zero;
-  own->predicts = own->implicit || it->explicit_damping || callback;
+  const int drag_is_between = it->system->brake > 0.0 && it->system->sums_after_drag;
+  own->predicts = own->implicit || it->explicit_damping || callback || drag_is_between;
   if (!own->predicts) return HOOKE_OK;
   if ((own->implicit || callback) && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
   const int64_t numbers = 3 * stride + (own->implicit ? 2 * it->size : 0);
@@ -129,9 +130,10 @@ static double set_right(const hooke_integrator *it) {
   double left = 0.0, kicked = 0.0;
   for (int a = 0; a < 3; a++) {
     double *right = own->right + a * m->n;
+    const double *factor = system->gravity_factor, g = system->fall[a];
     for (int64_t p = 0; p < m->n; p++) {
       const double mass = system->mass[p], by = m->v[a][p] - own->half[a][p];
-      const double force = system->falls ? m->f[a][p] + mass * system->fall[a] : m->f[a][p];
+      const double force = system->falls ? m->f[a][p] + mass * (factor ? factor[p] * g : g) : m->f[a][p];
       right[p] = half * force - mass * by;
       left += right[p] * (system->inverse_mass[p] * right[p]);
       kicked += system->constrained[p] ? 0.0 : (mass * by) * by;

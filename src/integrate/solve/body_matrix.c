@@ -175,7 +175,7 @@ static void find_forces(struct hk_stage *stage) {
   const int64_t n = system->particle_count;
   double *f = stage->body.df;
   for (int64_t k = 0; k < 3 * n; k++)
-    f[k] = it->motion->f[k / n][k % n] + system->mass[k % n] * system->gravity[k / n];
+    f[k] = it->motion->f[k / n][k % n] + system->mass[k % n] * hk_fall(system, k % n, (int)(k / n));
   const double *const force[3] = {f, f + n, f + 2 * n};
   hk_body_tangents_stiffen(&stage->body.tangents, force, 1);
 }

@@ -16,21 +16,21 @@ static const double ROUNDINGS = 4.0 * DBL_EPSILON;
 
 int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   const hooke_system *system = it->system;
-  const double *g = system->gravity;
-  const int whole = !system->force && !system->medium->blows && system->altitudes->count == 0;
-  if (!system->overdamped || !whole) return HOOKE_OK;
+  double kick = 0.0;
+  if (!system->overdamped || system->force || system->altitudes->count > 0) return HOOKE_OK;
+  if (hk_forces_do_work(system)) return HOOKE_OK; /* their energy is not that of the motion */
   descent->rows = hk_new(it->size, sizeof(double));
   if (descent->rows == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += it->size * (int64_t)sizeof(double);
   for (int64_t k = 0; k < it->size; k++)
     descent->rows[k] = NAN;
   for (int32_t k = 0; k < system->force_row_count; k++) {
-    if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &descent->stiffness);
+    const struct hk_force_row *row = system->force_row[k];
+    if (row->add_stiffness) row->add_stiffness(system, &descent->stiffness);
+    if (row->add_pull) row->add_pull(system, &descent->weight, &kick);
   }
-  for (int64_t p = 0; p < system->particle_count; p++) {
+  for (int64_t p = 0; p < system->particle_count; p++)
     descent->drag += system->constrained[p] ? 0.0 : system->inertia[p];
-    if (system->has_gravity) descent->weight += system->mass[p] * ((fabs(g[0]) + fabs(g[1])) + fabs(g[2]));
-  }
   return HOOKE_OK;
 }
 

@@ -249,7 +249,7 @@ int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *by
   struct hk_factor *x;
   int found;
   const int32_t status = find(system, most, &x, &found);
-  *bytes = status == HOOKE_OK && x ? x->bytes + (found > 0 ? bytes_of_numbers(x) : 0) : 0;
+  *bytes = x ? x->bytes + (found > 0 ? bytes_of_numbers(x) : 0) : 0;
   hk_factor_destroy(x);
   return status;
 }

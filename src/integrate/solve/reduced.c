@@ -36,7 +36,8 @@ static int32_t read_linear_solver(struct hk_reduced *reduced, int32_t kind) {
   reduced->direct = strcmp(word, "direct") == 0;
   int32_t status = hk_factor_require(it->options);
   if (status == HOOKE_OK && reduced->direct) status = hk_reduced_prepare_whole(reduced);
-  return status == HOOKE_OK && reduced->whole ? reserve_whole(reduced) : status;
+  reduced->direct = reduced->whole != NULL;
+  return status == HOOKE_OK && reduced->direct ? reserve_whole(reduced) : status;
 }
 
 int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_more_unknowns *more,
@@ -59,7 +60,6 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_mo
   if (reduced->element == NULL || (rows > 0 && reduced->rows == NULL)) return HOOKE_NO_MEMORY;
   it->own_memory +=
       (numbers + rows) * (int64_t)sizeof(double) + reduced->element_count * (int64_t)sizeof *reduced->element;
-  it->may_factor = kind == HOOKE_REDUCED_MINIMAL;
   for (int32_t k = 0; k < system->force_row_count && !symmetric; k++) {
     const struct hk_force_row *row = system->force_row[k];
     reduced->rows_needed |= !(row->kind & OWN) && (row->add_product || row->elements);
@@ -360,8 +360,7 @@ static int64_t limit_of(const struct hk_reduced *reduced) {
 /* With the factor of S at this place, if that is asked for and S proves positive. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution) {
-  const int32_t positive =
-      reduced->direct && reduced->whole && !is_whole(reduced) ? hk_reduced_factorise(reduced) : 0;
+  const int32_t positive = reduced->direct && !is_whole(reduced) ? hk_reduced_factorise(reduced) : 0;
   return positive < 0 ? positive : solve(reduced, b, tolerance, NAN, limit, x, solution);
 }
 
@@ -378,8 +377,7 @@ void hk_reduced_project(struct hk_reduced *reduced) {
 
 int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
                            double *x, struct hk_solution *solution) {
-  if (!reduced->direct || !reduced->whole)
-    return solve(reduced, b, relative, absolute, limit_of(reduced), x, solution);
+  if (!reduced->direct) return solve(reduced, b, relative, absolute, limit_of(reduced), x, solution);
   const int32_t status = hk_reduced_solve(reduced, b, DIRECT_RESIDUAL, x, solution);
   solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
   return status;

@@ -128,9 +128,9 @@ static int32_t find_residual(struct hk_stage *stage, const double *v) {
   place(stage, v);
   const int32_t status = hk_integrator_forces(it, stage->at.t);
   for (int a = 0; a < 3; a++) {
-    const double g = h * system->fall[a];
+    const double *factor = system->gravity_factor, fall = h * system->fall[a];
     for (int64_t p = 0; p < m->n; p++) {
-      const double w = system->inverse_mass[p];
+      const double w = system->inverse_mass[p], g = factor ? factor[p] * fall : fall;
       stage->right[a * m->n + p] =
           w == 0.0 ? 0.0
                    : h * m->f[a][p] - system->inertia[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
@@ -180,8 +180,9 @@ static int32_t linearise(struct hk_stage *stage) {
   set_matrix(stage);
   status = hk_reduced_change(&stage->reduced, stage->v, stage->change, stage->moved);
   for (int64_t a = 0, k = 0; a < 3; a++) {
-    const double g = system->falls ? system->fall[a] : 0.0;
+    const double *factor = system->gravity_factor, fall = system->fall[a];
     for (int64_t p = 0; p < n; p++, k++) {
+      const double g = factor ? factor[p] * fall : fall;
       const double force = m->f[a][p], turn = stage->overdamped ? stage->moved[k] : force;
       const double w = system->inverse_mass[p];
       stage->straight[k] = old[k] + (stage->overdamped ? 1.0 : stage->at.length) * (w * turn + g);

@@ -57,7 +57,7 @@ static const struct hk_unknowns *unknowns_of(const hooke_integrator *it) {
 
 static void forget(struct solver *s) {
   hk_reduced_drop_factor(&s->reduced);
-  s->direct = s->reduced.direct && s->reduced.whole;
+  s->direct = s->reduced.direct;
   s->may_be_direct = !s->by_blocks;
   s->solves = 0;
   s->fresh = s->excess = s->by_blocks_alone = 0.0;
@@ -250,7 +250,7 @@ static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {
     s->z_weight[k] = 1.0;
   int32_t status = hk_reduced_create(it, HOOKE_REDUCED_MINIMAL, NULL, &s->reduced);
   s->by_blocks = strcmp(word, "blocks") == 0;
-  it->may_factor = !s->reduced.direct && !s->by_blocks;
+  it->may_factor = strcmp(word, "auto") == 0;
   forget(s);
   return status;
 }
@@ -275,8 +275,7 @@ int32_t hk_sundials_linear_create(hooke_integrator *it) {
   if (status != HOOKE_OK) return status;
   /* a space that holds every unknown is exact without it */
   const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
-  if (hk_unknowns_have_products(it) && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&
-      !(few && strcmp(word, "auto") == 0))
+  if (own->unknowns.rows && strcmp(word, "gmres") != 0 && !(few && strcmp(word, "auto") == 0))
     return create_own(it, word, own);
   own->linear = SUNLinSol_SPGMR(own->y, SUN_PREC_NONE, HOOKE_KRYLOV_VECTORS, own->context);
   it->own_memory += HOOKE_KRYLOV_VECTORS * own->unknowns.size * (int64_t)sizeof(double);

@@ -81,7 +81,7 @@ int32_t hk_sundials_order(const hooke_integrator *it, int lowest, int highest, i
  * SUNDIALS; if the Krylov space holds every unknown, accuracy is free. */
 double hk_sundials_linear_share(const hooke_integrator *it) {
   const struct hk_sundials *own = it->own;
-  return hk_unknowns_have_products(it) && 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS ? 1e-4 : 1e-2;
+  return own->unknowns.rows && 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS ? 1e-4 : 1e-2;
 }
 
 void hk_sundials_load(hooke_integrator *it, const hooke_state *state) {

@@ -45,6 +45,10 @@ struct hk_sundials {
  * count of memory. HOOKE_NO_MEMORY. */
 int32_t hk_sundials_create(hooke_integrator *integrator, const struct hk_sundials_solver *solver,
                            int32_t implicit, int64_t vectors);
+/* The first of two flags of SUNDIALS that is no success: its setters refuse what was not set up before. */
+static inline int hk_first_flag(int flag, int next) {
+  return flag != SUN_SUCCESS ? flag : next;
+}
 /* Status of creating a solver: `created`, or `no_room` as it reported itself. HOOKE_NO_MEMORY,
  * HOOKE_SOLVER_FAILED. */
 int32_t hk_sundials_created(const hooke_integrator *integrator, int32_t created, int32_t no_space);

@@ -40,7 +40,7 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
     u->push = hk_new(HOOKE_PUSH * it->system->mover_count, sizeof(double));
     if (u->push == NULL) return HOOKE_NO_MEMORY;
   }
-  if (!products || !hk_unknowns_have_products(it)) return HOOKE_OK;
+  if (!products || it->system->mover_count > 0 || u->free_count == 0) return HOOKE_OK;
   u->rows = hk_rows_new(5 * it->size);
   it->own_memory += 5 * it->size * (int64_t)sizeof(double);
   return u->rows ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -59,10 +59,6 @@ void hk_unknowns_tolerance(const hooke_integrator *it, const struct hk_unknowns 
   for (int64_t k = 0; k < u->size; k++)
     tolerance[k] = it->rate || k < 3 * u->free_count ? position : velocity;
   if (it->system) hk_movers_tolerance(it->system, position, velocity, tolerance + 6 * u->free_count);
-}
-
-int32_t hk_unknowns_have_products(const hooke_integrator *it) {
-  return it->rate == NULL && it->system->mover_count == 0;
 }
 
 /* ---- between y and all particles ---- */
@@ -151,8 +147,9 @@ void hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unkno
       const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
       double *to = out + a * u->free_count + s->unknown;
+      const double *factor = system->gravity_factor ? system->gravity_factor + s->particle : NULL;
       for (int64_t p = 0; p < s->count; p++)
-        to[p] = system->falls ? w[p] * f[p] + g : w[p] * f[p];
+        to[p] = !system->falls ? w[p] * f[p] : factor ? w[p] * f[p] + factor[p] * g : w[p] * f[p] + g;
     }
   }
 }
@@ -185,7 +182,6 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
 /* ---- its derivative ---- */
 
 int hk_unknowns_linearise(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
-  if (u->free_count == 0) return HOOKE_SLOPE_FINE;
   if (hk_unknowns_place(it, u, t, y) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
   hk_motion_store(it->motion, u->rows, u->rows + it->size);
   return HOOKE_SLOPE_FINE;
@@ -193,10 +189,6 @@ int hk_unknowns_linearise(hooke_integrator *it, const struct hk_unknowns *u, dou
 
 int hk_unknowns_product(hooke_integrator *it, struct hk_unknowns *u, double t, const double *direction,
                         double *product) {
-  if (u->free_count == 0) {
-    product[0] = 0.0;
-    return HOOKE_SLOPE_FINE;
-  }
   double *dq = u->rows + 2 * it->size;
   const int64_t m = u->free_count;
   spread_to_rows(u, direction, dq); /* constrained particles: zero from the start */

@@ -18,7 +18,9 @@ struct hk_unknowns {
   int32_t has_v; /* 1: positions, then velocities; 0: of an overdamped system, positions alone */
   int64_t free_count, stretch_count; /* free particles that nothing carries */
   struct hk_stretch_of_free *stretch;
-  double *rows; /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */
+  /* q, v, dq, dv, out in rows of all particles, for products with the derivative; NULL where these are not
+   * known, of first-order problems and bodies, or not asked for, and where nothing is free */
+  double *rows;
   double *push; /* on every mover (model/coordinates) */
 };
 
@@ -44,9 +46,6 @@ int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns
 void hk_unknowns_take(const hooke_integrator *integrator, const struct hk_unknowns *unknowns, double *y);
 void hk_unknowns_give(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
                       const double *y);
-
-/* 1 if hk_unknowns_product() knows the derivative: not that of first-order problems and bodies. */
-int32_t hk_unknowns_have_products(const hooke_integrator *integrator);
 
 /* Three components of the free particles (3 free_count) from and to those of all, a stride apart; others are
  * unchanged. */

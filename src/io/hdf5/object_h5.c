@@ -123,14 +123,14 @@ herr_t hk_h5_attribute(hid_t object, const char *name, hid_t type, int64_t count
   return write_attribute(object, name, type, line_space(count, count == 1), value);
 }
 
-static hid_t new_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
-                       H5D_fill_time_t time, const void *fill) {
+hid_t hk_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
+                  const void *fill) {
   hid_t list = H5Pcreate(H5P_DATASET_CREATE), links = hk_h5_new_links();
   hid_t space = rank > 0 ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
   hid_t dataset = -1;
   herr_t result = list < 0 || links < 0 || space < 0 ? -1 : H5Pset_layout(list, H5D_CONTIGUOUS);
   if (result >= 0) result = H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
-  if (result >= 0) result = H5Pset_fill_time(list, time);
+  if (result >= 0) result = H5Pset_fill_time(list, fill ? H5D_FILL_TIME_ALLOC : H5D_FILL_TIME_NEVER);
   if (result >= 0 && fill) result = H5Pset_fill_value(list, type, fill);
   /* no dates: the same run gives the same bytes */
   if (result >= 0) result = H5Pset_obj_track_times(list, 0);
@@ -141,18 +141,9 @@ static hid_t new_array(hid_t where, const char *name, hid_t type, int rank, cons
   return dataset;
 }
 
-hid_t hk_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size,
-                  const void *fill) {
-  return new_array(where, name, type, rank, size, H5D_FILL_TIME_ALLOC, fill);
-}
-
-hid_t hk_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size) {
-  return new_array(where, name, type, rank, size, H5D_FILL_TIME_NEVER, NULL);
-}
-
 herr_t hk_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank, const hsize_t *size,
                       const void *data) {
-  hid_t dataset = hk_h5_room(where, name, type, rank, size);
+  hid_t dataset = hk_h5_array(where, name, type, rank, size, NULL);
   herr_t result = dataset < 0 ? -1 : H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
   hk_h5_drop(dataset);
   return result;
@@ -165,7 +156,7 @@ hid_t hk_h5_texts(hid_t where, const char *name, int64_t count, int64_t length) 
   if (result >= 0) result = H5Tset_strpad(type, H5T_STR_NULLPAD);
   if (result >= 0) result = H5Tset_cset(type, H5T_CSET_UTF8);
   /* HDF5 fills a text of more than 1 MiB from beyond the buffer of that size */
-  if (result >= 0) dataset = hk_h5_room(where, name, type, count < 0 ? 0 : 1, &size);
+  if (result >= 0) dataset = hk_h5_array(where, name, type, count < 0 ? 0 : 1, &size, NULL);
   hk_h5_drop(type);
   return dataset;
 }

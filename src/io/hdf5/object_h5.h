@@ -40,11 +40,9 @@ herr_t hk_h5_text_attribute(hid_t object, const char *name, const char *text);
 herr_t hk_h5_attribute(hid_t object, const char *name, hid_t type, int64_t count, const void *value);
 
 /* An array of `rank` dimensions and `type` on disk, with the groups on its path, allocated at once and filled
- * with `fill` (of the type `type`; NULL: zeros). Returns the dataset, or a negative number. */
+ * with `fill` (of the type `type`; NULL: bytes are undefined until they are written). Returns the dataset, or
+ * a negative number. */
 hid_t hk_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size, const void *fill);
-
-/* The same without contents: bytes are undefined until they are written. */
-hid_t hk_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size);
 
 /* The same, filled with `data` of the type `memory`, and closed. */
 herr_t hk_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank, const hsize_t *size,

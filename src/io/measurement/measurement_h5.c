@@ -9,7 +9,8 @@
  *                               end of a run
  *   /<kind>/<table>             attributes of a record; arrays of other tables, [rows], or of a matrix
  *                               [outer][inner]
- *   /particles, /observables    motions (motions_h5.h)
+ *   /particles, /observables    motions of a study that ran each method once: the reference in the group
+ * "all", each method in one of its name (frames_h5.h)
  *
  * Texts are padded with zeros. A table without rows is left out. An older file is replaced when the new one
  * is complete. */
@@ -19,11 +20,10 @@
 
 #if HOOKE_HAVE_HDF5
 
-#include "io/hdf5/file_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/measurement/motions_h5.h"
 #include "io/scene/scene.h"
 #include "io/trajectory/h5md_h5.h"
+#include "measure/study/study.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -162,6 +162,89 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
   return result;
 }
 
+/* ---- motions ---- */
+
+/* Only the numbers of frames are kept from the study, so every run is made again. */
+struct motions {
+  const hooke_measurement *m;
+  int64_t count; /* 0 for other measurements, and for a study that was stopped */
+  struct hk_frame_file *writer;
+};
+
+static int32_t create_motions(const hooke_measurement *m, struct motions *motions) {
+  const struct hk_study *study = m->kind == &hk_study_kind && m->outcome == HOOKE_OK ? m->object : NULL;
+  const int64_t count = study && study->once ? study->row_count + 1 : 0;
+  *motions = (struct motions){m, count, hk_new(count, sizeof *motions->writer)};
+  return motions->writer ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+static int64_t frames_of(const struct hk_study *study, int64_t k) {
+  return k == 0 ? study->reference.frames.recorded : study->row[k - 1].trial.frames;
+}
+
+static herr_t make_motions(struct motions *motions, hid_t file) {
+  const hooke_system *system = motions->m->system;
+  herr_t result = 0;
+  for (int64_t k = 0; result >= 0 && k < motions->count; k++) {
+    const struct hk_study *study = motions->m->object;
+    const char *group = k == 0 ? "all" : study->method[study->row[k - 1].method];
+    hk_frame_arrays_plan(system, group, frames_of(study, k), &motions->writer[k]);
+    result = hk_frame_arrays_create(file, &motions->writer[k]);
+  }
+  return result >= 0 && motions->count > 0 ? hk_h5md_connect(file, system, "all") : result;
+}
+
+struct run {
+  const struct motions *motions;
+  int64_t number;
+  int error; /* errno of a write */
+  int32_t stopped;
+};
+
+static int32_t write_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
+  struct run *run = ctx;
+  struct hk_frame_file *writer = &run->motions->writer[run->number];
+  if (frame >= writer->frame_count) return 1;
+  run->error = hk_frame_write(writer, writer->written, step, state);
+  writer->written += run->error == 0;
+  return run->error != 0;
+}
+
+static int32_t tell(double fraction, void *ctx) {
+  struct run *run = ctx;
+  const double done = ((double)run->number + fraction) / (double)run->motions->count;
+  run->stopped = hk_measurement_tell(run->motions->m, done, run->motions->writer[run->number].group);
+  return run->stopped;
+}
+
+static int32_t run_again(struct run *run, const char *path) {
+  const struct hk_study *study = run->motions->m->object;
+  const struct hk_frame_file *writer = &run->motions->writer[run->number];
+  const struct hk_listener listener = {.on_progress = tell, .on_frame = write_frame, .ctx = run};
+  struct hk_frames frames = {.system = study->m->system}; /* none: they go into the file */
+  hooke_options *options = NULL;
+  int32_t status = hk_study_run_options(study, run->number - 1, &options);
+  if (status == HOOKE_OK) status = hk_frames_run(&frames, options, &listener, NULL);
+  hooke_options_destroy(options);
+  if (run->error) return hk_file_fail(path, "write a frame", run->error);
+  if (run->stopped || status == HOOKE_NO_MEMORY) return status;
+  if (writer->written == writer->frame_count) return HOOKE_OK;
+  return hk_fail(HOOKE_IO_FAILED, NULL, "%s: the run of %s came to %lld frames and now to %lld", path,
+                 writer->group, (long long)writer->frame_count, (long long)writer->written);
+}
+
+/* By the descriptor, once HDF5 has closed the file. The progress of the measurement is called. HOOKE_STOPPED;
+ * HOOKE_IO_FAILED, also if a run takes another course than before. */
+static int32_t write_motions(struct motions *motions, const struct hk_atomic_file *file) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; status == HOOKE_OK && k < motions->count; k++) {
+    struct run run = {.motions = motions, .number = k};
+    motions->writer[k].descriptor = file->descriptor;
+    status = run_again(&run, file->path);
+  }
+  return status;
+}
+
 /* ---- the file ---- */
 
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
@@ -174,33 +257,30 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
   return result;
 }
 
-static int32_t write_results(const hooke_measurement *m, const char *path, const char *scene_text,
-                             const struct hk_atomic_file *atomic, struct hk_motions *motions) {
-  struct hk_h5_guard guard;
+static int32_t write_results(const hooke_measurement *m, const char *scene_text,
+                             const struct hk_atomic_file *atomic, struct motions *motions) {
   struct hk_h5_file file;
-  hk_h5_guard_begin(&guard);
-  int32_t status = hk_h5_file_create(&guard, 0.0, atomic, &file);
+  int32_t status = hk_h5_file_create(0.0, atomic, &file);
   if (status == HOOKE_OK) {
-    herr_t result = hk_h5md_describe(file.id, m->system, NULL, m->run, scene_text);
-    if (result >= 0) result = write_all(file.id, m);
-    if (result >= 0) result = hk_motions_make(motions, file.id);
-    if (result >= 0) result = hk_h5md_set_status(file.id, m->outcome);
-    if (result < 0) status = hk_h5_fail(&guard, path, "write the results");
+    const hid_t id = file.guard.file;
+    herr_t result = hk_h5md_describe(id, m->system, NULL, m->run, scene_text);
+    if (result >= 0) result = write_all(id, m);
+    if (result >= 0) result = make_motions(motions, id);
+    if (result >= 0) result = hk_h5md_set_status(id, m->outcome);
+    if (result < 0) status = hk_h5_fail(&file.guard, "write the results");
   }
-  status = hk_h5_file_settle(&guard, &file, status);
-  hk_h5_guard_end(&guard);
-  return status;
+  return hk_h5_file_settle(&file, status);
 }
 
 /* Motions need no HDF5, which waits for nobody while they are made. */
 static int32_t write_file(const hooke_measurement *m, const char *path, const char *scene_text) {
   struct hk_atomic_file file = HOOKE_NO_ATOMIC_FILE;
-  struct hk_motions motions;
-  int32_t status = hk_motions_create(m, &motions);
+  struct motions motions;
+  int32_t status = create_motions(m, &motions);
   if (status != HOOKE_OK) return status;
   status = hk_atomic_file_make(path, &file);
-  if (status == HOOKE_OK) status = write_results(m, path, scene_text, &file, &motions);
-  if (status == HOOKE_OK) status = hk_motions_write(&motions, &file);
+  if (status == HOOKE_OK) status = write_results(m, scene_text, &file, &motions);
+  if (status == HOOKE_OK) status = write_motions(&motions, &file);
   if (status == HOOKE_OK) status = hk_atomic_file_commit(&file, NULL);
   hk_atomic_file_release(&file);
   hk_free(motions.writer);

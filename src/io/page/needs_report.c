@@ -37,7 +37,7 @@ int32_t hk_needs_page_add(struct hk_text *data, const hooke_measurement *m) {
   struct hk_picture p;
   hk_text_number(data, "particles", (double)hooke_system_particle_count(m->system));
   if (needs->lean.path.position == NULL) return HOOKE_OK;
-  const int32_t status = hk_picture_create(needs->system, &p);
+  const int32_t status = hk_picture_create(m->system, &p);
   if (status == HOOKE_OK) add_picture(data, needs, &p);
   hk_picture_release(&p);
   return status;

@@ -8,6 +8,7 @@
 #include "measure/limit/limit.h"
 #include "measure/spectrum/mode_growth.h"
 #include "measure/why/why.h"
+#include "model/state.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,14 +44,10 @@ struct frames {
 
 /* ---- energies ---- */
 
-/* Kinetic and of springs: never negative, unlike that of gravity. [J] */
+/* Kinetic and of springs: never negative, unlike that of gravity and of loads. [J] */
 static double energy_of(const hooke_system *system, const hooke_state *state) {
-  const double *q = hooke_state_position((hooke_state *)state),
-               *v = hooke_state_velocity((hooke_state *)state);
-  const double t = hooke_state_time(state);
-  return hooke_system_energy(system, "kinetic", NULL, v) +
-         hooke_system_energy_at(system, "potential", t, q, NULL) -
-         hooke_system_energy(system, "gravity", q, NULL);
+  const struct hk_energies at = hk_state_energies(state, system);
+  return at.kinetic + at.elastic;
 }
 
 static int32_t see_energy(int64_t k, const hooke_state *state, void *ctx) {
@@ -82,7 +79,6 @@ static int32_t find_energies(struct frames *f, const hooke_options *run) {
 
 static void add_energies(struct frames *f) {
   hk_text_open(f->data, "energy", '{');
-  hk_text_number(f->data, "first", (double)f->first_energy);
   hk_text_number(f->data, "last", (double)(f->last - f->first_energy));
   hk_text_open(f->data, "value", '[');
   for (int64_t k = 0; k < f->energies; k++)

@@ -8,9 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { METHODS_SIZE = 512 };
+enum { METHODS_SIZE = 512, MOST_LISTS = 16 };
 
-static const char other_keys[] = "hooke particles springs bending anchors parts bodies driven run";
+static const char other_keys[] =
+    "hooke particles springs bending anchors parts bodies driven loads run names";
 
 /* ---- pieces of a scene ---- */
 
@@ -55,25 +56,35 @@ static int32_t read_run(struct hk_scene_reader *reader, const char *run) {
   return status;
 }
 
+/* The values of all lists, in one walk, as their texts may be long. */
+static void find_lists(const char *root, const char *value[MOST_LISTS]) {
+  for (const char *at = hk_json_first(root); at; at = hk_json_next(at))
+    for (int k = 0; hk_scene_lists[k].key; k++)
+      if (strcmp(hk_scene_lists[k].key, at + 1) == 0) value[k] = hk_json_member(at);
+}
+
 /* Particles first, then parts, so that the others can refer to them, which are read only if both are right.
  */
 static int32_t add_pieces(struct hk_scene_reader *reader, const char *root) {
   const struct hk_scene_list *list = hk_scene_lists;
-  const char *particles = hk_json_get(root, "particles");
-  if (reader->faults > 0 && particles && !hk_json_get(particles, "mass"))
+  const char *values[MOST_LISTS] = {NULL}, **value = values;
+  find_lists(root, values);
+  if (reader->faults > 0 && values[0] && !hk_json_get(values[0], "mass"))
     return HOOKE_OK; /* a right `dynamics` may do without */
-  int32_t status = hk_scene_add_list(reader, root, list++);
+  int32_t status = hk_scene_add_list(reader, *value++, list++);
   if (status == HOOKE_OK) status = hk_scene_add_parts(reader, root);
+  if (status == HOOKE_OK && reader->faults == 0) status = hk_scene_add_names(reader);
   reader->within[0] = '\0';
   if (status != HOOKE_OK || reader->faults > 0) return status;
   if (hooke_system_particle_count(reader->scene->system) == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
   for (; list->key && status == HOOKE_OK; list++)
-    status = hk_scene_add_list(reader, root, list);
+    status = hk_scene_add_list(reader, *value++, list);
   return status;
 }
 
 static int32_t read_scene(struct hk_scene_reader *reader, const char *root) {
+  reader->names = hk_json_get(root, "names");
   int32_t status = hk_scene_note(reader, check_version(root));
   if (status == HOOKE_OK) status = hk_scene_note(reader, read_top(reader, root));
   if (status == HOOKE_OK) status = hk_scene_note(reader, add_pieces(reader, root));

@@ -15,6 +15,7 @@ struct hk_scene_reader {
   const char *folder;                 /* NULL: no files */
   int32_t at_key;                     /* 1 if the last failure concerns a key rather than its value */
   const struct hk_part_record **part; /* by their names; NULL before they are all added */
+  const char *names;                  /* names of particles, an object; NULL: none */
   char within[64];                    /* path of the object that is read */
   int32_t
       in_value; /* 1: an object that is a value of it is read, whose failure is noted as that of the value */
@@ -66,13 +67,17 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
 int32_t hk_scene_require_part(const struct hk_scene_reader *reader, const char *where, const char *name,
                               const struct hk_part_record **part);
 
-/* The particles of a list, each a number or ["part", index], which the caller frees. */
+/* Names the particles of the scene's `names`, each a number or ["part", index]. */
+int32_t hk_scene_add_names(struct hk_scene_reader *reader);
+
+/* The particles of a list, each a number, a name or ["part", index], which the caller frees. */
 int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value,
                                 const struct hk_scene_list *list, int64_t **particles, int64_t *count);
 
 /* ---- scene_json_pieces.c: add to the system what is under keys of the scene ---- */
 
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root);
-int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *root, const struct hk_scene_list *list);
+int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *value,
+                          const struct hk_scene_list *list);
 
 #endif

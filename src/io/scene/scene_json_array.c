@@ -2,6 +2,7 @@
 #include "io/scene/scene_json.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "core/table/option_value.h"
 #include "core/table/unit.h"
@@ -109,8 +110,6 @@ static int32_t read_number(const char *value, const struct hk_option_row *row, d
 
 /* ---- particles ---- */
 
-static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
-
 /* Lists "rope0, cloth1", as far as there is space. */
 static void list_parts(const hooke_system *system, char *names, size_t size) {
   names[0] = '\0';
@@ -155,18 +154,31 @@ static int32_t find_in_part(const struct hk_scene_reader *reader, const char *na
   return hk_fail_index("[1]", missing, (double)index, part->count);
 }
 
-static int32_t read_particle(const struct hk_scene_reader *reader, const char *value, double *particle) {
-  if (hk_json_is(value, '[')) {
+static int32_t read_number_of(const struct hk_scene_reader *reader, const char *value, const char *allowed,
+                              double *particle) {
+  if (hk_json_is(value, '[') && reader->part) {
     const char *name = hk_json_first(value), *index = name ? hk_json_next(name) : NULL;
     if (hk_json_count(value) == 2 && hk_json_is(name, '"') && hk_json_is_integer(index))
       return find_in_part(reader, hk_json_text(name), hk_json_integer(index), particle);
-    return hk_scene_refuse(value, NULL, particle_allowed);
   }
-  if (!hk_json_is_integer(value)) return hk_scene_refuse(value, NULL, particle_allowed);
+  if (!hk_json_is_integer(value)) return hk_scene_refuse(value, NULL, allowed);
   const int64_t count = hooke_system_particle_count(reader->scene->system), number = hk_json_integer(value);
   *particle = (double)number;
-  if (number >= 0 && number < count) return HOOKE_OK;
+  if (number >= 0 && (number < count || reader->part == NULL)) return HOOKE_OK;
   return hk_fail_index(NULL, "there is no particle", *particle, count);
+}
+
+/* Names are looked up in the text: explicit particles are pinned before there are parts. */
+static int32_t read_particle(const struct hk_scene_reader *reader, const char *value, double *particle) {
+  static const char allowed[] = "the number of a particle, its name, or [\"part\", index]";
+  const char *name = hk_json_text(value), *found = name ? hk_json_get(reader->names, name) : value;
+  char names[512] = "";
+  if (found && reader->part == NULL) return read_number_of(reader, found, "one of `particles`", particle);
+  if (found) return read_number_of(reader, found, allowed, particle);
+  if (!hk_json_is(reader->names, '{')) return hk_scene_refuse(value, NULL, allowed);
+  for (const char *at = hk_json_first(reader->names); at; at = hk_json_next(at))
+    hk_append(names, sizeof names, "%s ", at + 1);
+  return hk_option_unknown(NULL, names, NULL, "particle", name);
 }
 
 /* ---- arrays ---- */
@@ -201,15 +213,18 @@ static int32_t read_items(const struct items *items, const char *value, int64_t 
     else if (columns > 1)
       status = refuse_row(items, item);
     else
-      status = items->particles ? read_particle(items->reader, item, &numbers[(*count)++])
-                                : read_number(item, items->row, &numbers[(*count)++], items->unit);
+      status = items->particles || (items->row->particles && hk_json_is(item, '"'))
+                   ? read_particle(items->reader, item, &numbers[(*count)++])
+                   : read_number(item, items->row, &numbers[(*count)++], items->unit);
     if (status) return hk_fail_within(status, "[%lld]", (long long)k);
   }
   return HOOKE_OK;
 }
 
 static int32_t read_values(const struct items *items, const char *value, double **numbers, int64_t *count) {
-  const int64_t columns = items->row->columns > 1 ? items->row->columns : 1;
+  const char *first = hk_json_is(value, '[') ? hk_json_first(value) : NULL;
+  const int flat = items->row->flat && first && *first != '[' && hk_json_count(value) == items->row->columns;
+  const int64_t columns = items->row->columns > 1 && !flat ? items->row->columns : 1;
   int32_t status;
   *numbers = NULL;
   if (hk_json_is(value, '{')) {
@@ -255,5 +270,24 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *valu
   }
   if (status) hk_free(numbers);
   *particles = status ? NULL : (void *)numbers;
+  return status;
+}
+
+static int32_t add_name(struct hk_scene_reader *reader, const char *name, const char *value) {
+  double particle;
+  const int32_t status =
+      read_number_of(reader, value, "the number of a particle, or [\"part\", index]", &particle);
+  if (status != HOOKE_OK) return hk_fail_within(status, "%s", name);
+  return hooke_system_name_particle(reader->scene->system, name, (int64_t)particle);
+}
+
+int32_t hk_scene_add_names(struct hk_scene_reader *reader) {
+  strcpy(reader->within, "names");
+  int32_t status = HOOKE_OK;
+  if (reader->names && !hk_json_is(reader->names, '{'))
+    return hk_scene_note(reader,
+                         hk_scene_refuse(reader->names, NULL, "an object { \"name\": particle, ... }"));
+  for (const char *at = hk_json_first(reader->names); at && status == HOOKE_OK; at = hk_json_next(at))
+    status = hk_scene_note(reader, add_name(reader, at + 1, hk_json_member(at)));
   return status;
 }

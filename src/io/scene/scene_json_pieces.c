@@ -34,10 +34,9 @@ static int32_t add_object(struct hk_scene_reader *reader, const char *object,
   return hk_scene_note(reader, status);
 }
 
-/* Calls `add` for every object of an optional array. */
-static int32_t for_each(struct hk_scene_reader *reader, const char *root, const char *key,
+/* Calls `add` for every object of an array, which may be NULL. */
+static int32_t for_each(struct hk_scene_reader *reader, const char *array, const char *key,
                         const struct hk_scene_list *list, add_one *add) {
-  const char *array = hk_json_get(root, key);
   int64_t k = 0;
   reader->within[0] = '\0';
   int32_t status = array ? hk_scene_require(array, '[', key, "an array of objects [{ ... }, ...]") : HOOKE_OK;
@@ -84,6 +83,7 @@ static int32_t add_particles(hooke_system *system, const char *name, int64_t cou
                                               hooke_options_number_count(options, "mass"),
                                               hooke_options_numbers(options, "mass"), NULL);
   if (status == HOOKE_OK) status = pin(system, options);
+  if (status == HOOKE_OK) status = hk_set_gravity_factor(system, mark.particle_count, options);
   if (status != HOOKE_OK) hk_system_roll_back(system, mark);
   return status;
 }
@@ -154,7 +154,7 @@ static int32_t sort_parts(struct hk_scene_reader *reader) {
 }
 
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root) {
-  const int32_t status = for_each(reader, root, "parts", NULL, add_part);
+  const int32_t status = for_each(reader, hk_json_get(root, "parts"), "parts", NULL, add_part);
   return status == HOOKE_OK && reader->faults == 0 ? hk_scene_note(reader, sort_parts(reader)) : status;
 }
 
@@ -204,12 +204,11 @@ static int32_t add_member(struct hk_scene_reader *reader, const char *object,
   return status;
 }
 
-int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *root,
+int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *value,
                           const struct hk_scene_list *list) {
-  if (list->particles) return for_each(reader, root, list->key, list, add_member);
+  if (list->particles) return for_each(reader, value, list->key, list, add_member);
   strcpy(reader->within, list->key);
-  const char *object = hk_json_get(root, list->key);
-  return object ? add_object(reader, object, list, add_member) : HOOKE_OK;
+  return value ? add_object(reader, value, list, add_member) : HOOKE_OK;
 }
 
 int32_t hooke_system_add_members(hooke_system *system, const char *key, const char *name, int64_t count,
@@ -218,7 +217,8 @@ int32_t hooke_system_add_members(hooke_system *system, const char *key, const ch
   while (list->key && strcmp(list->key, key) != 0)
     list++;
   if (list->key == NULL)
-    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven", "key", "key", key);
+    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven loads", "key", "key",
+                             key);
   char maker[64];
   hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
   int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
@@ -258,6 +258,12 @@ static int32_t add_drive(hooke_system *system, const char *name, int64_t count, 
                                   hooke_options_numbers(options, "position"));
 }
 
+static int32_t add_load(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                        const hooke_options *options) {
+  (void)name;
+  return hooke_system_add_loads(system, count, particles, options);
+}
+
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
     {"particles", "", NULL, 1, NULL, NULL, add_particles},
@@ -269,5 +275,6 @@ const struct hk_scene_list hk_scene_lists[] = {
      hooke_system_add_anchors},
     {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body},
     {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive},
+    {"loads", " particles ", "particles", 1, "force", "an array of particles", add_load},
     {NULL, NULL, NULL, 0, NULL, NULL, NULL},
 };

@@ -36,7 +36,9 @@ static const struct hk_option_row particle_rows[] = {
     HOOKE_OPTION("mass", HOOKE_OPTION_EACH_POSITIVE("kg"), NULL,
                  "one number, or one a particle; without gravity an overdamped scene needs none"),
     HOOKE_OPTION("pinned", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, 0), NULL,
-                 "numbers of particles that are held still"),
+                 "numbers or names of particles that are held still", .particles = 1),
+    HOOKE_OPTION("gravity_factor", HOOKE_OPTION_COUNTED(1, 0), NULL,
+                 "factor on gravity, weight less buoyancy over weight: one number, or one a particle"),
 };
 
 static const struct hk_option_table particle_table = {"particles", HOOKE_OPTION_ROWS(particle_rows)};

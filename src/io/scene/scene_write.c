@@ -71,7 +71,7 @@ static void add_value(struct hk_text *text, const hooke_options *options, const 
   } else if (count == 1 && row->min_count == 1 && row->max_count != 1) {
     hk_text_number(text, row->name, number[0]);
   } else {
-    add_numbers(text, row->name, count, row->columns, number);
+    add_numbers(text, row->name, count, row->flat && count == row->columns ? 0 : row->columns, number);
   }
 }
 
@@ -81,7 +81,8 @@ static void add_table(struct hk_text *text, const hooke_options *options, const 
     const struct hk_option_row *row = &table->rows[k];
     char name[128];
     snprintf(name, sizeof name, "%s%s", prefix, row->name);
-    if (!hooke_options_is_set(options, name) || (left_out && strcmp(name, left_out) == 0)) continue;
+    if (!hooke_options_is_set(options, name) || hk_option_has_word(left_out, name, (int64_t)strlen(name)))
+      continue;
     if (row->type != HOOKE_OPTION_FAMILY) {
       add_value(text, options, name, row);
       continue;
@@ -93,7 +94,7 @@ static void add_table(struct hk_text *text, const hooke_options *options, const 
   }
 }
 
-/* Every option that is set, under its key, except `left_out` (may be NULL). */
+/* Every option that is set, under its key, except those of `left_out`, words (may be NULL). */
 static void add_options(struct hk_text *text, const hooke_options *options, const char *left_out) {
   add_table(text, options, hk_options_table(options), "", left_out);
 }
@@ -134,6 +135,13 @@ static void add_shared(struct hk_text *text, const char *key, int64_t count, con
     hk_text_number(text, key, count > 0 ? value[0] : 0.0);
   else
     add_numbers(text, key, count, 0, value);
+}
+
+static void add_factors(struct hk_text *text, int64_t count, const double *factor) {
+  int64_t ones = 0;
+  while (ones < count && factor[ones] == 1.0)
+    ones++;
+  if (ones < count) add_shared(text, "gravity_factor", count, factor);
 }
 
 /* ---- particles ---- */
@@ -181,6 +189,8 @@ static void add_particles(struct writer *to) {
   if (system->velocity && is_moving(3 * count, rows)) add_numbers(text, "velocity", 3 * count, 3, rows);
   take_alone(to, 1, system->mass, rows);
   if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
+  if (system->gravity_factor) take_alone(to, 1, system->gravity_factor, rows);
+  if (system->gravity_factor) add_factors(text, count, rows);
   add_pinned(to, 0, system->particle_count, 0, count);
   hk_text_close(text, '}');
   hk_free(rows);
@@ -198,11 +208,20 @@ static void add_parts(struct writer *to) {
     hk_text_open(text, NULL, '{');
     hk_text_word(text, "kind", part->kind);
     hk_text_word(text, "name", part->name);
-    add_options(text, part->options, as_given ? NULL : "pinned");
+    add_options(text, part->options, as_given ? "gravity_factor" : "pinned gravity_factor");
+    if (to->system->gravity_factor) add_factors(text, part->count, to->system->gravity_factor + part->first);
     if (!as_given) add_pinned(to, part->first, part->count, to->number[part->first], part->count);
     hk_text_close(text, '}');
   }
   hk_text_close(text, ']');
+}
+
+static void add_names(struct writer *to) {
+  const struct hk_system_rest *rest = to->system->rest;
+  hk_text_open(&to->json, "names", '{');
+  for (int64_t k = 0; k < rest->name_count; k++)
+    hk_text_number(&to->json, rest->name[k].text, (double)to->number[rest->name[k].particle]);
+  hk_text_close(&to->json, '}');
 }
 
 /* ---- lists ---- */
@@ -374,6 +393,7 @@ static void add_scene(struct writer *to, const char *title, const hooke_options 
   add_medium(to);
   if (to->alone > 0) add_particles(to);
   if (system->part_count > 0) add_parts(to);
+  if (system->rest->name_count > 0) add_names(to);
   add_lists(to);
   if (run) {
     hk_text_open(text, "run", '{');

@@ -28,16 +28,12 @@ herr_t hk_frame_arrays_create(hid_t file, struct hk_frame_file *frames);
 /* Creates the arrays alone, for the numbers of frames and particles in `frames`, and finds their offsets. */
 herr_t hk_frame_arrays_make(hid_t file, struct hk_frame_file *frames);
 
-/* Opens an array of a file, whose `id` is -1 if it is not there or not of the form that hooke gives it. The
- * first array tells the number of frames, if that is -1, and positions that of particles. */
-int32_t hk_frame_arrays_open(struct hk_h5_guard *guard, hid_t file, const char *path,
-                             struct hk_frame_file *frames, int array, struct hk_dataset *data);
-
 /* Finds the numbers and offsets of the group "all". HOOKE_NO_MEMORY. */
-int32_t hk_frame_arrays_find(struct hk_h5_guard *guard, hid_t file, const char *path,
-                             struct hk_frame_file *frames);
+int32_t hk_frame_arrays_find(struct hk_h5_guard *guard, struct hk_frame_file *frames);
 
-/* Type of the numbers of an array: of this machine, since frames are written as bytes. */
-hid_t hk_frame_arrays_type(int array);
+/* Checks frame `frame` of the dataset "/particles/<group>/position/value", or velocity's. Other datasets, and
+ * files without check values, pass. `known`: the numbers of this row if they were read already, else NULL.
+ * HOOKE_BAD_VALUE for a damaged frame, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+int32_t hk_frame_check(struct hk_h5_guard *guard, const char *dataset, int64_t frame, const double *known);
 
 #endif

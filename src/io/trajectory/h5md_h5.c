@@ -1,5 +1,7 @@
 /* The constant parts of an H5MD file. */
+#include "core/crc32.h"
 #include "core/memory.h"
+#include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
 
@@ -80,10 +82,11 @@ herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *meth
 herr_t hk_h5md_make_room(hid_t file) {
   const hsize_t one = 1, count = HOOKE_ERROR_COUNT;
   const int64_t none = -1;
+  const uint32_t no_check = 0;
   const double unknown = NAN;
   hid_t group = hk_h5_group(file, "hooke");
   hid_t beyond = hk_h5_array(group, "beyond", H5T_NATIVE_INT64, 1, &one, &none);
-  hid_t check = hk_h5_array(group, "file_check", H5T_NATIVE_UINT32, 1, &one, NULL);
+  hid_t check = hk_h5_array(group, "file_check", H5T_NATIVE_UINT32, 1, &one, &no_check);
   hid_t error = hk_h5_array(group, "error", H5T_IEEE_F64LE, 1, &count, &unknown);
   herr_t result = beyond < 0 || check < 0 ? -1 : 0;
   if (result >= 0) result = hk_h5_text_attributes(error, "numbers", HOOKE_ERROR_COUNT, hk_error_number);
@@ -175,6 +178,86 @@ herr_t hk_h5md_set_status(hid_t file, int32_t outcome) {
   herr_t result = dataset < 0 ? -1 : hk_h5_write_text(dataset, 0, hk_outcome_word(outcome));
   hk_h5_drop(dataset);
   return result;
+}
+
+/* ---- check values ---- */
+
+static void add_text(uint32_t *value, const char *text) {
+  *value = hk_crc32(*value, text, (int64_t)strlen(text) + 1);
+}
+
+static herr_t add_numbers(uint32_t *value, hid_t attribute) {
+  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  const hssize_t count = space < 0 ? -1 : H5Sget_simple_extent_npoints(space);
+  herr_t result = count < 0 ? -1 : 0;
+  if (result >= 0 && (class == H5T_FLOAT || class == H5T_INTEGER)) {
+    double *number = hk_new(count, sizeof *number);
+    result = number == NULL ? -1 : H5Aread(attribute, H5T_NATIVE_DOUBLE, number);
+    if (result >= 0) *value = hk_crc32(*value, number, count * (int64_t)sizeof *number);
+    hk_free(number);
+  }
+  hk_h5_drop(space);
+  hk_h5_drop(type);
+  return result;
+}
+
+static herr_t add_attribute(hid_t group, const char *name, const H5A_info_t *info, void *value) {
+  (void)info;
+  if (strcmp(name, "run") == 0) return 0; /* alike for equal runs */
+  hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
+  herr_t result = attribute < 0 ? -1 : 0;
+  char *text = result < 0 ? NULL : hk_h5_attribute_text(attribute);
+  add_text(value, name);
+  if (text)
+    add_text(value, text);
+  else if (result >= 0)
+    result = add_numbers(value, attribute);
+  if (text) H5free_memory(text);
+  hk_h5_drop(attribute);
+  return result;
+}
+
+static herr_t add_attributes(uint32_t *value, hid_t group) {
+  return group < 0 ? 0 : H5Aiterate2(group, H5_INDEX_NAME, H5_ITER_INC, NULL, add_attribute, value);
+}
+
+static int32_t add_array(struct hk_h5_guard *guard, const char *name, uint32_t *value) {
+  double *numbers;
+  int64_t rows, columns;
+  const int32_t status = hk_array_read_open(guard, name, 0, 0, 0, &numbers, &rows, &columns);
+  if (status == HOOKE_OK) *value = hk_crc32(*value, numbers, rows * columns * (int64_t)sizeof *numbers);
+  hk_free(numbers);
+  return status;
+}
+
+int32_t hk_file_check_description(struct hk_h5_guard *guard, const char *scene, uint32_t *value) {
+  static const char *const arrays[] = {"/particles/all/mass", "/particles/all/species",
+                                       "/connectivity/springs", "/hooke/rest_length"};
+  hid_t group = hk_h5_open_own(guard->file, "hooke"), options = hk_h5_open_own(group, "options");
+  *value = 0;
+  herr_t result = add_attributes(value, group);
+  if (result >= 0) result = add_attributes(value, options);
+  hk_h5_drop(options);
+  hk_h5_drop(group);
+  int32_t status =
+      result < 0 || guard->reason[0] ? hk_h5_fail(guard, "read what it says of its run") : HOOKE_OK;
+  for (size_t k = 0; k < sizeof arrays / sizeof arrays[0] && status == HOOKE_OK; k++)
+    status = add_array(guard, arrays[k], value);
+  if (scene) *value = hk_crc32(*value, scene, (int64_t)strlen(scene));
+  return status;
+}
+
+int32_t hk_file_check_read(struct hk_h5_guard *guard, uint32_t *value, int32_t *there) {
+  struct hk_dataset data;
+  int32_t status = hk_dataset_open(guard, "/hooke/file_check", 1, &data);
+  *there = status == HOOKE_OK && data.id >= 0;
+  if (*there && (data.rank != 1 || data.size[0] != 1))
+    status = hk_dataset_refuse(&data, "is not one check value");
+  else if (*there && H5Dread(data.id, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) < 0)
+    status = hk_h5_fail(guard, "read its check value");
+  hk_h5_drop(data.id);
+  return status;
 }
 
 #endif

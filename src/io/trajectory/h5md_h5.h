@@ -51,4 +51,10 @@ int32_t hk_h5md_is_over(hid_t file);
 /* Writes the word of an outcome while the file is open in HDF5. */
 herr_t hk_h5md_set_status(hid_t file, int32_t outcome);
 
+/* The check value of everything but frames and outcome (outcome.h): as it should be, where `scene` may be
+ * NULL, and that of a run as it is stored; `there` is 0 in older files, which have none. Statuses of HDF5,
+ * HOOKE_BAD_VALUE and HOOKE_NO_MEMORY as of reading arrays. */
+int32_t hk_file_check_description(struct hk_h5_guard *guard, const char *scene, uint32_t *value);
+int32_t hk_file_check_read(struct hk_h5_guard *guard, uint32_t *value, int32_t *there);
+
 #endif

@@ -26,22 +26,18 @@ int hk_outcome_write(int descriptor, const int64_t at[HOOKE_PART_COUNT], int par
 /* ---- status ---- */
 
 const char *hk_outcome_word(int32_t outcome) {
-  switch (outcome) {
-  case HOOKE_OK:
-    return "finished";
-  case HOOKE_STOPPED:
-    return "stopped";
-  case HOOKE_DIVERGED:
-    return "diverged";
-  case HOOKE_STEP_LIMIT:
-    return "step-limit";
-  case HOOKE_SOLVER_FAILED:
-    return "solver-failed";
-  case HOOKE_OUTCOME_RUNNING:
-    return "running";
-  default:
-    return "failed";
-  }
+  static const struct {
+    int32_t outcome;
+    const char *word;
+  } rows[] = {{HOOKE_OK, "finished"},
+              {HOOKE_STOPPED, "stopped"},
+              {HOOKE_DIVERGED, "diverged"},
+              {HOOKE_STEP_LIMIT, "step-limit"},
+              {HOOKE_SOLVER_FAILED, "solver-failed"},
+              {HOOKE_OUTCOME_RUNNING, "running"}};
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++)
+    if (rows[k].outcome == outcome) return rows[k].word;
+  return "failed";
 }
 
 int hk_outcome_write_status(int descriptor, const int64_t at[HOOKE_PART_COUNT], int32_t outcome) {

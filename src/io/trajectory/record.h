@@ -36,9 +36,8 @@ struct hooke_record {
 /* Reads all but frames from the file of `path`. HOOKE_IO_FAILED, HOOKE_BAD_VALUE, HOOKE_NO_MEMORY,
  * HOOKE_NOT_BUILT, as the others. */
 int32_t hk_record_load(hooke_record *record);
-/* Compares frame `at` with its check value. */
-int32_t hk_record_check_frame(const hooke_record *record, int64_t at);
-/* Reads it, of `size` numbers, with this check; hk_free() releases q and v in any case. */
+/* Compares frame `at` with its check value, and reads it, of `size` numbers, unless q and v are NULL;
+ * hk_free() releases these in any case. */
 int32_t hk_record_read_frame(const hooke_record *record, int64_t at, int64_t size, double **q, double **v);
 
 /* 1 if the file begins with the HDF5 signature. */

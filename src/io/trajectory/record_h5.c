@@ -7,8 +7,6 @@
 
 #include "io/hdf5/dataset_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/trajectory/file_check_h5.h"
-#include "io/trajectory/frame_check_h5.h"
 #include "io/trajectory/h5md_h5.h"
 
 #include <math.h>
@@ -98,12 +96,11 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
 }
 
 /* A run that came to an end left a file of just its frames, so that one without a time is damaged. */
-static int32_t read_times(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file) {
-  static const char times[] = "/particles/all/position/time";
-  int64_t rows = 0, columns = 0;
-  const int32_t status =
-      hk_array_read_open(guard, file, record->path, times, 0, 0, 0, &record->time, &rows, &columns);
-  if (status == HOOKE_OK && columns != 1) return hk_dataset_refuse(record->path, times, "is no column");
+static int32_t read_times(struct hooke_record *record, struct hk_h5_guard *guard) {
+  const struct hk_dataset times = {guard, "/particles/all/position/time", -1, 1, {0}};
+  int64_t rows, columns;
+  const int32_t status = hk_array_read_open(guard, times.name, 0, 0, 0, &record->time, &rows, &columns);
+  if (status == HOOKE_OK && columns != 1) return hk_dataset_refuse(&times, "is no column");
   const int is_over = hk_outcome_is_end(record->text[HOOKE_RECORD_STATUS]);
   while (status == HOOKE_OK && record->frame_count < rows &&
          (is_over || !isnan(record->time[record->frame_count])))
@@ -133,13 +130,11 @@ static int32_t damaged(const struct hooke_record *record, const char *what) {
                  what);
 }
 
-static int32_t check_error(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
-                           uint32_t stored) {
-  double *number = NULL;
-  int64_t rows = 0, columns = 0;
+static int32_t check_error(struct hooke_record *record, struct hk_h5_guard *guard, uint32_t stored) {
+  double *number;
+  int64_t rows, columns;
   const char *by = record->text[HOOKE_RECORD_BY], *reason = record->text[HOOKE_RECORD_REASON];
-  int32_t status =
-      hk_array_read_open(guard, file, record->path, "/hooke/error", 0, 0, 0, &number, &rows, &columns);
+  int32_t status = hk_array_read_open(guard, "/hooke/error", 0, 0, 0, &number, &rows, &columns);
   if (status == HOOKE_OK && (rows * columns != HOOKE_ERROR_COUNT || !by || !reason ||
                              hk_outcome_check_error(record->outcome, number, by, reason) != stored))
     status = damaged(record, "the outcome of its run, its number of frames or its error");
@@ -148,49 +143,34 @@ static int32_t check_error(struct hooke_record *record, struct hk_h5_guard *guar
 }
 
 /* An error is of the run as it ended. */
-static int32_t check_parts(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
-                           int64_t beyond) {
+static int32_t check_parts(struct hooke_record *record, struct hk_h5_guard *guard, int64_t beyond) {
   char *const *text = record->text;
   const char *run_status = text[HOOKE_RECORD_STATUS];
   uint32_t stored = 0;
-  int32_t status = hk_file_check_read(guard, file, record->path, &stored, &record->is_covered);
+  int32_t status = hk_file_check_read(guard, &stored, &record->is_covered);
   if (status != HOOKE_OK || !record->is_covered || !run_status) return status;
-  status =
-      hk_file_check_description(guard, file, record->path, text[HOOKE_RECORD_SCENE], &record->description);
+  status = hk_file_check_description(guard, text[HOOKE_RECORD_SCENE], &record->description);
   if (status == HOOKE_OK && !hk_outcome_check_run(record->description, text[HOOKE_RECORD_RUN]))
     status = damaged(record, "the name of its run, its scene, options, masses or springs");
   if (status != HOOKE_OK) return status;
   record->outcome = hk_outcome_check(record->description, run_status, beyond, record->frame_count);
-  if (hk_outcome_is_end(run_status) && record->outcome != stored)
-    return check_error(record, guard, file, stored);
+  if (hk_outcome_is_end(run_status) && record->outcome != stored) return check_error(record, guard, stored);
   for (int k = HOOKE_RECORD_BY; k <= HOOKE_RECORD_REASON; k++)
     if (text[k]) text[k][0] = '\0';
   return HOOKE_OK;
 }
 
-/* close_file() has to follow in any case. */
-static int32_t open_file(const struct hooke_record *record, struct hk_h5_guard *guard, hid_t *file) {
-  hk_h5_guard_begin(guard);
-  return hk_dataset_file(guard, record->path, file);
-}
-
-static void close_file(const struct hk_h5_guard *guard, hid_t file) {
-  if (file >= 0) H5Fclose(file);
-  hk_h5_guard_end(guard);
-}
-
 int32_t hk_record_load(hooke_record *record) {
   struct hk_h5_guard guard;
-  hid_t file;
-  int32_t status = open_file(record, &guard, &file);
-  if (status == HOOKE_OK) status = read_own(record, file);
+  int32_t status = hk_h5_guard_read(&guard, record->path);
+  if (status == HOOKE_OK) status = read_own(record, guard.file);
   if (status == HOOKE_BAD_VALUE) status = hk_fail_before(status, "%s: ", record->path);
   /* an unreadable object is not a missing one */
-  if (status == HOOKE_OK && guard.reason[0]) status = hk_h5_fail(&guard, record->path, "read the file");
-  if (status == HOOKE_OK) status = read_times(record, &guard, file);
-  if (status == HOOKE_OK) status = check_parts(record, &guard, file, read_beyond(record, file));
-  if (status == HOOKE_OK) status = hk_frame_arrays_find(&guard, file, record->path, &record->frames);
-  close_file(&guard, file);
+  if (status == HOOKE_OK && guard.reason[0]) status = hk_h5_fail(&guard, "read the file");
+  if (status == HOOKE_OK) status = read_times(record, &guard);
+  if (status == HOOKE_OK) status = check_parts(record, &guard, read_beyond(record, guard.file));
+  if (status == HOOKE_OK) status = hk_frame_arrays_find(&guard, &record->frames);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
@@ -198,33 +178,24 @@ int32_t hk_record_load(hooke_record *record) {
 
 static const char position[] = "/particles/all/position/value", velocity[] = "/particles/all/velocity/value";
 
-int32_t hk_record_check_frame(const hooke_record *record, int64_t at) {
-  struct hk_h5_guard guard;
-  hid_t file;
-  int32_t status = open_file(record, &guard, &file);
-  if (status == HOOKE_OK) status = hk_frame_check(&guard, file, record->path, position, at, NULL);
-  close_file(&guard, file);
-  return status;
-}
-
 /* To be released by hk_free(). The first array of a frame that is read triggers the check of the frame. */
-static int32_t read_rows(const struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
-                         const char *dataset, int64_t frame, int64_t size, double **values) {
-  int64_t rows = 0, columns = 0;
-  const int32_t status = hk_array_read_open(guard, file, record->path, dataset, frame, 1, dataset == position,
-                                            values, &rows, &columns);
+static int32_t read_rows(struct hk_h5_guard *guard, const char *dataset, int64_t frame, int64_t size,
+                         double **values) {
+  int64_t rows, columns;
+  const int32_t status =
+      hk_array_read_open(guard, dataset, frame, 1, dataset == position, values, &rows, &columns);
   if (status != HOOKE_OK || rows * columns == size) return status;
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: dataset %s has %lld numbers a frame; the state has %lld",
-                 record->path, dataset, (long long)(rows * columns), (long long)size);
+                 guard->path, dataset, (long long)(rows * columns), (long long)size);
 }
 
 int32_t hk_record_read_frame(const hooke_record *record, int64_t at, int64_t size, double **q, double **v) {
   struct hk_h5_guard guard;
-  hid_t file;
-  int32_t status = open_file(record, &guard, &file);
-  if (status == HOOKE_OK) status = read_rows(record, &guard, file, position, at, size, q);
-  if (status == HOOKE_OK) status = read_rows(record, &guard, file, velocity, at, size, v);
-  close_file(&guard, file);
+  int32_t status = hk_h5_guard_read(&guard, record->path);
+  if (status == HOOKE_OK && q == NULL) status = hk_frame_check(&guard, position, at, NULL);
+  if (status == HOOKE_OK && q) status = read_rows(&guard, position, at, size, q);
+  if (status == HOOKE_OK && v) status = read_rows(&guard, velocity, at, size, v);
+  hk_h5_guard_end(&guard);
   return status;
 }
 
@@ -236,11 +207,6 @@ static int32_t not_built(const hooke_record *record) {
 }
 
 int32_t hk_record_load(hooke_record *record) {
-  return not_built(record);
-}
-
-int32_t hk_record_check_frame(const hooke_record *record, int64_t at) {
-  (void)at;
   return not_built(record);
 }
 

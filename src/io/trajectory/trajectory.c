@@ -4,6 +4,7 @@
 #include "core/handle.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
+#include "core/os/os.h"
 #include "core/os/os_file.h"
 #include "core/status.h"
 #include "io/checkpoint/checkpoint_file.h"
@@ -12,11 +13,117 @@
 #include "model/state.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
+/* ---- a thread that writes frames ---- */
+
+/* It holds a copy of one frame, and the next frame waits until that is written. */
+struct hk_frame_thread {
+  const struct hk_frame_file *file;
+  hooke_state *state;          /* the queued frame */
+  struct hk_energies energies; /* its, where they are known */
+  int64_t step, written;
+  int32_t busy, ending; /* a frame is queued; no more will come */
+  int error;
+  pthread_t thread;
+  pthread_mutex_t mutex;
+  pthread_cond_t changed;
+};
+
+static void *work(void *own) {
+  struct hk_frame_thread *thread = own;
+  pthread_mutex_lock(&thread->mutex);
+  for (;;) {
+    while (!thread->busy && !thread->ending)
+      pthread_cond_wait(&thread->changed, &thread->mutex);
+    if (!thread->busy) break;
+    pthread_mutex_unlock(&thread->mutex);
+    const int error = hk_frame_write(thread->file, thread->written, thread->step, thread->state);
+    pthread_mutex_lock(&thread->mutex);
+    thread->error = error;
+    thread->written += error == 0;
+    thread->busy = 0;
+    pthread_cond_signal(&thread->changed);
+  }
+  pthread_mutex_unlock(&thread->mutex);
+  return NULL;
+}
+
+/* Starts one for frames from `first` on. `file` must outlive it. NULL without memory or threads. */
+static struct hk_frame_thread *start_thread(const struct hk_frame_file *file, int64_t first) {
+  struct hk_frame_thread *thread = hk_new(1, sizeof *thread);
+  if (thread == NULL) return NULL;
+  thread->file = file;
+  thread->written = first;
+  pthread_mutex_init(&thread->mutex, NULL);
+  pthread_cond_init(&thread->changed, NULL);
+  if (hooke_state_create(file->system, &thread->state) == HOOKE_OK &&
+      hk_os_start_thread(&thread->thread, work, thread) == 0)
+    return thread;
+  pthread_cond_destroy(&thread->changed);
+  pthread_mutex_destroy(&thread->mutex);
+  hooke_state_destroy(thread->state);
+  hk_free(thread);
+  return NULL;
+}
+
+/* Returns with the mutex locked, and no frame queued. */
+static void wait_for_frame(struct hk_frame_thread *thread) {
+  pthread_mutex_lock(&thread->mutex);
+  while (thread->busy)
+    pthread_cond_wait(&thread->changed, &thread->mutex);
+}
+
+/* Queues a frame. Returns the errno of an earlier failed write; after one, no frame is accepted. */
+static int queue_frame(struct hk_frame_thread *thread, int64_t step, const hooke_state *state) {
+  wait_for_frame(thread);
+  const int error = thread->error;
+  if (error == 0) {
+    hooke_state_copy(state, thread->state);
+    thread->state->known = NULL;
+    if (state->known) {
+      thread->energies = *state->known;
+      thread->state->known = &thread->energies;
+    }
+    thread->step = step;
+    thread->busy = 1;
+    pthread_cond_signal(&thread->changed);
+  }
+  pthread_mutex_unlock(&thread->mutex);
+  return error;
+}
+
+/* Waits for the queued frame; returns an errno, as above. */
+static int finish_frame(struct hk_frame_thread *thread) {
+  wait_for_frame(thread);
+  const int error = thread->error;
+  pthread_mutex_unlock(&thread->mutex);
+  return error;
+}
+
+/* Waits for the last frame and ends the thread. Returns the total number of written frames, and the errno of
+ * a failure. */
+static int stop_thread(struct hk_frame_thread *thread, int64_t *written) {
+  wait_for_frame(thread);
+  thread->ending = 1;
+  pthread_cond_signal(&thread->changed);
+  pthread_mutex_unlock(&thread->mutex);
+  pthread_join(thread->thread, NULL);
+  const int error = thread->error;
+  *written = thread->written;
+  pthread_cond_destroy(&thread->changed);
+  pthread_mutex_destroy(&thread->mutex);
+  hooke_state_destroy(thread->state);
+  hk_free(thread);
+  return error;
+}
+
 /* Below this size a frame is cheaper to write than to pass to a thread. */
 static const int64_t LEAST_BYTES = 65536;
+
+/* ---- a trajectory ---- */
 
 hooke_trajectory *hk_trajectory_new(void) {
   hooke_trajectory *trajectory = hk_handle_new("hooke_trajectory", sizeof *trajectory);
@@ -62,6 +169,11 @@ static int32_t refuse_bad(const hooke_trajectory *trajectory) {
   return hk_fail(HOOKE_IO_FAILED, NULL, "%s", trajectory->failure);
 }
 
+static int32_t require_good(const hooke_trajectory *trajectory) {
+  const int32_t status = hk_atomic_file_require_own(&trajectory->file);
+  return status == HOOKE_OK && trajectory->failure[0] ? refuse_bad(trajectory) : status;
+}
+
 /* Marks the file bad. */
 static int32_t fail(hooke_trajectory *trajectory, const char *what, int error) {
   const int32_t status = hk_file_fail(trajectory->file.path, what, error);
@@ -78,16 +190,14 @@ static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   HOOKE_KEEP_ERRNO;
   struct hk_frame_file *frames = &trajectory->frames;
-  const int32_t own = hk_atomic_file_require_own(&trajectory->file);
-  if (own != HOOKE_OK) return own;
-  if (trajectory->failure[0]) return refuse_bad(trajectory);
-  const int32_t fits = hk_state_check(state, 3 * frames->particle_count, 1);
-  if (fits != HOOKE_OK) return fits;
+  int32_t status = require_good(trajectory);
+  if (status == HOOKE_OK) status = hk_state_check(state, 3 * frames->particle_count, 1);
+  if (status != HOOKE_OK) return status;
   if (trajectory->taken == frames->frame_count) {
     return hk_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
                    (long long)frames->frame_count);
   }
-  const int error = trajectory->thread ? hk_frame_thread_write(trajectory->thread, step, state)
+  const int error = trajectory->thread ? queue_frame(trajectory->thread, step, state)
                                        : hk_frame_write(frames, frames->written, step, state);
   /* errno of the thread's previous frame */
   if (error) return fail_frame(trajectory, trajectory->taken - (trajectory->thread != NULL), error);
@@ -100,7 +210,7 @@ int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
   const struct hk_frame_file *frames = &trajectory->frames;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   if (trajectory->thread || 48 * frames->particle_count < LEAST_BYTES) return HOOKE_OK;
-  trajectory->thread = hk_frame_thread_create(frames, frames->written);
+  trajectory->thread = start_thread(frames, frames->written);
   return trajectory->thread
              ? HOOKE_OK
              : hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a frame and a thread to write it");
@@ -109,7 +219,7 @@ int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
 /* Waits for the queued frame. */
 static void end_thread(hooke_trajectory *trajectory) {
   if (trajectory->thread == NULL) return;
-  const int error = hk_frame_thread_end(trajectory->thread, &trajectory->frames.written);
+  const int error = stop_thread(trajectory->thread, &trajectory->frames.written);
   trajectory->thread = NULL;
   if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, trajectory->frames.written, error);
 }
@@ -121,10 +231,9 @@ const char *hooke_trajectory_text(const hooke_trajectory *trajectory, const char
 
 int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   HOOKE_KEEP_ERRNO;
-  const int32_t own = hk_atomic_file_require_own(&trajectory->file);
-  if (own != HOOKE_OK) return own;
-  if (trajectory->failure[0]) return refuse_bad(trajectory);
-  const int error = trajectory->thread ? hk_frame_thread_wait(trajectory->thread) : 0;
+  const int32_t status = require_good(trajectory);
+  if (status != HOOKE_OK) return status;
+  const int error = trajectory->thread ? finish_frame(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
   /* a second sync does not report data that a failed one lost */
   return hk_os_sync(trajectory->file.descriptor) == 0 ? HOOKE_OK
@@ -134,9 +243,8 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
 int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory) {
   HOOKE_KEEP_ERRNO;
   if (trajectory->beyond >= 0) return HOOKE_OK;
-  const int32_t own = hk_atomic_file_require_own(&trajectory->file);
-  if (own != HOOKE_OK) return own;
-  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  const int32_t status = require_good(trajectory);
+  if (status != HOOKE_OK) return status;
   const int error =
       hk_outcome_write(trajectory->file.descriptor, trajectory->at, HOOKE_PART_BEYOND, &trajectory->taken);
   if (error) return fail(trajectory, "mark the frames after divergence", error);

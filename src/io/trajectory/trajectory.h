@@ -5,7 +5,7 @@
 
 #include "hooke/checkpoint.h"
 #include "io/file/atomic_file.h"
-#include "io/trajectory/frame_thread.h"
+#include "io/trajectory/frame_file.h"
 #include "io/trajectory/outcome.h"
 
 struct hooke_trajectory {
@@ -47,9 +47,6 @@ int32_t hk_trajectory_remake(hooke_trajectory *trajectory, int64_t frame_count, 
  * here, too. */
 int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const hooke_integrator *integrator,
                              int64_t frames_kept, hooke_trajectory **trajectory);
-
-/* Declares the first `frames` of a trajectory that was opened again kept. */
-void hk_trajectory_keep(hooke_trajectory *trajectory, int64_t frames);
 
 /* Of the checkpoint beside a trajectory, which goes when its run is finished. */
 #define HOOKE_CHECKPOINT_ENDING ".checkpoint"

@@ -5,13 +5,13 @@
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "io/checkpoint/checkpoint_file.h"
-#include "io/checkpoint/checkpoint_form.h"
 #include "io/file/atomic_file.h"
 #include "io/file/bytes.h"
 #include "io/hdf5/array_h5.h"
 #include "io/trajectory/record.h"
 #include "io/trajectory/trajectory.h"
 #include "model/callbacks.h"
+#include "model/force/force.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -25,6 +25,96 @@ int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_in
   hk_free(path);
   return status;
 }
+
+/* ---- the file, which must be, to the last array, the one that the run would have created ---- */
+
+static int32_t refuse_file(const hooke_trajectory *old, const char *what) {
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.path, what);
+}
+
+static int32_t check_arrays(const hooke_trajectory *old, int64_t particles) {
+  for (int k = 0; k < HOOKE_FRAME_ARRAY_COUNT; k++) {
+    char path[HOOKE_FRAME_PATH], what[HOOKE_FRAME_PATH + 64];
+    if (old->frames.at[k] >= 0 && (k < HOOKE_FRAME_POSITION || old->frames.particle_count == particles))
+      continue;
+    hk_frame_path("all", k, path);
+    snprintf(what, sizeof what, "%s is not there as a run of this system makes it", path);
+    return refuse_file(old, what);
+  }
+  return old->at[HOOKE_PART_STATUS] < 0 ? refuse_file(old, "it is no trajectory of hooke") : HOOKE_OK;
+}
+
+/* Takes over what a file says of its run. `good`: frames up to which a run goes on from it. */
+static int32_t take_record(const hooke_system *system, hooke_trajectory *old, int64_t *good) {
+  hooke_record *record;
+  int32_t status = hooke_record_open(old->file.path, &record);
+  if (status == HOOKE_OK) status = hk_file_is(old->file.path, old->file.descriptor);
+  if (status == HOOKE_OK) {
+    old->frames = record->frames;
+    old->frames.system = system;
+    old->frames.descriptor = old->file.descriptor;
+    memcpy(old->at, record->at, sizeof old->at);
+    old->description = record->description;
+    snprintf(old->run, sizeof old->run, "%s", hooke_record_text(record, "run"));
+    *good = record->good_count < record->frame_count ? record->good_count : record->frames.frame_count;
+    if (strcmp(hooke_record_text(record, "status"), "finished") == 0)
+      status = refuse_file(old, "another run has just finished it");
+  }
+  hooke_record_close(record);
+  return status == HOOKE_OK ? check_arrays(old, hooke_system_particle_count(system)) : status;
+}
+
+/* Finds the whole frames, of which there must be `frames_kept`. */
+static int32_t look(hooke_trajectory *old, int64_t good, int64_t frames_kept) {
+  int32_t whole = 1;
+  if (good < frames_kept) return refuse_file(old, "it has fewer frames than the run had written");
+  while (whole && old->there < good) {
+    const int error = hk_frame_look(&old->frames, old->there, &whole);
+    if (error) return hk_file_fail(old->file.path, "read its frames", error);
+    old->there += whole;
+  }
+  if (old->there >= frames_kept) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "frame %lld of %s is damaged or not there, and the "
+                 "run had written %lld; it cannot go on in this file",
+                 (long long)old->there, old->file.path, (long long)frames_kept);
+}
+
+static int32_t mark_running(hooke_trajectory *old, int64_t planned) {
+  int32_t status = HOOKE_OK;
+  if (old->frames.frame_count > planned) return refuse_file(old, "it was made for more frames");
+  if (old->frames.frame_count < planned) status = hk_trajectory_remake(old, planned, old->there);
+  if (status != HOOKE_OK) return status;
+  const int error = hk_outcome_write_status(old->file.descriptor, old->at, HOOKE_OUTCOME_RUNNING);
+  if (error) return hk_file_fail(old->file.path, "write that it is running again", error);
+  return old->file.temporary ? hk_atomic_file_commit(&old->file, NULL) : HOOKE_OK;
+}
+
+/* Declares the first `frames` kept. */
+static void keep_frames(hooke_trajectory *trajectory, int64_t frames) {
+  trajectory->frames.written = trajectory->taken = frames;
+}
+
+int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const hooke_integrator *integrator,
+                             int64_t frames_kept, hooke_trajectory **trajectory) {
+  *trajectory = NULL;
+  hooke_trajectory *made = hk_trajectory_new();
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  int64_t good = 0;
+  int32_t status = hk_atomic_file_lock(path, &made->file);
+  if (status == HOOKE_OK) status = take_record(system, made, &good);
+  if (status == HOOKE_OK) status = look(made, good, frames_kept);
+  if (status == HOOKE_OK) status = mark_running(made, hooke_integrator_count(integrator, "frames"));
+  if (status == HOOKE_OK) {
+    keep_frames(made, frames_kept);
+    *trajectory = made;
+  } else {
+    hk_trajectory_release(made);
+  }
+  return status;
+}
+
+/* ---- the point ---- */
 
 /* Working data. */
 struct going {
@@ -105,11 +195,19 @@ static int32_t stand_at_start(struct going *going) {
   return status;
 }
 
+/* 1 if some energy counts as that of gravity. */
+static int32_t is_pulled(const hooke_system *system) {
+  int32_t some = 0;
+  for (int32_t k = 0; k < system->force_row_count; k++)
+    some |= system->force_row[k]->add_pull != NULL;
+  return some;
+}
+
 static int32_t stand_at_frame(struct going *going, int64_t frame) {
   hooke_integrator *it = going->integrator;
   int32_t status = hooke_state_copy(going->first, going->state);
   if (status == HOOKE_OK) status = hk_run_begin(it, going->state);
-  if (status == HOOKE_OK && going->system->falls) status = follow(going, frame + 1);
+  if (status == HOOKE_OK && is_pulled(going->system)) status = follow(going, frame + 1);
   if (status == HOOKE_OK) status = hooke_record_read(going->record, frame, going->state);
   return status == HOOKE_OK ? hk_integrator_stand_at_frame(it, frame, going->first, going->state) : status;
 }
@@ -123,7 +221,7 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   const int64_t frames = adaptive && there > 1 ? 1 : there;
   status = frames > 0 ? stand_at_frame(going, frames - 1) : stand_at_start(going);
   if (status != HOOKE_OK) return status;
-  hk_trajectory_keep(going->trajectory, frames);
+  keep_frames(going->trajectory, frames);
   hk_print(going->trajectory->origin, sizeof going->trajectory->origin, "%s at t = %.6g s: %s",
            frames > 1 ? "the last whole frame," : "the beginning,", *going->state->t, why);
   return HOOKE_OK;
@@ -187,8 +285,7 @@ int32_t hooke_trajectory_resume(const char *path, const hooke_system *system, ho
   if (integrator->system != system)
     return hk_fail(HOOKE_BAD_CALL, NULL, "the integrator is not one of this system");
   struct going going = {.path = path, .system = system, .integrator = integrator};
-  int32_t status = hk_state_check_system(state, system);
-  if (status == HOOKE_OK) status = hk_run_check_duration(integrator);
+  int32_t status = hk_run_check_whole(integrator, state);
   if (status == HOOKE_OK) status = hooke_record_open(path, &going.record);
   if (status != HOOKE_OK) return status;
   status = hk_record_require_run(going.record);

@@ -22,8 +22,7 @@
 
 struct companion {
   const hooke_record *record;
-  char *file; /* name of the trajectory in the companion, as XML */
-  double *time;
+  char *file;                            /* name of the trajectory in the companion, as XML */
   long long particles, springs, planned; /* planned frames */
   int32_t has_rest_length;
   struct hk_text text;
@@ -87,7 +86,7 @@ static void add_topology(struct companion *c) {
 
 static void add_frame(struct companion *c, int64_t frame) {
   char time[HOOKE_NUMBER_SIZE];
-  hk_number_print(c->time[frame], time);
+  hk_number_print(c->record->time[frame], time);
   add(&c->text, "<Grid Name=\"springs\">\n  <Time Value=\"%s\"/>\n", time);
   add_topology(c);
   add(&c->text, "  <Geometry GeometryType=\"XYZ\">");
@@ -206,14 +205,12 @@ static int32_t read_size(const char *path, const char *dataset, long long *rows)
 
 static int32_t read_sizes(struct companion *c) {
   const char *path = hk_record_path(c->record);
-  int64_t planned = 0, wide = 0;
   long long lengths;
-  int32_t status = hk_array_read(path, "/particles/all/position/time", 0, 0, &c->time, &planned, &wide);
-  c->planned = planned;
-  if (status == HOOKE_OK && planned < hooke_record_count(c->record, "frames"))
-    status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is another file than the one that was opened", path);
-  if (status == HOOKE_OK) status = read_size(path, "/particles/all/mass", &c->particles);
-  if (status == HOOKE_OK) status = read_size(path, "/connectivity/springs", &c->springs);
+  c->planned = c->record->frames.frame_count;
+  c->particles = c->record->frames.particle_count;
+  if (c->planned < hooke_record_count(c->record, "frames") || c->particles < 0)
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: its arrays of frames do not belong together", path);
+  int32_t status = read_size(path, "/connectivity/springs", &c->springs);
   if (status != HOOKE_OK) return status;
   status = read_size(path, "/hooke/rest_length", &lengths);
   c->has_rest_length = status == HOOKE_OK;
@@ -237,7 +234,6 @@ int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
   }
   if (status == HOOKE_OK) status = hk_file_write(name, c.text.bytes, c.text.length);
   hk_text_release(&c.text);
-  hk_free(c.time);
   hk_free(c.file);
   hk_free(beside);
   return status;

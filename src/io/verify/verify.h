@@ -50,8 +50,8 @@ struct hk_verify_pass {
 int32_t hk_verify_pass(struct hk_verify *verify, struct hk_verify_pass *pass);
 void hk_verify_pass_release(struct hk_verify_pass *pass);
 
-/* Compares frame 0 with the initial state of the scene. */
-int32_t hk_verify_first(struct hk_verify *verify);
+/* Compares frame 0 with the initial state of the scene, to the bit on any machine. */
+int32_t hk_verify_first(const struct hk_verify *verify);
 
 /* Says if the file agrees with its scene, and how far. */
 void hk_verify_claim(const hooke_measurement *measurement, struct hk_claims *claims);

@@ -211,24 +211,15 @@ void hk_verify_pass_release(struct hk_verify_pass *pass) {
   pass->residual = NULL;
 }
 
-static int32_t see_first(int64_t step, const hooke_state *state, void *ctx) {
-  struct run *run = ctx;
-  (void)step;
-  run->status = compare(run->verify, 0, state, run->verify->first);
-  return answer(run, ENOUGH);
-}
-
-int32_t hk_verify_first(struct hk_verify *verify) {
-  struct run run = {.verify = verify};
-  hooke_integrator *integrator = NULL;
-  hooke_state *state = NULL;
-  int32_t status = hooke_state_create(verify->system, &state);
-  if (status == HOOKE_OK)
-    status = hooke_integrator_create(verify->system, hooke_record_options(verify->record), &integrator);
-  if (status == HOOKE_OK) status = hooke_integrator_on_frame(integrator, see_first, &run);
-  if (status == HOOKE_OK) status = hk_run_whole(integrator, state);
-  if (integrator && hooke_integrator_count(integrator, "stop_value") == ENOUGH) status = HOOKE_OK;
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  return run.status != HOOKE_OK ? told(&run) : status;
+int32_t hk_verify_first(const struct hk_verify *verify) {
+  struct hk_verify start = *verify;
+  struct hk_verify_pass pass = {.refined = 0};
+  start.from = start.to = 0;
+  start.by_budget = start.may_differ = 0;
+  start.first = NULL;
+  int32_t status = hooke_state_create(verify->system, &start.first);
+  if (status == HOOKE_OK) status = hk_verify_pass(&start, &pass);
+  hk_verify_pass_release(&pass);
+  hooke_state_destroy(start.first);
+  return status;
 }

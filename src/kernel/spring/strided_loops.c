@@ -226,7 +226,8 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_
   return lost;
 }
 
-#define MOVE(kind) hk_move_vector(move, kind, p, pass->w + p, pass->q + p, pass->v + p, pass->stride, sum)
+#define MOVE(kind)                                                                                           \
+  hk_move_vector(move, kind, p, pass->w + p, NULL, pass->q + p, pass->v + p, pass->stride, sum)
 #define CASE(kind)                                                                                           \
   case kind:                                                                                                 \
     MOVE(kind);                                                                                              \

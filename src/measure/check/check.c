@@ -34,9 +34,7 @@ static int32_t create(hooke_measurement *m) {
   const int32_t status = m->run ? HOOKE_OK : hk_options_create(&hk_run_options, &m->run);
   struct hk_check *check = m->object = status == HOOKE_OK ? hk_new(1, sizeof *check) : NULL;
   if (check == NULL) return HOOKE_NO_MEMORY;
-  check->system = m->system;
-  check->run = m->run;
-  check->options = m->options;
+  check->m = m;
   check->bound = hk_new(hooke_method_count(), sizeof *check->bound);
   if (check->bound == NULL) return HOOKE_NO_MEMORY;
   forget(check);
@@ -55,9 +53,10 @@ static void destroy(void *object) {
 
 /* Of what a run still lacks, unless all of it is left to be given later. */
 static void warn_of_lacks(struct hk_check *check, const char *method, double bound) {
-  const int32_t step = hooke_method_is_adaptive(method) == 0 && !hooke_options_is_set(check->run, "step"),
-                duration = !hooke_options_is_set(check->run, "duration");
-  if (duration && !hooke_options_is_set(check->run, "method") && !hooke_options_is_set(check->run, "step"))
+  const int32_t step = hooke_method_is_adaptive(method) == 0 && !hooke_options_is_set(check->m->run, "step"),
+                duration = !hooke_options_is_set(check->m->run, "duration");
+  if (duration && !hooke_options_is_set(check->m->run, "method") &&
+      !hooke_options_is_set(check->m->run, "step"))
     return;
   const char *before = duration ? "no duration and " : "";
   if (step && bound > 0.0 && isfinite(bound))
@@ -72,7 +71,7 @@ static void warn_of_lacks(struct hk_check *check, const char *method, double bou
 }
 
 static void warn_of_method(struct hk_check *check, const char *method, double bound) {
-  const double step = hooke_options_number(check->run, "step");
+  const double step = hooke_options_number(check->m->run, "step");
   if (!hooke_method_is_built(method))
     hk_claim(&check->warnings, "not-built", HOOKE_OF_WHOLE, "build",
              "%s, the method of the run, is not in this build of hooke", method);
@@ -88,7 +87,7 @@ static void warn_of_method(struct hk_check *check, const char *method, double bo
 }
 
 static void warn_of_coincident_springs(struct hk_check *check, const double *q) {
-  const long long count = (long long)hooke_system_coincident_springs(check->system, q);
+  const long long count = (long long)hooke_system_coincident_springs(check->m->system, q);
   if (count > 0)
     hk_claim(&check->warnings, "coincident-springs", HOOKE_OF_WHOLE, "scene",
              "%lld %s with both ends at the same place although the rest length is not zero: without a "
@@ -98,7 +97,7 @@ static void warn_of_coincident_springs(struct hk_check *check, const double *q) 
 
 /* Counts particles that no spring of any kind, no bending and no body holds. */
 static int32_t warn_of_loose_particles(struct hk_check *check) {
-  const hooke_system *system = check->system;
+  const hooke_system *system = check->m->system;
   long long count = 0, first = 0;
   uint8_t *held = hk_new(system->particle_count, sizeof *held);
   if (held == NULL) return HOOKE_NO_MEMORY;
@@ -125,7 +124,7 @@ static int32_t hear(const char *kind, const char *sentence, double t, double lim
 }
 
 static int32_t warn(struct hk_check *check, const double *q) {
-  const char *method = hooke_options_text(check->run, "method");
+  const char *method = hooke_options_text(check->m->run, "method");
   double bound = NAN;
   for (int64_t k = 0; k < hooke_method_count(); k++)
     if (strcmp(method, hooke_method_name(k)) == 0) bound = check->bound[k];
@@ -133,7 +132,7 @@ static int32_t warn(struct hk_check *check, const double *q) {
   warn_of_method(check, method, bound);
   warn_of_coincident_springs(check, q);
   int32_t status = warn_of_loose_particles(check);
-  if (status == HOOKE_OK) status = hooke_system_warnings(check->system, hear, &check->warnings);
+  if (status == HOOKE_OK) status = hooke_system_warnings(check->m->system, hear, &check->warnings);
   return status == HOOKE_OK ? check->warnings.status : status;
 }
 
@@ -143,7 +142,7 @@ static int32_t warn(struct hk_check *check, const double *q) {
 static int32_t count_estimate(const struct hk_check *check, const hooke_integrator *integrator,
                               const hooke_state *state, int64_t *bytes) {
   hooke_measurement *estimate = NULL;
-  int32_t status = hk_measurement_create(&hk_estimate_kind, NULL, check->system, NULL, NULL, &estimate);
+  int32_t status = hk_measurement_create(&hk_estimate_kind, NULL, check->m->system, NULL, NULL, &estimate);
   if (status == HOOKE_OK) status = hooke_estimate_begin(estimate, integrator, state);
   if (status == HOOKE_OK) *bytes = (int64_t)hooke_measurement_number(estimate, "estimate", 0, "memory_bytes");
   hooke_measurement_destroy(estimate);
@@ -154,7 +153,7 @@ static int32_t count_estimate(const struct hk_check *check, const hooke_integrat
 static int32_t count_method(const struct hk_check *check, const hooke_state *state, int64_t *bytes,
                             int64_t *kept, int64_t *factor) {
   hooke_integrator *integrator = NULL;
-  int32_t status = hooke_integrator_create(check->system, check->run, &integrator);
+  int32_t status = hooke_integrator_create(check->m->system, check->m->run, &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_on_warning(integrator, hear, NULL);
   if (status == HOOKE_OK) *bytes = hooke_integrator_count(integrator, "memory_bytes");
   if (status == HOOKE_OK) *factor = hooke_integrator_count(integrator, "factor_bytes");
@@ -170,19 +169,19 @@ enum { OUTPUT = 4800000, OUTPUT_OF_PARTICLE = 150 };
 
 /* Leaves out a method that cannot run. */
 static int32_t find_memory(struct hk_check *check, hooke_state *state) {
-  const char *method = hooke_options_text(check->run, "method");
+  const char *method = hooke_options_text(check->m->run, "method");
   const int32_t adaptive = hooke_method_is_adaptive(method);
   const int32_t can_run = !(adaptive >= 0 && !hooke_method_is_built(method)) &&
-                          !(adaptive == 0 && !hooke_options_is_set(check->run, "step"));
-  const int64_t model = hooke_system_count(check->system, "memory") +
+                          !(adaptive == 0 && !hooke_options_is_set(check->m->run, "step"));
+  const int64_t model = hooke_system_count(check->m->system, "memory") +
                         (2 * hooke_state_size(state) + 1) * (int64_t)sizeof(double);
-  const double *process = hooke_options_numbers(check->options, "process");
+  const double *process = hooke_options_numbers(check->m->options, "process");
   int64_t of_method = 0, of_factor = 0, kept = 0;
   const int32_t status = can_run ? count_method(check, state, &of_method, &kept, &of_factor) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   const int64_t running = (process ? (int64_t)process[0] : model) + of_method + kept;
   check->most = process && process[1] > (double)running ? (int64_t)process[1] : running;
-  check->written = check->most + OUTPUT + OUTPUT_OF_PARTICLE * check->system->particle_count;
+  check->written = check->most + OUTPUT + OUTPUT_OF_PARTICLE * check->m->system->particle_count;
   if (of_factor > 0) check->factor = running + of_factor > check->most ? running + of_factor : check->most;
   check->counted = model + of_method;
   return HOOKE_OK;
@@ -195,8 +194,8 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   forget(check);
   int32_t status = find_memory(check, state);
   if (status == HOOKE_OK)
-    status = hk_step_bound_at(check->system, NULL, hooke_state_position(state), hooke_state_velocity(state),
-                              check->bound);
+    status = hk_step_bound_at(check->m->system, NULL, hooke_state_position(state),
+                              hooke_state_velocity(state), check->bound);
   return status == HOOKE_OK ? warn(check, hooke_state_position(state)) : status;
 }
 

@@ -7,8 +7,7 @@
 #include "model/system.h"
 
 struct hk_check {
-  const hooke_system *system;
-  const hooke_options *run, *options;
+  const hooke_measurement *m;
   double *bound;                 /* on the step of each method [s]; NaN if unknown */
   int64_t most, written, factor; /* memory of a run [bytes], of one with output, and with a factor; or -1 */
   int64_t counted;               /* of them for system, state and method */

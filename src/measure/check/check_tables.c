@@ -9,20 +9,20 @@
 /* Memory that grows with the number of springs, for each; and the rest, for each particle [bytes]. NaN
  * without any. */
 static double per_spring(const struct hk_check *check) {
-  return (double)hooke_system_count(check->system, "spring_memory") /
-         (double)hooke_system_count(check->system, "springs");
+  return (double)hooke_system_count(check->m->system, "spring_memory") /
+         (double)hooke_system_count(check->m->system, "springs");
 }
 
 static double per_particle(const struct hk_check *check) {
   if (check->counted < 0) return NAN;
-  return (double)(check->counted - hooke_system_count(check->system, "spring_memory")) /
-         (double)hooke_system_particle_count(check->system);
+  return (double)(check->counted - hooke_system_count(check->m->system, "spring_memory")) /
+         (double)hooke_system_particle_count(check->m->system);
 }
 
 /* ---- columns ---- */
 
 #define COUNT_OF(name, what)                                                                                 \
-  HOOKE_READER(double, name, struct hk_check, (double)hooke_system_count(it->system, what))
+  HOOKE_READER(double, name, struct hk_check, (double)hooke_system_count(it->m->system, what))
 COUNT_OF(free_particles, "free")
 COUNT_OF(springs, "springs")
 COUNT_OF(triples, "bending")
@@ -31,18 +31,18 @@ COUNT_OF(bodies, "bodies")
 COUNT_OF(inside_bodies, "inside_bodies")
 COUNT_OF(dropped_springs, "dropped_springs")
 COUNT_OF(idle_particles, "idle")
-HOOKE_READER(double, particles, struct hk_check, (double)it->system->particle_count)
+HOOKE_READER(double, particles, struct hk_check, (double)it->m->system->particle_count)
 HOOKE_READER(double, bytes_per_particle, struct hk_check, per_particle(it))
 HOOKE_READER(double, bytes_per_spring, struct hk_check, per_spring(it))
 
 static const struct hk_group *group_of(const struct hk_check *check, const char *force, int64_t row) {
-  return &check->system->group[hk_system_first_group(check->system, hk_force_find(force)) + row];
+  return &check->m->system->group[hk_system_first_group(check->m->system, hk_force_find(force)) + row];
 }
 
-HOOKE_READER(const void *, derived_row, struct hk_check, &it->system->rest->derived[row])
-HOOKE_COUNTER(derived_count, struct hk_check, hooke_system_count(it->system, "derived"))
-HOOKE_READER(const char *, force_name, struct hk_check, hooke_system_force_name(it->system, row))
-HOOKE_COUNTER(force_count, struct hk_check, hooke_system_count(it->system, "forces"))
+HOOKE_READER(const void *, derived_row, struct hk_check, &it->m->system->rest->derived[row])
+HOOKE_COUNTER(derived_count, struct hk_check, hooke_system_count(it->m->system, "derived"))
+HOOKE_READER(const char *, force_name, struct hk_check, hooke_system_force_name(it->m->system, row))
+HOOKE_COUNTER(force_count, struct hk_check, hooke_system_count(it->m->system, "forces"))
 HOOKE_READER(const char *, method, struct hk_check, it ? hooke_method_name(row) : NULL)
 HOOKE_READER(double, seconds, struct hk_check, it->bound[row])
 HOOKE_COUNTER(method_count, struct hk_check, it ? hooke_method_count() : 0)
@@ -50,7 +50,7 @@ HOOKE_COUNTER(method_count, struct hk_check, it ? hooke_method_count() : 0)
 /* The groups of a force, with the number of its members by the name they have. */
 #define GROUPS(force, members)                                                                               \
   HOOKE_READER(const void *, members##_group, struct hk_check, group_of(it, #force, row))                    \
-  HOOKE_COUNTER(members##_groups, struct hk_check, hooke_system_group_count(it->system, #force))
+  HOOKE_COUNTER(members##_groups, struct hk_check, hooke_system_group_count(it->m->system, #force))
 GROUPS(springs, springs)
 GROUPS(bending, triples)
 GROUPS(altitude, tetrahedra)
@@ -129,28 +129,28 @@ static void tell_memory(const struct hk_check *check, struct hk_claims *claims) 
   if (check->factor > 0)
     hk_append(more, sizeof more, "; %.3g MB more where its method finds that a factor of its equations pays",
               1e-6 * (double)check->factor - most);
-  if (check->system->particle_count > 0)
+  if (check->m->system->particle_count > 0)
     hk_append(more, sizeof more, "; the model takes %.1f bytes a particle", per_particle(check));
-  if (hooke_system_count(check->system, "springs") > 0)
+  if (hooke_system_count(check->m->system, "springs") > 0)
     hk_append(more, sizeof more, " and %.1f a spring", per_spring(check));
   hk_claim(claims, "memory", HOOKE_OF_WHOLE, "count",
            "%.3g MB at the peak of a run%s, %.3g MB if it writes its frames%s", most,
-           !hooke_options_is_set(check->options, "process") ? " beside the program's own" : "", written,
+           !hooke_options_is_set(check->m->options, "process") ? " beside the program's own" : "", written,
            more);
 }
 
 static void tell_cost(const struct hk_check *check, struct hk_claims *claims) {
-  const char *method = hooke_options_text(check->run, "method");
+  const char *method = hooke_options_text(check->m->run, "method");
   const double steps =
-      round(hooke_options_number(check->run, "duration") / hooke_options_number(check->run, "step"));
+      round(hooke_options_number(check->m->run, "duration") / hooke_options_number(check->m->run, "step"));
   if (hooke_method_is_adaptive(method) == 0 && !isnan(steps))
     hk_claim(claims, "cost", HOOKE_OF_WHOLE, "count", "%s: %.6g steps, %.3g spring-steps", method, steps,
-             steps * (double)hooke_system_count(check->system, "springs"));
+             steps * (double)hooke_system_count(check->m->system, "springs"));
 }
 
 static void tell_left_out(const struct hk_check *check, struct hk_claims *claims) {
-  const long long dropped = (long long)hooke_system_count(check->system, "dropped_springs"),
-                  idle = (long long)hooke_system_count(check->system, "idle");
+  const long long dropped = (long long)hooke_system_count(check->m->system, "dropped_springs"),
+                  idle = (long long)hooke_system_count(check->m->system, "idle");
   if (dropped > 0)
     hk_claim(claims, "dropped", HOOKE_OF_WHOLE, "scene", "%lld %s neither stiffness nor damping", dropped,
              dropped == 1 ? "spring that has" : "springs that have");

@@ -39,7 +39,7 @@ static void add_row(struct hk_cost *cost, const char *kind, int64_t group, int64
 }
 
 static void add_groups(struct hk_cost *cost) {
-  const hooke_system *system = cost->system;
+  const hooke_system *system = cost->m->system;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
     add_row(cost, group->force->name, g, group->count);
@@ -47,7 +47,7 @@ static void add_groups(struct hk_cost *cost) {
 }
 
 static void add_others(struct hk_cost *cost) {
-  const hooke_system *system = cost->system;
+  const hooke_system *system = cost->m->system;
   add_row(cost, "damping", -1, hk_system_has_dampers(system));
   for (int32_t k = 0; hk_force_table(k); k++)
     if (hk_force_table(k)->copy)
@@ -64,7 +64,7 @@ static int compare_sizes(const void *one, const void *two) {
 /* Every group rebuilds the scene, so that the time for very many would grow with their square. The rows so
  * far are those of groups. */
 static int32_t leave_small_groups_out(struct hk_cost *cost) {
-  const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
+  const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->m->options, "groups");
   if (count <= most) return HOOKE_OK;
   struct hk_cost_row **sorted = hk_new(count, sizeof *sorted);
   if (sorted == NULL) return HOOKE_NO_MEMORY;
@@ -79,7 +79,7 @@ static int32_t leave_small_groups_out(struct hk_cost *cost) {
 
 /* Lists the ingredients, and selects those without group and as many groups as the options say. */
 static int32_t list_rows(struct hk_cost *cost) {
-  const hooke_system *system = cost->system;
+  const hooke_system *system = cost->m->system;
   cost->row = hk_new(system->group_count + 1 + HOOKE_FORCES, sizeof *cost->row);
   if (cost->row == NULL) return HOOKE_NO_MEMORY;
   add_groups(cost);
@@ -91,22 +91,22 @@ static int32_t list_rows(struct hk_cost *cost) {
 }
 
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row) {
-  return row->group < 0 ? row->kind : cost->system->group[row->group].name;
+  return row->group < 0 ? row->kind : cost->m->system->group[row->group].name;
 }
 
 /* ---- creating ---- */
 
 /* The options of the run with a method that can be timed; its duration is irrelevant. */
 static int32_t choose_method(struct hk_cost *cost) {
-  const char *method = hooke_options_text(cost->run, "method");
+  const char *method = hooke_options_text(cost->m->run, "method");
   int32_t status = HOOKE_OK;
-  cost->run_step = hooke_options_number(cost->run, "step");
+  cost->run_step = hooke_options_number(cost->m->run, "step");
   if (hooke_method_is_adaptive(method) != 0 || !hooke_method_is_built(method) ||
-      !hk_method_suits(method, cost->system))
-    status = hooke_options_set_text(cost->run, "method", hk_method_of_euler(cost->system));
-  if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "duration");
-  if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "every");
-  cost->method = hooke_options_text(cost->run, "method");
+      !hk_method_suits(method, cost->m->system))
+    status = hooke_options_set_text(cost->m->run, "method", hk_method_of_euler(cost->m->system));
+  if (status == HOOKE_OK) status = hooke_options_unset(cost->m->run, "duration");
+  if (status == HOOKE_OK) status = hooke_options_unset(cost->m->run, "every");
+  cost->method = hooke_options_text(cost->m->run, "method");
   return status;
 }
 
@@ -123,10 +123,7 @@ static int32_t create(hooke_measurement *m) {
   int32_t status = m->run ? HOOKE_OK : hk_options_create(&hk_run_options, &m->run);
   struct hk_cost *cost = m->object = status == HOOKE_OK ? hk_new(1, sizeof *cost) : NULL;
   if (cost == NULL) return HOOKE_NO_MEMORY;
-  cost->measurement = m;
-  cost->system = m->system;
-  cost->run = m->run;
-  cost->options = m->options;
+  cost->m = m;
   cost->step = NAN;
   status = choose_method(cost);
   if (status == HOOKE_OK) status = list_rows(cost);
@@ -142,7 +139,7 @@ static void destroy(void *object) {
 
 static int32_t tell(struct hk_cost *cost, double done, const char *what) {
   cost->told = done;
-  return hk_measurement_tell(cost->measurement, done, what);
+  return hk_measurement_tell(cost->m, done, what);
 }
 
 /* ---- the time of a step ---- */
@@ -221,7 +218,7 @@ static int32_t timed_compare(struct timed *full, struct timed *lean, const hooke
 static int32_t tell_limits(double done, const char *what, void *ctx) {
   const struct hk_cost *cost = ctx;
   (void)done, (void)what;
-  return hk_measurement_tell(cost->measurement, cost->told, "limits");
+  return hk_measurement_tell(cost->m, cost->told, "limits");
 }
 
 /* NaN if this build, the method or these numbers have none, or time is up. */
@@ -237,7 +234,7 @@ static int32_t find_limit(struct hk_cost *cost, const hooke_system *system, cons
 /* Limit of the full scene, in the fraction of the budget that is not for timing. */
 static int32_t find_first_limit(struct hk_cost *cost, const hooke_state *state) {
   hk_budget_lend(&cost->budget, 1.0 - TIMING_SHARE);
-  const int32_t status = find_limit(cost, cost->system, state, &cost->limit);
+  const int32_t status = find_limit(cost, cost->m->system, state, &cost->limit);
   (void)hk_budget_take_back(&cost->budget);
   return status;
 }
@@ -248,12 +245,12 @@ static int32_t choose_step(struct hk_cost *cost, const hooke_state *state) {
   const double *q = hooke_state_position((hooke_state *)state);
   double step = cost->run_step, safe = cost->limit;
   const int32_t status =
-      isnan(safe) ? hooke_step_bound(cost->system, cost->method, q, &safe) : HOOKE_OK; /* one pass */
+      isnan(safe) ? hooke_step_bound(cost->m->system, cost->method, q, &safe) : HOOKE_OK; /* one pass */
   if (status != HOOKE_OK) return status;
   if (safe > 0.0) step = fmin(step, safe); /* also if there is none */
   if (!isfinite(step)) step = SOME_STEP;
   cost->step = step;
-  return hooke_options_set_number(cost->run, "step", step);
+  return hooke_options_set_number(cost->m->run, "step", step);
 }
 
 static double memory_of(const hooke_system *system, const struct timed *timed) {
@@ -264,9 +261,9 @@ static double memory_of(const hooke_system *system, const struct timed *timed) {
 
 static int32_t time_row(struct hk_cost *cost, struct timed *full, struct timed *lean,
                         const hooke_state *state, struct hk_cost_row *row) {
-  if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
+  if (hooke_options_number(cost->m->options, "predict") != 0.0) return HOOKE_OK;
   const double fraction =
-      TIMING_SHARE * hooke_options_number(cost->options, "budget") / (double)cost->chosen_count;
+      TIMING_SHARE * hooke_options_number(cost->m->options, "budget") / (double)cost->chosen_count;
   const int32_t status = timed_compare(full, lean, state, fmin(MOST_SECONDS, fraction));
   const double with = 0.5 * (full->best[0] + full->best[1]), without = lean->best[0];
   if (!isfinite(with) || !isfinite(without)) return status;
@@ -282,12 +279,12 @@ static int32_t make_without(const struct hk_cost *cost, const struct hk_cost_row
   const struct hk_force_row *force = row ? hk_force_find(row->kind) : NULL; /* NULL: damping of all */
   struct hk_variant variant;
   struct hk_variant_map map;
-  int32_t status = hk_variant_create(cost->system, &variant);
+  int32_t status = hk_variant_create(cost->m->system, &variant);
   if (status != HOOKE_OK) return status;
   if (row && row->group >= 0) variant.group[row->group] = 1;
   if (row && force && row->group < 0) variant.without[hk_force_number(force)] = 1;
   variant.damping = row && !force;
-  status = hk_variant_make(cost->system, &variant, made, &map);
+  status = hk_variant_make(cost->m->system, &variant, made, &map);
   if (status == HOOKE_OK) hk_variant_map_release(&map);
   hk_variant_release(&variant);
   return status;
@@ -298,7 +295,7 @@ static int32_t measure_row(struct hk_cost *cost, struct timed *full, const hooke
   const struct hk_force_row *force = hk_force_find(row->kind);
   const int32_t limits = force == NULL || force->elements;
   struct timed lean;
-  int32_t status = timed_create(system, cost->run, &lean);
+  int32_t status = timed_create(system, cost->m->run, &lean);
   if (status == HOOKE_OK) row->memory = fmax(0.0, cost->memory - memory_of(system, &lean));
   row->limit = cost->limit;
   if (status == HOOKE_OK && limits) status = find_limit(cost, system, state, &row->limit);
@@ -318,7 +315,7 @@ static int32_t find_row(struct hk_cost *cost, struct timed *full, const hooke_st
 
 /* Measures the selected rows, until the budget is spent: the rest stays unknown. */
 static int32_t find_rows(struct hk_cost *cost, struct timed *full, const hooke_state *state, double begun) {
-  const double budget = hooke_options_number(cost->options, "budget");
+  const double budget = hooke_options_number(cost->m->options, "budget");
   int32_t status = HOOKE_OK;
   for (int64_t k = 0, done = 0; k < cost->row_count && status == HOOKE_OK; k++) {
     struct hk_cost_row *row = &cost->row[k];
@@ -337,12 +334,12 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct timed full = {0};
   const double begun = hk_clock_seconds();
   forget(cost);
-  cost->budget = hk_budget_of(hooke_options_number(cost->options, "budget"), tell_limits, cost);
+  cost->budget = hk_budget_of(hooke_options_number(cost->m->options, "budget"), tell_limits, cost);
   int32_t status = tell(cost, 0.0, "limits");
   if (status == HOOKE_OK) status = find_first_limit(cost, state);
   if (status == HOOKE_OK) status = choose_step(cost, state);
   if (status == HOOKE_OK) status = make_without(cost, NULL, &whole);
-  if (status == HOOKE_OK) status = timed_create(whole, cost->run, &full);
+  if (status == HOOKE_OK) status = timed_create(whole, cost->m->run, &full);
   if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);
   if (status == HOOKE_OK) status = find_rows(cost, &full, state, begun);
   timed_release(&full);

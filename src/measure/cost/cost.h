@@ -15,11 +15,8 @@ struct hk_cost_row {
 };
 
 struct hk_cost {
-  const hooke_measurement *measurement;
-  const hooke_system *system;
-  hooke_options *run; /* of the measurement, with the method that is timed */
-  const hooke_options *options;
-  const char *method;      /* within `run` */
+  const hooke_measurement *m; /* its `run` has the method that is timed */
+  const char *method;
   double run_step;         /* [s] as given by the caller, NaN: not */
   struct hk_budget budget; /* of limits, within the budget */
   double told;             /* fraction done */

@@ -9,16 +9,16 @@
 /* ---- the whole scene ---- */
 
 HOOKE_READER(double, dropped_springs, struct hk_cost,
-             (double)hooke_system_count(it->system, "dropped_springs"))
-HOOKE_READER(double, idle_particles, struct hk_cost, (double)hooke_system_count(it->system, "idle"))
+             (double)hooke_system_count(it->m->system, "dropped_springs"))
+HOOKE_READER(double, idle_particles, struct hk_cost, (double)hooke_system_count(it->m->system, "idle"))
 
 /* ---- ingredients ---- */
 
 /* Number among the groups of its force. */
 static double group_of(const struct hk_cost *cost, const struct hk_cost_row *row) {
   if (row->group < 0) return NAN;
-  const struct hk_force_row *force = cost->system->group[row->group].force;
-  return (double)(row->group - hk_system_first_group(cost->system, force));
+  const struct hk_force_row *force = cost->m->system->group[row->group].force;
+  return (double)(row->group - hk_system_first_group(cost->m->system, force));
 }
 
 HOOKE_READER(const char *, ingredient, struct hk_cost, hk_cost_row_name(it, &it->row[row]))

@@ -34,6 +34,9 @@ const double hk_costs[HOOKE_WORKS] = {
     5,
     0.1,
     0.1, /* wind */
+    3.33,
+    0.1,
+    0.1, /* loads */
     10,
     10,
     0.1, /* callback */

@@ -5,8 +5,6 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
-#include "measure/estimate/heat.h"
-#include "measure/trial/step_unit.h"
 #include "measure/counted_work/work.h"
 #include "model/callbacks.h"
 
@@ -87,8 +85,7 @@ static int32_t pick(struct hk_estimate *e, double want, hooke_options *run) {
                                e->measurement->progress, e->measurement->progress_ctx);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
-    status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here",
-                     e->only ? e->only : "no method");
+    status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", e->only);
   if (status == HOOKE_OK) status = hk_trial_set_value(run, e->pick.best.method, e->pick.best.value);
   hk_pick_say_reversal(&e->pick, e->reversal, sizeof e->reversal);
   if (status != HOOKE_OK) hk_pick_release(&e->pick);
@@ -99,13 +96,12 @@ static int32_t pick(struct hk_estimate *e, double want, hooke_options *run) {
 int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_options *run) {
   struct hk_estimate *e = m->object;
   int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_pick");
+  const struct hk_method *only = NULL;
   if (status == HOOKE_OK) status = hk_run_options_require(run, "run");
   if (status != HOOKE_OK) return status;
   if (isnan(e->want)) return hk_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
-  if (method && !hooke_method_is_built(method))
-    return hk_fail(hooke_method_is_adaptive(method) < 0 ? HOOKE_BAD_VALUE : HOOKE_NOT_BUILT, "method",
-                   "this build has no method \"%s\"", method);
-  e->only = method ? hk_method_find(method)->name : NULL;
+  if (method && (status = hk_method_take(method, &only)) != HOOKE_OK) return status;
+  e->only = only ? only->name : NULL;
   e->refined = 0;
   e->first = NAN;
   e->before = INFINITY;
@@ -127,7 +123,7 @@ static void choose_kept(struct hk_estimate *e, const hooke_integrator *it, int64
 }
 
 static int is_whole_reference(const struct hk_estimate *e) {
-  return e->pick.system != NULL && e->pick.fraction == 1.0;
+  return e->pick.fraction == 1.0;
 }
 
 /* No limit is needed: the method has none, nothing is wanted, or the pick examined the same frames. */
@@ -141,8 +137,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   if (status != HOOKE_OK) return status;
   if (it->system != e->system)
     return hk_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
-  status = hk_state_check_system(state, e->system);
-  if (status == HOOKE_OK) status = hk_run_check_duration(it);
+  status = hk_run_check_whole(it, state);
   if (status != HOOKE_OK) return status;
   forget_run(e);
   status = hooke_options_copy(it->options, &e->options);
@@ -161,12 +156,11 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   choose_kept(e, it, &count);
   status = hk_frames_create(e->system, count, &e->kept);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
-  if (status == HOOKE_OK) status = hooke_state_copy(state, e->start);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
-  if (status == HOOKE_OK)
-    status = hk_soundness_begin(&e->soundness, e->system, it->method->name,
-                                is_checked(e, it) ? NAN : it->schedule.step, state, MOST_SEEN + 2);
-  return status;
+  if (status != HOOKE_OK) return status;
+  hooke_state_copy(state, e->start);
+  return hk_soundness_begin(&e->soundness, e->system, it->method->name,
+                            is_checked(e, it) ? NAN : it->schedule.step, state, MOST_SEEN + 2);
 }
 
 static void keep(struct hk_estimate *e, const hooke_state *state) {
@@ -276,7 +270,7 @@ static void explain_want(struct hk_estimate *e) {
 }
 
 static void forget_overflow(struct hk_estimate *e) {
-  if (!isinf(e->error) && !isinf(e->rms)) return;
+  if (!isinf(e->error + e->rms)) return;
   clear(e);
   hk_print(e->reason, sizeof e->reason, "distances are beyond the range of numbers");
 }
@@ -331,8 +325,7 @@ int32_t hk_estimate_knows_all(const struct hk_estimate *e) {
 double hk_estimate_met(const struct hk_estimate *e) {
   if (isnan(e->want)) return NAN;
   if (is_out_of_reach(e) && e->error - 2.0 * e->pick.reference.agreement <= e->want) return NAN;
-  if (e->error > e->want || (e->options && !isnan(e->error) && !hk_soundness_holds(&e->soundness)))
-    return 0.0;
+  if (e->error > e->want || (!isnan(e->error) && !hk_soundness_holds(&e->soundness))) return 0.0;
   if (e->soundness.unknown_limit) return NAN;
   return e->error <= e->want && hk_estimate_knows_all(e) ? 1.0 : NAN;
 }
@@ -347,10 +340,9 @@ static double finer(const struct hk_estimate *e) {
 
 static int32_t set_finer(struct hk_estimate *e, hooke_options *run) {
   const char *method = hooke_options_text(e->options, "method");
-  double value = finer(e), duration, every, unit;
+  double value = finer(e), unit;
   if (hooke_method_is_adaptive(method)) return hk_trial_set_value(run, method, value);
-  int32_t status = hk_step_times(e->options, &duration, &every);
-  if (status == HOOKE_OK) status = hk_step_unit(duration, every, &unit);
+  const int32_t status = hk_step_unit(e->duration, e->every, &unit);
   if (status != HOOKE_OK) return status;
   value = unit / ceil(unit / value * (1.0 - 1e-12));
   const double work = e->work * hk_estimate_value(e->options) / value;

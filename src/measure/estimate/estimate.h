@@ -83,6 +83,20 @@ int32_t hk_estimate_last_slice(struct hk_estimate *estimate);
  * contradiction makes it unknown. */
 int32_t hk_estimate_by_other_method(struct hk_estimate *estimate);
 
+/* Repeats the beginning and the last slice at the run's own step and sums the heat over the steps, in a small
+ * fraction of the run's time. With the residual R = E(t) - E(a) - W + D of the balance (trial/balance.h),
+ * which has to stay as large from the middle of a slice on, and
+ *
+ *   U = sum over steps of h min(P(v0), P(v1), P(v2), P(v3), P((v3 - 3 v2 + 3 v1 - v0)/8)),
+ *
+ * P the dissipated power and v0 to v3 velocities one step apart, the excess is min(R, U) as a fraction of the
+ * energy of the scene. U is the whole heat where velocities reverse at each step. It is sin(h omega/2)^6 of
+ * the heat of an oscillation, and 0.34 % at most of the energy that a motion loses as it comes to rest
+ * without overshooting: so the error that R has with every method is not counted as excess. Sets
+ * estimate->heat_excess, that of the slice where it is larger; NaN with callbacks or error control, or where
+ * there was no time for a slice. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+int32_t hk_estimate_heat(struct hk_estimate *estimate);
+
 /* Distances of a run from this one over frames [m]: of the farthest free particle, and root mean square. NaN
  * if it did not finish. */
 struct hk_distance {

@@ -15,9 +15,10 @@ static const char *source_of(const char *by) {
       {"other-method", "from a run by another method"},
       {"reference", "against a reference that was checked by another"},
   };
-  for (size_t k = 0; k < sizeof sources / sizeof sources[0]; k++)
-    if (strcmp(by, sources[k][0]) == 0) return sources[k][1];
-  return by;
+  int k = 0;
+  while (strcmp(by, sources[k][0]) != 0)
+    k++;
+  return sources[k][1];
 }
 
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {

@@ -29,11 +29,11 @@ static int32_t find_bound(const struct hk_estimate *e, const char *method, doubl
 
 /* ---- over the whole run ---- */
 
-/* The method that judges whole runs, or one that judges this one, where it does not take the system; or
- * NULL. */
+/* The method that judges whole runs, which every build has, or one that judges this one, where it does not
+ * take the system; or NULL. */
 static const char *whole_judge(const struct hk_estimate *e) {
   const char *judge = hk_method_find(method_of(e))->judge;
-  while (judge && !(hooke_method_is_built(judge) && hk_method_suits(judge, e->system)))
+  while (judge && !hk_method_suits(judge, e->system))
     judge = hk_method_find(judge)->judge;
   return judge;
 }
@@ -80,9 +80,8 @@ static int64_t beginning(const struct hk_estimate *e) {
 
 static const char *beginning_judge(const struct hk_estimate *e) {
   const char *row = hk_method_find(method_of(e))->checked_by, *judge = row ? row : hk_rk4.name;
-  const int suits = e->system->particle_count <= MOST_PARTICLES && hooke_method_is_built(judge) &&
-                    hk_method_suits(judge, e->system);
-  return suits ? judge : NULL;
+  const int few = e->system->particle_count <= MOST_PARTICLES;
+  return few && hooke_method_is_built(judge) ? judge : NULL;
 }
 
 static int32_t find_first_value(const struct hk_estimate *e, const char *judge, double *value) {

@@ -6,7 +6,6 @@
 
 #include "core/print.h"
 #include "integrate/method.h"
-#include "measure/trial/step_unit.h"
 #include "model/state.h"
 
 #include <math.h>
@@ -58,17 +57,12 @@ static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void 
   return rerun->observer ? rerun->observer(step, state, rerun->ctx) : 0;
 }
 
+/* The caller destroys them in either case. */
 static int32_t make_options(const struct hk_estimate *e, const struct hk_rerun *rerun, hooke_options **out) {
-  hooke_options *options = NULL;
-  int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", rerun->duration);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", rerun->every);
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
-  if (status == HOOKE_OK)
-    *out = options;
-  else
-    hooke_options_destroy(options);
-  return status;
+  int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, out);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "duration", rerun->duration);
+  if (status == HOOKE_OK) status = hooke_options_set_number(*out, "every", rerun->every);
+  return status == HOOKE_OK ? hooke_options_unset(*out, "max_steps") : status;
 }
 
 int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {
@@ -90,8 +84,7 @@ int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun,
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
   *distance = (struct hk_distance){NAN, NAN};
-  int32_t status = hk_trial_create(&e->kept, &trial);
-  if (status == HOOKE_OK) status = make_options(e, rerun, &options);
+  int32_t status = make_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &e->kept, frames, options, &listener);
   if (status == HOOKE_OK) *distance = (struct hk_distance){trial.error_max, trial.error};
   e->left -= trial.work;
@@ -127,7 +120,7 @@ static int32_t run_level(struct hk_estimate *e, double factor, double done, doub
   const double value = hk_estimate_value(e->options);
   double other = factor * value;
   if (!adaptive && factor > 1.0) other = hk_estimate_fit_step(e, other);
-  if (adaptive && (other > LOOSEST * (1.0 + 1e-9) || other < TIGHTEST * (1.0 - 1e-9))) other = NAN;
+  if (adaptive && other > LOOSEST * (1.0 + 1e-9)) other = NAN;
   *level = (struct level){other / value, {NAN, NAN}};
   if (isnan(other)) return HOOKE_OK;
   const struct hk_rerun rerun = {.method = method_of(e)->name,
@@ -238,15 +231,14 @@ int32_t hk_estimate_by_runs(struct hk_estimate *e) {
 }
 
 int32_t hk_estimate_last_slice(struct hk_estimate *e) {
-  if (!isnan(e->late_after)) return HOOKE_OK;
   const double from = hooke_state_time(e->late), duration = e->begin + e->duration - from;
   const double value = hk_estimate_value(e->options);
+  const double finer = method_of(e)->adaptive ? fmax(TIGHTEST, value / FACTOR) : 0.5 * value;
   struct hk_frames frames;
-  if (!(value > TIGHTEST) && method_of(e)->adaptive) return HOOKE_OK;
+  if (!isnan(e->late_after) || finer >= value) return HOOKE_OK;
   int32_t status = hk_frames_create(e->system, 2, &frames);
   const struct hk_rerun rerun = {.method = method_of(e)->name,
-                                 .value =
-                                     method_of(e)->adaptive ? fmax(TIGHTEST, value / FACTOR) : 0.5 * value,
+                                 .value = finer,
                                  .duration = duration,
                                  .every = duration,
                                  .what = "error, the last piece",
@@ -257,7 +249,7 @@ int32_t hk_estimate_last_slice(struct hk_estimate *e) {
     const double order = expected_order(e);
     const double *end = e->kept.position + (e->kept.count - 1) * e->kept.size;
     (void)hk_frames_distance(&frames, 1, end, &e->last_error);
-    e->last_error *= SURE / fabs(expm1(order * log(rerun.value / value)));
+    e->last_error *= SURE / fabs(expm1(order * log(finer / value)));
     e->last_from = from;
   }
   hk_frames_release(&frames);

@@ -1,4 +1,6 @@
-#include "measure/estimate/heat.h"
+/* Spurious heat of a run: a damped motion too fast for the step overshoots rest, its velocity reverses from
+ * one step to the next, and damping and drag then dissipate more energy than is available. */
+#include "measure/estimate/estimate.h"
 
 #include "core/memory.h"
 #include "measure/counted_work/work.h"
@@ -77,7 +79,7 @@ static double excess_of(const struct slice *s, double scale) {
   if (s->steps < LEAST_STEPS) return NAN;
   for (int64_t k = count / 2; k < count; k++)
     least = fmin(least, s->residual[k]);
-  return least > 0.0 && scale > 0.0 ? least / (scale + fabs(s->balance.work)) : 0.0;
+  return least > 0.0 ? least / (scale + fabs(s->balance.work)) : 0.0;
 }
 
 /* A slice from `from` on; NULL: from the initial state. */

@@ -6,7 +6,6 @@
 #include "core/status.h"
 #include "measure/quantity/watched.h"
 #include "measure/recommend/pick.h"
-#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +16,7 @@ static const struct hk_option_row needs_rows[] = {
                  "error that one can live with, the largest distance of any watched particle", .required = 1),
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
                  "what is looked at: a part, a group, or particle "
-                 "numbers such as 0,7-9; all free particles if not given"),
+                 "numbers or names such as 0,7-9,tip; all free particles if not given"),
     HOOKE_OPTION("refine", .type = HOOKE_OPTION_FLAG, "false",
                  "the reverse question: each part at once, twice and "
                  "four times its resolution, and what the want asks for"),
@@ -30,14 +29,14 @@ const struct hk_needs_cost hk_needs_no_cost = {NAN, NAN, NAN, NAN, 0, NAN, NAN, 
 /* ---- creating ---- */
 
 static int32_t read_times(struct hk_needs *needs) {
-  const int32_t status = hk_step_times(needs->run, &needs->duration, &needs->every);
+  const int32_t status = hk_step_times(needs->m->run, &needs->duration, &needs->every);
   if (status != HOOKE_OK) return status;
   needs->judged = needs->frame_count = hk_schedule_frames(needs->duration, needs->every);
   return hk_step_unit(needs->duration, needs->every, &needs->unit);
 }
 
 static int32_t read_method(struct hk_needs *needs) {
-  const char *method = hooke_options_text(needs->run, "method");
+  const char *method = hooke_options_text(needs->m->run, "method");
   if (hooke_method_is_adaptive(method) < 0) {
     char shown[HOOKE_OPTION_SHOWN];
     hk_option_show(method, (int64_t)strlen(method), shown);
@@ -51,8 +50,8 @@ static int32_t read_method(struct hk_needs *needs) {
 
 /* Fills `watch` from the option. HOOKE_BAD_VALUE. */
 static int32_t read_watch(struct hk_needs *needs) {
-  const hooke_system *system = needs->system;
-  const char *text = hooke_options_text(needs->options, "watch");
+  const hooke_system *system = needs->m->system;
+  const char *text = hooke_options_text(needs->m->options, "watch");
   uint8_t *mark = hk_new(system->particle_count, 1);
   if (mark == NULL) return HOOKE_NO_MEMORY;
   int32_t status = HOOKE_OK;
@@ -79,24 +78,21 @@ static int32_t read_watch(struct hk_needs *needs) {
 }
 
 static int32_t prepare(struct hk_needs *needs) {
-  int32_t status = hk_options_check_required(needs->options);
+  int32_t status = hk_options_check_required(needs->m->options);
   if (status != HOOKE_OK) return status;
-  needs->want = hooke_options_number(needs->options, "want");
+  needs->want = hooke_options_number(needs->m->options, "want");
   status = read_times(needs);
   if (status == HOOKE_OK) status = read_method(needs);
   if (status == HOOKE_OK) status = read_watch(needs);
   if (status != HOOKE_OK) return status;
-  needs->largest_force = hk_new(needs->system->springs->count, sizeof *needs->largest_force);
+  needs->largest_force = hk_new(needs->m->system->springs->count, sizeof *needs->largest_force);
   return needs->largest_force ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 static int32_t create(hooke_measurement *m) {
   struct hk_needs *needs = m->object = hk_new(1, sizeof *needs);
   if (needs == NULL) return HOOKE_NO_MEMORY;
-  needs->measurement = m;
-  needs->system = m->system;
-  needs->run = m->run;
-  needs->options = m->options;
+  needs->m = m;
   hk_needs_forget(needs);
   return prepare(needs);
 }
@@ -120,8 +116,8 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   needs->pieces = needs->pieces_done = 0;
   needs->told = 0.0;
   needs->spread = 1.0;
-  return hooke_options_number(needs->options, "refine") != 0.0 ? hk_needs_refine(needs)
-                                                               : hk_needs_find(needs);
+  return hooke_options_number(needs->m->options, "refine") != 0.0 ? hk_needs_refine(needs)
+                                                                  : hk_needs_find(needs);
 }
 
 const struct hk_measurement_kind hk_needs_kind = {.name = "needs",

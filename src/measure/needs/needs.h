@@ -56,9 +56,7 @@ struct hk_needs_lean {
 };
 
 struct hk_needs {
-  const hooke_measurement *measurement;
-  const hooke_system *system;
-  hooke_options *run, *options;       /* of the measurement; a picked method is set in `run` */
+  const hooke_measurement *m;         /* a picked method is set in its `run` */
   double want, duration, every, unit; /* unit: largest step that frames allow [s] */
   int32_t method_picked;
   int64_t watch_count, *watch; /* particles */

@@ -51,7 +51,7 @@ static void tell_saving(const struct hk_needs *needs, struct hk_claims *claims) 
       claims, "saving", of_judged(needs), "clock",
       "within the wanted error it takes %.3g s of wall time by %s, where the full scene takes %.3g s (%.1f times "
       "%s)",
-      lean, hooke_options_text(needs->run, "method"), full, less ? full / lean : lean / full,
+      lean, hooke_options_text(needs->m->run, "method"), full, less ? full / lean : lean / full,
       less ? "less" : "more");
   if (needs->other_method)
     hk_claim(claims, "other-method", HOOKE_OF_WHOLE, "clock", "%s would bring the full scene there in %.3g s",
@@ -127,7 +127,7 @@ static void tell_part(const struct hk_needs *needs, const struct hk_needs_part *
 /* ---- what it rests on ---- */
 
 static void tell_full(const struct hk_needs *needs, struct hk_claims *claims) {
-  const char *method = hooke_options_text(needs->run, "method"),
+  const char *method = hooke_options_text(needs->m->run, "method"),
              *how = needs->method_picked ? ", picked," : "";
   if (isnan(needs->full.step_error))
     hk_claim(claims, "full", HOOKE_OF_UNKNOWN, "runs", "by %s%s the full scene was not run to its end",
@@ -141,7 +141,7 @@ static void tell_full(const struct hk_needs *needs, struct hk_claims *claims) {
 void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_needs *needs = measurement->object;
   const int ran = !isnan(needs->full.step_error),
-            refine = hooke_options_number(needs->options, "refine") != 0.0;
+            refine = hooke_options_number(needs->m->options, "refine") != 0.0;
   if (ran && needs->lean.system) tell_lean(needs, claims);
   for (int64_t part = 0; part < needs->part_count; part++)
     tell_part(needs, &needs->part[part], claims);

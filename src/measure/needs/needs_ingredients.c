@@ -35,7 +35,7 @@ static struct hk_variant *add_row(struct list *list, const char *kind, const cha
   va_start(args, format);
   hk_print_list(made->without, sizeof made->without, format, args);
   va_end(args);
-  list->status = hk_variant_create(needs->system, &made->variant);
+  list->status = hk_variant_create(needs->m->system, &made->variant);
   if (list->status != HOOKE_OK) return NULL;
   needs->row_count++;
   return &made->variant;
@@ -48,7 +48,7 @@ static int32_t is_taken(const char *name) {
 }
 
 static void list_groups(struct list *list) {
-  const hooke_system *system = list->needs->system;
+  const hooke_system *system = list->needs->m->system;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
     const char *kind = group->force->name;
@@ -70,7 +70,7 @@ static int32_t resists_compression(const hooke_system *system) {
 }
 
 static void list_whole_forces(struct list *list) {
-  const hooke_system *system = list->needs->system;
+  const hooke_system *system = list->needs->m->system;
   struct hk_variant *variant;
   if (hk_system_has_dampers(system)) {
     variant = add_row(list, "damping", "damping");
@@ -89,7 +89,7 @@ static void list_whole_forces(struct list *list) {
 }
 
 static void list_loose(struct list *list) {
-  const hooke_system *system = list->needs->system;
+  const hooke_system *system = list->needs->m->system;
   uint8_t *touched = hk_new(system->particle_count, 1);
   if (touched == NULL) {
     list->status = HOOKE_NO_MEMORY;
@@ -115,7 +115,7 @@ static void list_loose(struct list *list) {
 }
 
 static void list_parts(struct list *list) {
-  const hooke_system *system = list->needs->system;
+  const hooke_system *system = list->needs->m->system;
   for (int64_t k = 0; k < system->part_count; k++) {
     const struct hk_part_record *part = &system->part[k];
     if (memchr(list->watched + part->first, 1, (size_t)part->count)) continue;
@@ -125,7 +125,7 @@ static void list_parts(struct list *list) {
 }
 
 static void list_resolutions(struct list *list) {
-  const hooke_system *system = list->needs->system;
+  const hooke_system *system = list->needs->m->system;
   for (int64_t k = 0; k < system->part_count; k++) {
     int64_t cells[3], made[3];
     const int32_t axes = hk_variant_cells(&system->part[k], 0.5, cells, made);
@@ -152,7 +152,7 @@ static int32_t may_be_rigid(const hooke_system *system, int64_t part) {
 }
 
 static void list_bodies(struct list *list) {
-  const hooke_system *system = list->needs->system;
+  const hooke_system *system = list->needs->m->system;
   for (int64_t k = 0; k < system->part_count; k++) {
     struct hk_variant *variant =
         may_be_rigid(system, k) ? add_row(list, "rigid", "deformation of %s", system->part[k].name) : NULL;
@@ -161,13 +161,13 @@ static void list_bodies(struct list *list) {
 }
 
 int32_t hk_needs_list(struct hk_needs *needs) {
-  struct list list = {.needs = needs, .watched = hk_new(needs->system->particle_count, 1)};
+  struct list list = {.needs = needs, .watched = hk_new(needs->m->system->particle_count, 1)};
   if (list.watched == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < needs->watch_count; k++)
     list.watched[needs->watch[k]] = 1;
   list_groups(&list);
   list_whole_forces(&list);
-  if (needs->system->springs->count > 0) add_row(&list, "idle", "springs whose force stays small");
+  if (needs->m->system->springs->count > 0) add_row(&list, "idle", "springs whose force stays small");
   list_loose(&list);
   list_parts(&list);
   list_bodies(&list);

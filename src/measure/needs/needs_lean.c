@@ -26,7 +26,8 @@ static void release(struct hk_needs_lean *candidate) {
 /* Its recommended run; NaN if it has none. */
 static int32_t try_variant(struct hk_needs *needs, struct hk_needs_lean *candidate) {
   candidate->error = NAN;
-  int32_t status = hk_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
+  int32_t status =
+      hk_variant_make(needs->m->system, &candidate->variant, &candidate->system, &candidate->map);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* mutually exclusive */
   if (status != HOOKE_OK) return status;
   const struct hk_needs_trial trial = {candidate->system, &candidate->map};
@@ -44,7 +45,7 @@ static int32_t take(struct hk_needs *needs, struct hk_needs_lean *candidate) {
   needs->lean = *candidate;
   needs->lean_note[0] = '\0';
   memset(candidate, 0, sizeof *candidate);
-  const int32_t status = hooke_options_copy(needs->run, &needs->lean_run);
+  const int32_t status = hooke_options_copy(needs->m->run, &needs->lean_run);
   return status == HOOKE_OK ? hk_needs_set_step(&needs->lean.cost, needs->lean_run) : status;
 }
 
@@ -61,7 +62,7 @@ static int32_t may_save(const struct hk_needs *needs, const struct hk_needs_row 
 }
 
 static int32_t is_split(const struct hk_needs *needs, const struct hk_variant *variant) {
-  return hk_variant_next_split(needs->system, variant, 0) >= 0;
+  return hk_variant_next_split(needs->m->system, variant, 0) >= 0;
 }
 
 /* Whole parts come first, then bodies: all that is inside drops out with them. Variants that the options of a
@@ -87,7 +88,7 @@ static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
   for (int64_t k = 0; k < needs->row_count; k++) {
     const struct hk_needs_row *row = &needs->row[k];
     if (tried[k] || !row->measured || row->needed != 0.0 || !may_save(needs, row)) continue;
-    if (hk_variant_covers(needs->system, &needs->lean.variant, &row->variant)) continue;
+    if (hk_variant_covers(needs->m->system, &needs->lean.variant, &row->variant)) continue;
     if (found < 0 || comes_before(needs, row, &needs->row[found])) found = k;
   }
   return found;
@@ -100,10 +101,10 @@ static int32_t is_worth_it(const struct hk_needs *needs, const struct hk_needs_l
 
 static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
   struct hk_needs_lean candidate = {.system = NULL};
-  int32_t status = hk_variant_create(needs->system, &candidate.variant);
+  int32_t status = hk_variant_create(needs->m->system, &candidate.variant);
   if (status == HOOKE_OK) {
-    hk_variant_join(needs->system, &candidate.variant, &needs->lean.variant);
-    hk_variant_join(needs->system, &candidate.variant, &row->variant);
+    hk_variant_join(needs->m->system, &candidate.variant, &needs->lean.variant);
+    hk_variant_join(needs->m->system, &candidate.variant, &row->variant);
     status = try_variant(needs, &candidate);
   }
   if (status == HOOKE_OK && candidate.error <= needs->want && is_worth_it(needs, &candidate)) {
@@ -116,7 +117,7 @@ static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
 
 static int32_t begin_with_everything(struct hk_needs *needs) {
   struct hk_needs_lean candidate = {.system = NULL};
-  int32_t status = hk_variant_create(needs->system, &candidate.variant);
+  int32_t status = hk_variant_create(needs->m->system, &candidate.variant);
   if (status == HOOKE_OK) status = try_variant(needs, &candidate);
   if (status == HOOKE_OK) {
     needs->cheapest = candidate.cost;
@@ -128,7 +129,7 @@ static int32_t begin_with_everything(struct hk_needs *needs) {
         needs->lean_note, sizeof needs->lean_note,
         "no run of the full scene by %s is recommended: none that was tried is within the want, clear of its "
         "stability limit and without a rise of energy",
-        hooke_options_text(needs->run, "method"));
+        hooke_options_text(needs->m->run, "method"));
   release(&candidate);
   return status;
 }
@@ -139,7 +140,7 @@ static void tidy_up(struct hk_needs *needs) {
     struct hk_needs_row *row = &needs->row[k];
     for (int64_t other = 0; other < needs->row_count && row->left_out; other++) {
       row->left_out = other == k || !needs->row[other].left_out ||
-                      !hk_variant_covers(needs->system, &needs->row[other].variant, &row->variant);
+                      !hk_variant_covers(needs->m->system, &needs->row[other].variant, &row->variant);
     }
   }
 }
@@ -147,7 +148,7 @@ static void tidy_up(struct hk_needs *needs) {
 /* Reason why a row that is not needed stays in the lean system, if it has no other note. */
 static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *row) {
   if (row->needed != 0.0 || row->left_out || row->note[0]) return;
-  if (hk_variant_covers(needs->system, &needs->lean.variant, &row->variant)) return;
+  if (hk_variant_covers(needs->m->system, &needs->lean.variant, &row->variant)) return;
   snprintf(row->note, sizeof row->note, "%s",
            !may_save(needs, row)            ? "saves nothing, so it stays"
            : is_split(needs, &row->variant) ? "saves too little to write a part spring by spring"
@@ -170,9 +171,9 @@ static void print_steps(const struct hk_needs_cost *cost, char text[64]) {
 /* Parts that are bodies in the lean scene, and the steps that this saves. */
 static void note_bodies(struct hk_needs *needs) {
   char names[HOOKE_NEEDS_NAME] = "", lean[64], full[64];
-  for (int64_t k = 0; k < needs->system->part_count; k++)
+  for (int64_t k = 0; k < needs->m->system->part_count; k++)
     if (needs->lean.variant.rigid[k] && !needs->lean.variant.part[k])
-      append(names, needs->system->part[k].name);
+      append(names, needs->m->system->part[k].name);
   if (names[0] == '\0') return;
   print_steps(&needs->lean.cost, lean);
   print_steps(&needs->cheapest, full);
@@ -183,7 +184,7 @@ static void note_bodies(struct hk_needs *needs) {
 
 /* Groups of parts that the lean scene cannot express as a part. */
 static void note_splits(struct hk_needs *needs) {
-  const hooke_system *system = needs->system;
+  const hooke_system *system = needs->m->system;
   char names[HOOKE_NEEDS_NAME] = "";
   int64_t count = 0;
   for (int64_t g = -1; (g = hk_variant_next_split(system, &needs->lean.variant, g + 1)) >= 0; count++) {
@@ -198,11 +199,11 @@ static void note_splits(struct hk_needs *needs) {
 
 /* The least wall times of both runs, repeated in turns so that both see the same machine. */
 static int32_t compare_times(struct hk_needs *needs) {
-  const struct hk_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean.system, &needs->lean.map}};
+  const struct hk_needs_trial trial[2] = {{needs->m->system, NULL}, {needs->lean.system, &needs->lean.map}};
   struct hk_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean.cost};
   hooke_options *options = NULL;
   double spent = 0.0;
-  int32_t status = hooke_options_copy(needs->run, &options), finished;
+  int32_t status = hooke_options_copy(needs->m->run, &options), finished;
   for (int k = 0; k < 2 * TURNS && spent < TURNS_TAKE && status == HOOKE_OK; k++) {
     struct hk_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
     struct hk_needs_cost again;
@@ -220,10 +221,10 @@ static int32_t compare_times(struct hk_needs *needs) {
 static int32_t find_other_method(struct hk_needs *needs) {
   struct hk_pick pick;
   const int32_t status =
-      hk_pick_run(&pick, needs->system, needs->run, needs->want, 0, NULL, hk_needs_tell_pick, needs);
+      hk_pick_run(&pick, needs->m->system, needs->m->run, needs->want, 0, NULL, hk_needs_tell_pick, needs);
   if (status == HOOKE_OK && pick.met &&
       pick.best.work < CLEARLY_LESS * pick.fraction * needs->cheapest.work &&
-      strcmp(pick.best.method, hooke_options_text(needs->run, "method")) != 0) {
+      strcmp(pick.best.method, hooke_options_text(needs->m->run, "method")) != 0) {
     needs->other_method = pick.best.method;
     needs->other_seconds = pick.best.wall_seconds / pick.fraction;
   }

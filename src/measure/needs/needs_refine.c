@@ -18,10 +18,10 @@ static int32_t run_at(struct hk_needs *needs, int64_t part, double scale, struct
   struct hk_variant variant;
   struct hk_variant_map map;
   hooke_system *made = NULL;
-  int32_t status = hk_variant_create(needs->system, &variant);
+  int32_t status = hk_variant_create(needs->m->system, &variant);
   if (status != HOOKE_OK) return status;
   variant.scale[part] = scale;
-  status = hk_variant_make(needs->system, &variant, &made, &map);
+  status = hk_variant_make(needs->m->system, &variant, &made, &map);
   hk_variant_release(&variant);
   if (status == HOOKE_UNSUITED) {
     snprintf(note, HOOKE_NEEDS_NOTE, "%s", hooke_last_error());
@@ -84,7 +84,7 @@ static int32_t refine_part(struct hk_needs *needs, int64_t k, struct hk_needs_pa
 }
 
 int32_t hk_needs_refine(struct hk_needs *needs) {
-  const hooke_system *system = needs->system;
+  const hooke_system *system = needs->m->system;
   if (system->part_count == 0) {
     return hk_fail(HOOKE_BAD_VALUE, NULL, "the scene has no parts, so there is no resolution to change");
   }

@@ -33,12 +33,12 @@ static int32_t refuse_pick(const struct hk_pick *pick) {
 /* Without a method in the options of the run, chooses as 'run --want' would. */
 static int32_t pick_method(struct hk_needs *needs) {
   struct hk_pick pick;
-  if (hooke_options_is_set(needs->run, "method")) return HOOKE_OK;
+  if (hooke_options_is_set(needs->m->run, "method")) return HOOKE_OK;
   needs->under_way = "picking a method";
-  int32_t status = hk_pick_run(&pick, needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want, 0,
-                               NULL, hk_needs_tell_pick, needs);
+  int32_t status = hk_pick_run(&pick, needs->m->system, needs->m->run, HOOKE_NEEDS_STEP_SHARE * needs->want,
+                               0, NULL, hk_needs_tell_pick, needs);
   if (status == HOOKE_OK && !pick.met) status = refuse_pick(&pick);
-  if (status == HOOKE_OK) status = hk_trial_set_value(needs->run, pick.best.method, pick.best.value);
+  if (status == HOOKE_OK) status = hk_trial_set_value(needs->m->run, pick.best.method, pick.best.value);
   needs->method_picked = status == HOOKE_OK;
   hk_pick_release(&pick);
   return status == HOOKE_NOT_BUILT ? HOOKE_OK : status; /* then the default of the option */
@@ -49,7 +49,7 @@ static int32_t refuse_full(const struct hk_needs *needs) {
       HOOKE_BAD_VALUE, "want",
       "%s, %g m: no step that was tried holds the full scene by %s to a tenth of it over a time worth "
       "judging; take a larger want, a shorter duration or another method",
-      "the want", needs->want, hooke_options_text(needs->run, "method"));
+      "the want", needs->want, hooke_options_text(needs->m->run, "method"));
 }
 
 static void say_how_it_moves(struct hk_needs *needs) {
@@ -72,7 +72,7 @@ int32_t hk_needs_run_full(struct hk_needs *needs) {
   needs->pieces += 2;
   int32_t status = pick_method(needs);
   needs->pieces_done++;
-  const struct hk_needs_trial trial = {needs->system, NULL};
+  const struct hk_needs_trial trial = {needs->m->system, NULL};
   needs->under_way = "the full scene";
   if (status == HOOKE_OK) status = hk_needs_measure(needs, &trial, &needs->full, &needs->path);
   needs->pieces_done++;
@@ -129,7 +129,7 @@ static int32_t run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   struct hk_needs_path fine = {0};
   row->error = NAN;
   row->note[0] = '\0';
-  int32_t status = hk_variant_make(needs->system, &row->variant, &made, &map);
+  int32_t status = hk_variant_make(needs->m->system, &row->variant, &made, &map);
   if (status != HOOKE_OK) return note_failure(row, status);
   const struct hk_needs_trial trial = {made, &map};
   status = hk_needs_measure(needs, &trial, &row->cost, &fine);
@@ -149,14 +149,14 @@ static int32_t run_row(struct hk_needs *needs, struct hk_needs_row *row) {
 /* Selects the springs whose force never exceeds `force` [N]; returns their number. */
 static int64_t mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row) {
   int64_t count = 0;
-  for (int64_t s = 0; s < needs->system->springs->count; s++)
+  for (int64_t s = 0; s < needs->m->system->springs->count; s++)
     count += row->variant.spring[s] = needs->largest_force[s] <= force;
   return count;
 }
 
 /* 1 if the springs are those of one group, which has a row of its own, or all springs. */
 static int32_t is_known(const struct hk_needs *needs, const struct hk_needs_row *row, int64_t count) {
-  const hooke_system *system = needs->system;
+  const hooke_system *system = needs->m->system;
   int64_t first = 0;
   for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     if (system->group[g].count == count && row->variant.spring[first] &&
@@ -176,7 +176,7 @@ static void name_idle(struct hk_needs_row *row, double force, int64_t count) {
 static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   double most = 0.0;
   int64_t tried = 0;
-  for (int64_t s = 0; s < needs->system->springs->count; s++)
+  for (int64_t s = 0; s < needs->m->system->springs->count; s++)
     most = fmax(most, needs->largest_force[s]);
   for (int k = 0; k < IDLE_SHARES; k++) {
     const int64_t count = mark_idle(needs, idle_shares[k] * most, row);

@@ -17,7 +17,7 @@ static const double RESTS = 1e-3;        /* of the wanted error: a smaller motio
 int32_t hk_needs_tell(struct hk_needs *needs, double fraction) {
   const double done = ((double)needs->pieces_done + fraction) / fmax(1.0, (double)needs->pieces);
   needs->told = fmax(needs->told, fmin(1.0, done));
-  return hk_measurement_tell(needs->measurement, needs->told, needs->under_way);
+  return hk_measurement_tell(needs->m, needs->told, needs->under_way);
 }
 
 int32_t hk_needs_rests(const struct hk_needs *needs) {
@@ -25,10 +25,8 @@ int32_t hk_needs_rests(const struct hk_needs *needs) {
 }
 
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) {
-  if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
-  int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
-  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+  return hk_trial_set_value(run, hooke_options_text(run, "method"),
+                            isnan(cost->step) ? cost->rtol : cost->step);
 }
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {
@@ -92,7 +90,7 @@ int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path
 /* ---- one run ---- */
 
 static void note_forces(struct hk_needs *needs, int64_t frame, const hooke_state *state) {
-  const struct hk_springs *springs = needs->system->springs;
+  const struct hk_springs *springs = needs->m->system->springs;
   if (frame == 0) memset(needs->largest_force, 0, (size_t)springs->count * sizeof(double));
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];
@@ -133,7 +131,7 @@ static int32_t see_progress(double fraction, void *ctx) {
 /* All variants by the same, particle by particle of the full system. */
 static void see_start(hooke_state *state, void *ctx) {
   const struct hk_needs_recorder *recorder = ctx;
-  const hooke_system *full = recorder->needs->system, *own = recorder->trial->system;
+  const hooke_system *full = recorder->needs->m->system, *own = recorder->trial->system;
   const struct hk_variant_map *map = recorder->trial->map;
   uint64_t random = SEED;
   for (int64_t p = 0; p < full->particle_count && recorder->displaced; p++) {
@@ -172,7 +170,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
                           struct hk_needs_cost *cost) {
   const struct hk_listener listener = {
       .on_progress = see_progress, .on_frame = see_frame, .on_start = see_start, .ctx = recorder};
-  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN};
+  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN, .atol = NAN};
   struct hk_frames none = {.system = recorder->trial->system};
   if (recorder->path) recorder->path->recorded = 0;
   recorder->needs->runs++;
@@ -182,6 +180,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   cost->wall_seconds = taken.wall_seconds;
   cost->force_evaluations = taken.force_evaluations;
   cost->work = taken.work;
+  cost->atol = isnan(cost->rtol) ? NAN : taken.atol;
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
   const int32_t judged = judge_end(recorder, *finished);

@@ -3,7 +3,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "integrate/method.h"
+#include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/force/spring.h"
@@ -36,7 +36,6 @@ struct search {
   struct hk_needs_recorder recorder;
   hooke_options *options;
   int32_t adaptive;
-  double ratio; /* atol / rtol */
   double value; /* of the coarser of two runs */
   double first_stable;
   int32_t has_limit; /* 0: no stable step is known, such as in a build without LAPACK */
@@ -61,7 +60,6 @@ static int32_t run_at(struct search *search, double value, int32_t which) {
   struct attempt *run = &search->run[which];
   run->cost.step = search->adaptive ? NAN : search->recorder.needs->unit / value;
   run->cost.rtol = search->adaptive ? 1.0 / pow(10.0, value) : NAN;
-  run->cost.atol = run->cost.rtol * search->ratio;
   search->recorder.path = &run->path;
   const int32_t status = hk_needs_set_step(&run->cost, search->options);
   if (status != HOOKE_OK) return status;
@@ -150,7 +148,7 @@ static int32_t find_step(struct search *search) {
 
 /* A callback that stops here stops the run after it, too. */
 static double step_limit(struct hk_needs *needs, const hooke_system *system) {
-  const char *method = hooke_options_text(needs->run, "method");
+  const char *method = hooke_options_text(needs->m->run, "method");
   hooke_state *state = NULL;
   double limit = NAN;
   if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
@@ -168,7 +166,6 @@ static int32_t begin_search(struct search *search, double limit) {
   search->has_limit = search->adaptive || !isnan(limit);
   const struct hk_needs *needs = search->recorder.needs;
   const double unit = needs->unit;
-  search->ratio = hooke_options_number(needs->run, "atol") / hooke_options_number(needs->run, "rtol");
   search->recorder.fraction = 0.25;
   if (search->adaptive) {
     search->value = -log10(COARSEST_RTOL);
@@ -176,7 +173,7 @@ static int32_t begin_search(struct search *search, double limit) {
   }
   double start = BELOW_LIMIT * limit;
   /* a smaller step that solves nothing is cheaper */
-  const char *method = hooke_options_text(needs->run, "method");
+  const char *method = hooke_options_text(needs->m->run, "method");
   int32_t status = HOOKE_OK;
   if (limit > 0.0) status = hk_step_cheapest(search->recorder.trial->system, method, &start);
   if (limit == 0.0) start = unit / 64.0; /* no step is stable: a run is short enough or not */
@@ -229,7 +226,9 @@ static int32_t judge_full(struct search *search, double limit, struct hk_needs_p
 static int32_t start(struct search *search, double limit) {
   const struct hk_needs *needs = search->recorder.needs;
   int32_t status = begin_search(search, limit);
-  if (status == HOOKE_OK) status = hooke_options_copy(needs->run, &search->options);
+  if (status == HOOKE_OK) status = hooke_options_copy(needs->m->run, &search->options);
+  if (status == HOOKE_OK && is_shortened(search))
+    status = hk_run_fill_tolerances(search->recorder.trial->system, search->options);
   if (status == HOOKE_OK && is_shortened(search))
     status =
         hooke_options_set_number(search->options, "duration", (double)(needs->judged - 1) * needs->every);
@@ -245,7 +244,7 @@ static void end(struct search *search) {
 }
 
 static struct search new_search(struct hk_needs *needs, const struct hk_needs_trial *trial) {
-  const char *method = hooke_options_text(needs->run, "method");
+  const char *method = hooke_options_text(needs->m->run, "method");
   return (struct search){.recorder = {.needs = needs, .trial = trial},
                          .adaptive = hk_method_find(method)->adaptive};
 }
@@ -299,7 +298,7 @@ static int32_t run_displaced(struct hk_needs *needs, const struct hk_needs_trial
 
 int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *trial,
                           const struct hk_needs_cost *cost, double *error) {
-  const struct hk_needs_trial full = {needs->system, NULL};
+  const struct hk_needs_trial full = {needs->m->system, NULL};
   struct hk_needs_path own = {0};
   int32_t finished = 0, status = HOOKE_OK;
   if (needs->displaced.position == NULL)

@@ -26,7 +26,7 @@
 
 /* ---- the record ---- */
 
-HOOKE_READER(const char *, method, struct hk_needs, hooke_options_text(it->run, "method"))
+HOOKE_READER(const char *, method, struct hk_needs, hooke_options_text(it->m->run, "method"))
 HOOKE_READER(double, judged_until, struct hk_needs, hk_needs_judged_until(it))
 
 double hk_needs_judged_until(const struct hk_needs *needs) {
@@ -41,8 +41,8 @@ HOOKE_READER(const void *, find_full, struct hk_needs, it->path.position ? it : 
 
 HOOKE_READER(double, times_less, struct hk_needs, it->cheapest.wall_seconds / it->lean.cost.wall_seconds)
 HOOKE_COUNTER(count_lean, struct hk_needs, it->lean.system != NULL)
-HOOKE_READER(const char *, scene, struct hk_needs, it->measurement->label[HOOKE_LABEL_OUTPUT])
-HOOKE_READER(const char *, command, struct hk_needs, it->measurement->label[HOOKE_LABEL_COMMAND])
+HOOKE_READER(const char *, scene, struct hk_needs, it->m->label[HOOKE_LABEL_OUTPUT])
+HOOKE_READER(const char *, command, struct hk_needs, it->m->label[HOOKE_LABEL_COMMAND])
 
 /* ---- rows ---- */
 
@@ -196,7 +196,7 @@ const hooke_options *hooke_needs_lean_run(const hooke_measurement *m) {
 
 int64_t hooke_needs_lean_particle(const hooke_measurement *m, int64_t particle) {
   const struct hk_needs *needs = find_lean(m, "hooke_needs_lean_particle");
-  if (needs == NULL || particle < 0 || particle >= needs->system->particle_count) return -1;
+  if (needs == NULL || particle < 0 || particle >= needs->m->system->particle_count) return -1;
   return hk_variant_is_same(&needs->lean.map, particle) ? needs->lean.map.to[particle] : -1;
 }
 
@@ -208,7 +208,7 @@ int32_t hooke_needs_lean_position(const hooke_measurement *m, const double *q, d
     return hk_fail(HOOKE_BAD_CALL, NULL,
                    "there is no lean system yet; call hooke_measurement_run() first, without `refine`");
   }
-  for (int64_t p = 0; p < needs->system->particle_count; p++)
+  for (int64_t p = 0; p < needs->m->system->particle_count; p++)
     hk_variant_place(&needs->lean.map, p, q, position + 3 * p);
   return HOOKE_OK;
 }

@@ -5,6 +5,7 @@
 #include "core/status.h"
 #include "measure/spectrum/naming.h"
 #include "model/part_record.h"
+#include "model/system.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,6 +28,10 @@ static const char *part_name(const hooke_system *system, int64_t part) {
 static const char *group_name(const hooke_system *system, int64_t group) {
   if (group >= hk_system_groups_of(system, &hk_force_springs)) return NULL;
   return system->group[group].name ? system->group[group].name : "";
+}
+
+static const char *particle_name(const hooke_system *system, int64_t number) {
+  return number < system->rest->name_count ? system->rest->name[number].text : NULL;
 }
 
 typedef const char *name_of(const hooke_system *system, int64_t number);
@@ -85,7 +90,7 @@ static int32_t refuse(const struct reading *reading) {
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
   return hk_fail(HOOKE_BAD_VALUE, reading->where,
-                 "\"%s\" is nothing to watch; allowed: 0.x, 0.y or 0.z (a particle), "
+                 "\"%s\" is nothing to watch; allowed: 0.x, 0.y or 0.z (a particle, or its name), "
                  "part:0.y, group:0.length, .strain or .tension (a spring), energy, "
                  "kinetic, potential, and period:0.y (of any of these); indices begin at 0",
                  shown);
@@ -111,7 +116,7 @@ static int32_t refuse_index(const struct reading *reading, const char *of, const
 
 /* ---- one quantity ---- */
 
-/* "57", or "line:0" */
+/* "57", "tip" or "line:0" */
 static int32_t read_particle(const struct reading *reading, char *text, struct hk_watched *watched) {
   const hooke_system *system = reading->system;
   const char *end;
@@ -123,6 +128,10 @@ static int32_t read_particle(const struct reading *reading, char *text, struct h
     return refuse_index(reading, "the scene", "particle", system->particle_count);
   }
   const int64_t index = cut_index(text);
+  watched->particle = hooke_system_named_particle(system, text);
+  if (index < 0 && watched->particle >= 0) return HOOKE_OK;
+  if (index < 0 && number < 0 && particle_name(system, 0))
+    return refuse_name(reading, "particle", particle_name);
   if (index < 0) return refuse(reading);
   const struct hk_part_record *part = find_part(system, text);
   if (part == NULL) return refuse_name(reading, "part", part_name);
@@ -252,12 +261,23 @@ void hk_watched_release(struct hk_watched_list *list) {
 
 /* ---- particles only ---- */
 
-/* Marks the numbers of "0,7-9"; -1 if it is no such list. */
-static int mark_numbers(const char *text, int64_t count, uint8_t *mark) {
+/* The particle whose name comes next, and its end; -1 for none. */
+static int64_t read_name(const hooke_system *system, const char *text, const char **end) {
+  char name[TEXT_SIZE];
+  const size_t length = strcspn(text, ",");
+  snprintf(name, sizeof name, "%.*s", (int)length, text);
+  const int64_t particle = length < sizeof name ? hooke_system_named_particle(system, name) : -1;
+  if (particle >= 0) *end = text + length;
+  return particle;
+}
+
+/* Marks the particles of "0,7-9,tip"; -1 if it is no such list. */
+static int mark_list(const hooke_system *system, const char *text, uint8_t *mark) {
   while (*text) {
-    const int64_t first = read_number(text, &text);
+    const int64_t named = read_name(system, text, &text);
+    const int64_t first = named < 0 ? read_number(text, &text) : named;
     const int64_t last = first >= 0 && *text == '-' ? read_number(text + 1, &text) : first;
-    if (first < 0 || last < first || last >= count) return -1;
+    if (first < 0 || last < first || last >= system->particle_count) return -1;
     memset(mark + first, 1, (size_t)(last - first + 1));
     if (*text != ',' && *text != '\0') return -1;
     if (*text == ',' && text[1] == '\0') return -1;
@@ -286,9 +306,10 @@ int32_t hk_watched_mark_particles(const hooke_system *system, const char *where,
   const struct hk_part_record *part = find_part(system, text);
   if (part) memset(mark + part->first, 1, (size_t)part->count);
   if (part || mark_group(system, text, mark) == 0) return HOOKE_OK;
-  if (mark_numbers(text, system->particle_count, mark) == 0) return HOOKE_OK;
+  if (mark_list(system, text, mark) == 0) return HOOKE_OK;
   list_names(system, part_name, known);
   list_names(system, group_name, known);
+  list_names(system, particle_name, known);
   return hk_fail(HOOKE_BAD_VALUE, where,
                  "\"%.60s\" is no part, group or list of particles; "
                  "allowed: %s%s particle numbers such as 0,7-9 (0 to %lld)",

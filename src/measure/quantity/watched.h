@@ -1,13 +1,13 @@
 /* Watched quantities: observables of a motion, given as text.
  *
- *     57.x  57.y  57.z                           a coordinate of a particle [m]
+ *     57.x  57.y  57.z  tip.x                    a coordinate of a particle [m], by its number or name
  *     line:0.y                                   the same, of a particle of a part
  *     line.stretch:3.length  .strain  .tension   of a spring of a group [m], [1], [N]
  *     energy  kinetic  potential                 of everything that is free [J]
  *     period:57.y                                the mean time between passages upwards of any of these [s]
  *
  * Indices begin at 0. Several are separated by commas. watched.c also reads the selection of `needs`: a part,
- * a group, or particle numbers such as 0,7-9. */
+ * a group, or particles such as 0,7-9,tip. */
 #ifndef HOOKE_MEASURE_QUANTITY_WATCHED_H
 #define HOOKE_MEASURE_QUANTITY_WATCHED_H
 
@@ -46,7 +46,8 @@ void hk_watched_release(struct hk_watched_list *list);
 /* Number of the quantity with that text; -1 if there is none. */
 int64_t hk_watched_find(const struct hk_watched_list *list, const char *text);
 
-/* Sets mark[p] to 1 for the particles of a part, of a group or of a list of numbers. HOOKE_BAD_VALUE. */
+/* Sets mark[p] to 1 for the particles of a part, of a group or of a list of numbers and names.
+ * HOOKE_BAD_VALUE. */
 int32_t hk_watched_mark_particles(const hooke_system *system, const char *where, const char *text,
                                   uint8_t *mark);
 

@@ -54,15 +54,6 @@ void hk_pick_release(struct hk_pick *pick);
 /* Time up to which the reference can be trusted, from the start of the run [s]. */
 double hk_pick_trusted(const struct hk_pick *pick);
 
-/* Counted work that all of it may take, as far as that is known [s]. */
-double hk_pick_most_work(const struct hk_pick *pick);
-int32_t hk_pick_allows(const struct hk_pick *pick, const char *method);
-/* Before the search: frames, the quickest run and the reference. */
-int32_t hk_pick_prepare(struct hk_pick *pick, const hooke_options *run);
-/* The largest step of a method that is to be tried [s], of which `bound` is certain to be stable at the
- * start: infinity if nothing limits it. */
-int32_t hk_pick_largest_step(struct hk_pick *pick, const char *method, const double *q, double *bound,
-                             double *largest);
 /* Options of a run by a method with a step or tolerance, which the caller destroys in either case. */
 int32_t hk_pick_options(const hooke_options *run, const char *method, double value, hooke_options **out);
 

@@ -97,8 +97,7 @@ void hk_soundness_release(struct hk_soundness *s) {
   memset(s, 0, sizeof *s);
 }
 
-/* Slope of the least-squares line through `count` points, and its standard error. */
-static double fit_slope(int64_t count, const double *x, const double *y, double *error) {
+double hk_fit_slope(int64_t count, const double *x, const double *y, double *error) {
   double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, rest = 0.0;
   for (int64_t k = 0; k < count; k++) {
     mean_x += x[k] / (double)count;
@@ -120,7 +119,7 @@ double hk_soundness_rise(const struct hk_soundness *s) {
   const int64_t from = s->count / 2, count = s->count - from;
   const double span = s->time[s->count - 1] - s->time[from], scale = s->scale + s->swing;
   double error;
-  const double slope = fit_slope(count, s->time + from, s->energy + from, &error);
+  const double slope = hk_fit_slope(count, s->time + from, s->energy + from, &error);
   return slope > SIGNIFICANT * error && scale > 0.0 ? slope * span / scale : 0.0;
 }
 

@@ -46,6 +46,10 @@ double hk_soundness_work(const struct hk_soundness *soundness);
  * if energy comes from outside (callbacks, drives) or there are fewer than eight states. */
 double hk_soundness_rise(const struct hk_soundness *soundness);
 
+/* Slope of the least-squares line through `count` points, and its standard error, as if the points scattered
+ * about the line independently and alike: curvature is not accounted for. */
+double hk_fit_slope(int64_t count, const double *x, const double *y, double *error);
+
 /* 1 if the step is clear of every limit that was found, and no energy grows by itself. */
 int32_t hk_soundness_holds(const struct hk_soundness *soundness);
 

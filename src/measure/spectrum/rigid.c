@@ -94,9 +94,9 @@ static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *st
   if (status != HOOKE_OK) return status;
   hk_motion_load(system, motion, q, still);
   status = hk_motion_forces_without(system, motion, 0.0, HOOKE_CALLED);
-  for (int a = 0; a < 3 && system->has_gravity; a++) {
+  for (int a = 0; a < 3 && system->falls; a++) {
     for (int64_t p = 0; p < system->particle_count; p++)
-      motion->f[a][p] += system->mass[p] * system->gravity[a];
+      motion->f[a][p] += system->mass[p] * hk_fall(system, p, a);
   }
   if (spring_scale) scale_springs(system, q, spring_scale, motion->f);
   hk_body_tangents_stiffen(&rigid->tangents, (const double *const *)motion->f, 1);

@@ -30,7 +30,7 @@ static uint64_t seed_of(uint64_t seed, const char *method) {
 static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ensemble, int32_t method,
                           double value) {
   struct hk_ensemble_source *source = &ensemble->source[ensemble->source_count];
-  const uint64_t seed = (uint64_t)hooke_options_number(study->options, "seed");
+  const uint64_t seed = (uint64_t)hooke_options_number(study->m->options, "seed");
   *source = (struct hk_ensemble_source){.method = method, .value = value};
   source->random = seed_of(seed, method < 0 ? "reference" : study->method[method]);
   source->statistic = hk_new(ensemble->quantities.count, sizeof *source->statistic);
@@ -51,7 +51,7 @@ static int is_better(const struct hk_study_row *row, const struct hk_study_row *
  * finest; NaN without one. */
 static double choose_value(const struct hk_study *study, int32_t method) {
   const struct hk_study_recommendation *r = &study->recommendation;
-  const double want = hooke_options_number(study->options, "want");
+  const double want = hooke_options_number(study->m->options, "want");
   const struct hk_study_row *best = NULL;
   if (r->made && r->met && r->method == method) return r->value;
   for (int64_t k = 0; k < study->row_count; k++) {
@@ -63,17 +63,17 @@ static double choose_value(const struct hk_study *study, int32_t method) {
 }
 
 static int32_t find_quantities(const struct hk_study *study, struct hk_watched_list *list) {
-  list->system = study->system;
-  const char *watched = hooke_options_text(study->options, "watch");
+  list->system = study->m->system;
+  const char *watched = hooke_options_text(study->m->options, "watch");
   int32_t status = hk_watched_read(list, "watch", "kinetic,potential,energy");
   if (status == HOOKE_OK && watched[0]) status = hk_watched_read(list, "watch", watched);
   return status;
 }
 
 static int32_t create(const struct hk_study *study, struct hk_ensemble *ensemble) {
-  const double want = hooke_options_number(study->options, "want");
+  const double want = hooke_options_number(study->m->options, "want");
   const struct hk_reference *r = &study->reference;
-  ensemble->members = (int64_t)hooke_options_number(study->options, "ensemble");
+  ensemble->members = (int64_t)hooke_options_number(study->m->options, "ensemble");
   ensemble->noise = isnan(want) ? SHARE * r->extent : NOISE * want;
   ensemble->from = ensemble->until = NAN;
   ensemble->source = hk_new(study->method_count + 1, sizeof *ensemble->source);
@@ -115,7 +115,7 @@ static int32_t tell(double fraction, void *ctx) {
 
 static void displace(hooke_state *state, void *ctx) {
   struct member *member = ctx;
-  hk_displace(state, member->study->system, member->ensemble->noise / sqrt(3.0), &member->source->random);
+  hk_displace(state, member->study->m->system, member->ensemble->noise / sqrt(3.0), &member->source->random);
 }
 
 static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
@@ -153,7 +153,7 @@ static int32_t source_options(const struct hk_study *study, const struct hk_ense
                               hooke_options **options) {
   const struct hk_reference *r = &study->reference;
   if (source->method >= 0) return hk_study_row_options(study, source->method, source->value, options);
-  return hk_reference_options(study->run, r->method, TOLERANCE, r, options);
+  return hk_reference_options(study->m->run, r->method, TOLERANCE, r, options);
 }
 
 /* A member that does not finish, and a source that has one, count as failed. */
@@ -161,7 +161,7 @@ static int32_t run_member(struct member *member) {
   const struct hk_listener listener = {
       .on_progress = tell, .on_frame = see_frame, .on_start = displace, .ctx = member};
   const struct hk_study *study = member->study;
-  struct hk_frames none = {.system = study->system};
+  struct hk_frames none = {.system = study->m->system};
   hooke_options *options = NULL;
   member->count = 0;
   hk_watched_series_clear(member->series);
@@ -205,7 +205,7 @@ static int32_t run_members(struct member *member) {
 int32_t hk_ensemble_run(struct hk_study *study) {
   const struct hk_reference *r = &study->reference;
   const int64_t first = r->trusted, frames = r->frames.count - first;
-  if (hooke_options_number(study->options, "ensemble") < 1.0 || frames < 1) return HOOKE_OK;
+  if (hooke_options_number(study->m->options, "ensemble") < 1.0 || frames < 1) return HOOKE_OK;
   struct hk_ensemble *ensemble = hk_new(1, sizeof *ensemble);
   if (ensemble == NULL) return HOOKE_NO_MEMORY;
   study->ensemble = ensemble;

@@ -2,7 +2,7 @@
 #include "measure/study/study.h"
 
 #include "core/print.h"
-
+#include "measure/recommend/soundness.h"
 #include "model/callbacks.h"
 #include "model/force/drive.h"
 #include "model/force/force.h"
@@ -59,13 +59,14 @@ static int near_limit(const struct hk_study *study, int32_t method, double coars
 
 static void list_causes(const struct hk_study *study, int32_t method, double coarsest, char *list,
                         size_t size) {
-  const hooke_system *system = study->system;
+  const hooke_system *system = study->m->system;
   const struct {
     int applies;
     const char *cause;
   } rows[] = {
       {pulls_only(system), "springs that only pull have a kink"},
       {hk_system_groups_of(system, &hk_force_altitude) > 0, "altitude springs jump between altitudes"},
+      {hk_forces_do_work(system), "a force that changes in time may not be smooth enough"},
       {system->force != NULL, "the force callback may not be smooth enough"},
       {has_table(system), "a drive by a table bends at its samples"},
       {hk_system_calls_back(system) & HOOKE_CALLS_DRIVE, "the drive callback may not be smooth enough"},
@@ -102,26 +103,6 @@ static void explain(const struct hk_study *study, int32_t method, struct hk_stud
  * and t with u/(1 + u^2) + atan(u) = 0.475 pi, u = t/sqrt(3). */
 static const double T_QUANTILE[MOST_POINTS - 1] = {NAN, 12.7062047361747, 4.30265272974946, 3.18244630528371};
 
-/* Fits y = offset + slope x; `half` is half the width of the 95 % confidence interval of the slope, if the
- * points scatter about a line independently and alike: curvature is not accounted for. */
-static void fit_line(int32_t count, const double *x, const double *y, double *slope, double *half) {
-  double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
-  for (int32_t k = 0; k < count; k++) {
-    mean_x += x[k] / count;
-    mean_y += y[k] / count;
-  }
-  for (int32_t k = 0; k < count; k++) {
-    xx += (x[k] - mean_x) * (x[k] - mean_x);
-    xy += (x[k] - mean_x) * (y[k] - mean_y);
-  }
-  *slope = xy / xx;
-  for (int32_t k = 0; k < count; k++) {
-    const double rest = (y[k] - mean_y) - *slope * (x[k] - mean_x);
-    squares += rest * rest;
-  }
-  *half = T_QUANTILE[count - 2] * sqrt(squares / (count - 2) / xx);
-}
-
 void hk_study_fit_order(struct hk_study *study, int32_t method) {
   struct hk_study_order *order = &study->order[method];
   *order = (struct hk_study_order){.order = NAN, .low = NAN, .high = NAN, .theory = NAN};
@@ -130,8 +111,9 @@ void hk_study_fit_order(struct hk_study *study, int32_t method) {
   double x[MOST_POINTS], y[MOST_POINTS];
   const int32_t count = collect(study, method, x, y);
   if (count >= FEWEST_POINTS) {
-    double half;
-    fit_line(count, x, y, &order->order, &half);
+    double error;
+    order->order = hk_fit_slope(count, x, y, &error);
+    const double half = T_QUANTILE[count - 2] * error;
     order->low = order->order - half;
     order->high = order->order + half;
   }

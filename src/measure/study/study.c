@@ -7,7 +7,6 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -37,10 +36,11 @@ static const struct hk_option_row study_rows[] = {
         "error that one can live with, the largest distance of any free particle, for a recommendation"),
     HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
                  "time that the study may take; no limit if not given"),
-    HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
-                 "quantities whose error is told too: 57.y (a particle), part:0.y, group:3.length, .strain "
-                 "or .tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas",
-                 .example = "0.y,energy"),
+    HOOKE_OPTION(
+        "watch", .type = HOOKE_OPTION_TEXT, NULL,
+        "quantities whose error is told too: 57.y or tip.y (a particle), part:0.y, group:3.length, .strain "
+        "or .tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas",
+        .example = "0.y,energy"),
     HOOKE_OPTION("ensemble", HOOKE_OPTION_WHOLE(0.0, 1e6), "0",
                  "displaced starts of which each method's means and spreads are told where the motion is too "
                  "chaotic to be judged; 0: none"),
@@ -59,18 +59,18 @@ static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(st
 static int32_t read_times(struct hk_study *study) {
   struct hk_schedule schedule;
   int32_t status = HOOKE_OK;
-  study->budget = hooke_options_number(study->options, "budget");
+  study->budget = hooke_options_number(study->m->options, "budget");
   if (isnan(study->budget)) study->budget = INFINITY;
-  study->once = hooke_options_number(study->options, "once") == 1.0;
+  study->once = hooke_options_number(study->m->options, "once") == 1.0;
   for (int32_t m = 0; study->once && status == HOOKE_OK && m < study->method_count; m++)
-    status = hk_schedule_read(hk_method_find(study->method[m]), study->run, &schedule);
-  return status == HOOKE_OK ? hk_step_times(study->run, &study->duration, &study->every) : status;
+    status = hk_schedule_read(hk_method_find(study->method[m]), study->m->run, &schedule);
+  return status == HOOKE_OK ? hk_step_times(study->m->run, &study->duration, &study->every) : status;
 }
 
 static int32_t read_watch(struct hk_study *study) {
-  const char *text = hooke_options_text(study->options, "watch");
-  study->watched.system = study->system;
-  if (hooke_options_number(study->options, "ensemble") == 1.0) {
+  const char *text = hooke_options_text(study->m->options, "watch");
+  study->watched.system = study->m->system;
+  if (hooke_options_number(study->m->options, "ensemble") == 1.0) {
     return hk_fail(HOOKE_BAD_VALUE, "ensemble",
                    "1 is not allowed: one start has no spread; allowed: 0 (none), or at least 2");
   }
@@ -80,11 +80,8 @@ static int32_t read_watch(struct hk_study *study) {
 static int32_t create(hooke_measurement *m) {
   struct hk_study *study = m->object = hk_new(1, sizeof *study);
   if (study == NULL) return HOOKE_NO_MEMORY;
-  study->measurement = m;
-  study->system = m->system;
-  study->run = m->run;
-  study->options = m->options;
-  int32_t status = hk_method_list_read(study->system, hooke_options_text(study->options, "methods"),
+  study->m = m;
+  int32_t status = hk_method_list_read(study->m->system, hooke_options_text(study->m->options, "methods"),
                                        hooke_method_is_built, study->method, &study->method_count);
   if (status == HOOKE_OK) status = read_times(study);
   if (status == HOOKE_OK) status = hk_study_check_ladder(study);
@@ -117,10 +114,10 @@ static int compare_rows(const void *a, const void *b) {
 
 static int32_t make_reference(struct hk_study *study) {
   const struct hk_listener listener = {.on_progress = hk_study_tell_reference, .ctx = study};
-  const double want = hooke_options_number(study->options, "want");
+  const double want = hooke_options_number(study->m->options, "want");
   const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
   const struct hk_reference_request request = {
-      .run = study->run,
+      .run = study->m->run,
       .frame_count = hk_schedule_frames(study->duration, study->every),
       .digits = isnan(want) ? NAN : want / 10.0,
       .brief = study->once,
@@ -128,7 +125,7 @@ static int32_t make_reference(struct hk_study *study) {
       .listener = &listener,
       .watched = &study->watched};
   study->under_way = "reference";
-  const int32_t status = hk_reference_create(study->system, &request, &study->reference);
+  const int32_t status = hk_reference_create(study->m->system, &request, &study->reference);
   if (status == HOOKE_OK && study->reference.hurried &&
       study->reference.trusted < study->reference.frames.count)
     study->budget_spent = 1;
@@ -150,7 +147,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   const double budget = study->budget;
   study->begun = hk_clock_seconds();
-  if (hooke_options_number(study->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
+  if (hooke_options_number(study->m->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
   if (!study->once) status = hk_study_find_safe_steps(study);
   hk_study_prepare_guesses(study);
   if (status == HOOKE_OK) status = make_reference(study);
@@ -159,7 +156,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
   for (int32_t k = 0; k < study->method_count; k++)
     hk_study_fit_order(study, k);
-  const double want = hooke_options_number(study->options, "want");
+  const double want = hooke_options_number(study->m->options, "want");
   study->deadline = study->begun + study->budget;
   if (status == HOOKE_OK && !isnan(want)) status = hk_study_find_cheapest(study, want);
   study->budget = budget;

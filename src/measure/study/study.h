@@ -25,7 +25,7 @@ struct hk_study_order {
   char note[512];
 };
 
-/* The margin of a recommendation (study_margin.c). */
+/* The margin of a recommendation. */
 enum hk_study_change { HOOKE_STUDY_STIFFNESS, HOOKE_STUDY_START, HOOKE_STUDY_CHANGES };
 struct hk_study_margin {
   /* step over the largest stable one, predicted at the start; NaN: error-controlled, or unknown */
@@ -38,7 +38,7 @@ struct hk_study_margin {
 struct hk_study_recommendation {
   int32_t made, met;
   int32_t method;
-  double want, value, atol, wall_seconds, wall_median, force_evaluations;
+  double want, value, atol, atol_velocity, wall_seconds, wall_median, force_evaluations;
   double error; /* largest distance of any particle [m], */
   double until; /* up to this time after the start [s] */
   struct hk_study_margin margin;
@@ -71,10 +71,7 @@ struct hk_ensemble {
 };
 
 struct hk_study {
-  const hooke_measurement *measurement;
-  const hooke_system *system;
-  hooke_options *run;
-  const hooke_options *options; /* both of the measurement */
+  const hooke_measurement *m;
   int32_t method_count;
   const char *method[HOOKE_STUDY_METHODS];
   struct hk_study_order order[HOOKE_STUDY_METHODS];
@@ -116,7 +113,7 @@ int32_t hk_study_find_safe_steps(struct hk_study *study);
 /* Finds `unit` and checks the caller's ladders. */
 int32_t hk_study_check_ladder(struct hk_study *study);
 
-/* ---- progress (study_progress.c) ---- */
+/* ---- progress (study_ladder.c) ---- */
 
 /* Progress of the whole study, which never decreases. Listeners of the reference and of a row; their context
  * is the study. The last one also stops a row at its deadline and marks the study as late. */
@@ -144,12 +141,8 @@ int32_t hk_study_run_ladders(struct hk_study *study);
 /* Finds the recommendation, until the deadline. */
 int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 
-/* Finds the margin of the recommendation, until the deadline. */
-int32_t hk_study_find_margin(struct hk_study *study);
-
-/* Time up to which errors are known [s]; NaN without a reference. And 1 if that is the whole run. */
+/* Time up to which errors are known [s]; NaN without a reference. */
 double hk_study_trusted_until(const struct hk_study *study);
-int32_t hk_study_trusts_all(const struct hk_study *study);
 /* The error of the recommendation [m] less what the reference is known to, 0 at least; NaN if not known. */
 double hk_study_least_error(const struct hk_study *study);
 /* 1 if there is a recommendation: a run that meets the want or, in a complete study, the closest one. */

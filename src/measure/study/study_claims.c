@@ -190,7 +190,7 @@ static void tell_reference(const struct teller *t) {
 
 static void tell_ensemble(const struct teller *t) {
   const struct hk_ensemble *e = t->study->ensemble;
-  const int asked = hooke_options_number(t->study->options, "ensemble") > 0.0;
+  const int asked = hooke_options_number(t->study->m->options, "ensemble") > 0.0;
   if (e && isnan(e->from))
     say(t, "statistics", HOOKE_OF_UNKNOWN, "ensemble",
         "there are no statistics: of %d runs of each method none "

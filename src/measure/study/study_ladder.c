@@ -1,11 +1,12 @@
-/* Ladders: steps from the safe bound down by halves, tolerances by tenths. */
+/* Ladders: steps from the safe bound down by halves, tolerances by tenths; and how long they take. */
 #include "integrate/method.h"
 #include "measure/study/study.h"
 
+#include "core/clock.h"
 #include "core/number.h"
 #include "core/status.h"
+#include "measure/counted_work/work.h"
 #include "measure/spectrum/step_bound.h"
-#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +21,7 @@ int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method) {
 }
 
 static int32_t points_of(const struct hk_study *study) {
-  return (int32_t)hooke_options_number(study->options, "points");
+  return (int32_t)hooke_options_number(study->m->options, "points");
 }
 
 /* The step nearest to `step` that divides frames and duration evenly. */
@@ -31,7 +32,7 @@ static double fitting_step(const struct hk_study *study, double step) {
 /* NaN if none is known. */
 static double bound_of(const struct hk_study *study, const char *method, const double *q) {
   double bound = NAN;
-  if (hooke_step_bound(study->system, method, q, &bound) != HOOKE_OK || isinf(bound)) return NAN;
+  if (hooke_step_bound(study->m->system, method, q, &bound) != HOOKE_OK || isinf(bound)) return NAN;
   return bound;
 }
 
@@ -39,16 +40,16 @@ static double bound_of(const struct hk_study *study, const char *method, const d
  * very small one due to the bound, a fraction of the step of explicit Euler. */
 static int32_t safe_step(const struct hk_study *study, const char *method, const double *q, double *step) {
   double bound = bound_of(study, method, q);
-  const double other = bound_of(study, hk_method_of_euler(study->system), q);
+  const double other = bound_of(study, hk_method_of_euler(study->m->system), q);
   if (bound == 0.0) bound = other;
   if (bound < other / FARTHEST_BELOW) bound = other / FARTHEST_BELOW;
   *step = bound > 0.0 ? bound : study->unit;
-  return hk_step_cheapest(study->system, method, step);
+  return hk_step_cheapest(study->m->system, method, step);
 }
 
 int32_t hk_study_find_safe_steps(struct hk_study *study) {
   hooke_state *state = NULL;
-  int32_t status = hooke_state_create(study->system, &state);
+  int32_t status = hooke_state_create(study->m->system, &state);
   for (int32_t m = 0; m < study->method_count && status == HOOKE_OK; m++) {
     double step = study->unit;
     if (hk_study_is_adaptive(study, m)) continue;
@@ -76,8 +77,8 @@ static double given(const hooke_options *options, const char *name, int32_t k) {
 double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k) {
   const int32_t adaptive = hk_study_is_adaptive(study, method);
   const char *own = adaptive ? "tolerances" : "steps";
-  if (study->once) return k == 0 ? hooke_options_number(study->run, adaptive ? "rtol" : "step") : NAN;
-  if (hooke_options_is_set(study->options, own)) return given(study->options, own, k);
+  if (study->once) return k == 0 ? hooke_options_number(study->m->run, adaptive ? "rtol" : "step") : NAN;
+  if (hooke_options_is_set(study->m->options, own)) return given(study->m->options, own, k);
   if (!adaptive) return fixed_ladder(study, method, k);
   /* a quotient of integers is the nearest double to a power of ten, a product of powers is not */
   return k < points_of(study) ? 1.0 / pow(10.0, (double)(COARSEST_EXPONENT + k)) : NAN;
@@ -99,9 +100,9 @@ static int32_t check_list(const hooke_options *options, const char *name) {
 }
 
 static int32_t check_steps(const struct hk_study *study) {
-  const int64_t count = hooke_options_number_count(study->options, "steps");
+  const int64_t count = hooke_options_number_count(study->m->options, "steps");
   for (int64_t k = 0; k < count; k++) {
-    const double step = hooke_options_numbers(study->options, "steps")[k];
+    const double step = hooke_options_numbers(study->m->options, "steps")[k];
     if (hk_step_is_whole(study->every / step) && hk_step_is_whole(study->duration / step)) continue;
     char where[64], fitting[HOOKE_NUMBER_SIZE];
     snprintf(where, sizeof where, "steps[%lld]", (long long)k);
@@ -117,7 +118,7 @@ static int32_t check_steps(const struct hk_study *study) {
 static int32_t refuse_ladder(const struct hk_study *study) {
   static const char *const of_ladders[] = {"points", "steps", "tolerances"};
   for (int k = 0; k < 3; k++)
-    if (hooke_options_is_set(study->options, of_ladders[k]))
+    if (hooke_options_is_set(study->m->options, of_ladders[k]))
       return hk_fail(HOOKE_BAD_VALUE, of_ladders[k], "is not for `once`, which takes the step of the run");
   return HOOKE_OK;
 }
@@ -125,7 +126,65 @@ static int32_t refuse_ladder(const struct hk_study *study) {
 int32_t hk_study_check_ladder(struct hk_study *study) {
   if (study->once) return refuse_ladder(study);
   int32_t status = hk_step_unit(study->duration, study->every, &study->unit);
-  if (status == HOOKE_OK) status = check_list(study->options, "steps");
+  if (status == HOOKE_OK) status = check_list(study->m->options, "steps");
   if (status == HOOKE_OK) status = check_steps(study);
-  return status == HOOKE_OK ? check_list(study->options, "tolerances") : status;
+  return status == HOOKE_OK ? check_list(study->m->options, "tolerances") : status;
+}
+
+/* ---- progress: the time spent, and an estimate of the time to come ---- */
+
+/* Guesses, used for progress only. */
+static const double EVALUATIONS_OF_STEP = 3.0; /* cost of a step: several evaluations, or one and a solve */
+static const double SHARE_OF_REFERENCE = 0.06; /* time of a row by tolerance over that of the reference */
+static const double SHARE_OF_SEARCH = 0.1;     /* added by the search for a recommendation */
+
+static double guess_fixed(const struct hk_study *study, double step) {
+  return EVALUATIONS_OF_STEP * hk_work_of_evaluation(study->m->system) * study->duration / step;
+}
+
+double hk_study_guess(const struct hk_study *study, int32_t method, double value) {
+  return hk_study_is_adaptive(study, method) ? SHARE_OF_REFERENCE * study->reference.wall_seconds
+                                             : guess_fixed(study, value);
+}
+
+void hk_study_prepare_guesses(struct hk_study *study) {
+  study->told = study->fixed_rows = study->adaptive_rows = 0.0;
+  for (int32_t m = 0; m < study->method_count; m++) {
+    for (int32_t k = 0; !isnan(hk_study_ladder(study, m, k)); k++) {
+      if (hk_study_is_adaptive(study, m))
+        study->adaptive_rows += 1.0;
+      else
+        study->fixed_rows += guess_fixed(study, hk_study_ladder(study, m, k));
+    }
+  }
+}
+
+static int32_t tell(struct hk_study *study, double spent, double ahead) {
+  if (!isnan(hooke_options_number(study->m->options, "want"))) ahead += SHARE_OF_SEARCH * (spent + ahead);
+  ahead = fmax(0.0, fmin(ahead, study->budget - spent));
+  const double done = spent > 0.0 ? spent / (spent + ahead) : 0.0;
+  study->told = fmax(study->told, done);
+  return hk_measurement_tell(study->m, study->told, study->under_way);
+}
+
+int32_t hk_study_tell_reference(double fraction, void *ctx) {
+  struct hk_study *study = ctx;
+  const double spent = hk_clock_seconds() - study->begun;
+  const double reference = spent / fraction; /* infinite at first, when nothing is done */
+  const double rows = study->fixed_rows + study->adaptive_rows * SHARE_OF_REFERENCE * reference;
+  return tell(study, spent, reference - spent + rows);
+}
+
+int32_t hk_study_tell(double fraction, void *ctx) {
+  struct hk_study *study = ctx;
+  (void)fraction;
+  return tell(study, hk_clock_seconds() - study->begun, study->work_ahead);
+}
+
+int32_t hk_study_tell_row(double fraction, void *ctx) {
+  struct hk_study *study = ctx;
+  const int32_t value = hk_study_tell(fraction, ctx);
+  if (value != 0 || hk_clock_seconds() < study->row_deadline) return value;
+  study->late = 1;
+  return 1;
 }

@@ -33,7 +33,7 @@ static const double UNKNOWN_SHARE = 0.1;
 
 int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value,
                              hooke_options **out) {
-  int32_t status = hooke_options_copy(study->run, out);
+  int32_t status = hooke_options_copy(study->m->run, out);
   if (status == HOOKE_OK && study->once && value == hk_study_ladder(study, method, 0))
     status = hooke_options_set_text(*out, "method", study->method[method]);
   else if (status == HOOKE_OK)
@@ -46,7 +46,7 @@ int32_t hk_study_run_options(const struct hk_study *study, int64_t row, hooke_op
   struct hk_reference r = study->reference;
   if (row >= 0) return hk_study_row_options(study, study->row[row].method, study->row[row].value, out);
   r.extent = r.run_extent;
-  return hk_reference_options(study->run, r.method, r.rtol, &r, out);
+  return hk_reference_options(study->m->run, r.method, r.rtol, &r, out);
 }
 
 static int compare_seconds(const void *a, const void *b) {
@@ -83,7 +83,6 @@ static int32_t run_row(const struct hk_study *study, int32_t method, double valu
   hooke_options *options = NULL;
   *row = (struct hk_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
   int32_t status = hk_study_row_options(study, method, value, &options);
-  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &row->trial);
   if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
   row->wall_median = row->trial.wall_seconds;
   hooke_options_destroy(options);
@@ -295,13 +294,13 @@ static void plan_level(struct hk_study *study, int32_t number, struct level *lev
 /* A search needs time for a run as fine as the reference. */
 static double end_of_rows(const struct hk_study *study) {
   const double end = study->begun + study->budget, left = end - hk_clock_seconds();
-  if (isnan(hooke_options_number(study->options, "want")) || isinf(end)) return end;
+  if (isnan(hooke_options_number(study->m->options, "want")) || isinf(end)) return end;
   const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_work);
   return end - fmin(search, MOST_SEARCH * left);
 }
 
 int32_t hk_study_run_ladders(struct hk_study *study) {
-  const int32_t threads = study->once ? 1 : (int32_t)hooke_options_number(study->run, "threads");
+  const int32_t threads = study->once ? 1 : (int32_t)hooke_options_number(study->m->run, "threads");
   int32_t status = HOOKE_OK;
   struct level *level = hk_new(1, sizeof *level);
   if (level == NULL) return HOOKE_NO_MEMORY;

@@ -66,23 +66,19 @@ double hk_study_trusted_until(const struct hk_study *study) {
   return hk_reference_time(&study->reference, study->reference.trusted, study->duration);
 }
 
-int32_t hk_study_trusts_all(const struct hk_study *study) {
-  return hk_study_trusted_until(study) >= study->duration * (1.0 - 1e-9);
-}
-
 int32_t hk_study_recommends(const struct hk_study *study) {
   const struct hk_study_recommendation *r = &study->recommendation;
-  return r->made && (r->met || study->measurement->outcome != HOOKE_STOPPED);
+  return r->made && (r->met || study->m->outcome != HOOKE_STOPPED);
 }
 
 int32_t hk_study_knows_met(const struct hk_study *study) {
   const int32_t held = study->recommendation.met || !(hk_study_trusted_until(study) > 0.0);
-  return !held || hk_study_trusts_all(study);
+  return !held || hk_study_trusted_until(study) >= study->duration * (1.0 - 1e-9);
 }
 
 HOOKE_COUNTER(count_recommendations, struct hk_study, hk_study_recommends(it))
 HOOKE_READER(const char *, command, struct hk_study,
-             it->recommendation.met ? it->measurement->label[HOOKE_LABEL_COMMAND] : NULL)
+             it->recommendation.met ? it->m->label[HOOKE_LABEL_COMMAND] : NULL)
 
 /* ---- its margin ---- */
 
@@ -120,7 +116,7 @@ HOOKE_READER(const double *, error_value, struct hk_study,
 
 /* ---- the ensemble ---- */
 
-HOOKE_READER(double, seed, struct hk_study, hooke_options_number(it->options, "seed"))
+HOOKE_READER(double, seed, struct hk_study, hooke_options_number(it->m->options, "seed"))
 HOOKE_COUNTER(count_ensembles, struct hk_study, it->ensemble != NULL)
 
 /* ---- statistics ---- */
@@ -187,6 +183,10 @@ HOOKE_READER(double, bias, struct hk_study, bias_of(it, row))
 
 /* ---- the tables ---- */
 
+/* A column of a row's trial. */
+#define OF_TRIAL(member, kind, units, text)                                                                  \
+  HOOKE_COLUMN_AS(struct hk_study_row, trial.member, member, kind, units, text)
+
 const struct hk_table hk_study_tables[] = {
     {.name = "study",
      .doc = "the study itself",
@@ -241,31 +241,23 @@ const struct hk_table hk_study_tables[] = {
      .length = trusted,
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_BY_AS(row_method, method, TEXT, "", "method"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.step, step, NUMBER, "s", "step of a fixed-step method"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.rtol, rtol, NUMBER, "",
-                         "relative tolerance of an error-controlled method"),
-         HOOKE_COLUMN_AS(
-             struct hk_study_row, trial.error, error, NUMBER, "m",
+         OF_TRIAL(step, NUMBER, "s", "step of a fixed-step method"),
+         OF_TRIAL(rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
+         OF_TRIAL(
+             error, NUMBER, "m",
              "largest root mean square over the free particles of the distance to the reference; no error "
              "is below what rounding may do to a position in the steps taken, half a unit in its last "
              "place in each; NaN where nothing after the start is judged"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_max, error_max, NUMBER, "m",
-                         "largest distance of any free particle, which a wanted error is held against"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_final, error_final, NUMBER, "m",
-                         "root mean square distance at the last judged frame"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.energy_drift, energy_drift, NUMBER, "J",
-                         "largest difference of energy from the reference"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.force_evaluations, force_evaluations, COUNT, "",
-                         "evaluations of the forces"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.steps, steps, COUNT, "", "steps taken"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.wall_seconds, wall_seconds, NUMBER, "s",
-                         "wall time, the least of the repeated runs"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.status, status, TEXT, "",
-                         "finished, diverged, stopped or failed"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.atol, atol, NUMBER, "m",
-                         "absolute tolerance of positions"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.linear_iterations, linear_iterations, COUNT, "",
-                         "iterations of linear solvers"),
+         OF_TRIAL(error_max, NUMBER, "m",
+                  "largest distance of any free particle, which a wanted error is held against"),
+         OF_TRIAL(error_final, NUMBER, "m", "root mean square distance at the last judged frame"),
+         OF_TRIAL(energy_drift, NUMBER, "J", "largest difference of energy from the reference"),
+         OF_TRIAL(force_evaluations, COUNT, "", "evaluations of the forces"),
+         OF_TRIAL(steps, COUNT, "", "steps taken"),
+         OF_TRIAL(wall_seconds, NUMBER, "s", "wall time, the least of the repeated runs"),
+         OF_TRIAL(status, TEXT, "", "finished, diverged, stopped or failed"),
+         OF_TRIAL(atol, NUMBER, "m", "absolute tolerance of positions"),
+         OF_TRIAL(linear_iterations, COUNT, "", "iterations of linear solvers"),
          HOOKE_COLUMN(struct hk_study_row, wall_median, NUMBER, "s", "median of the repeated runs"),
          HOOKE_COLUMN(struct hk_study_row, repeats, COUNT, "", "runs that were timed"),
          HOOKE_COLUMN_BY(near_floor, FLAG, "",
@@ -274,10 +266,8 @@ const struct hk_table hk_study_tables[] = {
                          "the energy drift is within ten times of the agreement of energies"),
          HOOKE_COLUMN(struct hk_study_row, timed_alone, FLAG, "",
                       "0: timed while other rows were running, so its time may be too long"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_at, error_at, SERIES, "m",
-                         "root mean square distance at every frame"),
-         HOOKE_COLUMN_AS(struct hk_study_row, trial.error_max_at, error_max_at, SERIES, "m",
-                         "largest distance of any free particle at every frame"),
+         OF_TRIAL(error_at, SERIES, "m", "root mean square distance at every frame"),
+         OF_TRIAL(error_max_at, SERIES, "m", "largest distance of any free particle at every frame"),
          HOOKE_COLUMN_AS(struct hk_study_row, trial.drift_at, energy_drift_at, SERIES, "J",
                          "energy less that of the reference at every frame"))},
     {.name = "orders",
@@ -325,6 +315,8 @@ const struct hk_table hk_study_tables[] = {
              "reverse the choice, which is by counted work"),
          HOOKE_COLUMN(struct hk_study_recommendation, atol, NUMBER, "m",
                       "its absolute tolerance of positions"),
+         HOOKE_COLUMN(struct hk_study_recommendation, atol_velocity, NUMBER, "m/s",
+                      "its absolute tolerance of velocities"),
          HOOKE_COLUMN(struct hk_study_recommendation, force_evaluations, COUNT, "",
                       "its evaluations of the forces"),
          HOOKE_COLUMN_BY(command, TEXT, "", "its command line, where the caller gave one as a label"))},

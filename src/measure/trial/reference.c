@@ -3,6 +3,7 @@
 #include "core/clock.h"
 #include "core/status.h"
 #include "measure/spectrum/node_blocks.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -61,7 +62,7 @@ void hk_reference_release(struct hk_reference *reference) {
 /* Before any run: the start alone, and 1 m for a scene without size. */
 static void find_extent(struct hk_reference *r, const hooke_state *state) {
   const double *q = hooke_state_position(state);
-  r->extent = hk_reference_diagonal(hooke_state_size(state) / 3, q);
+  r->extent = hk_diagonal(hooke_state_size(state) / 3, q);
   if (!(r->extent > 0.0)) r->extent = 1.0;
   r->farthest = r->extent;
   for (int64_t k = 0; k < hooke_state_size(state); k++)
@@ -264,7 +265,6 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
   if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK)
     status = hk_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
-  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK && hk_reference_is_halved(r))
     status = hk_reference_find_longest(&watch, r, r->method);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);

@@ -9,12 +9,12 @@
 struct hk_reference {
   struct hk_frames frames; /* of `method` at `rtol` */
   const char *method, *check;
-  double rtol, run_extent;      /* its tolerances are for this extent; */
-  double longest;               /* see hk_reference_setting() [s] */
-  double evaluations, run_work; /* force evaluations and counted work of its run */
-  double extent;                /* diagonal of the box that holds all frames [m] */
-  double farthest;              /* largest coordinate at the start, at least the extent then [m] */
-  double digits; /* distance up to which frames are trusted: the wanted one, or see `coarse` [m] */
+  double rtol, run_extent; /* its tolerances are for this extent; */
+  double longest;          /* see hk_reference_setting() [s] */
+  double run_work;         /* counted, of its run [s] */
+  double extent;           /* diagonal of the box that holds all frames [m] */
+  double farthest;         /* largest coordinate at the start, at least the extent then [m] */
+  double digits;           /* distance up to which frames are trusted: the wanted one, or see `coarse` [m] */
   /* twice the largest distance of a particle between the two over trusted frames, and of what rounding may do
    * to one [m]; at most `digits`; NaN if nothing after the start is trusted */
   double agreement;

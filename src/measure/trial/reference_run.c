@@ -2,7 +2,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "measure/trial/step_unit.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -49,20 +49,9 @@ int32_t hk_reference_options(const hooke_options *run, const char *method, doubl
   if (status == HOOKE_OK) status = hooke_options_set_number(*out, "rtol", relative);
   if (status == HOOKE_OK) status = hooke_options_set_number(*out, "atol", ABSOLUTE * rtol * r->extent);
   if (status == HOOKE_OK) status = hooke_options_unset(*out, "atol_velocity");
+  if (status == HOOKE_OK) status = hk_run_fill_tolerances(NULL, *out);
   if (status == HOOKE_OK) status = hooke_options_unset(*out, "max_order");
   return status == HOOKE_OK ? hooke_options_unset(*out, "max_steps") : status;
-}
-
-double hk_reference_diagonal(int64_t rows, const double *position) {
-  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-  for (int64_t k = 0; k < 3 * rows; k++) {
-    low[k % 3] = fmin(low[k % 3], position[k]);
-    high[k % 3] = fmax(high[k % 3], position[k]);
-  }
-  double square = 0.0;
-  for (int a = 0; a < 3 && rows > 0; a++)
-    square += (high[a] - low[a]) * (high[a] - low[a]);
-  return sqrt(square);
 }
 
 static double share_of_all(const struct hk_reference_watch *watch, double fraction, double now) {
@@ -114,10 +103,9 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
   if (status == HOOKE_STOPPED && watch->expired) status = HOOKE_OK;
   if (status != HOOKE_OK) return status;
   r->run_extent = r->extent;
-  r->evaluations = cost->force_evaluations;
   r->run_work = cost->work;
   if (watch->unit == 0.0) watch->unit = hk_clock_seconds() - watch->run_begun;
-  const double size = hk_reference_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
+  const double size = hk_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
   if (size > 0.0) r->extent = size;
   return HOOKE_OK;
 }

@@ -30,9 +30,6 @@ struct hk_listener hk_reference_listen(struct hk_reference_watch *watch, double 
 int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_reference *reference,
                                  double deadline, struct hk_run_cost *cost);
 
-/* Diagonal of the box that holds `rows` points [m]; 0 for none. */
-double hk_reference_diagonal(int64_t rows, const double *position);
-
 /* A run to the last recorded frame, or until the listener's deadline; error_at is NaN past its end. */
 int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_reference *reference,
                            const char *method, double rtol, const struct hk_listener *listener,

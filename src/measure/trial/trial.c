@@ -12,9 +12,74 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct hk_trial hk_no_trial = {.step = NAN,
+/* ---- frames ---- */
+
+int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames) {
+  const int64_t size = 3 * hooke_system_particle_count(system);
+  *frames = (struct hk_frames){.system = system, .count = count, .size = size};
+  double *block = hk_new(count, (size_t)(size + 3) * sizeof(double));
+  frames->time = block;
+  frames->free_particle = hk_new(hooke_system_count(system, "free"), sizeof(int64_t));
+  if (block == NULL || frames->free_particle == NULL) {
+    hk_frames_release(frames);
+    return HOOKE_NO_MEMORY;
+  }
+  frames->time = hk_part(&block, count);
+  frames->energy = hk_part(&block, count);
+  frames->rounding = hk_part(&block, count);
+  frames->position = block;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    if (system->inverse_mass[p] > 0.0) frames->free_particle[frames->free_count++] = p;
+  return HOOKE_OK;
+}
+
+void hk_frames_release(struct hk_frames *frames) {
+  hk_free(frames->time);
+  hk_free(frames->free_particle);
+  hk_watched_series_release(&frames->watched);
+  memset(frames, 0, sizeof *frames);
+}
+
+void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
+  if (frames->recorded >= frames->count) return;
+  const int64_t f = frames->recorded++;
+  const double *q = hooke_state_position(state);
+  frames->time[f] = hooke_state_time(state);
+  frames->energy[f] =
+      hooke_system_energy_at(frames->system, "total", frames->time[f], q, hooke_state_velocity(state));
+  hk_watched_series_keep(&frames->watched, f, frames->time[f], q, hooke_state_velocity(state));
+  if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
+}
+
+double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest) {
+  const double *reference = frames->position + f * frames->size;
+  double sum = 0.0, most = 0.0;
+  for (int64_t k = 0; k < frames->free_count; k++) {
+    const int64_t i = 3 * frames->free_particle[k];
+    const double dx = q[i] - reference[i], dy = q[i + 1] - reference[i + 1], dz = q[i + 2] - reference[i + 2];
+    const double square = (dx * dx + dy * dy) + dz * dz;
+    sum += square;
+    most = fmax(most, square);
+  }
+  if (largest) *largest = sqrt(most);
+  return frames->free_count > 0 ? sqrt(sum / (double)frames->free_count) : 0.0;
+}
+
+double hk_frames_resolution(const struct hk_frames *frames, const double *q) {
+  double most = 0.0;
+  for (int64_t k = 0; k < frames->free_count; k++)
+    for (const double *x = q + 3 * frames->free_particle[k], *end = x + 3; x < end; x++)
+      most = fmax(most, fabs(*x));
+  return 0.5 * (nextafter(most, INFINITY) - most);
+}
+
+/* ---- a trial ---- */
+
+/* A trial that was not run: numbers are NaN. */
+static const struct hk_trial none = {.step = NAN,
                                      .rtol = NAN,
                                      .atol = NAN,
+                                     .atol_velocity = NAN,
                                      .error = NAN,
                                      .error_max = NAN,
                                      .error_final = NAN,
@@ -24,8 +89,8 @@ const struct hk_trial hk_no_trial = {.step = NAN,
                                      .linear_iterations = NAN,
                                      .wall_seconds = NAN};
 
-int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
-  *trial = hk_no_trial;
+static int32_t make_space(const struct hk_frames *reference, struct hk_trial *trial) {
+  *trial = none;
   double *block = hk_new(reference->count, 3 * sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   trial->error_at = hk_part(&block, reference->count);
@@ -39,7 +104,7 @@ int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *tria
 void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->error_at);
   hk_watched_series_release(&trial->watched);
-  *trial = hk_no_trial;
+  *trial = none;
 }
 
 /* ---- running ---- */
@@ -150,6 +215,7 @@ static void keep_counts(struct run *run) {
   trial->step = adaptive ? NAN : hooke_options_number(options, "step");
   trial->rtol = adaptive ? hooke_options_number(options, "rtol") : NAN;
   trial->atol = adaptive ? hooke_options_number(options, "atol") : NAN;
+  trial->atol_velocity = adaptive ? hooke_options_number(options, "atol_velocity") : NAN;
   trial->force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
   trial->steps = (double)hooke_integrator_count(integrator, "steps");
   trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
@@ -166,11 +232,13 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
                      const hooke_options *options, const struct hk_listener *listener) {
   struct run run = {.reference = reference, .trial = trial, .frames = frames, .listener = listener};
   hooke_integrator *integrator = NULL;
+  int32_t status = trial->error_at ? HOOKE_OK : make_space(reference, trial);
+  if (status != HOOKE_OK) return status;
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
   for (int64_t f = 0; f < reference->count; f++)
     trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
-  int32_t status = run_once(&run, reference->system, options, &integrator);
+  status = run_once(&run, reference->system, options, &integrator);
   const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
   if (too_long) status = HOOKE_STOPPED;
   if (status != HOOKE_OK || frames < 2)
@@ -196,7 +264,8 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
   if (integrator && cost)
     *cost = (struct hk_run_cost){hooke_integrator_number(integrator, "wall_seconds"),
                                  (double)hooke_integrator_count(integrator, "force_evaluations"),
-                                 work_of(&run), works_too_long(&run)};
+                                 work_of(&run), works_too_long(&run),
+                                 hooke_options_number(hooke_integrator_options(integrator), "atol")};
   if (integrator)
     snprintf(frames->zero_passages, sizeof frames->zero_passages, "%s",
              hooke_integrator_text(integrator, "zero_passages"));
@@ -205,13 +274,17 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
 }
 
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value) {
-  const double fraction = hooke_options_number(run, "atol") / hooke_options_number(run, "rtol");
+  static const char *const absolute[] = {"atol", "atol_velocity"};
+  const double rtol = hooke_options_number(run, "rtol");
+  const int32_t fixed = !hooke_method_is_adaptive(method); /* whose text may be that of the options */
   int32_t status = hooke_options_set_text(run, "method", method);
-  if (status == HOOKE_OK && !hooke_method_is_adaptive(method))
-    return hooke_options_set_number(run, "step", value);
+  if (status == HOOKE_OK && fixed) return hooke_options_set_number(run, "step", value);
   if (status == HOOKE_OK) status = hooke_options_set_number(run, "rtol", value);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", value * fraction);
-  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+  for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
+    const double fraction = hooke_options_number(run, absolute[k]) / rtol;
+    if (!isnan(fraction)) status = hooke_options_set_number(run, absolute[k], value * fraction);
+  }
+  return status;
 }
 
 void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random) {
@@ -221,4 +294,30 @@ void hk_displace(hooke_state *state, const hooke_system *system, double length, 
       q[k] += length * hk_random_normal(random);
   }
   hk_movers_renew(system, q, hooke_state_velocity(state));
+}
+
+/* ---- the steps that fit a run ---- */
+
+int32_t hk_step_is_whole(double quotient) {
+  return fabs(quotient - round(quotient)) <= 1e-9 * quotient && round(quotient) >= 1.0;
+}
+
+int32_t hk_step_unit(double duration, double every, double *unit) {
+  for (int32_t parts = 1; parts <= 10000; parts++) {
+    *unit = every / (double)parts;
+    if (hk_step_is_whole(duration / *unit)) return HOOKE_OK;
+  }
+  return hk_fail(HOOKE_BAD_VALUE, "every",
+                 "%.6g s and duration %.6g s have no step in common; take a part of the duration", every,
+                 duration);
+}
+
+int32_t hk_step_times(hooke_options *run, double *duration, double *every) {
+  *duration = hooke_options_number(run, "duration");
+  *every = hooke_options_number(run, "every");
+  if (isnan(*duration)) {
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  }
+  if (isnan(*every)) *every = *duration / 100.0;
+  return hooke_options_set_number(run, "every", *every);
 }

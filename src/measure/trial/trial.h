@@ -4,7 +4,38 @@
 #define HOOKE_MEASURE_TRIAL_TRIAL_H
 
 #include "hooke/measurement.h"
-#include "measure/trial/frames.h"
+#include "integrate/integrator.h"
+#include "measure/quantity/watched.h"
+
+/* The frames of a run, kept for judging other runs: memory is bounded by the number of frames, not of steps.
+ */
+struct hk_frames {
+  const hooke_system *system;
+  int64_t count, size; /* frames, and numbers in a position (3n) */
+  int64_t recorded;    /* frames recorded so far */
+  double *time;        /* count [s] */
+  double *energy;      /* count [J] */
+  double *position;    /* count x size [m] */
+  double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
+  int64_t *free_particle, free_count;      /* errors are measured over these */
+  struct hk_watched_series watched;        /* empty unless created */
+  char zero_passages[HOOKE_PASSAGES_TOLD]; /* of their run: see hooke_integrator_text() */
+};
+
+/* Allocates `count` frames of a committed system. HOOKE_NO_MEMORY. */
+int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames);
+void hk_frames_release(struct hk_frames *frames);
+
+/* Records the next frame; those beyond `count` are ignored. */
+void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
+
+/* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance
+ * too. */
+double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
+
+/* What the positions q can hold [m]: half a unit in the last place of the largest coordinate of a free
+ * particle. */
+double hk_frames_resolution(const struct hk_frames *frames, const double *q);
 
 /* Callbacks during a run; any may be NULL. A non-zero result of the first two stops the run; the third may
  * change the initial state. */
@@ -17,8 +48,8 @@ struct hk_listener {
 };
 
 struct hk_trial {
-  const char *status;      /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
-  double step, rtol, atol; /* NaN if the method does not take it */
+  const char *status;                     /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
+  double step, rtol, atol, atol_velocity; /* NaN if the method does not take it */
   /* NaN unless finished, with a judged frame after the start; no distance is below what rounding may do */
   double error, error_max, error_final, energy_drift;
   double rounding; /* by how much it may have displaced a particle [m] */
@@ -29,15 +60,12 @@ struct hk_trial {
   struct hk_watched_series watched;           /* quantities watched by the reference, with their errors */
 };
 
-/* A trial that was not run: numbers are NaN. */
-extern const struct hk_trial hk_no_trial;
-
-int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial);
 void hk_trial_release(struct hk_trial *trial);
 
-/* Runs with the options of a run. Divergence, a failed solver and a step limit are results, and return
- * HOOKE_OK; HOOKE_STOPPED if the listener asked for it; other failures are returned. `frames` is the number
- * of judged frames: later frames of the reference are ignored. */
+/* Runs with the options of a run; a trial begins as zeros, and may be run again. Divergence, a failed solver
+ * and a step limit are results, and return HOOKE_OK; HOOKE_STOPPED if the listener asked for it; other
+ * failures are returned. `frames` is the number of judged frames: later frames of the reference are ignored.
+ */
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
                      const hooke_options *options, const struct hk_listener *listener);
 
@@ -49,6 +77,7 @@ struct hk_run_cost {
   double wall_seconds, force_evaluations;
   double work;      /* counted [s] */
   int32_t too_long; /* 1: the most work of its listener ended it */
+  double atol;      /* that its options name, or that follows [m] */
 };
 
 /* Runs and records every frame, as a reference for trials; any outcome but success is returned. `cost` may be
@@ -56,12 +85,25 @@ struct hk_run_cost {
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
                       const struct hk_listener *listener, struct hk_run_cost *cost);
 
-/* Sets a method and its step or rtol in options of a run; atol keeps its ratio to rtol, and atol_velocity
- * follows it. */
+/* Sets a method and its step or rtol in options of a run; atol and atol_velocity, if given, keep their ratios
+ * to rtol. */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
 
 /* A displaced start: adds to every coordinate of a free particle a normal number times `length` [m]; a rigid
  * body goes where the three particles go that say where it is. */
 void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random);
+
+/* ---- the steps that fit a run ---- */
+
+/* The largest step [s] of which `duration` and `every` are whole multiples: it and its integer fractions fit
+ * both. HOOKE_BAD_VALUE if the times have none that is not very small. */
+int32_t hk_step_unit(double duration, double every, double *unit);
+
+/* Duration and time between frames [s] of a run; without `every` it is set to a hundredth of the duration.
+ * HOOKE_BAD_VALUE without a duration. */
+int32_t hk_step_times(hooke_options *run, double *duration, double *every);
+
+/* 1 if a quotient is a whole number >= 1, to 1e-9 relative. */
+int32_t hk_step_is_whole(double quotient);
 
 #endif

@@ -141,7 +141,7 @@ static void offer_adaptive(struct hk_trials *trials, const char *method, double 
   if (looser > 1.0) {
     hk_change_number(&change, "rtol", rtol);
     hk_change_number(&change, "atol", atol);
-    hk_change_number(&change, "atol_velocity", atol);
+    hk_change_number(&change, "atol_velocity", rounded(looser * hooke_options_number(run, "atol_velocity")));
   }
   if (other)
     hk_change_say(&change, "the method %s, which chooses its steps itself", method);

@@ -28,11 +28,13 @@ struct hk_body {
   double mass, inverse_mass; /* of the free particles; the inverse is 0 if one is pinned */
   double inertia[3]; /* about the axes through the point, ascending; 0: it does not turn about this one */
   double inverse_inertia[3]; /* 0 where `inertia` is */
-  double centre[3];          /* of mass, from the point, in the axes of the body; 0 if it is the point */
-  double *place;             /* particles from the point, in the axes of the body, 3 count */
-  int32_t rank;              /* 0: a single point, 1: points in a line, 2: neither */
-  int32_t base[3];           /* index in `particle` of the three particles of the rule; `rank` + 1 are used */
-  double triad[3][3];        /* their directions e1, e2, e3 in the axes of the body */
+  /* with factors phi of gravity: the sum of m phi over the mass; and, in the axes of the body, that of m phi
+   * r over it, r from the point; without, 1, and the centre of mass, or 0 if that is the point */
+  double lift, heavy[3];
+  double *place;      /* particles from the point, in the axes of the body, 3 count */
+  int32_t rank;       /* 0: a single point, 1: points in a line, 2: neither */
+  int32_t base[3];    /* index in `particle` of the three particles of the rule; `rank` + 1 are used */
+  double triad[3][3]; /* their directions e1, e2, e3 in the axes of the body */
 };
 
 struct hk_bodies {

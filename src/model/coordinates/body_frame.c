@@ -175,20 +175,24 @@ static void place_particles(const hooke_system *system, struct hk_body *body, co
 
 /* About each axis; about an axis through two pins the other two do not count. */
 static void find_inertia(const hooke_system *system, struct hk_body *body, int32_t pins) {
-  struct hk_sum sum[3] = {{0.0, 0.0}}, moment[3] = {{0.0, 0.0}};
+  const double *factor = system->gravity_factor;
+  struct hk_sum sum[3] = {{0.0, 0.0}}, moment[3] = {{0.0, 0.0}}, weight = {0.0, 0.0};
   for (int64_t k = 0; k < body->count; k++) {
     if (!is_free(system, body, k)) continue;
-    const double *x = body->place + 3 * k, m = system->mass[body->particle[k]];
+    const int32_t p = body->particle[k];
+    const double *x = body->place + 3 * k, m = system->mass[p], heavy = factor ? m * factor[p] : m;
+    hk_sum_add(&weight, heavy);
     for (int a = 0; a < 3; a++) {
       const int b = (a + 1) % 3, c = (a + 2) % 3;
       hk_sum_add(&sum[a], m * (x[b] * x[b] + x[c] * x[c]));
-      hk_sum_add(&moment[a], m * x[a]);
+      hk_sum_add(&moment[a], heavy * x[a]);
     }
   }
+  body->lift = factor ? hk_sum_value(&weight) / body->mass : 1.0;
   for (int a = 0; a < 3; a++) {
     body->inertia[a] = pins == 2 && a > 0 ? 0.0 : hk_sum_value(&sum[a]);
     body->inverse_inertia[a] = body->inertia[a] > 0.0 ? 1.0 / body->inertia[a] : 0.0;
-    body->centre[a] = pins > 0 ? hk_sum_value(&moment[a]) / body->mass : 0.0;
+    body->heavy[a] = pins > 0 || factor ? hk_sum_value(&moment[a]) / body->mass : 0.0;
   }
 }
 

@@ -206,17 +206,16 @@ static void keep_axes(const struct hk_body *body, const double *own, double x[3]
   to_space(m, turn, x);
 }
 
-/* Gravity acts on the centre of mass, which is not the point of a pinned body. */
+/* Gravity acts on the centre of mass, which is not the point of a pinned body, or elsewhere by its factors.
+ */
 static void add_gravity(const struct hooke_system *system, const struct hk_body *body, const double *own,
                         double acceleration[3], double torque[3]) {
-  if (body->inverse_mass > 0.0) {
-    hk_add3(1.0, system->gravity, acceleration);
-    return;
-  }
-  double m[3][3], centre[3], turning[3];
+  if (body->inverse_mass > 0.0) hk_add3(body->lift, system->gravity, acceleration);
+  if (body->inverse_mass > 0.0 && system->gravity_factor == NULL) return;
+  double m[3][3], arm[3], turning[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
-  to_space(m, body->centre, centre);
-  hk_cross3(centre, system->gravity, turning);
+  to_space(m, body->heavy, arm);
+  hk_cross3(arm, system->gravity, turning);
   hk_add3(body->mass, turning, torque);
 }
 

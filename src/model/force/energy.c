@@ -99,11 +99,15 @@ double hooke_system_dissipated_power_at(const hooke_system *system, double t, co
   return sum;
 }
 
-int32_t hk_system_takes_work(const hooke_system *system) {
-  int32_t takes = system->drive_count > 0;
+int32_t hk_forces_do_work(const hooke_system *system) {
+  int32_t some = 0;
   for (int32_t k = 0; k < system->force_row_count; k++)
-    takes |= system->force_row[k]->does_work && system->force_row[k]->does_work(system);
-  return takes;
+    some |= system->force_row[k]->does_work && system->force_row[k]->does_work(system);
+  return some;
+}
+
+int32_t hk_system_takes_work(const hooke_system *system) {
+  return system->drive_count > 0 || hk_forces_do_work(system);
 }
 
 double hk_forces_power(const hooke_system *system, double t, const double *q, const double *v) {

@@ -29,7 +29,7 @@ int32_t hooke_system_force(const hooke_system *system, double t, const double *q
   for (int64_t p = 0; system->falls && p < motion->n; p++) {
     if (system->constrained[p]) continue;
     for (int a = 0; a < 3; a++)
-      force[3 * p + a] += system->mass[p] * system->fall[a];
+      force[3 * p + a] += system->mass[p] * hk_fall(system, p, a);
   }
   hk_motion_destroy(motion);
   return HOOKE_OK;
@@ -47,7 +47,7 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
       if (system->constrained[p])
         *value = 0.0;
       else
-        *value = system->falls ? w * motion->f[a][p] + system->fall[a] : w * motion->f[a][p];
+        *value = system->falls ? w * motion->f[a][p] + hk_fall(system, p, a) : w * motion->f[a][p];
     }
   }
   hk_movers_accelerate(system, motion, acceleration);

@@ -10,7 +10,7 @@
 /* The rows, in the order of summation at a particle. Gravity is last: a = w f + g. */
 #define HOOKE_FORCE_ROWS(each)                                                                               \
   each(springs) each(bending) each(altitude) each(anchor) each(fluid) each(linear) each(drag) each(medium)   \
-      each(quadratic) each(wind) each(callback) each(weight) each(gravity)
+      each(quadratic) each(wind) each(loads) each(callback) each(weight) each(gravity)
 #define HOOKE_COUNT_ROW(name) +1
 enum { HOOKE_FORCES = 0 HOOKE_FORCE_ROWS(HOOKE_COUNT_ROW) };
 
@@ -50,6 +50,8 @@ struct hk_force_row {
   int32_t is_drag;    /* 1: brakes what moves in the medium, be it rigid */
   int32_t not_linear; /* 1: not linear in velocities, so that its damping is that of a state */
   int32_t in_scenes;  /* 1: scenes have a key for it */
+  int32_t
+      on_free; /* 1: its members are on free particles alone: others are refused, and left out of variants */
   /* for forces with groups: the name of its members, of one, and of the argument that lists them; particles
    * and numbers of each, by HOOKE_KAPPA and so on; the maximum bytes of one (see size_limit.c) */
   const char *members, *member, *place;
@@ -103,6 +105,9 @@ struct hk_force_row {
   /* sum += the stiffness of every member along the direction in which it stores most, at its shortest [N/m]:
    * displacements of size d store half of it times d^2 (see integrate/loop/divergence.c) */
   void (*add_stiffness)(const hooke_system *system, double *sum);
+  /* of constant forces with an energy and without elements: adds the magnitudes of their components [N], and
+   * the sum of f.f/m over free particles, which move by themselves [N^2/kg] */
+  void (*add_pull)(const hooke_system *system, double *force, double *kick);
   /* 1 if some element is damped; NULL: its groups know */
   int32_t (*damped)(const hooke_system *system);
 };
@@ -139,8 +144,10 @@ void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
 /* Number of elements of the forces of these kinds. */
 int64_t hk_elements_of(const hooke_system *system, int32_t kinds);
 
-/* 1 if work is done on a system from outside, by drives or by forces; power of the latter at a state [W]. */
+/* 1 if work is done on a system from outside, by drives or by forces; if by forces; their power at a state
+ * [W]. */
 int32_t hk_system_takes_work(const hooke_system *system);
+int32_t hk_forces_do_work(const hooke_system *system);
 double hk_forces_power(const hooke_system *system, double t, const double *q, const double *v);
 
 /* 1 if a committed system has the force; its elements. */

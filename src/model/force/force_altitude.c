@@ -125,10 +125,10 @@ static double energy(const hooke_system *system, double t, const double *q) {
   (void)t;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
+    const struct hk_tetrahedron *of = &system->altitudes->tetrahedron[k];
     struct hk_tautness s;
-    if (!hk_tautness_find(t, q, NULL, &s)) continue;
-    hk_sum_add(&sum, 0.5 * s.elastic * (s.altitude.length - t->rest[s.altitude.choice]));
+    if (!hk_tautness_find(of, q, NULL, &s)) continue;
+    hk_sum_add(&sum, 0.5 * s.elastic * (s.altitude.length - of->rest[s.altitude.choice]));
   }
   return hk_sum_value(&sum);
 }
@@ -137,13 +137,13 @@ static double heat(const hooke_system *system, double t, const double *q, const 
   (void)t;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
+    const struct hk_tetrahedron *of = &system->altitudes->tetrahedron[k];
     struct hk_tautness s;
-    if (t->damping == 0.0 || !hk_tautness_find(t, q, v, &s)) continue;
-    if (t->pull_only) /* damping does not exceed the tension */
+    if (of->damping == 0.0 || !hk_tautness_find(of, q, v, &s)) continue;
+    if (of->pull_only) /* damping does not exceed the tension */
       hk_sum_add(&sum, (s.tension - s.elastic) * s.rate);
     else
-      hk_sum_add(&sum, (t->damping / t->rest[s.altitude.choice] * s.rate) * s.rate);
+      hk_sum_add(&sum, (of->damping / of->rest[s.altitude.choice] * s.rate) * s.rate);
   }
   return hk_sum_value(&sum);
 }
@@ -170,18 +170,18 @@ static void elements(const hooke_system *system, double t, const double *q, cons
                      int64_t wanted, struct hk_element *out) {
   (void)t;
   for (int64_t k = 0; k < wanted; k++) {
-    struct hk_tetrahedron t = system->altitudes->tetrahedron[first + k];
+    struct hk_tetrahedron of = system->altitudes->tetrahedron[first + k];
     struct hk_tautness s;
-    if (v == NULL) t.pull_only = 0;
+    if (v == NULL) of.pull_only = 0;
     out[k] = (struct hk_element){.count = 4, .over = 1.0};
-    memcpy(out[k].particle, t.particle, sizeof t.particle);
-    if (q == NULL || !hk_tautness_find(&t, q, v, &s) || s.slack) continue;
-    const double rest = t.rest[s.altitude.choice];
+    memcpy(out[k].particle, of.particle, sizeof of.particle);
+    if (q == NULL || !hk_tautness_find(&of, q, v, &s) || s.slack) continue;
+    const double rest = of.rest[s.altitude.choice];
     memcpy(out[k].u, s.altitude.u, sizeof s.altitude.u);
     memcpy(out[k].weight, s.altitude.weight, sizeof s.altitude.weight);
     out[k].over = v ? rest : 1.0;
-    out[k].k_along = v ? t.stiffness : t.stiffness / rest;
-    out[k].c_along = v ? t.damping : t.damping / rest;
+    out[k].k_along = v ? of.stiffness : of.stiffness / rest;
+    out[k].c_along = v ? of.damping : of.damping / rest;
     out[k].pull_only = system->altitudes->tetrahedron[first + k].pull_only;
     out[k].elastic = s.elastic;
   }

@@ -5,6 +5,8 @@
 #include "core/status.h"
 #include "model/system.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,6 +18,9 @@ static const struct hk_option_row spring_rows[] = {
                  "stiffness, one number or one for each spring", .required = 1),
     HOOKE_OPTION("damping", HOOKE_OPTION_EACH("N s (strain law), N s/m (length law)"), "0",
                  "damping along the spring, one number or one for each"),
+    HOOKE_OPTION("damping_ratio", HOOKE_OPTION_EACH(NULL), NULL,
+                 "in place of damping: 1 is the critical one of its two ends on the spring alone, one number "
+                 "or one for each"),
     HOOKE_OPTION("rest_length", HOOKE_OPTION_EACH("m"), "initial",
                  "rest length, one number or one for each spring; > 0 with the strain law; initial: as added",
                  .words = "initial"),
@@ -35,7 +40,40 @@ struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t numbe
   return hk_run_spring(run, number - run->first);
 }
 
-/* ---- adding a group ---- */
+/* ---- damping ratios ---- */
+
+/* By the product, or by the roots where that leaves the range of numbers. */
+double hk_critical_damping(double kappa, double mass) {
+  const double product = kappa * mass;
+  const int fits = product >= DBL_MIN && product <= DBL_MAX;
+  return 2.0 * (fits ? sqrt(product) : sqrt(kappa) * sqrt(mass));
+}
+
+/* Keeps the ratios until commit, when it is known what is held. */
+static int32_t keep_ratios(const hooke_options *options, struct hk_group *group) {
+  const int64_t given = hooke_options_number_count(options, "damping_ratio");
+  if (given == 0) return HOOKE_OK;
+  group->ratio = hk_new(group->count, sizeof(double));
+  for (int64_t k = 0; k < group->count && group->ratio; k++)
+    group->ratio[k] = hooke_options_numbers(options, "damping_ratio")[given > 1 ? k : 0];
+  return group->ratio ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+int32_t hk_springs_find_damping(const hooke_system *system, struct hk_group *group, int64_t number) {
+  for (int64_t k = 0; k < group->count && group->ratio; k++) {
+    const double inverse = 0.5 * system->inverse_mass[group->particle[0][k]] +
+                           0.5 * system->inverse_mass[group->particle[1][k]]; /* 0 where held */
+    const double mass = inverse > 0.0 ? 0.5 / inverse : 0.0, kappa = group->number[HOOKE_KAPPA][k];
+    const double gamma = group->number[HOOKE_GAMMA][k] = group->ratio[k] * hk_critical_damping(kappa, mass);
+    if (gamma <= 1e300) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL, "%g of spring %lld is a damping of %g N s/m; up to 1e300 are allowed",
+            group->ratio[k], (long long)k, gamma);
+    return hk_fail_within(HOOKE_BAD_VALUE, "springs[%lld].damping_ratio", (long long)number);
+  }
+  return HOOKE_OK;
+}
+
+/* ---- numbers of a group ---- */
 
 static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
   char where[64];
@@ -100,12 +138,26 @@ int32_t hk_springs_find_material(const hooke_system *system, const hooke_options
         "damping / rest length and rest length up to 1e300",
         (long long)k, stiffness, damping, length);
   }
-  return HOOKE_OK;
+  return keep_ratios(options, group);
+}
+
+/* ---- adding a group ---- */
+
+static int32_t check_damping(const hooke_system *system, const hooke_options *options) {
+  if (!hooke_options_is_set(options, "damping_ratio")) return HOOKE_OK;
+  if (hooke_options_is_set(options, "damping"))
+    return hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
+                   "damping and damping_ratio are both given; a group has one of them");
+  return !system->overdamped
+             ? HOOKE_OK
+             : hk_fail(HOOKE_BAD_VALUE, "damping_ratio",
+                       "is not allowed; in an overdamped scene drag is the only friction, and damping is 0");
 }
 
 static int32_t keep_options(const hooke_options *options, struct hk_group *group) {
   for (int k = HOOKE_KAPPA; k <= HOOKE_REST_LENGTH; k++)
     if (hooke_options_number_count(options, hk_group_names[k]) > 1) return HOOKE_OK;
+  if (hooke_options_number_count(options, "damping_ratio") > 1) return HOOKE_OK;
   return hooke_options_copy(options, &group->options);
 }
 
@@ -113,6 +165,7 @@ int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *ad
   struct hk_group group;
   int32_t status = hk_group_begin(system, added, &group);
   if (status == HOOKE_OK) status = check_units(added->options);
+  if (status == HOOKE_OK) status = check_damping(system, added->options);
   if (status == HOOKE_OK) status = hk_springs_find_material(system, added->options, &group);
   if (status == HOOKE_OK) group.pull_only = hooke_options_number(added->options, "compression") == 0.0;
   if (status == HOOKE_OK && !added->from_part) status = keep_options(added->options, &group);

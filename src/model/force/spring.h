@@ -107,9 +107,16 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
  * same as hooke_system_add_springs(). */
 int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *added);
 
-/* Kappa, gamma and rest length of every spring of a group, whose ends are known. HOOKE_BAD_VALUE. */
+/* Kappa, gamma and rest length of every spring of a group, whose ends are known; damping ratios are kept
+ * until commit. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_springs_find_material(const hooke_system *system, const hooke_options *options,
                                  struct hk_group *group);
+
+/* 2 sqrt(kappa m). */
+double hk_critical_damping(double kappa, double mass);
+/* At commit: gamma of every spring of a group that has damping ratios, from the inverse masses.
+ * HOOKE_BAD_VALUE, of group `number`. */
+int32_t hk_springs_find_damping(const hooke_system *system, struct hk_group *group, int64_t number);
 
 /* Finds the run of a spring, and the spring. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);

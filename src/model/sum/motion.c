@@ -33,6 +33,7 @@ static int64_t driven_count(const hooke_system *system) {
 
 int32_t hk_goes_by_tiles(const hooke_system *system) {
   int by_tiles = system->strided->count > 0 || system->tiled->particles > 0;
+  by_tiles &= !(system->falls && system->gravity_factor); /* which their moves do not know */
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     by_tiles &= row->add == NULL || row->kind & (HOOKE_LOOPED | HOOKE_UNIFORM);

@@ -106,11 +106,12 @@ int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct 
   return group->count > 0 && memchr(maker->variant->spring + first, 1, (size_t)group->count) != NULL;
 }
 
-/* Renumbers a member for the variant; 0 if a particle is missing, or two have become one. */
+/* Renumbers a member for the variant; 0 if a particle is missing or may not be held, or two have become one.
+ */
 static int32_t renumber(const struct hk_variant_maker *maker, const struct hk_group *group, int64_t k) {
   for (int e = 0; e < group->force->member_particles; e++) {
     const int64_t to = maker->map->to[group->particle[e][k]];
-    if (to < 0) return 0;
+    if (to < 0 || (group->force->on_free && maker->made->constrained[to])) return 0;
     group->particle[e][k] = (int32_t)to;
     for (int other = 0; other < e; other++)
       if (group->particle[other][k] == (int32_t)to) return 0;
@@ -137,7 +138,10 @@ static void collect(const struct hk_variant_maker *maker, int64_t first, struct 
 static int32_t take_options(const struct hk_variant_maker *maker, const hooke_options *from,
                             struct hk_group *kept) {
   int32_t status = hooke_options_copy(from, &kept->options);
-  if (status == HOOKE_OK && maker->variant->damping) status = hooke_options_unset(kept->options, "damping");
+  if (status != HOOKE_OK || !(kept->force->kind & HOOKE_LOOPED)) return status;
+  if (maker->variant->damping) status = hooke_options_unset(kept->options, "damping");
+  if (status == HOOKE_OK && maker->variant->damping)
+    status = hooke_options_unset(kept->options, "damping_ratio");
   if (status == HOOKE_OK && maker->variant->compression)
     status = hooke_options_set_number(kept->options, "compression", 0.0);
   return status == HOOKE_OK ? hk_springs_find_material(maker->made, kept->options, kept) : status;
@@ -184,6 +188,16 @@ static int32_t copy_others(const struct hk_variant_maker *maker) {
   return status;
 }
 
+static int32_t copy_names(const struct hk_variant_maker *maker) {
+  const struct hk_system_rest *from = maker->from->rest;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < from->name_count && status == HOOKE_OK; k++) {
+    const int64_t to = maker->map->to[from->name[k].particle];
+    if (to >= 0) status = hooke_system_name_particle(maker->made, from->name[k].text, to);
+  }
+  return status;
+}
+
 static int32_t copy_movers(const struct hk_variant_maker *maker) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; hk_coordinates_table(k) && status == HOOKE_OK; k++)
@@ -193,7 +207,7 @@ static int32_t copy_movers(const struct hk_variant_maker *maker) {
 
 static void scale_stiffness(hooke_system *made, double factor) {
   for (int64_t g = 0; g < made->group_count; g++)
-    for (int64_t k = 0; k < made->group[g].count; k++)
+    for (int64_t k = 0; k < made->group[g].count && made->group[g].number[HOOKE_KAPPA]; k++)
       made->group[g].number[HOOKE_KAPPA][k] *= factor;
 }
 
@@ -217,6 +231,7 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);
+  if (status == HOOKE_OK) status = copy_names(&maker);
   if (status == HOOKE_OK) status = copy_movers(&maker);
   if (status == HOOKE_OK) status = copy_others(&maker);
   if (status == HOOKE_OK && !from->overdamped) status = hk_medium_copy_wind(&maker); /* there it is a force */

@@ -62,6 +62,39 @@ static int32_t change_resolution(const struct hk_part_record *record, const stru
   return status;
 }
 
+/* Factors of gravity at the points of another resolution, from those around them. */
+static int32_t change_factors(const double *factor, const struct hk_variant_part *part,
+                              hooke_options *options) {
+  struct hk_variant_part back = {.axes = part->axes};
+  int64_t corner[8], count = 1;
+  double weight[8];
+  for (int32_t a = 0; a < part->axes; a++) {
+    back.cells[a] = part->made[a];
+    back.made[a] = part->cells[a];
+    count *= part->made[a] + 1;
+  }
+  double *made = hk_new(count, sizeof *made);
+  for (int64_t p = 0; p < count && made; p++) {
+    const int32_t corners = hk_variant_corners(&back, p, corner, weight);
+    for (int32_t c = 0; c < corners; c++)
+      made[p] += weight[c] * factor[corner[c]];
+  }
+  const int32_t status =
+      made ? hooke_options_set_numbers(options, "gravity_factor", count, made) : HOOKE_NO_MEMORY;
+  hk_free(made);
+  return status;
+}
+
+/* Of particles that a variant has as they are, in whatever way they have their factor. */
+static int32_t copy_factors(const struct hk_variant_maker *maker) {
+  const double *factor = maker->from->gravity_factor;
+  int32_t status = HOOKE_OK;
+  for (int64_t p = 0; p < maker->from->particle_count && factor && status == HOOKE_OK; p++)
+    if (hk_variant_is_same(maker->map, p))
+      status = hooke_system_set_gravity_factor(maker->made, maker->map->to[p], 1, 1, &factor[p]);
+  return status;
+}
+
 static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
   const struct hk_part_record *record = &maker->from->part[k];
   struct hk_variant_part *part = &maker->map->part[k];
@@ -70,6 +103,8 @@ static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
   part->axes = scale != 1.0 ? hk_variant_cells(record, scale, part->cells, part->made) : 0;
   int32_t status = hooke_options_copy(record->options, &options);
   if (status == HOOKE_OK && part->axes > 0) status = change_resolution(record, part, options);
+  if (status == HOOKE_OK && part->axes > 0 && maker->from->gravity_factor)
+    status = change_factors(maker->from->gravity_factor + record->first, part, options);
   if (status == HOOKE_OK) status = leave_families_out(maker, k, options);
   if (status == HOOKE_OK) status = change_families(maker->variant, options);
   if (status == HOOKE_OK && maker->variant->rigid[k])
@@ -125,5 +160,6 @@ int32_t hk_variant_add_particles(struct hk_variant_maker *maker) {
     for (int64_t p = record->first; p < next; p++)
       maker->map->to[p] = -1;
   }
-  return status == HOOKE_OK ? add_alone(maker, next, from->particle_count) : status;
+  if (status == HOOKE_OK) status = add_alone(maker, next, from->particle_count);
+  return status == HOOKE_OK ? copy_factors(maker) : status;
 }

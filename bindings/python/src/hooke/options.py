@@ -24,7 +24,7 @@ class Row(NamedTuple):
     `words` are the choices, or the words allowed instead of numbers; `family` is the family of the option; `example`
     is a value for a first try. `low` and `high` are bounds of every number, inclusive unless `above_low`; `required`
     of a member of a family applies if the family is given; `min_count` and `max_count` bound the count of "numbers",
-    in rows of `columns`; with `word_lists` words and numbers may be mixed; `units` are those that a text may name
+    in rows of `columns`, a single one `flat` as well; with `word_lists` words and numbers may be mixed; `units` are those that a text may name
     instead of `unit`; `only` is the word of the first option, a choice, with which it may be given.
     """
 
@@ -46,6 +46,7 @@ class Row(NamedTuple):
     min_count: int | None
     max_count: int | None
     columns: int | None
+    flat: bool
     word_lists: bool
     only: str
 
@@ -249,7 +250,7 @@ def _rows(handle: Handle) -> Iterator[Row]:
 
 
 def _property(handle: Handle, row: int, name: str) -> Any:
-    if name in ("above_low", "whole", "required", "word_lists"):
+    if name in ("above_low", "whole", "required", "flat", "word_lists"):
         return bool(lib.hooke_options_row_number(handle, row, name.encode()))
     if name in ("low", "high", "min_count", "max_count", "columns"):
         number = lib.hooke_options_row_number(handle, row, name.encode())

@@ -11,13 +11,13 @@ from typing import Any, Callable
 import numpy as np
 
 from ._library import lib
-from ._memory import Asked, Handle, doubles, indices, rows, text
+from ._memory import Asked, Handle, indices, text
 from ._status import BadCall, BadValue, placed
 from ._types import IntArray, Numbers, Path
 from .options import Options, option_name
 from .parts import Parts
 from .problems import Problem
-from .system import System, part_options, write_scene
+from .system import System, part_options, particle_keys, write_scene
 
 
 class Scene(Parts, Problem):
@@ -58,10 +58,8 @@ class Scene(Parts, Problem):
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] = {"hooke": 1}
         own = Options.for_scene().set(
-            title=title or None, dynamics=dynamics, drag=drag, quadratic_drag=quadratic_drag, wind=wind
+            title=title or None, dynamics=dynamics, drag=drag, gravity=gravity, quadratic_drag=quadratic_drag, wind=wind
         )
-        if gravity is not None:
-            own["gravity"] = doubles(gravity, "gravity", (3,))
         lib.hooke_scene_options_apply(own._handle, self._system._handle)
         self._document.update((name, own[name]) for name in own if own.is_set(name) and "." not in name)
         if isinstance(wind, Mapping):
@@ -111,11 +109,12 @@ class Scene(Parts, Problem):
     # building
 
     def particles(
-        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None
+        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None,
+        gravity_factor: Numbers = ()
     ) -> Scene:
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and `mass` [kg], one
         number for all or (n,), which an overdamped scene without gravity needs not have; `pinned` are the numbers of
-        the pinned ones.
+        the pinned ones, `gravity_factor` is that of `System.set_gravity_factor`, one number or (n,).
 
         A scene has one such block, given before its parts, since it is numbered first. Returns the scene.
         """
@@ -124,18 +123,23 @@ class Scene(Parts, Problem):
                 raise BadCall("the scene has its particles already; give them all in one call")
             if self._system.particle_count:
                 raise BadCall("they are numbered before those of parts, so give them before the first part")
-            q = np.atleast_2d(doubles(position, "position"))
-            piece: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
-            if velocity is not None:
-                piece["velocity"] = rows(velocity, "velocity", len(q)).reshape(-1, 3).copy()
-            kilograms = doubles(mass, "mass").reshape(-1)
-            if kilograms.size:
-                piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
+            piece = particle_keys(position, velocity, mass, gravity_factor)
             if pinned is not None and np.size(pinned):
                 piece["pinned"] = indices(pinned, "pinned").reshape(-1).copy()
                 _require_rest(piece)
             self._system._add("particles", None, "particles", (), piece)
         self._changed()["particles"] = piece
+        return self
+
+    def names(self, names: Mapping[str, Any]) -> Scene:
+        """Names particles: ``{"tip": 57, "fairlead": ("line", 0)}``. A name takes the place of a number wherever a
+        scene has particles, and in what is watched (``watch="tip.y"``). It is no number, not that of a part or of a
+        group, and has no ".", ":" or blank. Returns the scene."""
+        with placed("names"):
+            for name, particle in names.items():
+                number = self._resolved(particle, name)
+                lib.hooke_system_name_particle(self._system._handle, name.encode(), operator.index(number))
+                self._changed().setdefault("names", {})[name] = operator.index(number)
         return self
 
     def run_defaults(self, **options: Any) -> Scene:
@@ -214,17 +218,26 @@ class Scene(Parts, Problem):
         return [part.get("name") or f"{part['kind']}{k}" for k, part in enumerate(self._opened().get("parts", ()))]
 
     def _numbers(self, particles: Any, name: str) -> IntArray:
-        """Particles as numbers, with particles of named parts resolved."""
+        """Particles as numbers, with names and particles of named parts resolved."""
         if isinstance(particles, np.ndarray):
             return np.array(indices(particles, name))  # the caller's may change
         return indices(self._resolved(particles, name), name)
 
     def _resolved(self, particles: Any, name: str) -> Any:
+        if isinstance(particles, str):
+            return self._named(particles, name)
         if not isinstance(particles, (list, tuple)):
             return particles
-        if len(particles) == 2 and isinstance(particles[0], str):
+        if len(particles) == 2 and isinstance(particles[0], str) and not isinstance(particles[1], str):
             return self._number_in_part(particles[0], particles[1], name)
         return [self._resolved(particle, f"{name}[{place}]") for place, particle in enumerate(particles)]
+
+    def _named(self, particle: str, name: str) -> int:
+        number = int(lib.hooke_system_named_particle(self._system._handle, particle.encode()))
+        if number < 0:
+            known = ", ".join(self._opened().get("names", ())) or "there are none"
+            raise BadValue(f'{name}: there is no particle called "{particle}"; allowed: {known}')
+        return number
 
     def _in_part(self, part: str, name: str) -> range:
         handle, key = self._system._handle, part.encode()

@@ -53,12 +53,9 @@ class Recommendation(Record, table="study.recommendation", also=("margin",)):
     @property
     def options(self) -> dict[str, Any]:
         """The keywords of `hooke.run` for it."""
-        numbers = {name: getattr(self, name) for name in ("step", "rtol", "atol")}
+        numbers = {name: getattr(self, name) for name in ("step", "rtol", "atol", "atol_velocity")}
         options: dict[str, Any] = {"method": self.method} if self.method else {}
-        options.update({name: number for name, number in numbers.items() if not np.isnan(number)})
-        if "atol" in options:
-            options["atol_velocity"] = options["atol"]
-        return options
+        return {**options, **{name: number for name, number in numbers.items() if not np.isnan(number)}}
 
 
 class Study(Paged, Closing, kind="study"):
