@@ -165,7 +165,8 @@ static const struct {
   const char *kind, *words;
 } parts[] = {
     {"rope", "from=0,0,0 to=1,0,0 segments=5 density=0.1 stretch.stiffness=20 bend.stiffness=1 bending=0.01 "
-             "pinned=start,end gravity_factor=0.3"},
+             "pinned=start,end gravity_factor=0.3 fluid_drag.density=1 fluid_drag.diameter=0.1 "
+             "fluid_drag.normal=1 fluid_drag.tangential=0.1"},
     {"cloth", "origin=0,1,0 edges=1,0,0,0,0,1 size=5,4 mass=0.3 structural.stiffness=20 shear.stiffness=5 "
               "bend.stiffness=1 pinned=top-corners"},
     {"lattice", "origin=0,2,0 edges=1,0,0,0,1,0,0,0,1 size=3,3,3 mass=0.3 structural.stiffness=20 "
@@ -178,8 +179,9 @@ static void set_mesh(struct attempt *a, hooke_options *options) {
   const double vertices[] = {0, 6, 0, 1, 6, 0, 0, 7, 0, 1, 7, 0, 1, 6, 0};
   const int64_t triangles[] = {0, 1, 2, 4, 3, 2};
   TRY(a, hooke_mesh_set(options, 5, vertices, 2, triangles));
-  TRY(a, try_words(options,
-                   "mass=0.1 weld=1e-6 structural.stiffness=10 bend.damping_ratio=0.1 bend.stiffness=1"));
+  TRY(a,
+      try_words(options, "mass=0.1 weld=1e-6 structural.stiffness=10 bend.damping_ratio=0.1 bend.stiffness=1 "
+                         "fluid_drag.density=1 fluid_drag.coefficient=1"));
 end:
   return;
 }

@@ -31,7 +31,8 @@ static const struct scene scenes[] = {
      "\"rest_length\": \"initial\"}],\n"
      "\"run\": {\"method\": \"symplectic-euler\", \"step\": 1e-3, \"duration\": 0.004, \"every\": 1e-3}}\n"},
     {"springs.json",
-     "{\"hooke\": 1, \"particles\": {\"position\": "
+     "{\"hooke\": 1, \"drag\": [1, 2, 3, 4, 5, 6],\n"
+     "\"wind\": {\"time\": [0, 1], \"velocity\": [[0, 0, 0], [1, 0, 0]]}, \"particles\": {\"position\": "
      "[[0,0,0],[1,0,0.1],[2,0.2,0],[2,1.1,0.3],[0.7,1.2,0],[3,2,0.2]],\n"
      " \"velocity\": [[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0]], \"mass\": "
      "[1,2,3,4,5,6], \"pinned\": [5]},\n"

@@ -154,6 +154,8 @@ static hooke_system *with_every_force(int32_t overdamped, int32_t wind) {
   check_ok(hooke_system_add_bending(system, "fold", 1, triple, 1, &one));
   check_ok(hooke_system_add_altitude(system, "solid", 1, corners, altitude));
   check_ok(hooke_system_add_anchors(system, "tie", 1, &tied, anchor));
+  owned_options *load = options_with("loads", "force=0.1,0.2,0.3");
+  check_ok(hooke_system_add_loads(system, 1, &tied, load));
   hk_system_set_linear(system, 1, &element, at);
   check_ok(hooke_system_set_gravity(system, (const double[]){1.0, -9.81, 0.5}));
   if (wind && !overdamped)
@@ -205,9 +207,10 @@ TEST(every_force_survives_a_copy_and_is_missed) {
   for (int32_t k = 0; hk_force_table(k); k++) {
     const struct hk_force_row *row = hk_force_table(k);
     if (!seen[k] || !row->check ||
-        !(row->members ? row->recall && row->place && row->member &&
-                             row->width[row->is_drag ? HOOKE_GAMMA : HOOKE_KAPPA] == 1
-                       : row->copy || row == &hk_force_weight))
+        !(row->members
+              ? row->recall && row->place && row->member &&
+                    (row->elements == NULL || row->width[row->is_drag ? HOOKE_GAMMA : HOOKE_KAPPA] == 1)
+              : row->copy || row == &hk_force_weight))
       check_failed("%s is not in the scenes of this test, or has no check value or no copy", row->name);
   }
 }

@@ -216,7 +216,7 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
   for (int64_t k = 0; k < old->mover_count && status == HOOKE_OK; k++)
     status = old->mover[k].row->copy_one(old->mover[k].thing, system);
   if (status == HOOKE_OK) hk_system_set_linear(system, making->elements, twin->element, twin->origin);
-  system->rest->linear.of_velocities = hk_system_is_not_linear(old);
+  if (status == HOOKE_OK) system->rest->linear.of_velocities = hk_system_is_not_linear(old);
   if (status == HOOKE_OK) status = set_drag(old, system);
   if (status == HOOKE_OK && held) status = hooke_system_set_force(system, hold, hold_product, twin);
   if (status == HOOKE_OK) status = hooke_system_commit(system);

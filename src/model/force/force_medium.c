@@ -45,23 +45,13 @@ static void add_drag(const struct drag *drag, struct hk_motion *motion) {
   }
 }
 
-/* Of all particles: c w^2 as heat; and the work of the wind, -c w.u, where velocities are not given. */
-static double heat_of(const struct drag *drag, const double *v) {
+/* Of all particles: the heat c w^2, or the work of the wind, -c w.u. */
+static double power_of(const struct drag *drag, const double *v, int heat) {
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < drag->system->particle_count; p++) {
     double w[3];
     const double c = strength_of(drag, p, v + 3 * p, w);
-    hk_sum_add(&sum, c * hk_dot3(w, w));
-  }
-  return hk_sum_value(&sum);
-}
-
-static double power_of(const struct drag *drag, const double *v) {
-  struct hk_sum sum = {0.0, 0.0};
-  for (int64_t p = 0; p < drag->system->particle_count; p++) {
-    double w[3];
-    const double c = strength_of(drag, p, v + 3 * p, w);
-    hk_sum_add(&sum, -c * hk_dot3(w, drag->wind));
+    hk_sum_add(&sum, heat ? c * hk_dot3(w, w) : -c * hk_dot3(w, drag->wind));
   }
   return hk_sum_value(&sum);
 }
@@ -118,13 +108,13 @@ static int32_t add_linear(const hooke_system *system, struct hk_motion *motion, 
 static double linear_heat(const hooke_system *system, double t, const double *q, const double *v) {
   (void)q;
   const struct drag drag = linear_at(system, t);
-  return heat_of(&drag, v);
+  return power_of(&drag, v, 1);
 }
 
 static double linear_power(const hooke_system *system, double t, const double *q, const double *v) {
   (void)q;
   const struct drag drag = linear_at(system, t);
-  return power_of(&drag, v);
+  return power_of(&drag, v, 0);
 }
 
 static void linear_elements(const hooke_system *system, double t, const double *q, const double *v,
@@ -179,13 +169,13 @@ static int32_t add_quadratic(const hooke_system *system, struct hk_motion *motio
 static double quadratic_heat(const hooke_system *system, double t, const double *q, const double *v) {
   (void)q;
   const struct drag drag = quadratic_at(system, t);
-  return heat_of(&drag, v);
+  return power_of(&drag, v, 1);
 }
 
 static double quadratic_power(const hooke_system *system, double t, const double *q, const double *v) {
   (void)q;
   const struct drag drag = quadratic_at(system, t);
-  return power_of(&drag, v);
+  return power_of(&drag, v, 0);
 }
 
 static void quadratic_elements(const hooke_system *system, double t, const double *q, const double *v,
