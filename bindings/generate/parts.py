@@ -54,9 +54,11 @@ DICTS = {
 }
 # What methods add that is not "a <kind>".
 ADDED = {"springs": "a group of springs", "bending": "a group of triples that resist bending", "driven": "prescribed motion",
-         "anchors": "a group of springs from a particle to a fixed point", "bodies": "existing particles as one rigid body"}
+         "anchors": "a group of springs from a particle to a fixed point", "bodies": "existing particles as one rigid body",
+         "obstacles": "a plane, a sphere or a cylinder that pushes particles out"}
 # Keys with the particles of what a scene lists, each a number or ("part", number), and their types.
-LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bodies": "particles", "driven": "particles"}
+LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bodies": "particles", "driven": "particles",
+         "obstacles": "particles"}
 PARTICLES = {"between": "Sequence[Sequence[Particle]] | IntArray", "triples": "Sequence[Sequence[Particle]] | IntArray",
              "particles": "Particle | Sequence[Particle] | IntArray"}
 TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str"}
@@ -111,7 +113,7 @@ def method(kind, schema):
     needed = schema.get("required", ())
     required = [f"{argument(key)}: {type_of(key, keys[key])}" for key in keys if key in needed and key != "motion"]
     optional = [f"{argument(key)}: {type_of(key, keys[key])} | None = None" for key in keys if key not in needed]
-    if "motion" in keys:
+    if "motion" in needed:
         arguments = ["self: S", *required, "*", 'motion: str = "harmonic"', *optional]
     else:
         arguments = ["self: S", "name: str | None = None", "*", *required, *optional]

@@ -115,6 +115,13 @@ HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *na
 HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *particles, const hooke_options *options);
 
+/* Adds an obstacle that pushes out `count` particles (-1: all free ones), with options "obstacles": a plane, a
+ * sphere or a cylinder, with f = N n - friction N w/sqrt(w^2 + friction_speed^2), N = max(0, stiffness d +
+ * damping d'), at depth d > 0; w is the tangential velocity against the obstacle. HOOKE_BAD_VALUE,
+ * HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_obstacle(hooke_system *system, int64_t count, const int64_t *particles,
+                                            const hooke_options *options);
+
 /* Makes particles one rigid body: mass, centre and inertia are theirs (points in a line and single points are
  * bodies, too), all forces act on them as on any other, and members of forces inside the body are dropped at
  * commit. Positions and velocities stay those of the particles: every step takes the body's motion from three

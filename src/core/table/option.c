@@ -283,27 +283,42 @@ const char *hk_options_unit_given(const hooke_options *options, const char *name
   return value_of(options, name)->unit;
 }
 
-static int32_t refuse_elsewhere(const hooke_options *options, const struct slot *slot, const char *chosen) {
+/* The choice that an option belongs to. */
+static const char *choice_of(const hooke_options *options, const struct hk_option_row *row) {
+  return row->by ? row->by : options->slot[0].name;
+}
+
+static int belongs(const hooke_options *options, const struct hk_option_row *row) {
+  const char *chosen = hooke_options_text(options, choice_of(options, row));
+  return row->only == NULL || hk_option_has_word(row->only, chosen, (int64_t)strlen(chosen));
+}
+
+static int32_t refuse_elsewhere(const hooke_options *options, const struct slot *slot) {
+  const char *choice = choice_of(options, slot->row), *chosen = hooke_options_text(options, choice);
+  if (chosen[0] == '\0')
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\", which is missing", choice,
+                   slot->row->only);
   char list[TEXT_SIZE] = "";
   for (int64_t k = 0; k < options->slot_count; k++) {
     const struct hk_option_row *row = options->slot[k].row;
-    if (row->only && strcmp(row->only, chosen) == 0)
+    if (row->only && strcmp(choice_of(options, row), choice) == 0 && belongs(options, row))
       hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", row->name);
   }
-  return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\"; allowed with \"%s\": %s",
-                 options->slot[0].name, slot->row->only, chosen, list);
+  return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\"; allowed with \"%s\": %s", choice,
+                 slot->row->only, chosen, list);
 }
 
 int32_t hk_options_check_required(const hooke_options *options) {
-  const char *first = options->slot[0].name, *chosen = hooke_options_text(options, first);
   for (int64_t k = 0; k < options->slot_count; k++) {
     const struct slot *slot = &options->slot[k];
     char with[NAME_SIZE] = "";
-    if (slot->row->only && strcmp(slot->row->only, chosen) != 0) {
-      if (slot->is_set) return refuse_elsewhere(options, slot, chosen);
+    if (!belongs(options, slot->row)) {
+      if (slot->is_set) return refuse_elsewhere(options, slot);
       continue;
     }
-    if (slot->row->only) hk_print(with, sizeof with, " with %s \"%s\"", first, chosen);
+    const char *choice = choice_of(options, slot->row);
+    if (slot->row->only)
+      hk_print(with, sizeof with, " with %s \"%s\"", choice, hooke_options_text(options, choice));
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
     if (slot->family >= 0 && !options->slot[slot->family].is_set) continue;
     char allowed[HOOKE_OPTION_ALLOWED];
@@ -346,7 +361,7 @@ const char *hooke_options_row(const hooke_options *options, int64_t row, const c
       {"unit", of->unit},       {"default", of->fallback},
       {"doc", of->doc},         {"words", of->words},
       {"only", of->only},       {"family", slot->family >= 0 ? options->slot[slot->family].name : NULL},
-      {"example", of->example},
+      {"example", of->example}, {"by", of->by},
   };
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
     if (strcmp(known[k].name, property) == 0) return known[k].text ? known[k].text : "";

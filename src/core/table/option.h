@@ -30,7 +30,8 @@ struct hk_option_row {
   const char *words; /* separated by blanks: the words allowed instead of numbers, or the choices */
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;
-  const char *only; /* of the table's first row, a choice: the word that it belongs to */
+  const char *only; /* the words of a choice that it belongs to; NULL: all */
+  const char *by;   /* that choice; NULL: the first row of the table */
   const struct hk_option_table *family;
   const char *doc;
   const char *example; /* as text: an example value */

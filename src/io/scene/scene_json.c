@@ -10,7 +10,7 @@
 
 enum { METHODS_SIZE = 512 };
 
-static const char other_keys[] = "hooke particles springs bending anchors parts bodies driven run";
+static const char other_keys[] = "hooke particles springs bending anchors parts bodies driven obstacles run";
 
 /* ---- pieces of a scene ---- */
 
