@@ -1,0 +1,158 @@
+/* Obstacles: contact along the normal, friction across it, work and heat of both, and where nothing can be
+ * said. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <math.h>
+#include <string.h>
+
+static void add(hooke_system *system, const char *words) {
+  owned_options *options = new_options("obstacles");
+  check_ok(try_words(options, words));
+  check_ok(hooke_system_add_obstacle(system, -1, NULL, options));
+}
+
+/* One particle of 1 kg above an obstacle, in gravity. */
+static hooke_system *falling(const double place[3], const double velocity[3], const double gravity[3],
+                             const char *obstacle) {
+  hooke_system *system = small_system(1, place, velocity, 1.0, 0);
+  check_ok(hooke_system_set_gravity(system, gravity));
+  add(system, obstacle);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static double energy_of(const hooke_system *system, double t, const double *q, const double *v) {
+  return hooke_system_energy_at(system, "total", t, q, v);
+}
+
+/* Flights of v^2/(2 g) and half swings of sqrt(k/m), in closed form: after 10 s it is at 0.98854308 m. */
+TEST(a_mass_bounces_on_a_stiff_floor) {
+  const double place[3] = {0, 1, 0}, gravity[3] = {0, -9.8, 0};
+  double q[3], v[3];
+  owned_system *system = falling(place, NULL, gravity, "shape=plane point=0,0,0 normal=0,2,0 stiffness=1e5");
+  run_to_end(system, (struct run){.method = "verlet", .step = 2e-5, .duration = 10.0, .every = 10.0}, q, v);
+  check_close(q[1], 0.98854308, 2e-5);
+  check_close(energy_of(system, 10.0, q, v), 9.8, 2e-5);
+}
+
+/* The same on a ball and on a cylinder, dropped along a line through the centre. */
+TEST(all_shapes_push_alike_along_a_normal) {
+  static const char *const obstacles[] = {
+      "shape=sphere center=0,-2,0 radius=1.5 clearance=0.5 stiffness=1e5 damping=20",
+      "shape=cylinder point=0,-2,7 axis=0,0,-3 radius=1.75 clearance=0.25 stiffness=1e5 damping=20"};
+  const double place[3] = {0, 1, 0}, gravity[3] = {0, -9.8, 0};
+  const struct run run = {.method = "rk4", .step = 2e-4, .duration = 2.0, .every = 2.0};
+  double q[3], v[3], other[3];
+  owned_system *floor =
+      falling(place, NULL, gravity, "shape=plane point=5,0,0 normal=0,1,0 stiffness=1e5 damping=20");
+  run_to_end(floor, run, q, v);
+  for (int k = 0; k < 2; k++) {
+    owned_system *system = falling(place, NULL, gravity, obstacles[k]);
+    run_to_end(system, run, other, v);
+    check_close(other[1], q[1], 1e-10);
+    check_close(other[0], 0.0, 1e-12);
+  }
+}
+
+/* Heat by the trapezoidal rule over the steps of a damped bounce, which is wrong by half a step of 240 W
+ * where contact begins. */
+TEST(what_is_lost_is_heat) {
+  const double place[3] = {0, 0.2, 0}, velocity[3] = {1, 0, 0}, gravity[3] = {0, -9.8, 0}, h = 5e-6;
+  owned_system *system = falling(place, velocity, gravity,
+                                 "shape=plane point=0,0,0 normal=0,1,0 stiffness=2e4 damping=60 friction=0.3 "
+                                 "friction_speed=0.05");
+  owned_state *state = start_state(system);
+  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = h});
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  const double before = energy_of(system, 0.0, q, v);
+  double heat = 0.0, least = 0.0;
+  for (int k = 0; k < 120000; k++) {
+    const double power = hooke_system_dissipated_power(system, q, v);
+    check_ok(hooke_integrator_step(run, state, 1));
+    heat += 0.5 * h * (power + hooke_system_dissipated_power(system, q, v));
+    least = fmin(least, power);
+  }
+  check_between(least, 0.0, 0.0);
+  check_between(heat, 1.0, 2.5);
+  check_close(before - energy_of(system, 0.6, q, v), heat, 1e-3);
+}
+
+/* A floor that moves gives what its force times its velocity is. */
+TEST(a_moving_obstacle_does_work) {
+  const double place[3] = {0, 0.01, 0}, gravity[3] = {0, -9.8, 0}, h = 2e-5;
+  owned_system *system = falling(place, NULL, gravity,
+                                 "shape=plane point=0,0,0 normal=0,1,0 stiffness=1e4 motion=harmonic "
+                                 "amplitude=0,0.02,0 frequency=3");
+  owned_state *state = start_state(system);
+  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = h});
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state), omega = 6.0 * acos(-1.0);
+  const double before = energy_of(system, 0.0, q, v);
+  double work = 0.0, last = 0.0;
+  for (int k = 1; k <= 25000; k++) {
+    double force[3];
+    check_ok(hooke_integrator_step(run, state, 1));
+    check_ok(hooke_system_force(system, k * h, q, v, force));
+    const double power = (force[1] + 9.8) * 0.02 * omega * cos(omega * k * h);
+    work += 0.5 * h * (last + power);
+    last = power;
+  }
+  check_between(fabs(work), 0.05, 5.0);
+  check_close(energy_of(system, 0.5, q, v) - before, work, 1e-3);
+}
+
+/* On a slope of tan a: below the angle of friction it creeps at s tan a/sqrt(mu^2 - tan^2 a), above it slides
+ * with g (sin a - mu cos a), and what s makes of that. */
+TEST(a_block_creeps_below_the_angle_of_friction_and_slides_above) {
+  const double g = 9.81, s = 1e-3, mu = 0.4;
+  for (int above = 0; above <= 1; above++) {
+    const double angle = above ? 0.5 : 0.3, depth = g * cos(angle) / 1e5;
+    const double place[3] = {0, -depth, 0}, down[3] = {g * sin(angle), -g * cos(angle), 0};
+    owned_system *system = falling(place, NULL, down,
+                                   "shape=plane point=0,0,0 normal=0,1,0 stiffness=1e5 damping=100 "
+                                   "friction=0.4 friction_speed=1e-3");
+    double q[3], v[3];
+    run_to_end(system, (struct run){.method = "rk4", .step = 1e-4, .duration = 1.0, .every = 1.0}, q, v);
+    const double creep = s * tan(angle) / sqrt(mu * mu - tan(angle) * tan(angle));
+    const double right = above ? g * (sin(angle) - mu * cos(angle)) : creep;
+    check_between(v[0], 0.99 * right, 1.01 * right);
+  }
+}
+
+/* At the centre there is no direction, and no force; it is counted. */
+TEST(at_a_centre_there_is_no_force) {
+  const double place[3] = {1, 2, 3}, none[3] = {0, 0, 0};
+  owned_system *system = falling(place, NULL, none, "shape=sphere center=1,2,3 radius=0.5 stiffness=100");
+  double force[3];
+  check_ok(hooke_system_force(system, 0.0, place, none, force));
+  for (int a = 0; a < 3; a++)
+    check_between(force[a], 0.0, 0.0);
+  owned_state *state = start_state(system);
+  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = 1e-3});
+  check_ok(hooke_integrator_step(run, state, 1));
+  assert_int_equal(hooke_integrator_count(run, "coincident_springs"), 1);
+}
+
+TEST(what_is_wrong_is_said) {
+  static const char *const wrong[][2] = {
+      {"shape=plane point=0,0,0 stiffness=1", "normal: is required with shape \"plane\" but missing"},
+      {"shape=plane point=0,0,0 normal=0,0,0 stiffness=1", "normal: 0 0 0 has no direction"},
+      {"shape=plane point=0,0,0 normal=0,1,0 stiffness=1 radius=2",
+       "radius: belongs to shape \"sphere cylinder\""},
+      {"shape=sphere center=0,0,0 radius=1 stiffness=1 friction=0.1",
+       "friction_speed: is required with friction"},
+      {"shape=sphere center=0,0,0 radius=1 stiffness=1 amplitude=1,0,0",
+       "amplitude: belongs to motion \"harmonic\", which is missing"},
+      {"shape=sphere center=0,0,0 radius=1 stiffness=1 motion=harmonic amplitude=1,0,0",
+       "frequency: is required with motion \"harmonic\" but missing"},
+      {"shape=sphere center=0,0,0 radius=1 stiffness=1 motion=table time=0,1 position=0,0,0,1,0,0,2,0,0",
+       "position: 3 rows given; allowed: 2, one for each time"}};
+  owned_system *system = new_system();
+  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+    owned_options *options = new_options("obstacles");
+    check_ok(try_words(options, wrong[k][0]));
+    check_status(hooke_system_add_obstacle(system, -1, NULL, options), HOOKE_BAD_VALUE);
+    check_message(wrong[k][1]);
+  }
+}
