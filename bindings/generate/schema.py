@@ -39,6 +39,8 @@ def array(items, least, most):
 def numbers(row):
     """An array, or one in a file; or the other values that the table accepts."""
     items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
+    if row.max_count == -1:
+        return {"oneOf": [{"enum": row.words}, array({"enum": row.words}, 0, 0)]}
     rows, width = array(items, row.columns, row.columns) if row.columns else items, row.columns or 1
     ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
     if (row.min_count, row.max_count, row.columns) == (1, None, None):

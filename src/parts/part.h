@@ -56,6 +56,10 @@ const struct hk_option_table *hk_part_find(const char *name);
 #define HOOKE_PART_PINNED(names, text)                                                                       \
   HOOKE_OPTION("pinned", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, 0), NULL, text, .words = (names),              \
                .word_lists = 1)
+#define HOOKE_PART_CLAMPED(names)                                                                            \
+  HOOKE_OPTION("clamped", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, -1), NULL,                                    \
+               "ends held still in place and in direction; needs bending", .words = (names),                 \
+               .word_lists = 1)
 #define HOOKE_PART_RIGID                                                                                     \
   HOOKE_OPTION("rigid", .type = HOOKE_OPTION_FLAG, "false",                                                  \
                "true: it moves as one rigid body, and springs inside it are dropped")

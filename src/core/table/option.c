@@ -382,7 +382,7 @@ double hooke_options_row_number(const hooke_options *options, int64_t row, const
       {"whole", of->whole},
       {"required", of->required},
       {"min_count", counted && of->min_count > 0 ? (double)of->min_count : NAN},
-      {"max_count", counted && of->max_count > 0 ? (double)of->max_count : NAN},
+      {"max_count", counted && of->max_count != 0 ? (double)of->max_count : NAN},
       {"columns", of->columns > 0 ? (double)of->columns : NAN},
       {"word_lists", of->word_lists},
   };

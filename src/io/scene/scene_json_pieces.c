@@ -222,7 +222,8 @@ int32_t hooke_system_add_members(hooke_system *system, const char *key, const ch
   while (list->key && strcmp(list->key, key) != 0)
     list++;
   if (list->key == NULL)
-    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven obstacles", "key", "key", key);
+    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven obstacles", "key", "key",
+                             key);
   char maker[64];
   hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
   int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
@@ -270,15 +271,16 @@ static int32_t add_obstacle(hooke_system *system, const char *name, int64_t coun
 
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
-    {"particles", "", NULL, 1, NULL, NULL, add_particles},
+    {"particles", "", NULL, 1, NULL, NULL, add_particles, 0},
     {"springs", " name between ", "between", 2, "stiffness", "an array of pairs of particles",
-     hooke_system_add_springs},
+     hooke_system_add_springs, 0},
     {"bending", " name triples ", "triples", 3, "coefficient", "an array of triples of particles",
-     add_bending},
+     add_bending, 0},
     {"anchors", " name particles ", "particles", 1, "stiffness", "an array of particles",
-     hooke_system_add_anchors},
-    {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body},
-    {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive},
+     hooke_system_add_anchors, 0},
+    {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body,
+     0},
+    {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive, 0},
     {"obstacles", " particles ", "particles", 1, NULL, "an array of particles", add_obstacle, 1},
-    {NULL, NULL, NULL, 0, NULL, NULL, NULL},
+    {NULL, NULL, NULL, 0, NULL, NULL, NULL, 0},
 };
