@@ -1,5 +1,6 @@
 /* Obstacles: contact along the normal, friction across it, work and heat of both, and where nothing can be
  * said. */
+#include "agree.h"
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -118,6 +119,32 @@ TEST(a_block_creeps_below_the_angle_of_friction_and_slides_above) {
     const double right = above ? g * (sin(angle) - mu * cos(angle)) : creep;
     check_between(v[0], 0.99 * right, 1.01 * right);
   }
+}
+
+/* A rope through an obstacle of each shape, and steps of it. */
+TEST(bits_are_those_of_the_plain_loop) {
+  static const struct canonical_obstacle obstacles[] = {
+      {0, {0.1, -0.2, 0.3}, {0, 1, 0}, 0, 300, 2, 0.3, 0.1, 0},
+      {1, {-0.3, 0.2, 0.1}, {0}, 0.7, 500, 0, 0, 1, 0.05},
+      {2, {0.2, 0.4, -0.1}, {0, 0, 1}, 0.5, 200, 1, 0.7, 0.2, 0}};
+  static const char *const words[] = {
+      "shape=plane point=0.1,-0.2,0.3 normal=0,2,0 stiffness=300 damping=2 friction=0.3 friction_speed=0.1",
+      "shape=sphere center=-0.3,0.2,0.1 radius=0.7 clearance=0.05 stiffness=500",
+      "shape=cylinder point=0.2,0.4,-0.1 axis=0,0,3 radius=0.5 stiffness=200 damping=1 friction=0.7 "
+      "friction_speed=0.2"};
+  owned_system *system =
+      small_part(NULL, "rope", "line",
+                 "from=-0.9,-0.31,0.17 to=0.83,0.91,-0.4 segments=29 mass=0.7 pinned=start "
+                 "stretch.stiffness=60 stretch.damping=0.1");
+  for (int k = 0; k < 3; k++)
+    add(system, words[k]);
+  check_ok(hooke_system_commit(system));
+  owned_state *state = start_state(system);
+  owned_canonical canonical;
+  canonical_create(system, &canonical);
+  canonical.obstacle_count = 3;
+  canonical.obstacle = obstacles;
+  check_agrees(system, &canonical, hooke_state_position(state), hooke_state_velocity(state));
 }
 
 /* At the centre there is no direction, and no force; it is counted. */

@@ -2,12 +2,20 @@
  *
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first
  * end, subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs
- * likewise, anchors likewise, drag, the callback. The acceleration is w f, then gravity is added to it.
+ * likewise, anchors likewise, obstacles in
+ * order, drag, the callback. The acceleration is w f, then gravity is added to it.
  * Particles that are constrained (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
 
 #include "hooke/system.h"
+
+/* A plane (0), a sphere (1) or a cylinder (2) that pushes out all free particles; axis: the unit normal, or
+ * axis. */
+struct canonical_obstacle {
+  int shape;
+  double point[3], axis[3], radius, stiffness, damping, friction, friction_speed, clearance;
+};
 
 struct canonical {
   int64_t particle_count, spring_count;
@@ -23,13 +31,15 @@ struct canonical {
   double *altitude[3];               /* stiffness, damping; 7 rest lengths, with a sign */
   unsigned char *altitude_pull_only; /* tetrahedron_count */
   int64_t anchor_count;
-  int64_t *anchored;     /* anchor_count: the particle of each */
-  double *anchor_point;  /* 3 anchor_count */
-  double *anchor[3];     /* stiffness, damping and rest length */
-  double *inverse_mass;  /* particle_count */
-  const double *gravity; /* NULL: none */
-  double drag;           /* 0: none */
-  hooke_force *force;    /* NULL: none */
+  int64_t *anchored;    /* anchor_count: the particle of each */
+  double *anchor_point; /* 3 anchor_count */
+  double *anchor[3];    /* stiffness, damping and rest length */
+  int64_t obstacle_count;
+  const struct canonical_obstacle *obstacle; /* the caller's */
+  double *inverse_mass;                      /* particle_count */
+  const double *gravity;                     /* NULL: none */
+  double drag;                               /* 0: none */
+  hooke_force *force;                        /* NULL: none */
   void *ctx;
   /* moves driven particles to their positions at time t; NULL: there are none */
   void (*place)(double t, double *q, double *v, void *place_ctx);

@@ -17,10 +17,10 @@ struct law {
   const char *name, *law;
   int32_t zero_rest, damped, pull_only, gravity, drag;
   int32_t callback; /* 1: without a product, 2: with one */
-  int32_t bending, altitude, anchors;
+  int32_t bending, altitude, anchors, obstacles;
 };
 
-enum { LAW_COUNT = 18 };
+enum { LAW_COUNT = 20 };
 extern const struct law laws[LAW_COUNT];
 
 struct law_scene {
