@@ -317,6 +317,20 @@ static double power(const hooke_system *system, double t, const double *q, const
   return hk_sum_value(&sum);
 }
 
+int64_t hk_obstacles_untouched(const hooke_system *system, double t, const double *q, int64_t *number) {
+  for (; *number < obstacles_of(system)->count; ++*number) {
+    struct walk walk = {.system = system, .t = t, .obstacle = *number};
+    int64_t lightest = -1, touches = 0;
+    struct contact c;
+    for (int64_t p; (p = next(&walk)) >= 0 && walk.obstacle == *number;) {
+      touches |= find_depth(&walk.at, q + 3 * p, &c) != 0;
+      if (lightest < 0 || system->inverse_mass[p] > system->inverse_mass[lightest]) lightest = p;
+    }
+    if (lightest >= 0 && !touches) return lightest;
+  }
+  return -1;
+}
+
 /* ---- derivatives ---- */
 
 /* Change of the normal as a particle moves by dq. */

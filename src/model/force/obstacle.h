@@ -24,6 +24,10 @@ struct hk_obstacles {
   struct hk_obstacle *obstacle;
 };
 
+/* The lightest free particle of the first obstacle from `number` on that none touches at q (3n) and time t;
+ * -1 if there is none. `number` becomes that of the obstacle. */
+int64_t hk_obstacles_untouched(const struct hooke_system *system, double t, const double *q, int64_t *number);
+
 void hk_obstacles_release(struct hk_obstacles *obstacles);
 
 #endif
