@@ -147,6 +147,56 @@ TEST(bits_are_those_of_the_plain_loop) {
   check_agrees(system, &canonical, hooke_state_position(state), hooke_state_velocity(state));
 }
 
+/* A light rope over half a roller, from which 1 kg hangs, drawn much faster than the friction speed: tensions
+ * at its ends are as exp(mu pi) (Euler 1769, Eytelwein 1808). */
+enum { ARC = 60, TAIL = 20, ROPE = ARC + 1 + 2 * TAIL };
+
+static void lay_over_roller(double radius, double speed, double piece, double *q, double *v) {
+  for (int k = 0; k < ROPE; k++) {
+    const double turn = acos(-1.0) * fmin(1.0, fmax(0.0, (k - TAIL) / (double)ARC));
+    const double below = piece * fmax(0.0, fmax((double)TAIL - k, (double)k - TAIL - ARC));
+    q[3 * k] = -radius * cos(turn);
+    q[3 * k + 1] = radius * sin(turn) - below;
+    v[3 * k] = speed * sin(turn);
+    v[3 * k + 1] = speed * cos(turn);
+    q[3 * k + 2] = v[3 * k + 2] = 0.0;
+  }
+}
+
+static hooke_system *rope_over_roller(const double *q, const double *v, double piece, double speed) {
+  double mass[ROPE];
+  int64_t ends[2 * (ROPE - 1)];
+  for (int64_t k = 0; k < ROPE; k++) {
+    mass[k] = k == 0 ? 1.0 : 2e-4;
+    if (k < ROPE - 1) ends[2 * k] = k, ends[2 * k + 1] = k + 1;
+  }
+  hooke_system *system = new_system();
+  check_ok(hooke_system_add_particles(system, ROPE, q, v, ROPE, mass, NULL));
+  small_springs(system, ROPE - 1, ends,
+                (struct springs){.stiffness = 2000.0, .damping = 0.02, .rest_length = piece});
+  const double times[2] = {0.0, 10.0}, down[6] = {0, 0, 0, 0, -10.0 * speed, 0};
+  const int64_t last = ROPE - 1;
+  check_ok(hooke_system_drive_table(system, 1, &last, 2, times, down));
+  add(system, "shape=cylinder point=0,0,0 axis=0,0,1 radius=0.1 stiffness=2e4 damping=0.5 friction=0.3 "
+              "friction_speed=1e-3");
+  return small_falling(system);
+}
+
+static double tension(const double *q, int k, double piece) {
+  const double d[3] = {q[3 * k + 3] - q[3 * k], q[3 * k + 4] - q[3 * k + 1], q[3 * k + 5] - q[3 * k + 2]};
+  return 2000.0 * (sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / piece - 1.0);
+}
+
+TEST(a_rope_over_a_roller_holds_as_euler_and_eytelwein_say) {
+  const double piece = acos(-1.0) * 0.1 / ARC, speed = 0.05, rest = piece / (1.0 + 9.81 / 2000.0);
+  double q[3 * ROPE], v[3 * ROPE];
+  lay_over_roller(0.1, speed, piece, q, v);
+  owned_system *system = rope_over_roller(q, v, rest, speed);
+  run_to_end(system, (struct run){.method = "rk4", .step = 2e-5, .duration = 0.3, .every = 0.3}, q, v);
+  const double right = exp(0.3 * acos(-1.0));
+  check_between(tension(q, ROPE - 2, rest) / tension(q, 0, rest), 0.98 * right, 1.02 * right);
+}
+
 /* At the centre there is no direction, and no force; it is counted. */
 TEST(at_a_centre_there_is_no_force) {
   const double place[3] = {1, 2, 3}, none[3] = {0, 0, 0};
