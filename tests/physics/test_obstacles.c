@@ -197,6 +197,41 @@ TEST(a_rope_over_a_roller_holds_as_euler_and_eytelwein_say) {
   check_between(tension(q, ROPE - 2, rest) / tension(q, 0, rest), 0.98 * right, 1.02 * right);
 }
 
+/* A line of 10 m and 10 N/m from the ground to a point 8.8 m on and 3 m up, at rest: part of it lies. Irvine
+ * (1981), without stretch: s hangs, with H = w (s^2 - h^2)/(2 h) and s + 8.8 - (H/w) asinh(w s/H) = 10. */
+static double lying_line(double *touching) {
+  enum { PIECES = 50 };
+  const double span = sqrt(8.8 * 8.8 + 9.0), piece = 10.0 / PIECES;
+  owned_system *line = small_part(NULL, "rope", "line",
+                                  "from=0,0,0 to=8.8,3,0 segments=%d density=%.17g pinned=start,end "
+                                  "stretch.stiffness=1e6 stretch.rest_scale=%.17g",
+                                  PIECES, 10.0 / 9.81 * 10.0 / span, 10.0 / span);
+  add(line, "shape=plane point=0,0,0 normal=0,1,0 stiffness=1e4");
+  small_falling(line);
+  owned_state *state = start_state(line);
+  double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  for (double step = 0.05; step < 1e3; step *= 3.0) { /* without inertia, and ever longer */
+    owned_integrator *run = start_run(line, (struct run){.method = "backward-euler", .step = step});
+    check_ok(hooke_integrator_step(run, state, 1));
+    memset(v, 0, 3 * (PIECES + 1) * sizeof *v);
+  }
+  for (int k = 1; k <= PIECES; k++)
+    *touching += q[3 * k + 1] < 1e-4 ? piece : 0.0;
+  const double *a = q + 3 * PIECES, *b = a - 3, d[2] = {a[0] - b[0], a[1] - b[1]};
+  return 1e6 * (sqrt(d[0] * d[0] + d[1] * d[1]) / piece - 1.0);
+}
+
+TEST(a_line_lies_on_the_ground_as_irvine_says) {
+  double low = 3.001, high = 10.0, touching = 0.0;
+  while (high - low > 1e-12) {
+    const double s = 0.5 * (low + high), a = (s * s - 9.0) / 6.0;
+    *(s + 8.8 - a * asinh(s / a) > 10.0 ? &low : &high) = s;
+  }
+  const double h = 10.0 * (low * low - 9.0) / 6.0, at_top = h + 10.0 * (3.0 - 0.5 * 0.2 * 3.0 / low);
+  check_close(lying_line(&touching), at_top, 0.01 * at_top);
+  check_close(touching, 10.0 - low, 0.2);
+}
+
 /* At the centre there is no direction, and no force; it is counted. */
 TEST(at_a_centre_there_is_no_force) {
   const double place[3] = {1, 2, 3}, none[3] = {0, 0, 0};
