@@ -1,8 +1,6 @@
 "use strict";
 /* The text of the scene, with numbers of its lines and an error at its place. */
 
-const at = (id) => document.getElementById(id);
-
 /* "scene:3:14: what is wrong": line, column and words; a line of 0 where the message names none. */
 function placeOf(message) {
   const [, line, column, words] = message.match(/^scene:(\d+):(\d+): ([^]*)$/) || [null, "0", "0", message];
@@ -12,9 +10,7 @@ function placeOf(message) {
 function numberLines(wrong) {
   const count = at("text").value.split("\n").length;
   at("numbers").replaceChildren(...Array.from({ length: count }, (_, k) => {
-    const item = document.createElement(k + 1 === wrong ? "b" : "span");
-    item.textContent = k + 1;
-    return [item, "\n"];
+    return [element(k + 1 === wrong ? "b" : "span", k + 1), "\n"];
   }).flat());
   at("numbers").scrollTop = at("text").scrollTop;
 }

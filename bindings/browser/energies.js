@@ -20,16 +20,12 @@ function boundEnergies(scale) {
 }
 
 function makeChart() {
-  const ink = styleOf("--dim"), grid = styleOf("--line");
   if (chart) chart.destroy();
-  const axis = (title, more) => ({ title: { display: true, text: title, color: ink }, grid: { color: grid, borderColor: grid },
-    ...more, ticks: { color: ink, maxRotation: 0, ...more.ticks } });
   const line = (label, borderColor) => ({ label, data: [], borderColor, borderWidth: 2, pointRadius: 0, showLine: true });
-  chart = new Chart(at("energy"), { type: "scatter", data: { datasets: [line("energy of motion and springs", "#2f86c9"), line("step by step", "#c0262d")] },
-    options: { animation: false, maintainAspectRatio: false, events: [],
-      scales: { x: axis("t [s]", { type: "linear", ticks: { callback: (value) => number(value, 6) } }),
-        y: axis("energy [J]", { type: "logarithmic", afterDataLimits: boundEnergies, ticks: { callback: (value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? value.toExponential(0) : null) } }) },
-      plugins: { tooltip: { enabled: false }, legend: { align: "end", labels: { color: ink, boxHeight: 0, boxWidth: 18 } } } } });
+  chart = diagram(at("energy"), [line("energy of motion and springs", "#2f86c9"), line("step by step", "#c0262d")],
+    ["t [s]", { ticks: { callback: (value) => number(value, 6) } }],
+    ["energy [J]", { type: "logarithmic", afterDataLimits: boundEnergies, ticks: powerTicks() }],
+    { labels: { boxHeight: 0, boxWidth: 18 } });
 }
 
 let charted = 0;

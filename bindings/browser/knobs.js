@@ -1,16 +1,7 @@
 "use strict";
-/* Sliders, the method, and the marks of what is safe; numbers as words. */
+/* Sliders, the method, and the marks of what is safe. */
 
-/* ---- numbers as words ---- */
-
-function number(value, digits = 3) {
-  const size = Math.abs(value);
-  if (value === 0 || (size >= 1e-3 && size < 1e5)) return String(Number(value.toPrecision(digits)));
-  return value.toExponential(digits - 1).replace(/\.?0+e/, "e");
-}
 const seconds = (value) => (value >= 1 ? `${number(value)} s` : value >= 1e-3 ? `${number(1e3 * value)} ms` : `${number(1e6 * value)} \u00b5s`);
-
-/* ---- sliders ---- */
 
 const method = () => at("method").value;
 const step = () => Number((stepRange[0] * (stepRange[1] / stepRange[0]) ** (at("step").value / 1000)).toPrecision(2));

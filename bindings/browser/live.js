@@ -201,10 +201,9 @@ class Live {
     return { ends: Uint32Array.from(ends, Number), restLength, held: Uint8Array.from(weight, (w) => (w === 0 ? 1 : 0)) };
   }
 
-  groups() {
-    const { library, system } = this, count = Number(library.call("system_group_count", system, "springs"));
-    return Array.from({ length: count }, (_, k) => ({ name: library.text(library.call("system_group_name", system, "springs", BigInt(k))),
-      size: Number(library.call("system_group_size", system, "springs", BigInt(k))) }));
+  /* Of a part: its "particles", or those "before" it. */
+  partCount(part, what) {
+    return Number(this.library.call("system_part_count", this.system, part, what));
   }
 }
 

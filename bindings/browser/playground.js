@@ -1,6 +1,6 @@
 "use strict";
 /* The page: what it asks the worker, in which the library runs, for one frame after another, and what the reader does. Numbers are in SI
- * units; text is set as text, never as markup. */
+ * units. */
 
 const { scenes, files } = JSON.parse(at("data").textContent);
 const FIRST = "cloth-16";
@@ -85,7 +85,7 @@ const HEARD = {
   ready({ methods: list, version, lapack }) {
     methods = list;
     predicts = lapack !== "";
-    at("method").append(...list.map(({ name, summary }) => Object.assign(document.createElement("option"), { value: name, textContent: name, title: summary })));
+    at("method").append(...list.map(({ name, summary }) => element("option", name, { value: name, title: summary })));
     at("about").textContent = `hooke ${version} as WebAssembly${lapack ? ", with LAPACK" : ""}; drawn with three.js and Chart.js (MIT licence). ` +
       "Methods with a fixed step give the same bits here as natively. Nothing is sent anywhere.";
     readLink(location.hash).then((linked) => openScene(linked || { text: scenes[at("scenes").value] }));
@@ -202,7 +202,7 @@ function listen() {
       alter({ do: "change", text: at("text").value, changes: changes() });
     };
   }
-  at("scenes").append(...Object.keys(scenes).map((name) => Object.assign(document.createElement("option"), { value: name, textContent: name,
+  at("scenes").append(...Object.keys(scenes).map((name) => element("option", name, { value: name,
     title: JSON.parse(scenes[name]).title || name, selected: name === first })));
   at("scenes").onchange = () => {
     gravityMoved = false;

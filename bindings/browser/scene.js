@@ -41,26 +41,12 @@ const cornersOf = (text) => [...text.matchAll(/^f\s+(.*)$/gm)].flatMap(([, list]
   return corners.slice(2).flatMap((_, k) => [corners[0], corners[k + 1], corners[k + 2]]);
 });
 
-/* The parts of a scene, each with its first particle and their number, which its springs tell. */
-function bodiesOf(scene, groups, ends, files) {
-  let spring = 0;
-  const ranges = new Map();
-  for (const { name, size } of groups) {
-    const part = name.slice(0, name.lastIndexOf(".")), range = ranges.get(part) || [Infinity, -1];
-    for (let k = 2 * spring; k < 2 * (spring + size); k++) {
-      range[0] = Math.min(range[0], ends[k]);
-      range[1] = Math.max(range[1], ends[k]);
-    }
-    ranges.set(part, range);
-    spring += size;
-  }
-  return (scene.parts || []).flatMap((part, k) => {
-    const [first, last] = ranges.get(part.name || `${part.kind}${k}`) || [0, -1], count = last - first + 1;
-    const triangle = part.kind === "mesh" ? part.triangles ? part.triangles.flat() : cornersOf(files[part.file] || "") : [];
-    const size = part.kind === "cloth" || part.kind === "lattice" ? part.size : [count];
-    const whole = part.kind === "mesh" ? triangle.length > 0 && Math.max(...triangle) === count - 1
-      : size.reduce((product, side) => product * side, 1) === count;
-    return whole && count > 0 ? [{ kind: part.kind, first, count, size, triangle }] : [];
+/* The parts of a scene, each with its first particle and their number, as the library counts them. */
+function bodiesOf(scene, live, files) {
+  return (scene.parts || []).map((part, k) => {
+    const countOf = (what) => live.partCount(part.name || `${part.kind}${k}`, what);
+    const triangle = part.kind !== "mesh" ? [] : part.triangles ? part.triangles.flat() : cornersOf(files[part.file]);
+    return { kind: part.kind, first: countOf("before"), count: countOf("particles"), size: part.size, triangle };
   });
 }
 

@@ -19,9 +19,7 @@ function makePicture(opened) {
   }
   const palette = picture.paint();
   picture.controls.addEventListener("change", () => picture.draw());
-  at("colours").style.background = `linear-gradient(to right, ${palette.join(", ")})`;
-  at("low").textContent = `\u2212${number(100 * opened.strain)} %`;
-  at("high").textContent = `+${number(100 * opened.strain)} %`;
+  writeScale(palette, opened.strain);
   if (!opened.bodies.length) at("tint").checked = true;
   dress();
 }

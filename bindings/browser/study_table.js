@@ -24,10 +24,9 @@ function markFront(rows) {
 }
 
 function writeRow(row) {
-  const line = document.createElement("tr"), use = Object.assign(document.createElement("button"), { textContent: "run it" });
+  const line = element("tr", "", { className: row.front ? "front" : "" }), use = element("button", "run it");
   const error = row.error === null ? row.status : row.error < studied.reference.agreement
     ? `below ${number(studied.reference.agreement, 2)} m` : `${number(row.error)} m`;
-  line.className = row.front ? "front" : "";
   for (const text of [row.front ? "\u25cf" : "", row.method, seconds(row.step), error, row.error === null ? "" : seconds(row.wall_seconds), ""])
     line.insertCell().textContent = text;
   if (row.front) line.lastChild.append(use);
@@ -46,15 +45,12 @@ function drawFront() {
   studyChart = null;
   const judged = studied ? studied.rows.filter(({ error }) => error !== null) : [];
   if (!judged.length) return;
-  const ink = styleOf("--dim"), grid = styleOf("--line");
   const points = (rows) => rows.map((row) => ({ x: row.wall_seconds, y: sizeOf(row) })).sort((a, b) => a.x - b.x);
-  const axis = (title) => ({ type: "logarithmic", title: { display: true, text: title, color: ink }, grid: { color: grid, borderColor: grid },
-    ticks: { color: ink, maxRotation: 0, callback: (value) => (Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9 ? value.toExponential(0) : null) } });
-  studyChart = new Chart(at("study-front"), { type: "scatter", data: { datasets: [
+  const logarithmic = { type: "logarithmic", ticks: powerTicks() };
+  studyChart = diagram(at("study-front"), [
     { label: "front", data: points(judged.filter(({ front }) => front)), showLine: true, borderColor: "#14863c", backgroundColor: "#14863c", borderWidth: 2 },
-    { label: "other runs", data: points(judged.filter(({ front }) => !front)), backgroundColor: ink, pointRadius: 2.5 }] },
-  options: { animation: false, maintainAspectRatio: false, events: [], scales: { x: axis("time [s]"), y: axis("error [m]") },
-    plugins: { tooltip: { enabled: false }, legend: { align: "end", labels: { color: ink, boxWidth: 12, boxHeight: 6 } } } } });
+    { label: "other runs", data: points(judged.filter(({ front }) => !front)), backgroundColor: styleOf("--dim"), pointRadius: 2.5 },
+  ], ["time [s]", logarithmic], ["error [m]", logarithmic], { labels: { boxWidth: 12, boxHeight: 6 } });
 }
 
 /* The front first, by error; what was not judged last. */

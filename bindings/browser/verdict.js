@@ -90,7 +90,7 @@ const ADVICE = {
 
 /* The sentences of a measurement, as the library composed them. */
 function tellClaims(id, claims) {
-  at(id).replaceChildren(...claims.map(({ text }) => Object.assign(document.createElement("p"), { textContent: text })));
+  at(id).replaceChildren(...claims.map(({ text }) => element("p", text)));
 }
 
 /* Half a second after the last change, at the state that is then shown. */

@@ -48,7 +48,9 @@ function start(scene, text) {
   return parsed;
 }
 
-function restartWatch() {
+/* From the state that is there on. */
+function runBy(method, step) {
+  live.use(method, step);
   watch = new Watch(live);
   first = live.now;
   pace = { owed: 0, slow: false, steps: 1, before: 0, cost: 0, ended: false, diverged: null, calm: 0 };
@@ -63,10 +65,9 @@ function open({ text, changes, method, step }) {
   const states = preview(run);
   net.strain = strainScale(states, net);
   live.reset();
-  live.use(method || by, step || live.step);
-  restartWatch();
+  runBy(method || by, step || live.step);
   return { is: "opened", method: method || by, step: live.step, ends: net.ends, marks: net.held, strain: net.strain,
-    bodies: bodiesOf(parsed, live.groups(), net.ends, files), gravity: parsed.gravity || [0, 0, 0],
+    bodies: bodiesOf(parsed, live, files), gravity: parsed.gravity || [0, 0, 0],
     frames: states.map((q) => packFrame(q, net, net.strain)), bounds: live.bounds, energies: live.energies };
 }
 
@@ -82,8 +83,7 @@ function change({ text, changes, method, step }) {
   if (scene.count === old.count) scene.put(old.now);
   start(scene, changed);
   net = { ...live.net, strain: net.strain };
-  live.use(method, step);
-  restartWatch();
+  runBy(method, step);
   return { is: "bounds", bounds: live.bounds };
 }
 
@@ -167,14 +167,12 @@ const ANSWERS = {
     return { is: "studied", ...studyOf(new Live(library, changedScene(text, changes))) };
   },
   use({ method, step }) {
-    live.use(method, step);
-    restartWatch();
+    runBy(method, step);
     return { is: "bounds", bounds: live.bounds };
   },
   restart({ method, step }) {
     live.reset();
-    live.use(method, step);
-    restartWatch();
+    runBy(method, step);
     return { is: "restarted", ...packFrame(live.position, net, net.strain), time: 0, energies: live.energies, bounds: live.bounds };
   },
 };

@@ -125,7 +125,7 @@ def test_the_page_fetches_nothing(hooke, cloth, tmp_path):
     assert [found for found in fetches(view.page.replace(library, "")) if not found.startswith(names)] == []
     assert [found for found in re.findall(r"https?:\S+", library) if not found.startswith((names, paper))] == []
     assert view.page.count("default-src 'none'") == 1
-    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 16
+    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 18
 
 
 @needs_view

@@ -291,7 +291,7 @@ def test_an_error_comes_at_once_names_its_keyword_and_changes_nothing(call, mess
 @pytest.mark.parametrize(
     "call, message",
     [
-        (lambda: hooke.Scene(gravity=(1, 2)), "gravity: its shape is (2,), allowed is (3,)"),
+        (lambda: hooke.Scene(gravity=(1, 2)), "gravity: 2 numbers given; allowed: 3 numbers [m/s^2]"),
         (lambda: hooke.Scene(drag=-1), "drag: -1 is not allowed"),
         (lambda: hooke.Scene(drag="much"), 'drag: "much" is not allowed; allowed: a number >= 0 [N s/m]'),
         (lambda: hooke.Scene().particles([[0, 0, 0]], mass=-1), "particles.mass: -1 is not allowed"),

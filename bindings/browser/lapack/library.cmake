@@ -15,6 +15,4 @@ function(hooke_add_lapack target sources made)
   target_include_directories(${target} PRIVATE ${made})
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   set_property(SOURCE ${made}/lapack.c PROPERTY COMPILE_OPTIONS -w)
-  set_property(SOURCE ${made}/lapack.c PROPERTY COMPILE_DEFINITIONS
-    dgeev_=f2c_dgeev dsyev_=f2c_dsyev dsyevx_=f2c_dsyevx dstev_=f2c_dstev)
 endfunction()

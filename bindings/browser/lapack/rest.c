@@ -1,6 +1,5 @@
-/* What the routines of LAPACK need besides f2c's translation: the functions of Fortran that f2c calls, the
- * routines that are no Fortran 77 (Anderson 2017 for dlartg), and the three that the library calls, which
- * return nothing. */
+/* What the routines of LAPACK need besides f2c's translation: the functions of Fortran that f2c calls, and
+ * the routines that are no Fortran 77 (Anderson 2017 for dlartg). */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -63,36 +62,13 @@ int32_t disnan_(const double *x) {
   return isnan(*x);
 }
 
-int32_t dlaisnan_(const double *a, const double *b) {
-  return *a != *b;
-}
-
 double dlamch_(const char *what, int32_t length) {
+  static const char words[] = "ESBPNRMULO";
+  static const double values[] = {DBL_EPSILON / 2, DBL_MIN, FLT_RADIX,   DBL_EPSILON, DBL_MANT_DIG, 1.0,
+                                  DBL_MIN_EXP,     DBL_MIN, DBL_MAX_EXP, DBL_MAX};
+  const char *word = strchr(words, *what & ~32); /* in capitals */
   (void)length;
-  switch (*what & ~32) { /* in capitals */
-  case 'E':
-    return DBL_EPSILON / 2;
-  case 'S':
-    return DBL_MIN;
-  case 'B':
-    return FLT_RADIX;
-  case 'P':
-    return DBL_EPSILON;
-  case 'N':
-    return DBL_MANT_DIG;
-  case 'R':
-    return 1.0;
-  case 'M':
-    return DBL_MIN_EXP;
-  case 'U':
-    return DBL_MIN;
-  case 'L':
-    return DBL_MAX_EXP;
-  case 'O':
-    return DBL_MAX;
-  default:
-    return 0.0;
-  }
+  return word && *word ? values[word - words] : 0.0;
 }
 
 /* scale^2 sum = old scale^2 sum + the squares of x, without overflow. */
@@ -130,44 +106,4 @@ int dlartg_(const double *f, const double *g, double *c, double *s, double *r) {
 int xerbla_(const char *routine, int32_t *argument, int32_t length) {
   (void)routine, (void)argument, (void)length;
   return 0;
-}
-
-/* ---- what the library calls ---- */
-
-int f2c_dsyev(const char *job, const char *triangle, const int *n, double *a, const int *stride,
-              double *value, double *work, const int *work_size, int *info, size_t, size_t);
-void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride, double *value,
-            double *work, const int *work_size, int *info, size_t one, size_t two) {
-  f2c_dsyev(job, triangle, n, a, stride, value, work, work_size, info, one, two);
-}
-
-int f2c_dsyevx(const char *job, const char *range, const char *triangle, const int *n, double *a,
-               const int *stride, const double *low, const double *high, const int *first, const int *last,
-               const double *accuracy, int *found, double *value, double *vector, const int *vector_stride,
-               double *work, const int *work_size, int *whole, int *failed, int *info, size_t, size_t,
-               size_t);
-void dsyevx_(const char *job, const char *range, const char *triangle, const int *n, double *a,
-             const int *stride, const double *low, const double *high, const int *first, const int *last,
-             const double *accuracy, int *found, double *value, double *vector, const int *vector_stride,
-             double *work, const int *work_size, int *whole, int *failed, int *info, size_t one, size_t two,
-             size_t three) {
-  f2c_dsyevx(job, range, triangle, n, a, stride, low, high, first, last, accuracy, found, value, vector,
-             vector_stride, work, work_size, whole, failed, info, one, two, three);
-}
-
-int f2c_dstev(const char *job, const int *n, double *diagonal, double *beside, double *vector,
-              const int *stride, double *work, int *info, size_t);
-void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,
-            const int *stride, double *work, int *info, size_t one) {
-  f2c_dstev(job, n, diagonal, beside, vector, stride, work, info, one);
-}
-
-int f2c_dgeev(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
-              double *real, double *imaginary, double *left, const int *left_stride, double *right,
-              const int *right_stride, double *work, const int *work_size, int *info, size_t, size_t);
-void dgeev_(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
-            double *real, double *imaginary, double *left, const int *left_stride, double *right,
-            const int *right_stride, double *work, const int *work_size, int *info, size_t one, size_t two) {
-  f2c_dgeev(left_job, right_job, n, a, stride, real, imaginary, left, left_stride, right, right_stride, work,
-            work_size, info, one, two);
 }

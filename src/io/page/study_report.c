@@ -18,18 +18,10 @@ static int64_t first_frame(int64_t frames, int64_t point) {
   return point * frames / point_count(frames);
 }
 
-static void add_times(struct hk_text *text, const hooke_measurement *m) {
+static void add_curve(struct hk_text *text, const hooke_measurement *m, const char *table, int64_t row,
+                      const char *column) {
   int64_t frames;
-  const double *time = hooke_measurement_series(m, "reference", 0, "time", &frames);
-  hk_text_open(text, "time", '[');
-  for (int64_t k = 0; time && k < point_count(frames); k++)
-    hk_text_number(text, NULL, time[first_frame(frames, k + 1) - 1]);
-  hk_text_close(text, ']');
-}
-
-static void add_curve(struct hk_text *text, const hooke_measurement *m, int64_t row, const char *column) {
-  int64_t frames;
-  const double *value = hooke_measurement_series(m, "rows", row, column, &frames);
+  const double *value = hooke_measurement_series(m, table, row, column, &frames);
   hk_text_open(text, column, '[');
   for (int64_t k = 0; value && k < point_count(frames); k++) {
     double largest = NAN;
@@ -43,12 +35,12 @@ static void add_curve(struct hk_text *text, const hooke_measurement *m, int64_t 
 /* ---- the page ---- */
 
 int32_t hk_study_page_add(struct hk_text *data, const hooke_measurement *m) {
-  add_times(data, m);
+  add_curve(data, m, "reference", 0, "time"); /* which rises: of each point the last */
   hk_text_open(data, "curves", '[');
   for (int64_t row = 0; row < hooke_measurement_row_count(m, "rows"); row++) {
     hk_text_open(data, NULL, '{');
-    add_curve(data, m, row, "error_max_at");
-    add_curve(data, m, row, "energy_drift_at");
+    add_curve(data, m, "rows", row, "error_max_at");
+    add_curve(data, m, "rows", row, "energy_drift_at");
     hk_text_close(data, '}');
   }
   hk_text_close(data, ']');

@@ -101,9 +101,7 @@ def write_companion(path: bytes) -> None:
 
 
 def _file_of(trajectory: Source) -> pathlib.Path:
-    if isinstance(trajectory, (str, os.PathLike)):
-        return pathlib.Path(os.fspath(trajectory))
-    output = getattr(trajectory, "output", None)
+    output = trajectory if isinstance(trajectory, (str, os.PathLike)) else getattr(trajectory, "output", None)
     if output is None:
         raise BadValue("trajectory: this run was not written to a file; run it with output=...")
     return pathlib.Path(os.fspath(output))

@@ -39,8 +39,8 @@ COUNTS = (
     "memory_bytes",
 )
 
-
-_BLOWN_UP = (2, 3, SolverFailed.status)
+#: Outcomes of a run that blew up.
+BLOWN_UP = (2, 3, SolverFailed.status)
 _LONG = 50_000  # numbers times steps that may take long enough for Ctrl-C to matter
 _RUNNING = "this integrator is running; a callback or another thread needs one of its own"
 
@@ -212,7 +212,7 @@ class Integrator(Closing):
     def diagnosis(self) -> str:
         """The cause of an early end of the last run, with place and time, in a sentence or two; "" if it did not end
         early. It repeats the last steps and tries suggestions, with as much work as the run took, or 2 s if that is more."""
-        if self.outcome not in _BLOWN_UP:
+        if self.outcome not in BLOWN_UP:
             return ""
         try:
             return self.why().sentence

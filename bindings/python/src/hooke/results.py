@@ -32,7 +32,7 @@ from ._prototypes import TRAJECTORY
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
 from .files import numbers, opened, run_options, view, write_companion
-from .integrator import Integrator, Observer
+from .integrator import BLOWN_UP, Integrator, Observer
 from .options import Options
 from .problems import FirstOrder, SecondOrder
 from .problems import Problem as Base
@@ -288,11 +288,9 @@ def why(
     scene, problem, wanted = resolve(what, None, options)
     integrator = Integrator(problem, wanted)
     integrator._title = scene.title if scene is not None else ""
-    try:
-        status = integrator.run(problem.state())
-    except SolverFailed:
-        return integrator.why(budget, progress)
-    return integrator.why(budget, progress) if status in ("diverged", "step-limit") else None
+    with contextlib.suppress(SolverFailed):
+        integrator.run(problem.state())
+    return integrator.why(budget, progress) if integrator.outcome in BLOWN_UP else None
 
 
 def _result(
@@ -305,7 +303,7 @@ def _result(
         problem=integrator._problem,
         frames=frames,
         output=output,
-        integrator=integrator if status in ("diverged", "step-limit") else None,
+        integrator=integrator if integrator.outcome in BLOWN_UP else None,
         **{name: getattr(integrator, name) for name in names},
     )
 

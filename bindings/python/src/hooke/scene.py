@@ -11,13 +11,13 @@ from typing import Any, Callable
 import numpy as np
 
 from ._library import lib
-from ._memory import Asked, Handle, doubles, indices, rows, text
+from ._memory import Asked, Handle, indices, text
 from ._status import BadCall, BadValue, placed
 from ._types import IntArray, Numbers, Path
 from .options import Options, option_name
 from .parts import Parts
 from .problems import Problem
-from .system import System, part_options, write_scene
+from .system import System, part_options, particle_keys, write_scene
 
 
 class Scene(Parts, Problem):
@@ -54,9 +54,7 @@ class Scene(Parts, Problem):
         self._title = title
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] = {"hooke": 1}
-        own = Options.for_scene().set(title=title or None, dynamics=dynamics, drag=drag)
-        if gravity is not None:
-            own["gravity"] = doubles(gravity, "gravity", (3,))
+        own = Options.for_scene().set(title=title or None, dynamics=dynamics, drag=drag, gravity=gravity)
         lib.hooke_scene_options_apply(own._handle, self._system._handle)
         self._document.update((name, own[name]) for name in own if own.is_set(name))
         if run:
@@ -117,13 +115,7 @@ class Scene(Parts, Problem):
                 raise BadCall("the scene has its particles already; give them all in one call")
             if self._system.particle_count:
                 raise BadCall("they are numbered before those of parts, so give them before the first part")
-            q = np.atleast_2d(doubles(position, "position"))
-            piece: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
-            if velocity is not None:
-                piece["velocity"] = rows(velocity, "velocity", len(q)).reshape(-1, 3).copy()
-            kilograms = doubles(mass, "mass").reshape(-1)
-            if kilograms.size:
-                piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
+            piece = particle_keys(position, velocity, mass)
             if pinned is not None and np.size(pinned):
                 piece["pinned"] = indices(pinned, "pinned").reshape(-1).copy()
                 _require_rest(piece)

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
+from ._memory import Handle, double_pointer, doubles, index_pointer, indices, rows, text
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT
 from ._queries import Queries
 from ._status import BadValue
@@ -72,23 +72,10 @@ class System(Queries):
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and
         `mass` [kg], one number for all or (n,), which an overdamped system without gravity needs not have. Returns
         their numbers."""
-        position = np.atleast_2d(doubles(position, "position"))
-        count = len(position)
-        position = doubles(position, "position", (count, 3))
-        if velocity is not None:
-            velocity = doubles(velocity, "velocity", (count, 3), (3 * count,))
-        mass = doubles(mass, "mass").reshape(-1)
-        first = ctypes.c_int64()
-        lib.hooke_system_add_particles(
-            self._handle,
-            count,
-            double_pointer(position),
-            None if velocity is None else double_pointer(velocity),
-            mass.size,
-            double_pointer(mass),
-            ctypes.byref(first),
-        )
-        return range(first.value, first.value + count)
+        first = self.particle_count
+        if np.size(position):
+            self._add("particles", None, "particles", (), particle_keys(position, velocity, mass))
+        return range(first, self.particle_count)
 
     def pin(self, particles: Any) -> None:
         """Pins particles (a number or several)."""
@@ -186,10 +173,8 @@ class System(Queries):
     def drive_table(self, particles: Any, time: Any, displacement: Any) -> None:
         """Moves particles along a smooth curve through `displacement` (samples, 3) [m] at ascending `time`
         (samples,) [s]."""
-        time = doubles(time, "time").reshape(-1)
-        displacement = doubles(displacement, "displacement", (time.size, 3))
-        samples = time.size, double_pointer(time), double_pointer(displacement)
-        lib.hooke_system_drive_table(self._handle, *_numbered(particles), *samples)
+        curve = doubles(displacement, "displacement", (np.size(time), 3))
+        self._add("driven", None, "particles", particles, {"motion": "table", "time": np.ravel(time), "position": curve})
 
     def drive_callback(self, particles: Any, drive: Drive) -> None:
         """Moves particles as ``drive(t, q, v)`` writes, which must depend on t alone."""
@@ -242,6 +227,18 @@ def part_options(kind: str, file: Path | None, values: dict[str, Any]) -> Option
 def write_scene(path: Path, system: System, title: str, run: Options) -> None:
     """Writes a system as a scene file, with the options of a run."""
     lib.hooke_scene_write(os.fsencode(path), system._committed(), title.encode(), run._handle)
+
+
+def particle_keys(position: Any, velocity: Any, mass: Any) -> dict[str, Any]:
+    """The keys of a scene's particles, as copies of what the caller may change."""
+    q = np.atleast_2d(doubles(position, "position"))
+    keys: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
+    if velocity is not None:
+        keys["velocity"] = rows(velocity, "velocity", len(q)).reshape(-1, 3).copy()
+    kilograms = doubles(mass, "mass").reshape(-1)
+    if kilograms.size:
+        keys["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
+    return keys
 
 
 def system_of(problem: Problem, what: str) -> System:

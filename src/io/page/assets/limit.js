@@ -2,33 +2,25 @@
 /* The diagrams of a limit. */
 
 for (const row of data.rows) row.unlimited.forEach((name) => { row[name] = "none"; });
-const modes = Object.fromEntries(["real", "imaginary", "frequency", "decay"]
-  .map((name) => [name, data.modes.map((mode) => mode[name])]));
 const modeCount = data.modes.length;
 
 /* ---- stability ---- */
 
 /* Steps to show: that of the scene, and the known limits. */
-function findSteps() {
-  const list = [];
-  if (data.step !== null) list.push({ key: "scene", label: "step of the scene", step: data.step });
-  for (const row of data.rows) {
-    if (row.predicted > 0) list.push({ key: row.method, label: `limit of ${row.method}`, step: row.predicted });
-  }
-  if (list.length === 0 && data.frequency_max > 0)
-    list.push({ key: "radian", label: "one radian of the fastest motion", step: 1 / data.frequency_max });
-  return list;
-}
-const steps = findSteps();
+const steps = [{ key: "scene", label: "step of the scene", step: data.step },
+  ...data.rows.map(({ method, predicted }) => ({ key: method, label: `limit of ${method}`, step: predicted })),
+].filter(({ step }) => step > 0);
+if (steps.length === 0 && data.frequency_max > 0)
+  steps.push({ key: "radian", label: "one radian of the fastest motion", step: 1 / data.frequency_max });
 
 const mirrored = (points) => [...points, ...[...points].reverse().map(({ x, y }) => ({ x, y: -y }))];
 
 /* Points of modes, with crosses at the edge for those outside. */
 function pointsOf(list) {
-  const look = { showLine: false, borderColor: POINT, backgroundColor: POINT, order: 1, data: [] };
-  return [{ ...look, label: "modes of the scene", pointStyle: "circle",
-    pointRadius: modeCount > 100 ? 2 : 3.2, pointHoverRadius: 6, list },
-    { ...look, label: "", pointStyle: "crossRot", pointRadius: 6, pointHoverRadius: 8, pointBorderWidth: 2, list }];
+  const dots = (label, pointStyle, pointRadius, more) => plain(label, [], POINT,
+    { showLine: false, order: 1, borderWidth: 1, pointHitRadius: 1, pointStyle, pointRadius, list, ...more });
+  return [dots("modes of the scene", "circle", modeCount > 100 ? 2 : 3.2, { pointHoverRadius: 6 }),
+    dots("", "crossRot", 6, { pointHoverRadius: 8, pointBorderWidth: 2 })];
 }
 
 function place(chart, { min: left, max: right }, { min: bottom, max: top }) {
@@ -42,39 +34,32 @@ function place(chart, { min: left, max: right }, { min: bottom, max: top }) {
 }
 
 function describeMode(item) {
-  const k = item.raw.mode, frequency = modes.frequency[k], decay = modes.decay[k];
-  const swing = modes.imaginary[k];
-  return [`\u03bb = ${words(modes.real[k], 5)}${swing === 0 ? "" : ` \u00b1 ${words(swing, 5)} i`} 1/s`,
+  const { real, imaginary, frequency, decay } = item.raw.mode;
+  return [`\u03bb = ${words(real, 5)}${imaginary === 0 ? "" : ` \u00b1 ${words(imaginary, 5)} i`} 1/s`,
     `frequency ${words(frequency, 5)} rad/s, damping ${words(decay, 5)} 1/s`,
     frequency > 0 ? `${words(decay / frequency)} of critical damping` : "nothing draws it back"];
 }
 
-function drawPlane(h) {
-  const list = [];
-  for (let k = 0; k < modeCount; k++) {
-    const x = h * modes.real[k], y = h * modes.imaginary[k];
-    list.push({ x, y, mode: k });
-    if (y !== 0) list.push({ x, y: -y, mode: k });
-  }
-  const regions = data.rows.filter((row) => row.region)
-    .map((row) => region(row.method, mirrored(pairs(row.region))));
-  const chart = drawEqual("plane", [...regions, ...pointsOf(list)], [`real part of h \u03bb, h = ${words(h, 6)} s`, "imaginary part of h \u03bb"],
-    { left: -3.6, right: 0.6, bottom: -3.1, top: 3.1 }, describeMode, place);
+/* Modes on the regions of the methods that have one under `key`. */
+function drawModes(id, key, outline, list, more, titles, box) {
+  const regions = data.rows.filter((row) => row[key]).map((row) => region(row.method, outline(pairs(row[key]))));
+  const chart = drawEqual(id, [...regions, ...more, ...pointsOf(list)], titles, box, describeMode, place);
   chart.canvas.dataset.regions = regions.length;
 }
 
+function drawPlane(h) {
+  const list = data.modes.flatMap((mode) => (mode.imaginary === 0 ? [1] : [1, -1]).map((sign) =>
+    ({ x: h * mode.real, y: sign * h * mode.imaginary, mode })));
+  drawModes("plane", "region", mirrored, list, [], [`real part of h \u03bb, h = ${words(h, 6)} s`, "imaginary part of h \u03bb"],
+    { left: -3.6, right: 0.6, bottom: -3.1, top: 3.1 });
+}
+
 function drawReach(h) {
-  const list = Array.from({ length: modeCount }, (_, k) =>
-    ({ x: h * modes.frequency[k], y: h * modes.decay[k], mode: k }));
-  const regions = data.rows.filter((row) => row.reach)
-    .map((row) => region(row.method, fromOrigin(pairs(row.reach))));
-  const critical = { label: "critical damping", role: "critical", data: [{ x: 0, y: 0 }, { x: 100, y: 100 }],
-    borderColor: "#6b7680", backgroundColor: "#6b7680", borderWidth: 1.5, borderDash: [7, 4], pointRadius: 0,
-    pointHitRadius: 0, pointStyle: "line", order: 2 };
-  const chart = drawEqual("reach", [...regions, critical, ...pointsOf(list)],
-    [`h \u03c9, step times frequency, h = ${words(h, 6)} s`, "h d, step times damping"],
-    { left: -0.1, right: 3.2, bottom: -0.1, top: 3.2 }, describeMode, place);
-  chart.canvas.dataset.regions = regions.length;
+  const list = data.modes.map((mode) => ({ x: h * mode.frequency, y: h * mode.decay, mode }));
+  const critical = plain("critical damping", [{ x: 0, y: 0 }, { x: 100, y: 100 }], "#6b7680",
+    { role: "critical", borderWidth: 1.5, borderDash: [7, 4], order: 2 });
+  const titles = [`h \u03c9, step times frequency, h = ${words(h, 6)} s`, "h d, step times damping"];
+  drawModes("reach", "reach", fromOrigin, list, [critical], titles, { left: -0.1, right: 3.2, bottom: -0.1, top: 3.2 });
 }
 
 /* Prediction for a step: "stable", "grows", just at the "limit", or "open" if they leave it open. */
@@ -92,7 +77,7 @@ function drawStability(key) {
   const says = [["stable", "stable by"], ["limit", "just at the limit of"], ["open", "not decided for"],
     ["grows", "blows up by"]]
     .filter(([verdict]) => named(verdict) !== "").map(([verdict, text]) => `${text} ${named(verdict)}`);
-  document.getElementById("stepped").textContent = `With that step: ${says.join("; ")}.`;
+  at("stepped").textContent = `With that step: ${says.join("; ")}.`;
   drawPlane(step);
   drawReach(step);
 }

@@ -6,7 +6,7 @@
 function writeUnbounded() {
   const names = data.rows.filter((row) => !row.reach && row.predicted === "none").map((row) => row.method);
   if (names.length === 0) return;
-  document.getElementById("unbounded").textContent = `No line: ${names.join(", ")}, which no eigenvalue limits.`;
+  at("unbounded").textContent = `No line: ${names.join(", ")}, which no eigenvalue limits.`;
 }
 
 /* ---- tables ---- */
@@ -28,13 +28,9 @@ function writeRows() {
 }
 
 function writeAbout() {
-  document.getElementById("about-head").textContent = "The scene";
-  fact("about", "time", `${words(data.time, 6)} s`);
-  fact("about", "fastest motion", `${words(data.frequency_max, 6)} rad/s`);
-  fact("about", "fastest damping", `${words(data.rate_max, 6)} 1/s`);
-  fact("about", "method", data.method);
-  fact("about", "step", data.step === null ? "" : `${words(data.step, 6)} s`);
-  fact("about", "limiting mode of", data.blamed);
+  at("about-head").textContent = "The scene";
+  facts("about", { "time [s]": data.time, "fastest motion [rad/s]": data.frequency_max, "fastest damping [1/s]": data.rate_max,
+    method: data.method, "step [s]": data.step, "limiting mode of": data.blamed });
   fact("about", "eigenvalues", data.rows.every((row) => row.exact) ? `${whole(modeCount)} known, of each pair one`
     : `${whole(modeCount)} known, those of the fastest modes`);
   writePicture();
@@ -48,10 +44,8 @@ writeBlame();
 writeRows();
 writeAbout();
 writeMachine();
-document.getElementById("stability").hidden = modeCount === 0 || steps.length === 0;
-if (modeCount > 0 && steps.length > 0) {
+if (reveal("stability", modeCount > 0 && steps.length > 0)) {
   const first = steps.find((one) => one.key === "scene") || steps.find((one) => one.key === data.blamed) || steps[0];
   choice("step", steps.map((one) => [one.key, [one.label]]), first.key, drawStability);
 }
-document.getElementById("mode").hidden = listed.length === 0;
-if (listed.length > 0) startPicture();
+if (reveal("mode", listed.length > 0)) startPicture();

@@ -22,8 +22,7 @@ function shareColour(share) {
   return "#" + from.map((f, i) => Math.round(f + t * (to[i] - f)).toString(16).padStart(2, "0")).join("");
 }
 
-const extentOf = (list, axis) => extentBy(list, (k) => coordinate(k, axis));
-const lengthOf = (axis) => { const [low, high] = extentOf(particles, axis); return high - low; };
+const lengthOf = (axis) => spanOf(extentBy(particles, (k) => coordinate(k, axis)));
 
 /* The two longest axes; where the mode hardly moves along these, the longest and the one of most motion. */
 function firstView() {
@@ -41,13 +40,10 @@ const longestBlamed = () => Math.max(0, ...listed.filter(isBlamed).map(({ ends: 
   Math.hypot(...[0, 1, 2].map((axis) => coordinate(a, axis) - coordinate(b, axis)))));
 
 /* What is to be seen, and how long the longest arrow is. */
-function frameOf([across, up]) {
-  const near = looking.zoom === "mode" ? movers.filter((k) => sizes[k] > 0.4) : particles;
-  const [left, right] = extentOf(near, across), [bottom, top] = extentOf(near, up);
-  const size = Math.max(right - left, top - bottom) || longestBlamed() || 1;
-  const margin = (looking.zoom === "mode" ? 0.35 : 0.14) * size;
-  return { arrow: Math.min(0.12 * (size + margin), longestBlamed() || Infinity),
-    box: { left: left - margin, right: right + margin, bottom: bottom - margin, top: top + margin } };
+function frameOf(axes) {
+  const [near, margin] = looking.zoom === "mode" ? [movers.filter((k) => sizes[k] > 0.4), 0.35] : [particles, 0.14];
+  const box = boxAround(near, coordinate, axes, margin, longestBlamed() || 1);
+  return { box, arrow: Math.min(0.12 * (box.size + margin * box.size), longestBlamed() || Infinity) };
 }
 
 /* Arrows over everything else, from where a particle is to where the mode takes it. */
@@ -100,23 +96,19 @@ function drawPicture() {
     : listed.filter(({ ends }) => ends.some((end) => sizes[end] > 0.02));
   const colours = blamed.flatMap(({ blame }) => Array(3).fill(shareColour(blame.share)));
   const shown = movers.slice(0, MOST_ARROWS), held = particles.filter((k) => picture.held[k]);
-  const dots = (label, list, look) => ({ label, showLine: false, data: list.map((k) => ({ ...at(k), particle: k })),
-    order: 1, ...look });
+  const dots = (label, list, colour, pointRadius, pointStyle = "circle") => plain(label,
+    list.map((k) => ({ ...at(k), particle: k })), colour,
+    { showLine: false, order: 1, borderWidth: 1, pointHitRadius: 1, pointRadius, pointStyle });
   const lines = [
-    lineOf(others, at, { label: "springs", role: "springs", borderColor: "#8a949e", backgroundColor: "#8a949e",
-      borderWidth: listed.length > MOST_DISPLACED ? 0.7 : 1.5, pointStyle: "line", order: 5 }),
-    lineOf(displaced, moved, { label: "moved by the mode", role: "displaced", borderColor: "#7fb2e5",
-      backgroundColor: "#7fb2e5", borderWidth: 1, borderDash: [4, 3], pointStyle: "line", order: 4 }),
-    lineOf(blamed, at, { label: "springs to blame, the redder the more", role: "blamed", borderColor: "#b00020",
-      backgroundColor: "#b00020", borderWidth: 4, pointStyle: "line", pointRadius: 2.5, pointHitRadius: 8,
-      pointBorderColor: colours, pointBackgroundColor: colours, order: 2,
+    lineOf(others, at, "springs", "#8a949e", { role: "springs", borderWidth: listed.length > MOST_DISPLACED ? 0.7 : 1.5, order: 5 }),
+    lineOf(displaced, moved, "moved by the mode", "#7fb2e5", { role: "displaced", borderWidth: 1, borderDash: [4, 3], order: 4 }),
+    lineOf(blamed, at, "springs to blame, the redder the more", "#b00020", { role: "blamed", borderWidth: 4, pointRadius: 2.5,
+      pointHitRadius: 8, pointBorderColor: colours, pointBackgroundColor: colours, order: 2,
       segment: { borderColor: (context) => colours[context.p0DataIndex] } }),
-    dots("particles that move", shown, { borderColor: "#0057b8", backgroundColor: "#0057b8",
-      pointStyle: "circle",
-      pointRadius: shown.length > 100 ? 2 : 3.5 }),
+    dots("particles that move", shown, "#0057b8", shown.length > 100 ? 2 : 3.5),
     dots("", particles.length > MOST_DOTS && particles.length <= listed.length ? [] : particles.filter((k) => !picture.held[k] && sizes[k] <= 0.02),
-      { borderColor: "#5b6770", backgroundColor: "#5b6770", pointStyle: "circle", pointRadius: 2 }),
-    dots("held particles", held, { borderColor: POINT, backgroundColor: POINT, pointStyle: "rect", pointRadius: 4 }),
+      "#5b6770", 2),
+    dots("held particles", held, POINT, 4, "rect"),
   ].filter((line) => line.data.length > 0);
   const chart = drawEqual("picture", lines, [`${AXES[across]} [m]`, `${AXES[up]} [m]`], box, describePlace);
   chart.options.arrows = shown.map((k) => [at(k), moved(k)]);
@@ -133,7 +125,7 @@ function look(what, key) {
 function startPicture() {
   if (moving && movers.length < particles.length)
     choice("zoom", [["all", ["whole scene"]], ["mode", ["where it moves"]]], "all", (key) => look("zoom", key));
-  choice("view", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), firstView(), (key) => look("view", key));
+  choice("view", VIEW_CHOICES, firstView(), (key) => look("view", key));
 }
 
 /* ---- regions of stability ---- */
@@ -142,8 +134,7 @@ const pairs = (flat) => Array.from({ length: flat.length / 2 }, (_, k) => ({ x: 
 const fromOrigin = (points) => [{ x: 0, y: 0 }, ...points, { x: 0, y: 0 }];
 
 function region(label, points, colour = colourOf(label)) {
-  return { label, role: "region", data: points, borderColor: colour, backgroundColor: `${colour}1a`, borderWidth: 2,
-    fill: "shape", pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 3 };
+  return plain(label, points, colour, { role: "region", backgroundColor: `${colour}1a`, fill: "shape", order: 3 });
 }
 
 /* ---- the table ---- */
@@ -169,12 +160,8 @@ function writeBlame() {
 
 /* What of the scene is drawn, as facts. */
 function writePicture() {
-  const known = (count) => (picture.particles ? whole(count) : "");
-  fact("about", "particles", known(picture.particles));
-  fact("about", "springs", known(picture.springs));
-  fact("about", "springs drawn", known(listed.length));
-  fact("about", "springs left out", known(picture.springs - listed.length));
-  fact("about", "particles drawn that move", known(movers.length));
+  if (picture.particles) facts("about", { particles: picture.particles, springs: picture.springs, "springs drawn": listed.length,
+    "springs left out": picture.springs - listed.length, "particles drawn that move": movers.length });
   const shares = new Map();
   for (const one of blames) shares.set(groupOf(one), (shares.get(groupOf(one)) || 0) + one.share);
   for (const [group, share] of shares) if (share > 0.001) fact("about", `mode in ${group}`, percent(share));

@@ -61,7 +61,7 @@ const barWords = {
 
 /* `bars` have label, value (null: to the far end), text, kind and lines for the tooltip. */
 function drawBars(id, bars, kinds, axis, mark) {
-  const canvas = document.getElementById(id), old = Chart.getChart(canvas);
+  const canvas = at(id), old = Chart.getChart(canvas);
   if (old) old.destroy();
   canvas.parentElement.style.height = `${28 * bars.length + 130}px`;
   const across = (value) => (value === null ? axis.max : Math.min(Math.max(value, axis.min), axis.max));
@@ -123,8 +123,7 @@ const COST_KINDS = { full: ["the full scene", FULL], ...KINDS, lean: ["the lean 
 function costAxis(title, values) {
   const high = Math.max(...values), low = Math.min(...values);
   if (high > 30 * low) return logAxis(title, logRange(values));
-  return { type: "linear", min: 0, max: 1.18 * high, title: { display: true, text: title }, grid: { color: GRID },
-    ticks: { includeBounds: false } };
+  return linearAxis(title, { min: 0, max: 1.18 * high, ticks: { includeBounds: false } });
 }
 
 function drawCosts(key) {
@@ -147,29 +146,22 @@ const shown = picture ? picture.particle.map((_, k) => k) : [];
 const placed = (flat, [across, up]) => (k) => ({ x: flat[3 * k + across], y: flat[3 * k + up] });
 const MANY = 400;
 
-function firstView() {
-  const length = (axis) => { const [low, high] = extentBy(shown, (k) => picture.position[3 * k + axis]); return high - low; };
-  const [long, second] = [0, 1, 2].sort((a, b) => length(b) - length(a));
-  return viewWith(long, second);
-}
+const firstView = () => widestView((axis) => spanOf(extentBy(shown, (k) => picture.position[3 * k + axis])));
 
 function layer(label, flat, view, colour, width, order) {
-  const at = placed(flat, view), look = { label, borderColor: colour, backgroundColor: colour, order };
+  const at = placed(flat, view);
   if (listed.length === 0)
-    return { ...look, showLine: false, pointStyle: "circle", pointRadius: width, data: shown.map(at) };
-  return lineOf(listed, at, { ...look, role: "springs", borderWidth: width, pointStyle: "line" });
+    return plain(label, shown.map(at), colour, { order, borderWidth: 1, showLine: false, pointStyle: "circle", pointRadius: width });
+  return lineOf(listed, at, label, colour, { order, role: "springs", borderWidth: width });
 }
 
 function drawPicture(key) {
   const view = VIEWS[key], all = [...shown, ...shown.map((k) => k + shown.length)];
   const both = [...picture.position, ...picture.lean];
-  const [left, right] = extentBy(all, (k) => both[3 * k + view[0]]);
-  const [bottom, top] = extentBy(all, (k) => both[3 * k + view[1]]);
-  const margin = 0.05 * (Math.max(right - left, top - bottom) || 1), many = listed.length > MANY;
+  const box = boxAround(all, (k, axis) => both[3 * k + axis], view, 0.05), many = listed.length > MANY;
   const chart = drawEqual("picture", [
     layer("the full scene", picture.position, view, "#7fb2e5", many ? 2 : 4, 3),
     layer("the lean scene", picture.lean, view, "#b00020", many ? 0.7 : 1.5, 2),
-  ], view.map((axis) => `${AXES[axis]} [m]`),
-  { left: left - margin, right: right + margin, bottom: bottom - margin, top: top + margin }, () => "");
+  ], view.map((axis) => `${AXES[axis]} [m]`), box, () => "");
   Object.assign(chart.canvas.dataset, { springs: listed.length, particles: shown.length, view: key });
 }

@@ -41,39 +41,28 @@ function writeParts() {
 function writePictured() {
   const apart = shown.map((k) => Math.hypot(...[0, 1, 2].map((axis) =>
     picture.position[3 * k + axis] - picture.lean[3 * k + axis])));
-  fact("about", "drawn at", `${words(picture.time, 6)} s`);
-  fact("about", "apart there", `${words(extentBy(apart, (distance) => distance)[1])} m at most`);
-  fact("about", "springs drawn", `${whole(listed.length)} of ${whole(picture.springs)} between watched particles`);
+  facts("about", { "drawn at [s]": picture.time, "apart there": `${words(extentBy(apart, (distance) => distance)[1])} m at most`,
+    "springs drawn": `${whole(listed.length)} of ${whole(picture.springs)} between watched particles` });
 }
 
 function writeAbout() {
-  document.getElementById("about-head").textContent = "The scene";
-  fact("about", "wanted", `${words(want, 6)} m`);
-  fact("about", "particles", whole(data.particles));
-  fact("about", "watched", whole(data.watched));
-  fact("about", "springs", ran ? whole(full.springs) : "");
-  fact("about", "method", data.method);
-  fact("about", "step", full.step === null ? "" : `${words(full.step, 6)} s`);
-  fact("about", "rtol", full.rtol === null ? "" : words(full.rtol));
-  fact("about", "duration", `${words(data.duration, 6)} s`);
-  fact("about", "judged until", ran ? `${words(data.judged_until, 6)} s` : "");
-  fact("about", "runs", whole(data.runs));
-  fact("about", "date", data.date);
+  at("about-head").textContent = "The scene";
+  facts("about", { "wanted [m]": want, particles: data.particles, watched: data.watched, springs: ran ? full.springs : "",
+    method: data.method, "step [s]": full.step, rtol: full.rtol === null ? "" : words(full.rtol), "duration [s]": data.duration,
+    "judged until [s]": ran ? data.judged_until : "", runs: data.runs, date: data.date });
 }
 
 /* ---- whole ---- */
 
-const show = (id, is) => { document.getElementById(id).hidden = !is; return is; };
-
 writeLead("needs", "What this scene needs for the wanted error.");
 writeAbout();
 writeMachine();
-if (show("changed", data.rows.length > 0)) drawChanges();
-if (show("cost", data.rows.length > 0))
+if (reveal("changed", data.rows.length > 0)) drawChanges();
+if (reveal("cost", data.rows.length > 0))
   choice("measure", Object.entries(MEASURES).map(([key, [label]]) => [key, [label]]), "wall_seconds", drawCosts);
-if (show("laid", Boolean(picture) && leftOut.length > 0)) {
+if (reveal("laid", Boolean(picture) && leftOut.length > 0)) {
   writePictured();
-  choice("view", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), firstView(), drawPicture);
+  choice("view", VIEW_CHOICES, firstView(), drawPicture);
 }
-if (show("resolution", data.parts.length > 0)) writeParts();
-if (show("all", ran && (data.rows.length > 0 || Boolean(lean)))) writeRows();
+if (reveal("resolution", data.parts.length > 0)) writeParts();
+if (reveal("all", ran && (data.rows.length > 0 || Boolean(lean)))) writeRows();

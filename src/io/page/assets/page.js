@@ -1,8 +1,8 @@
 "use strict";
 /* Common parts of all pages: numbers as words, colours of methods, diagrams by Chart.js, tables. The data are
- * those of the element #data, in SI units. Text is set as text, never as markup. */
+ * those of the element #data, in SI units. */
 
-const data = JSON.parse(document.getElementById("data").textContent);
+const data = JSON.parse(at("data").textContent);
 const methods = [...new Set(data.rows.map((row) => row.method))];
 
 /* ---- numbers as words ---- */
@@ -18,7 +18,6 @@ function words(value, digits = 3) {
   const [head, exponent] = value.toExponential(digits - 1).split("e");
   return (Number(head) === 1 ? "" : `${Number(head)}\u00b7`) + power(Number(exponent));
 }
-const whole = (value) => (value === null ? "\u2013" : value.toLocaleString("en-US", { maximumFractionDigits: 0 }));
 
 /* ---- appearance of methods ---- */
 
@@ -31,7 +30,6 @@ const markOf = (method) => MARKS[methods.indexOf(method) % MARKS.length];
 /* ---- charts ---- */
 
 /* Light or dark, as the reader has it; a page is drawn anew where that changes. */
-const styleOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const [INK, PAPER, EDGE, GRID, GRID_MAJOR] = ["--ink", "--paper", "--edge", "--grid", "--grid-major"].map(styleOf);
 const POINT = INK;
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
@@ -46,22 +44,20 @@ Chart.defaults.color = INK;
 const tell = {
   id: "tell",
   afterDraw(chart) {
-    const area = chart.chartArea;
-    let lines = 0, points = 0, outside = 0, crosses = 0, hollow = 0;
-    chart.data.datasets.forEach((line, k) => {
-      if (line.role !== undefined || line.pointRadius === 0 || !chart.isDatasetVisible(k)) return;
-      const seen = chart.getDatasetMeta(k).data.filter((point) => !point.skip);
-      lines += seen.length > 0;
-      points += seen.length;
-      crosses += seen.filter((point) => point.options.pointStyle === "crossRot").length;
-      hollow += seen.filter((point) => point.options.backgroundColor === PAPER).length;
-      outside += seen.filter((point) => point.x < area.left - 1 || point.x > area.right + 1 ||
-        point.y < area.top - 1 || point.y > area.bottom + 1).length;
-    });
-    const across = chart.options.scales.x.title.text;
-    Object.assign(chart.canvas.dataset, { across, lines, points, outside, crosses, hollow });
+    const { left, right, top, bottom } = chart.chartArea;
+    const lines = chart.data.datasets.map((line, k) => (line.role !== undefined || line.pointRadius === 0 || !chart.isDatasetVisible(k) ? []
+      : chart.getDatasetMeta(k).data.filter((point) => !point.skip))).filter((points) => points.length > 0);
+    const count = (is) => lines.flat().filter(is).length;
+    Object.assign(chart.canvas.dataset, { across: chart.options.scales.x.title.text, lines: lines.length, points: lines.flat().length,
+      outside: count(({ x, y }) => x < left - 1 || x > right + 1 || y < top - 1 || y > bottom + 1),
+      crosses: count(({ options }) => options.pointStyle === "crossRot"),
+      hollow: count(({ options }) => options.backgroundColor === PAPER) });
   },
 };
+
+/* A line without marks. */
+const plain = (label, points, colour, more) => ({ label, data: points, borderColor: colour, backgroundColor: colour, borderWidth: 2,
+  pointRadius: 0, pointHitRadius: 0, pointStyle: "line", ...more });
 
 function legendLabels(chart) {
   return Chart.defaults.plugins.legend.labels.generateLabels(chart).map((label) => {
@@ -73,7 +69,7 @@ function legendLabels(chart) {
 }
 
 function draw(id, lines, x, y, describe) {
-  const canvas = document.getElementById(id);
+  const canvas = at(id);
   const old = Chart.getChart(canvas);
   if (old) old.destroy();
   return new Chart(canvas, {
@@ -95,22 +91,22 @@ function draw(id, lines, x, y, describe) {
 
 /* Buttons of which one is pressed, `first` initially; calls `show` with its key. */
 function choice(id, options, first, show) {
-  const box = document.getElementById(id);
+  const box = at(id);
   const press = (key) => {
     for (const button of box.children) button.setAttribute("aria-pressed", String(button.dataset.key === key));
     show(key);
   };
   for (const [key, [label]] of options) {
-    const button = document.createElement("button");
-    button.textContent = label;
+    const button = element("button", label, { onclick: () => press(key) });
     button.dataset.key = key;
-    button.onclick = () => press(key);
     box.append(button);
   }
   press(first);
 }
 
-/* ---- logarithmic axes ---- */
+/* ---- axes ---- */
+
+const linearAxis = (title, more) => ({ type: "linear", title: { display: true, text: title }, grid: { color: GRID }, ...more });
 
 /* The ends of a logarithmic axis, with a margin around the values. */
 function ends(values) {
@@ -148,24 +144,32 @@ function logAxis(title, range) {
 
 /* ---- words and tables ---- */
 
-function element(kind, text, options = {}) {
-  const made = Object.assign(document.createElement(kind), options);
-  if (text !== undefined) made.textContent = text;
-  return made;
+/* Returns whether it is shown. */
+function reveal(id, is) {
+  at(id).hidden = !is;
+  return is;
 }
 
 function fact(list, name, value) {
   if (value === null || value === undefined || value === "") return;
-  document.getElementById(list).append(element("dt", name), element("dd", value));
+  at(list).append(element("dt", name), element("dd", value));
+}
+
+/* By their names, those of numbers with their units; whole numbers have none. */
+function facts(list, values) {
+  for (const [key, value] of Object.entries(values)) {
+    const [, name, unit] = key.match(/^(.*?)(?: \[(.*)\])?$/);
+    fact(list, name, typeof value !== "number" ? value : unit ? `${words(value, 6)} ${unit}` : whole(value));
+  }
 }
 
 /* The head of the page: its title, the line below it, and what the results say. */
 function writeLead(kind, lead) {
   document.title = `hooke ${kind}: ${data.scene}`;
-  document.getElementById("scene").textContent = data.scene;
-  document.getElementById("lead").textContent = lead;
-  const box = document.getElementById("claims"), claims = data.claims || [];
-  box.hidden = claims.length === 0;
+  at("scene").textContent = data.scene;
+  at("lead").textContent = lead;
+  const box = at("claims"), claims = data.claims || [];
+  reveal("claims", claims.length > 0);
   for (const claim of claims) {
     const line = element("p", claim.text, { className: claim.of });
     line.dataset.key = claim.key;
@@ -208,7 +212,7 @@ function writeTable(id, rows, columns, classOf = () => "") {
     const said = say(row);
     return said instanceof Node ? said : element("td", said, { className });
   }))));
-  document.getElementById(id).append(head, body);
+  at(id).append(head, body);
 }
 
 const FACTS = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",

@@ -9,18 +9,34 @@ const viewWith = (one, other) =>
 const springsOf = (picture) =>
   picture.spring.map((number, k) => ({ number, ends: [picture.ends[2 * k], picture.ends[2 * k + 1]] }));
 
+const VIEW_CHOICES = Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]);
+
+/* Along the two axes that are the longest by `lengthOf`. */
+function widestView(lengthOf) {
+  const [long, second] = [0, 1, 2].sort((a, b) => lengthOf(b) - lengthOf(a));
+  return viewWith(long, second);
+}
+
 /* Minimum and maximum of `of`. */
 const extentBy = (list, of) => list.reduce(([low, high], k) => [Math.min(low, of(k)), Math.max(high, of(k))],
   [Infinity, -Infinity]);
 
-function lineOf(springs, at, rest) {
-  return { pointRadius: 0, pointHitRadius: 0, spanGaps: false, ...rest,
-    data: springs.flatMap((spring) => [...spring.ends.map((end) => ({ ...at(end), spring })), { x: NaN, y: NaN }]) };
+const spanOf = ([low, high]) => high - low;
+
+/* The box around particles along two axes, with so much of its `size` on every side. */
+function boxAround(list, coordinateOf, axes, margin, least = 1) {
+  const [[left, right], [bottom, top]] = axes.map((axis) => extentBy(list, (k) => coordinateOf(k, axis)));
+  const size = Math.max(right - left, top - bottom) || least, edge = margin * size;
+  return { size, left: left - edge, right: right + edge, bottom: bottom - edge, top: top + edge };
 }
+
+const lineOf = (springs, at, label, colour, more) => plain(label,
+  springs.flatMap((spring) => [...spring.ends.map((end) => ({ ...at(end), spring })), { x: NaN, y: NaN }]), colour,
+  { spanGaps: false, ...more });
 
 /* ---- one scale for both axes ---- */
 
-const axisOf = (title) => ({ type: "linear", title: { display: true, text: title }, ticks: { includeBounds: false },
+const axisOf = (title) => linearAxis(title, { ticks: { includeBounds: false },
   grid: { color: (context) => (context.tick && context.tick.value === 0 ? EDGE : GRID) } });
 
 /* Shows the box, and as much beside it as fits; calls `filled` when the edges are known. */

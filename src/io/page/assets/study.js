@@ -7,7 +7,6 @@ const recommended = study.recommendation;
 const want = recommended ? recommended.want : null;
 /* As far as errors are known: where they are not known to the end, `met` is null. */
 const meets = recommended !== null && recommended.met !== false && recommended.error !== null;
-const trusted = study.reference.trusted_until, duration = study.duration;
 study.rows.forEach((row, k) => Object.assign(row, study.curves[k]));
 
 const setting = (row) => (row.step !== null ? `step ${words(row.step, 4)} s` : `rtol ${words(row.rtol)}`);
@@ -17,26 +16,13 @@ const rowsOf = (method) => study.rows.filter((row) => row.method === method);
 const errorOf = (row) => row.error_max ?? row.error;
 const finished = (row) => row.status === "finished" && row.error !== null;
 
-/* ---- axes ---- */
-
-function timeAxis() {
-  return { type: "linear", min: Math.min(0, ...study.time), max: Math.max(...study.time),
-    title: { display: true, text: "time [s]" }, grid: { color: GRID } };
-}
-
 /* ---- lines ---- */
 
-const level = (label, value, colour, range) => ({
-  label, data: range.map((x) => ({ x, y: value })), borderColor: colour, backgroundColor: colour, borderWidth: 1.5,
-  borderDash: [7, 4], pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 5,
-});
+const level = (label, value, colour, range) => plain(label, range.map((x) => ({ x, y: value })), colour,
+  { borderWidth: 1.5, borderDash: [7, 4], order: 5 });
 
-function levels(range) {
-  const list = [];
-  if (floor > 0) list.push(level(`floor of the reference, ${words(floor)} m`, floor, "#6b7680", range));
-  if (want !== null) list.push(level(`wanted, ${words(want)} m`, want, "#14633c", range));
-  return list;
-}
+const levels = (range) => [["floor of the reference", floor, "#6b7680"], ["wanted", want, "#14633c"]].filter(([, value]) => value > 0)
+  .map(([name, value, colour]) => level(`${name}, ${words(value)} m`, value, colour, range));
 
 /* The error axis of some rows. Runs without an error stand at its upper edge, one row of crosses for each method. */
 function errorAxis(rows) {
@@ -97,13 +83,12 @@ function slopeLine(method, rows) {
   if (!order || order.order === null || clear.length < 2) return [];
   const from = clear[clear.length - 1], to = clear[0].step;
   const at = (x) => ({ x, y: errorOf(from) * (x / from.step) ** order.order });
-  return [{ label: "", role: "slope", data: [at(from.step / 1.4), at(to)], pointRadius: 0, pointHitRadius: 0,
-    borderColor: colourOf(method), borderWidth: 1.5, borderDash: [3, 4] }];
+  return [plain("", [at(from.step / 1.4), at(to)], colourOf(method), { role: "slope", borderWidth: 1.5, borderDash: [3, 4] })];
 }
 
 function drawConvergence() {
   const fixed = study.rows.filter((row) => row.step !== null);
-  document.getElementById("convergence").closest("section").hidden = fixed.length === 0;
+  at("convergence").closest("section").hidden = fixed.length === 0;
   if (fixed.length === 0) return;
   const across = ends(fixed.map((row) => row.step));
   const up = errorAxis(fixed);
@@ -134,23 +119,21 @@ function pick(method, how) {
 }
 
 function drawTimes(how) {
-  document.getElementById("picked").textContent = PICKS[how][1] +
+  at("picked").textContent = PICKS[how][1] +
     " Left the error, right how far the energy is from that of the reference; point at a line for its step or " +
     "tolerance." +
     (want === null ? "" : " The dashed line is what is wanted.");
   const rows = methods.map((method) => pick(method, how)).filter((row) => row !== undefined);
-  const lines = (what) => rows.map((row) => ({
-    label: row.method, borderColor: colourOf(row.method), backgroundColor: colourOf(row.method), borderWidth: 1.8,
-    pointStyle: "line", pointRadius: 0.5, pointHoverRadius: 4, pointHitRadius: 6,
-    data: study.time.map((x, k) => ({ x, y: row[what][k] > 0 ? row[what][k] : NaN, row })),
-  }));
+  const lines = (what) => rows.map((row) => plain(row.method,
+    study.time.map((x, k) => ({ x, y: row[what][k] > 0 ? row[what][k] : NaN, row })), colourOf(row.method),
+    { borderWidth: 1.8, pointRadius: 0.5, pointHoverRadius: 4, pointHitRadius: 6 }));
   const draws = (id, what, title, extra) => {
     const list = lines(what);
     const seen = list.flatMap((line) => line.data.map((point) => point.y)).filter((y) => y > 0);
     const high = Math.max(...seen, ...extra), low = Math.max(Math.min(...seen), high * 1e-16);
     const unnamed = what === "error_max_at" ? levels(study.time).map((line) => ({ ...line, label: "" })) : [];
     draw(id, [...list, ...unnamed],
-      timeAxis(), logAxis(title, ends([low, high])),
+      linearAxis("time [s]", { min: Math.min(0, ...study.time), max: Math.max(...study.time) }), logAxis(title, ends([low, high])),
       (item) => [setting(item.raw.row), `t = ${words(item.raw.x)} s: ${words(item.raw.y)}`]);
   };
   draws("error-over-time", "error_max_at", "error [m]", want === null ? [] : [want]);

@@ -5,8 +5,8 @@
 
 function writeHead() {
   writeLead("study", "How accurate each method is for what it costs.");
-  document.getElementById("crosses").hidden = study.rows.every(finished);
-  document.getElementById("beside").hidden = study.rows.every((row) => row.timed_alone !== false);
+  at("crosses").hidden = study.rows.every(finished);
+  at("beside").hidden = study.rows.every((row) => row.timed_alone !== false);
 }
 
 /* ---- tables ---- */
@@ -57,8 +57,7 @@ function errorCell(value, agreement) {
 
 function writeWatched() {
   const watched = study.reference.watched || [], agreement = { method: "agreement", status: "" };
-  document.getElementById("watched-section").hidden = watched.length === 0;
-  if (watched.length === 0) return;
+  if (!reveal("watched-section", watched.length > 0)) return;
   const other = (say, before) => (row) => (row === agreement ? before : say(row));
   writeTable("watched", [agreement, ...study.rows], [["method", "", other(METHOD[2], agreement.method), "word"],
     ["step [s]", "or rtol", other(settingOf, "")], ...watched.map((item, q) => [item.quantity, inUnit(item),
@@ -78,8 +77,7 @@ function biasWords(source) {
 
 function writeStatistics() {
   const found = study.statistics;
-  document.getElementById("statistics-section").hidden = !found;
-  if (!found) return;
+  if (!reveal("statistics-section", Boolean(found))) return;
   const isReference = (source) => source.method === "reference";
   const sources = found.quantities.flatMap(({ reference, methods: others }) => [reference, ...Object.values(others)]);
   writeTable("statistics", sources, [
@@ -93,18 +91,10 @@ function writeStatistics() {
 /* ---- facts ---- */
 
 function writeReference() {
-  const { method, check, agreement, energy_agreement: energy } = study.reference;
-  const inUnits = (value, unit) => (value === null ? "" : `${words(value, 6)} ${unit}`);
-  document.getElementById("about-head").textContent = "Reference";
-  fact("about", "made by", method);
-  fact("about", "checked by", check);
-  fact("about", "agreement", inUnits(agreement, "m"));
-  fact("about", "energies agree to", inUnits(energy, "J"));
-  fact("about", "trusted until", inUnits(trusted, "s"));
-  fact("about", "duration", inUnits(duration, "s"));
-  fact("about", "frames", whole(study.frames));
-  fact("about", "runs", whole(study.rows.length));
-  fact("about", "date", study.date);
+  const { method, check, agreement, energy_agreement: energy, trusted_until: trusted } = study.reference;
+  at("about-head").textContent = "Reference";
+  facts("about", { "made by": method, "checked by": check, "agreement [m]": agreement, "energies agree to [J]": energy,
+    "trusted until [s]": trusted, "duration [s]": study.duration, frames: study.frames, runs: study.rows.length, date: study.date });
 }
 
 /* ---- whole ---- */

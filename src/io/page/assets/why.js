@@ -4,7 +4,6 @@
 const ran = data.frames || [], advised = data.advised || {}, cured = advised.frames || [];
 const last = data.last || 0; // frame that is within all bounds still
 const RED = "#c8102e", SURFACE = "#7fb2e544", stepOf = (frame) => Math.round((frame.time - ran[last].time) / data.step);
-const counted = (count, word) => `${whole(count)} ${word}${count === 1 ? "" : "s"}`;
 
 /* ---- where things are ---- */
 
@@ -15,7 +14,7 @@ function boxOf(frame) {
 }
 
 const home = ran.length ? boxOf(ran[0]) : [];
-const sizeOf = (box) => Math.max(...box.map(([low, high]) => high - low));
+const sizeOf = (box) => Math.max(...box.map(spanOf));
 const homeSize = sizeOf(home) || longestBlamed() || 1;
 const middle = home.map(([low, high]) => (low + high) / 2);
 
@@ -31,14 +30,7 @@ const zoom = { bad: reaches(ran), good: reaches(cured) };
 
 /* ---- a frame ---- */
 
-function firstAxes() {
-  const reach = (axis) => Math.max(...ran.slice(0, last + 1).map((frame) => {
-    const [low, high] = boxOf(frame)[axis];
-    return high - low;
-  }));
-  const [one, other] = [0, 1, 2].sort((a, b) => reach(b) - reach(a));
-  return viewWith(one, other);
-}
+const firstAxes = () => widestView((axis) => Math.max(...ran.slice(0, last + 1).map((frame) => spanOf(boxOf(frame)[axis]))));
 
 /* Parts as surfaces, behind their springs. Their triangles turn one way, so that folds leave no holes. */
 const { triangles } = findBodies(picture, particles.length);
@@ -61,7 +53,7 @@ let shown = 0, playing = true, axes = "xy", before = 0;
 
 /* Returns how many times it has zoomed out. */
 function paint(id, frame, reach, beyond) {
-  const canvas = document.getElementById(id), ctx = canvas.getContext("2d"), ratio = devicePixelRatio || 1;
+  const canvas = at(id), ctx = canvas.getContext("2d"), ratio = devicePixelRatio || 1;
   const wide = canvas.clientWidth, tall = canvas.clientHeight;
   if (canvas.width !== Math.round(wide * ratio) || canvas.height !== Math.round(tall * ratio))
     Object.assign(canvas, { width: Math.round(wide * ratio), height: Math.round(tall * ratio) });
@@ -70,12 +62,12 @@ function paint(id, frame, reach, beyond) {
   canvas.classList.toggle("beyond", beyond);
   if (!frame) return 1;
   const [across, up] = VIEWS[axes];
-  const spans = [across, up].map((axis) => Math.max(home[axis][1] - home[axis][0], 0.25 * homeSize));
+  const spans = [across, up].map((axis) => Math.max(spanOf(home[axis]), 0.25 * homeSize));
   const near = Math.min((0.84 * wide) / spans[0], (0.84 * tall) / spans[1]);
   const unit = Math.min(near, (0.47 * wide) / reach[across], (0.47 * tall) / reach[up]);
-  const at = (k) => [wide / 2 + unit * (placeOf(frame, k, across) - middle[across]),
+  const pixel = (k) => [wide / 2 + unit * (placeOf(frame, k, across) - middle[across]),
     tall / 2 - unit * (placeOf(frame, k, up) - middle[up])];
-  fillSurfaces(ctx, at);
+  fillSurfaces(ctx, pixel);
   ctx.lineCap = "round";
   for (const [list, colour, width] of [[listed.filter((one) => !isBlamed(one)), EDGE, listed.length > 300 ? 0.8 : 1.6],
     [listed.filter(isBlamed), RED, listed.length > 300 ? 1.6 : 3]]) {
@@ -83,15 +75,15 @@ function paint(id, frame, reach, beyond) {
     ctx.lineWidth = width;
     ctx.beginPath();
     for (const { ends: [a, b] } of list) {
-      ctx.moveTo(...at(a));
-      ctx.lineTo(...at(b));
+      ctx.moveTo(...pixel(a));
+      ctx.lineTo(...pixel(b));
     }
     ctx.stroke();
   }
   const dot = particles.length > 400 ? 1 : particles.length > 60 ? 2 : 3.5;
   ctx.fillStyle = INK;
   for (const k of particles) {
-    const [x, y] = at(k);
+    const [x, y] = pixel(k);
     if (picture.held[k]) ctx.fillRect(x - dot, y - dot, 2 * dot, 2 * dot);
     else if (particles.length <= 800 || particles.length > listed.length) {
       ctx.beginPath();
@@ -123,13 +115,13 @@ function show(k) {
   shown = Math.max(0, Math.min(ran.length - 1, k));
   const frame = ran[shown], step = stepOf(frame), beyond = shown > last;
   const factor = paint("bad", frame, zoom.bad[shown], beyond);
-  document.getElementById("bad-scale").textContent = `${scaleWords(factor)}${beyond ? "; no physics any more" : ""}`;
+  at("bad-scale").textContent = `${scaleWords(factor)}${beyond ? "; no physics any more" : ""}`;
   if (cured.length) {
     const near = Math.min(shown, cured.length - 1);
-    document.getElementById("good-scale").textContent = scaleWords(paint("good", cured[near], zoom.good[near], false));
+    at("good-scale").textContent = scaleWords(paint("good", cured[near], zoom.good[near], false));
   }
-  document.getElementById("frame").value = shown;
-  document.getElementById("now").textContent = `t = ${words(frame.time, 5)} s, ` + (step === 0 ? "the last step within bounds"
+  at("frame").value = shown;
+  at("now").textContent = `t = ${words(frame.time, 5)} s, ` + (step === 0 ? "the last step within bounds"
     : `${counted(Math.abs(step), "step")} ${step < 0 ? "before" : "after"} the last one within bounds`);
   document.body.dataset.frame = shown;
   if (chart) chart.draw();
@@ -147,14 +139,14 @@ function tick(now) {
 
 function play(on) {
   playing = on;
-  document.getElementById("play").textContent = on ? "Pause" : "Play";
+  at("play").textContent = on ? "Pause" : "Play";
 }
 
 function startFilm() {
-  const slider = document.getElementById("frame");
+  const slider = at("frame");
   slider.max = ran.length - 1;
   slider.oninput = () => { play(false); show(Number(slider.value)); };
-  document.getElementById("play").onclick = () => play(!playing);
+  at("play").onclick = () => play(!playing);
   addEventListener("keydown", (event) => {
     if (event.target.tagName === "BUTTON" || ![" ", "ArrowLeft", "ArrowRight"].includes(event.key)) return;
     event.preventDefault();
@@ -162,7 +154,7 @@ function startFilm() {
     else { play(false); show(shown + (event.key === "ArrowLeft" ? -1 : 1)); }
   });
   addEventListener("resize", () => show(shown));
-  choice("views", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), moving ? firstView() : firstAxes(), (key) => { axes = key; show(shown); });
+  choice("views", VIEW_CHOICES, moving ? firstView() : firstAxes(), (key) => { axes = key; show(shown); });
   const fragment = new URLSearchParams(location.hash.slice(1)), frame = Number(fragment.get("frame")); // why.html#frame=40&bare
   document.body.classList.toggle("bare", fragment.has("bare"));
   if (fragment.has("frame")) play(false);
@@ -201,20 +193,18 @@ const cursor = {
 };
 Chart.register(cursor);
 
-const timeAxis = (from, to) => ({ type: "linear", min: from, max: to, title: { display: true, text: "time [s]" },
-  grid: { color: GRID }, ticks: { maxRotation: 0 } });
-const plain = (label, points, colour, more) => ({ label, data: points, borderColor: colour, backgroundColor: colour,
-  borderWidth: 2, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });
+const timeAxis = (min, max) => linearAxis("time [s]", { min, max, ticks: { maxRotation: 0 } });
+const course = (label, points, colour, more) => plain(label, points, colour, { pointHitRadius: 4, ...more });
 
 function drawEnergy({ at, predicted }) {
-  const { first, value } = data.energy, timeAt = (k) => data.time + (k - at) * data.step;
+  const { value } = data.energy, timeAt = (k) => data.time + (k - at) * data.step;
   const points = value.map((y, k) => ({ x: timeAt(k), y })).filter(({ y }) => y > 0 && Number.isFinite(y));
-  const lines = [plain("as it ran", points, RED)];
-  if (cured.length) lines.push(plain(`with the advised ${advised.method === data.method ? "step" : "method"}`,
+  const lines = [course("as it ran", points, RED)];
+  if (cured.length) lines.push(course(`with the advised ${advised.method === data.method ? "step" : "method"}`,
     cured.map((frame) => ({ x: frame.time, y: frame.energy })).filter(({ y }) => y > 0), "#00875f"));
   if (predicted > 1 && value[at] > 0) {
     const ends_ = [-Math.log(1e6) / Math.log(predicted), value.length - 1 - at].map((k) => Math.max(-at, k));
-    lines.push(plain("growth that the mode predicts", ends_.map((k) => ({ x: timeAt(at + k), y: value[at] * predicted ** k })),
+    lines.push(course("growth that the mode predicts", ends_.map((k) => ({ x: timeAt(at + k), y: value[at] * predicted ** k })),
       "#7a5195", { borderDash: [6, 4] }));
   }
   const from = Math.min(ran[0].time, timeAt(Math.max(0, at - 20)));
@@ -223,7 +213,6 @@ function drawEnergy({ at, predicted }) {
   chart = draw("energy", lines, timeAxis(from, until), logAxis("energy [J]", ends(seen.map(({ y }) => y))),
     (item) => `t = ${words(item.raw.x, 5)} s: ${words(item.raw.y, 4)} J`);
   chart.options.cursor = true;
-  chart.canvas.dataset.first = first;
 }
 
 /* ---- the mode and the region ---- */
@@ -244,7 +233,7 @@ function drawAlong(looks) {
   const points = looks.filter((look) => look.limit > 0).map((look) => ({ x: look.time, y: look.limit }));
   const low = looks[0].time, high = Math.max(looks[looks.length - 1].time, low + data.step);
   const range = ends([...points.map(({ y }) => y), data.step]);
-  draw("along", [plain("largest stable step", points, "#00875f", { pointRadius: 3, pointStyle: "circle" }),
-    plain("step of the run", [low, high].map((x) => ({ x, y: data.step })), RED, { borderDash: [6, 4] })],
+  draw("along", [course("largest stable step", points, "#00875f", { pointRadius: 3, pointStyle: "circle" }),
+    course("step of the run", [low, high].map((x) => ({ x, y: data.step })), RED, { borderDash: [6, 4] })],
   timeAxis(low, high), logAxis("step [s]", range), (item) => `t = ${words(item.raw.x, 5)} s: ${words(item.raw.y, 5)} s`);
 }

@@ -1,8 +1,6 @@
 "use strict";
 /* The words of an explanation, and the start of everything. */
 
-const at = (id) => document.getElementById(id);
-
 function writeAdvice() {
   at("advice").hidden = data.advice.length === 0;
   for (const { change, command } of data.advice) {
@@ -28,24 +26,17 @@ function writeGrowth({ measured, predicted, at: from, to }) {
 }
 
 function writeMode() {
-  at("mode").hidden = !moving && blames.length === 0;
-  if (at("mode").hidden) return;
+  if (!reveal("mode", moving || blames.length > 0)) return;
   at("pictured").hidden = !moving;
   writeBlame();
   startPicture();
 }
 
 function writeAbout() {
-  const seconds = (value) => (value === null || value === undefined ? "" : `${words(value, 6)} s`);
   at("about-head").textContent = "The run";
-  fact("about", "cause", data.cause);
-  fact("about", "method", data.method);
-  fact("about", "step", seconds(data.step));
-  fact("about", "limit", seconds(data.limit));
-  fact("about", "well until", seconds(data.time));
-  fact("about", "noticed", seconds(data.noticed));
-  fact("about", "particle", data.particle === null ? "" : String(data.particle));
-  fact("about", "steps from frame to frame", data.stride ? whole(data.stride) : "");
+  facts("about", { cause: data.cause, method: data.method, "step [s]": data.step, "limit [s]": data.limit, "well until [s]": data.time,
+    "noticed [s]": data.noticed, particle: data.particle === null ? "" : String(data.particle),
+    "steps from frame to frame": data.stride });
   writePicture();
 }
 
@@ -60,12 +51,10 @@ if (ran.length) {
   writeFilm();
   writeGrowth(found);
   drawEnergy(found);
-  at("leaves").hidden = looks.length === 0 || !data.rows[0].reach;
-  if (!at("leaves").hidden) drawReach(looks);
+  if (reveal("leaves", looks.length > 0 && Boolean(data.rows[0].reach))) drawReach(looks);
   startFilm();
 }
-at("limits").hidden = (data.limits || []).filter((one) => one.limit > 0).length < 2;
-if (!at("limits").hidden) drawAlong(data.limits);
+if (reveal("limits", (data.limits || []).filter((one) => one.limit > 0).length > 1)) drawAlong(data.limits);
 writeMode();
 writeAbout();
 writeMachine();

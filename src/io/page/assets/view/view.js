@@ -1,24 +1,12 @@
 "use strict";
-/* The page: time, controls, words. Text is set as text, never as markup. */
+/* The page: time, controls, words. */
 
 const last = data.frames - 1;
 
 /* ---- words ---- */
 
-function number(value, digits = 3) {
-  const size = Math.abs(value);
-  if (value === 0 || (size >= 1e-3 && size < 1e5)) return String(Number(value.toPrecision(digits)));
-  return value.toExponential(digits - 1).replace(/\.?0+e/, "e");
-}
-const whole = (value) => value.toLocaleString("en-US");
-const percent = (value) => `${number(100 * value)} %`;
-const counted = (count, word) => `${whole(count)} ${word}${count === 1 ? "" : "s"}`;
 const ending = (n) => ["st", "nd", "rd"][Math.floor(n / 10) % 10 === 1 ? 3 : (n % 10) - 1] || "th";
 const every = (stride) => (stride === 1 ? "every" : `every ${stride}${ending(stride)}`);
-
-function element(kind, text, options = {}) {
-  return Object.assign(document.createElement(kind), { textContent: text }, options);
-}
 
 const OUTCOMES = {
   finished: "finished", stopped: "stopped early", diverged: "diverged", "step-limit": "ended at its limit of steps",
@@ -69,9 +57,7 @@ function writeShown() {
 }
 
 function writeLegend(palette) {
-  at("colours").style.background = `linear-gradient(to right, ${palette.join(", ")})`;
-  at("low").textContent = `\u2212${percent(data.strain)}`;
-  at("high").textContent = `+${percent(data.strain)}`;
+  writeScale(palette, data.strain);
   const beyond = [];
   if (data.strain_low < -data.strain) beyond.push(`least ${percent(data.strain_low)}`);
   if (data.strain_high > data.strain) beyond.push(`largest ${percent(data.strain_high)}`);
@@ -194,8 +180,7 @@ const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 
 function thin(stride) {
   if (!picture || picture.stride === stride) return;
   picture.thin(stride);
-  at("thinned").textContent = `While it moves, ${every(stride)} spring is drawn, to keep up with 30 pictures a second.`;
-  at("thinned").hidden = stride === 1;
+  say(stride === 1 ? "" : `While it moves, ${every(stride)} spring is drawn, to keep up with 30 pictures a second.`);
   show(shown);
 }
 

@@ -26,9 +26,7 @@ function rangeOf(lines) {
 function logarithmic(lines) {
   const sizes = sizesOf(lines, false), low = Math.max(sizes.reduce((a, b) => Math.min(a, b)), 1e-6 * largest(sizesOf(lines, true)));
   const [first, end] = [Math.floor(Math.log10(low)), Math.min(308, Math.ceil(Math.log10(largest(sizes))))], every = [1, 2, 5, 10, 20, 50, 100].find((k) => end - first <= 7 * k);
-  const isTick = (power) => Math.abs(power - Math.round(power)) < 1e-9 && Math.round(power) % every === 0;
-  return { type: "logarithmic", min: 10 ** first, max: 10 ** end,
-    ticks: { callback: (value) => (isTick(Math.log10(value)) ? value.toExponential(0) : null) } };
+  return { type: "logarithmic", min: 10 ** first, max: 10 ** end, ticks: powerTicks(every) };
 }
 
 class Diagram {
@@ -45,21 +43,11 @@ class Diagram {
   }
 
   draw(lines, title, scale) {
-    const ink = styleOf("--ink"), grid = styleOf("--line"), text = styleOf("--dim");
     const [first, last_] = [Math.min(...shared.map((one) => one.data.time[0])), Math.max(...shared.map((one) => one.data.time_last))];
     if (this.chart) this.chart.destroy();
-    const axis = (words, more) => ({ type: "linear", title: { display: true, text: words, color: text },
-      grid: { color: grid, borderColor: grid }, ...more, ticks: { color: text, maxRotation: 0, ...more.ticks } });
-    this.chart = new Chart(this.canvas, {
-      type: "scatter", data: { datasets: lines },
-      options: {
-        animation: false, maintainAspectRatio: false, events: [],
-        scales: { x: axis("t [s]", { min: first, max: last_ > first ? last_ : undefined }), y: axis(title, scale) },
-        plugins: { tooltip: { enabled: false }, legend: { display: lines.length > 1, align: "end", labels: { color: ink,
-          usePointStyle: true, pointStyle: "line", boxHeight: 6 } } },
-        onResize: () => requestAnimationFrame(() => this.moveCursor()),
-      },
-    });
+    this.chart = diagram(this.canvas, lines, ["t [s]", { min: first, max: last_ > first ? last_ : undefined }], [title, scale],
+      { display: lines.length > 1, labels: { color: styleOf("--ink"), usePointStyle: true, pointStyle: "line", boxHeight: 6 } },
+      { onResize: () => requestAnimationFrame(() => this.moveCursor()) });
     this.moveCursor();
   }
 

@@ -2,7 +2,6 @@
 /* A trajectory as its page holds it, in SI units: numbers in #data, ends and marks in #fixed, frames in #frames, in texts of one
  * length. */
 
-const at = (id) => document.getElementById(id);
 const floatsOf = (text) => new Float32Array(bytesOf(text).buffer);
 const ROUNDING = 2 ** -8; // of elongations, relative: they are the upper halves of floats
 

@@ -73,7 +73,6 @@ const POINT_FRAGMENT = `
 
 const colour = (text) => new THREE.Color(text);
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
-const styleOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 function bytesOf(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
