@@ -116,7 +116,8 @@ def method(kind, schema):
     if "motion" in needed:
         arguments = ["self: S", *required, "*", 'motion: str = "harmonic"', *optional]
     else:
-        arguments = ["self: S", "name: str | None = None", "*", *required, *optional]
+        named = ["name: str | None = None"] if "name" in schema["properties"] else []
+        arguments = ["self: S", *named, "*", *required, *optional]
     note = [f"        {NOTES[kind]}", ""] if kind in NOTES else []
     call = f'_group("{kind}", "{LISTS[kind]}", locals())' if kind in LISTS else f'_part("{kind}", locals())'
     return ["", f"    def {kind}(", *(f"        {one}," for one in arguments), "    ) -> S:",
