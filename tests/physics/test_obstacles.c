@@ -246,6 +246,28 @@ TEST(at_a_centre_there_is_no_force) {
   assert_int_equal(hooke_integrator_count(run, "coincident_springs"), 1);
 }
 
+/* Where it is at a time, by sine; unit axis; none beyond the last. */
+TEST(an_obstacle_has_a_place_at_every_time) {
+  const double at_one[7] = {0, 1.5, 0, 0, 0, -1, 2}, at_zero[7] = {1, 2, 3, 0, 0, 0, 0.5};
+  double place[7];
+  owned_system *system = new_system();
+  add(system, "shape=cylinder point=0,1,0 axis=0,0,-3 radius=2 stiffness=1 motion=harmonic amplitude=0,0.5,0 "
+              "frequency=0.25");
+  add(system, "shape=sphere center=1,2,3 radius=0.5 clearance=0.1 stiffness=100");
+  check_ok(hooke_system_obstacle_place(system, 0, 1.0, place));
+  for (int k = 0; k < 7; k++)
+    check_close(place[k], at_one[k], 1e-15);
+  check_ok(hooke_system_obstacle_place(system, 1, 7.0, place));
+  for (int k = 0; k < 7; k++)
+    check_close(place[k], at_zero[k], 0.0);
+  assert_string_equal(hooke_system_obstacle_shape(system, 0), "cylinder");
+  assert_string_equal(hooke_system_obstacle_shape(system, 1), "sphere");
+  assert_null(hooke_system_obstacle_shape(system, 2));
+  assert_null(hooke_system_obstacle_shape(system, -1));
+  check_status(hooke_system_obstacle_place(system, 2, 0.0, place), HOOKE_BAD_VALUE);
+  check_message("obstacle: there is no obstacle 2; the system has 2");
+}
+
 TEST(what_is_wrong_is_said) {
   static const char *const wrong[][2] = {
       {"shape=plane point=0,0,0 stiffness=1", "normal: is required with shape \"plane\" but missing"},

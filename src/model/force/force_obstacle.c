@@ -159,6 +159,24 @@ static struct placed place(const struct hk_obstacle *obstacle, double t) {
   return at;
 }
 
+const char *hooke_system_obstacle_shape(const hooke_system *system, int64_t obstacle) {
+  const struct hk_obstacles *all = &system->rest->obstacles;
+  return obstacle >= 0 && obstacle < all->count ? hooke_options_text(all->obstacle[obstacle].options, "shape")
+                                                : NULL;
+}
+
+int32_t hooke_system_obstacle_place(const hooke_system *system, int64_t obstacle, double t, double *out) {
+  const struct hk_obstacles *all = &system->rest->obstacles;
+  if (obstacle < 0 || obstacle >= all->count)
+    return hk_fail(HOOKE_BAD_VALUE, "obstacle", "there is no obstacle %lld; the system has %lld",
+                   (long long)obstacle, (long long)all->count);
+  const struct placed at = place(&all->obstacle[obstacle], t);
+  memcpy(out, at.point, sizeof at.point);
+  memcpy(out + 3, at.obstacle->axis, sizeof at.obstacle->axis);
+  out[6] = at.obstacle->radius;
+  return HOOKE_OK;
+}
+
 /* 1 if a particle at x touches; -1 at a centre or on an axis, where there is no direction. */
 static int find_depth(const struct placed *at, const double x[3], struct contact *c) {
   const struct hk_obstacle *o = at->obstacle;
