@@ -76,8 +76,9 @@ TABLE = {"motion": "table", "time": [0, 1], "position": [[0, 0, 0], [1, 0, 0]]}
 
 
 @pytest.mark.parametrize("right, obstacle", [
-    (True, {**PLANE, "damping": 1, "friction": 0.3, "friction_speed": 0.01, "clearance": 0}), (True, {**BALL, **SWAYS, "phase": 1}),
-    (True, {**BALL, **TABLE, "particles": [0]}), (True, {**BALL, "shape": "cylinder", "point": [0, 0, 0], "axis": [1, 0, 0], "center": None}),
+    (True, {**PLANE, "damping": 1, "friction": 0.3, "friction_speed": 0.01, "clearance": 0}),
+    (True, {**BALL, **SWAYS, "phase": 1}), (True, {**BALL, **TABLE, "particles": [0]}),
+    (True, {**BALL, "shape": "cylinder", "point": [0, 0, 0], "axis": [1, 0, 0], "center": None}),
     (False, {**PLANE, "radius": 1}), (False, {**PLANE, "normal": None}), (False, {**BALL, "normal": [0, 1, 0]}),
     (False, {**BALL, "radius": 0}), (False, {**PLANE, "stiffness": None}), (False, {**PLANE, "damping": -1}),
     (False, {**PLANE, "shape": "box"}), (False, {**PLANE, "name": "ground"}), (False, {**BALL, "amplitude": [0, 1, 0]}),
