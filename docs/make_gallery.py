@@ -43,6 +43,8 @@ PICTURES = [
     Picture("curl", 1, "A hanging curl."),
     Picture("lattice", 1, "A block that hangs from one end."),
     Picture("buoy", 0.6, "A buoy on three slack lines; four springs that end in driven points lift it."),
+    Picture("ball-under-cloth", 1, "A cloth that hangs over a ball."),
+    Picture("mooring", 1, "A line that rises from the sea bed."),
     Picture("tissue", 1, "A sheet of cells."),
     Picture("mesh", 1, "A ball that hangs from its highest point."),
 ]

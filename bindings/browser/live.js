@@ -172,7 +172,7 @@ class Live {
 
   energy(what) {
     const { library } = this;
-    return library.call("system_energy", this.system, what, library.call("state_position", this.state),
+    return library.call("system_energy_at", this.system, what, this.time, library.call("state_position", this.state),
       library.call("state_velocity", this.state));
   }
 
@@ -199,6 +199,17 @@ class Live {
     });
     const weight = library.doubles(library.call("system_inverse_mass", system), this.count);
     return { ends: Uint32Array.from(ends, Number), restLength, held: Uint8Array.from(weight, (w) => (w === 0 ? 1 : 0)) };
+  }
+
+  /* Shape, direction and radius of each obstacle, and its points at these times, one after the other. */
+  obstacles(times) {
+    const { library, system } = this, list = [];
+    for (let k = 0n, shape; (shape = library.text(library.call("system_obstacle_shape", system, k))) !== null; k++) {
+      const places = times.map((time) => library.filled(Float64Array, 7, (pointer) =>
+        library.check("system_obstacle_place", system, k, time, pointer)));
+      list.push({ shape, direction: [...places[0].slice(3, 6)], radius: places[0][6], point: places.flatMap((place) => [...place.slice(0, 3)]) });
+    }
+    return list;
   }
 
   /* Of a part: its "particles", or those "before" it. */

@@ -8,7 +8,8 @@ function makePicture(opened) {
   for (const side of ["width", "height"]) fresh.removeAttribute(side); // which the picture sets, and what depends on it
   canvas.replaceWith(fresh);
   const frames = [...opened.frames, opened.frames[0]];
-  scene = { box: frames.map(({ box }) => box), status: "running", gravity: opened.gravity, bodies: opened.bodies, live: frames.length - 1,
+  scene = { box: frames.map(({ box }) => box), status: "running", gravity: opened.gravity, bodies: opened.bodies,
+    obstacles: opened.obstacles, live: frames.length - 1,
     bytes: frames.map(({ bytes }) => bytes) };
   picture = null;
   try {
@@ -49,6 +50,7 @@ function drawFrame(blown = false) {
 function take(frame) {
   scene.box[scene.live] = frame.box;
   scene.bytes[scene.live] = frame.bytes;
+  scene.obstacles.forEach(({ point }, k) => point.splice(3 * scene.live, 3, ...frame.obstacles[k].point));
   drawFrame(Boolean(frame.slow));
   if (!frame.slow) bounds = frame.bounds;
   markBound();

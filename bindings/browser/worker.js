@@ -31,11 +31,11 @@ class Watch {
 
 /* A few states of the scene's own run, for the camera and the colours. */
 function preview(given) {
-  const states = [live.position.slice()], duration = given.duration > 0 ? given.duration : 1;
+  const states = [live.now], duration = given.duration > 0 ? given.duration : 1;
   const from = performance.now(), steps = Math.max(1, Math.round(duration / 15 / live.step)), look = new Watch(live);
   while (states.length < 16 && performance.now() - from < 500) {
     if (!live.take(Math.min(steps, 2000)) || look.look(live.energies) > GAIN.slow) break;
-    states.push(live.position.slice());
+    states.push(live.now);
   }
   return states;
 }
@@ -44,7 +44,7 @@ function start(scene, text) {
   const parsed = JSON.parse(text);
   if (live) live.release();
   live = scene;
-  live.isDriven = Array.isArray(parsed.driven);
+  live.isDriven = [...(parsed.driven || []), ...(parsed.obstacles || [])].some(({ motion }) => motion);
   return parsed;
 }
 
@@ -62,12 +62,12 @@ function open({ text, changes, method, step }) {
   const parsed = start(changed === text ? own : (own.release(), new Live(library, changed)), changed);
   net = live.net;
   live.use(by, run.step > 0 ? run.step : safeStep(by) || 1e-3);
-  const states = preview(run);
+  const seen = preview(run), states = seen.map(({ position }) => position);
   net.strain = strainScale(states, net);
   live.reset();
   runBy(method || by, step || live.step);
   return { is: "opened", method: method || by, step: live.step, ends: net.ends, marks: net.held, strain: net.strain,
-    bodies: bodiesOf(parsed, live, files), gravity: parsed.gravity || [0, 0, 0],
+    bodies: bodiesOf(parsed, live, files), obstacles: live.obstacles([...seen.map(({ time }) => time), 0]), gravity: parsed.gravity || [0, 0, 0],
     frames: states.map((q) => packFrame(q, net, net.strain)), bounds: live.bounds, energies: live.energies };
 }
 
@@ -146,7 +146,7 @@ function piece({ seconds }) {
   live.keep();
   const done = takeDue(seconds), { slow, diverged, ended } = (follow(done), pace);
   return { is: "frame", ...packFrame(live.position, net, net.strain), time: live.time, energies: live.energies, bounds: live.bounds,
-    slow, diverged, ended, trouble: ended ? { first, last: calm } : null, late: Boolean(done.late) };
+    obstacles: live.obstacles([live.time]), slow, diverged, ended, trouble: ended ? { first, last: calm } : null, late: Boolean(done.late) };
 }
 
 /* ---- messages ---- */
@@ -173,7 +173,8 @@ const ANSWERS = {
   restart({ method, step }) {
     live.reset();
     runBy(method, step);
-    return { is: "restarted", ...packFrame(live.position, net, net.strain), time: 0, energies: live.energies, bounds: live.bounds };
+    return { is: "restarted", ...packFrame(live.position, net, net.strain), time: 0, energies: live.energies, bounds: live.bounds,
+      obstacles: live.obstacles([0]) };
   },
 };
 

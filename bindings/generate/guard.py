@@ -16,7 +16,8 @@ OPTIONAL = {"folder", "run", "scene_text", "title", "count", "ctx", "damping", "
             "progress", "rest_length", "stiffness", "velocity", "warning"}
 OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"), ("hooke_measurement_label", "text"),
                ("hooke_measurement_json", "table"), ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"),
-               ("hooke_system_members", "particles"), ("hooke_system_body_particles", "particles"),
+               ("hooke_system_members", "particles"), ("hooke_system_add_members", "particles"),
+               ("hooke_system_add_obstacle", "particles"), ("hooke_system_body_particles", "particles"),
                ("hooke_system_with_force", "force"),
                *((f"hooke_{name}", what) for what in "qv"
                  for name in ("integrator_get", "integrator_put", "system_energy", "system_energy_at"))}

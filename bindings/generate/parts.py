@@ -57,10 +57,11 @@ DICTS = {
 # What methods add that is not "a <kind>".
 ADDED = {"springs": "a group of springs", "bending": "a group of triples that resist bending", "driven": "prescribed motion",
          "anchors": "a group of springs from a particle to a fixed point", "bodies": "existing particles as one rigid body",
-         "loads": "a force on particles"}
+         "loads": "a force on particles",
+         "obstacles": "a plane, a sphere or a cylinder that pushes particles out"}
 # Keys with the particles of what a scene lists, each a number or ("part", number), and their types.
 LISTS = {"springs": "between", "bending": "triples", "anchors": "particles", "bodies": "particles", "driven": "particles",
-         "loads": "particles"}
+         "loads": "particles", "obstacles": "particles"}
 PARTICLES = {"between": "Sequence[Sequence[Particle]] | IntArray", "triples": "Sequence[Sequence[Particle]] | IntArray",
              "particles": "Particle | Sequence[Particle] | IntArray"}
 TYPES = {"integer": "int", "number": "float", "boolean": "bool", "string": "str", "object": "dict[str, Quantity]"}
@@ -120,11 +121,12 @@ def method(kind, schema):
     needed = schema.get("required", ())
     required = [f"{argument(key)}: {type_of(key, keys[key])}" for key in keys if key in needed and key != "motion"]
     optional = [f"{argument(key)}: {type_of(key, keys[key])} | None = None" for key in keys if key not in needed]
-    if "motion" in keys:
+    if "motion" in keys and kind != "obstacles":
         first = keys["motion"].get("default", "harmonic")
         arguments = ["self: S", *required, "*", f'motion: str = "{first}"', *(one for one in optional if "motion:" not in one)]
     else:
-        arguments = ["self: S", "name: str | None = None", "*", *required, *optional]
+        named = ["name: str | None = None"] if "name" in schema["properties"] else []
+        arguments = ["self: S", *named, "*", *required, *optional]
     note = [f"        {NOTES[kind]}", ""] if kind in NOTES else []
     call = f'_group("{kind}", "{LISTS[kind]}", locals())' if kind in LISTS else f'_part("{kind}", locals())'
     return ["", f"    def {kind}(", *(f"        {one}," for one in arguments), "    ) -> S:",

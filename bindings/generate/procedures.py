@@ -49,7 +49,8 @@ RENAMED = {
     "estimate_number.column": "what", "estimate_text.column": "what", "view_number.column": "what",
 }
 # Several results in one array.
-PARTS = {"bound": "bound", "inertia": "mass inertia(3)", "motion": "point(3) quaternion(4) velocity(3) angular_momentum(3)"}
+PARTS = {"bound": "bound", "inertia": "mass inertia(3)", "motion": "point(3) quaternion(4) velocity(3) angular_momentum(3)",
+         "place": "point(3) direction(3) radius"}
 # Arrays that are allocated for results, with their sizes; whole numbers in them are indices, and C has rows of matrices.
 MEMBERS = "max(self%count(force), 0)"
 BLOCKS = ["3", "3", 'self%count("blocks")']

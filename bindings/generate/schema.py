@@ -41,6 +41,8 @@ def array(items, least, most):
 def numbers(row):
     """An array, or one in a file; or the other values that the table accepts."""
     items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
+    if row.max_count == -1:
+        return {"oneOf": [{"enum": row.words}, array({"enum": row.words}, 0, 0)]}
     rows, width = array(items, row.columns, row.columns) if row.columns else items, row.columns or 1
     ways = [array(rows, (row.min_count or 0) // width, (row.max_count or 0) // width), named("dataset")]
     if row.flat:
@@ -72,11 +74,18 @@ def members(rows, family):
     return [row._replace(name=row.name.partition(".")[2]) for row in rows if row.name.startswith(family + ".")]
 
 
-def way(rows, word):
-    """What holds where this word of the choice in the first row is given."""
-    refused = {row.name: False for row in rows if row.only not in ("", word)}
-    return {"if": {"properties": {rows[0].name: {"const": word}}},
-            "then": {"required": [row.name for row in rows if row.required and row.only == word], "properties": refused}}
+def ways(rows):
+    """What holds for each word of the choices that others belong to, and, where one is not given, without it."""
+    for choice in rows:
+        own = [row for row in rows if row.only and (row.by or rows[0].name) == choice.name]
+        for word in choice.words if own else []:
+            refused = {row.name: False for row in own if word not in row.only.split()}
+            given = {} if choice.required or choice.default else {"required": [choice.name]}
+            yield {"if": {**given, "properties": {choice.name: {"const": word}}},
+                   "then": {"required": [row.name for row in own if row.required and row.name not in refused],
+                            "properties": refused}}
+        if own and not choice.required and not choice.default:
+            yield {"if": {"not": {"required": [choice.name]}}, "then": {"properties": {row.name: False for row in own}}}
 
 
 class Tables:
@@ -114,8 +123,8 @@ class Tables:
         required = [*(["kind"] if own else []), *template.get("required", []),
                     *(row.name for row in rows if row.required and not row.only)]
         one = {"not": {"required": ["mass", "density"]}} if "density" in properties else {}
-        ways = {"allOf": [way(rows, word) for word in rows[0].words]} if any(row.only for row in rows) else {}
-        return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one, **ways,
+        chosen = {"allOf": [*ways(rows)]} if any(row.only for row in rows) else {}
+        return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one, **chosen,
                 **{key: words for key, words in template.items() if key not in ("required", "properties")},
                 "properties": properties}
 
@@ -131,7 +140,8 @@ def schema():
     name = {"type": "string", "description": "of the part, and the first word of its groups"}
     parts = {kind: tables.table(rows[kind], definitions.get(kind, {}), kind={"const": kind}, name=name) for kind in kinds}
     objects = {name: tables.table(hooke.options_of(name).rows, definitions[name])
-               for name in ("particles", "springs", "bending", "anchors", "bodies", "driven", "loads", "run")}
+               for name in ("particles", "springs", "bending", "anchors", "bodies", "driven", "loads", "obstacles",
+                            "run")}
     keys, version = tables.table(hooke.options_of("scene").rows, {})["properties"], template["properties"].pop("hooke")
     template["properties"] = {"hooke": version, **keys, **template["properties"]}
     template["properties"]["parts"]["items"] = {

@@ -38,7 +38,7 @@ def option_rows(rows: Any, families: set[str] = frozenset()) -> list[list[str]]:
         chosen = first.setdefault(row.name.rpartition(".")[0], row).name
         default = "required" if row.required else f"`{row.default}`" if row.default else ""
         allowed = "[a family of springs](#families-of-springs)" if row.name in families else row.allowed
-        words = f"{row.doc}; with {chosen} `{row.only}`" if row.only else row.doc
+        words = f"{row.doc}; with {row.by or chosen} `{row.only}`" if row.only else row.doc
         found.append([f"`{row.name}`", cell(words), cell(allowed or row.type), cell(row.unit), default])
     return found
 
@@ -65,7 +65,7 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         kind, "") + bound
 
 
-BELOW = ("particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "loads", "run")
+BELOW = ("particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "loads", "obstacles", "run")
 
 
 def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: Sequence[str],

@@ -39,9 +39,10 @@ HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
 HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);
 
 /* Adds what a scene has under `key`, with options of that name: a group of "springs", "bending" or "anchors",
- * one of "bodies", "driven" particles or "loads", each with `count` numbers of particles, those of one spring
- * or triple after the other; or "particles" with all that they have, and a count of 0. `name` may be NULL.
- * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY; the system is then as it was. */
+ * one of "bodies", "driven" particles, "loads" or one of "obstacles" (a count of -1: for all free particles),
+ * each with `count` numbers of particles, those of one spring or triple after the other; or "particles" with
+ * all that they have, and a count of 0. `name` may be NULL. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit,
+ * HOOKE_NO_MEMORY; the system is then as it was. */
 HOOKE_API int32_t hooke_system_add_members(hooke_system *system, const char *key, const char *name,
                                            int64_t count, const int64_t *particles,
                                            const hooke_options *options);

@@ -129,6 +129,13 @@ HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *nam
 HOOKE_API int32_t hooke_system_add_loads(hooke_system *system, int64_t count, const int64_t *particles,
                                          const hooke_options *options);
 
+/* Adds an obstacle that pushes out `count` particles (-1: all free ones), with options "obstacles": a plane,
+ * a sphere or a cylinder, with f = N n - friction N w/sqrt(w^2 + friction_speed^2), N = max(0, stiffness d +
+ * damping d'), at depth d > 0; w is the tangential velocity against the obstacle. HOOKE_BAD_VALUE,
+ * HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_obstacle(hooke_system *system, int64_t count, const int64_t *particles,
+                                            const hooke_options *options);
+
 /* Makes particles one rigid body: mass, centre and inertia are theirs (points in a line and single points are
  * bodies, too), all forces act on them as on any other, and members of forces inside the body are dropped at
  * commit. Positions and velocities stay those of the particles: every step takes the body's motion from three
@@ -238,6 +245,13 @@ HOOKE_API int32_t hooke_system_body_inertia(const hooke_system *system, int64_t 
  * The same failures. */
 HOOKE_API int32_t hooke_system_body_motion(const hooke_system *system, int64_t body, const double *q,
                                            const double *v, double *motion);
+
+/* Obstacles, numbered in the order in which they were added. "plane", "sphere" or "cylinder", NULL if there
+ * is no such obstacle; where it is at time t, 7 numbers: its point or centre [m], its unit normal or axis (0
+ * of a sphere) and its radius [m] (0 of a plane). HOOKE_BAD_VALUE if there is no such obstacle. */
+HOOKE_API const char *hooke_system_obstacle_shape(const hooke_system *system, int64_t obstacle);
+HOOKE_API int32_t hooke_system_obstacle_place(const hooke_system *system, int64_t obstacle, double t,
+                                              double *place);
 
 /* Masses [kg] (n; 0: not given) and inverse masses [1/kg] (n; 0 = pinned or driven; of an overdamped system
  * 1/gamma) of all particles; NULL before commit. */

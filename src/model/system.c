@@ -38,6 +38,7 @@ static void release_model(hooke_system *system) {
     hk_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
+  hk_obstacles_release(&system->rest->obstacles);
   hk_movers_release(system);
   hk_names_release(system);
   hk_medium_release(system->medium);

@@ -6,6 +6,7 @@
 #include "model/force/altitude.h"
 #include "model/force/bending.h"
 #include "model/force/force.h"
+#include "model/force/obstacle.h"
 #include "model/force/spring.h"
 #include "model/medium.h"
 #include "model/size_limit.h"
@@ -39,6 +40,7 @@ struct hk_system_rest {
 
   struct hk_bending bending; /* from commit on */
   struct hk_linear linear;
+  struct hk_obstacles obstacles;
   void *own[HOOKE_FORCES]; /* from commit on: data of a force without a member of its own here */
 
   int64_t name_count;

@@ -18,6 +18,7 @@ static const struct hk_option_row rows[] = {
         "corners top top-corners",
         "particles held still: numbers within the cloth, or words; top is the row at the origin"),
     HOOKE_PART_GRAVITY,
+    HOOKE_PART_CLAMPED("top left right bottom"),
     HOOKE_PART_RIGID,
     HOOKE_PART_FAMILY("structural", "springs between neighbours along u and v"),
     HOOKE_PART_FAMILY("shear", "springs along both diagonals of every cell"),

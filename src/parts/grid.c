@@ -4,12 +4,14 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/force/bending.h"
+#include "model/force/spring.h"
 #include "model/vector3.h"
 #include "parts/fluid.h"
 #include "parts/material.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Directions of springs in order, in steps along the axes; the second end has the higher number. The
  * diagonals of a plane are the first two. */
@@ -203,12 +205,16 @@ static int32_t check_beams(double coefficient) {
                  coefficient);
 }
 
+static double beam_coefficient(const struct hk_part *part, const struct hk_grid *grid, int along) {
+  const double l = grid->length[along], width = grid->axes == 1 ? 1.0 : piece_of(grid) / l;
+  return hooke_options_number(part->options, "bending") * width / (l * l * l);
+}
+
 /* Lines of the grid as parallel beams. A line of a cloth is a beam of the width between its neighbours,
  * perpendicular to it; at an edge, of half of that. */
 static int32_t add_beams(const struct hk_part *part, const struct hk_grid *grid, int along, int64_t *triple,
                          double *coefficient, int64_t *done) {
-  const double l = grid->length[along], width = grid->axes == 1 ? 1.0 : piece_of(grid) / l;
-  const double c = hooke_options_number(part->options, "bending") * width / (l * l * l);
+  const double c = beam_coefficient(part, grid, along);
   const struct strip strip = strip_of(grid, axis[along], 2);
   const int64_t end = *done + strip.springs;
   int32_t status = end > *done ? check_beams(c) : HOOKE_OK;
@@ -270,6 +276,72 @@ static int32_t add_fluid_drag(const struct hk_part *part, const struct hk_grid *
   return status;
 }
 
+/* ---- clamps ---- */
+
+/* Where a word clamps the lines along an axis: at their first particle, or at their last. */
+static const struct clamp {
+  const char *word;
+  int32_t along, last;
+} clamps[] = {{"start", 0, 0}, {"end", 0, 1}, {"left", 0, 0},
+              {"right", 0, 1}, {"top", 1, 0}, {"bottom", 1, 1}};
+enum { CLAMPS = sizeof clamps / sizeof clamps[0] };
+
+/* A line is pinned at its end q_0, and goes on beyond it by a fixed particle q_0 - l t: with t the direction
+ * as built, its triple of twice the coefficient is a spring of no length of its next particle, to where that
+ * was built. The single coefficient would leave an error of order 1 at the tip of a cantilever. */
+static int32_t clamp_lines(const struct hk_part *part, const struct hk_grid *grid, const struct clamp *clamp,
+                           int64_t *next, double *stiffness) {
+  const int a = clamp->along, b = 1 - a;
+  const double c = beam_coefficient(part, grid, a);
+  const int64_t stride = a == 0 ? 1 : grid->size[0], across = a == 0 ? grid->size[0] : 1;
+  const int64_t end = clamp->last ? (grid->size[a] - 1) * stride : 0;
+  for (int64_t k = 0; k < grid->size[b]; k++) {
+    const int64_t held = part->first + end + k * across;
+    const int32_t status = hooke_system_pin(part->system, 1, &held);
+    if (status != HOOKE_OK) return status;
+    next[k] = held + (clamp->last ? -stride : stride);
+    stiffness[k] = grid->axes > 1 && k % (grid->size[b] - 1) == 0 ? c : 2.0 * c;
+  }
+  return HOOKE_OK;
+}
+
+static int32_t add_clamp(const struct hk_part *part, const struct hk_grid *grid, const struct clamp *clamp,
+                         hooke_options *options) {
+  const int64_t lines = grid->size[1 - clamp->along];
+  int64_t *next = hk_new(lines, sizeof *next);
+  double *stiffness = hk_new(lines, sizeof *stiffness);
+  int32_t status = next && stiffness ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = clamp_lines(part, grid, clamp, next, stiffness);
+  if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "stiffness", lines, stiffness);
+  char *name = status == HOOKE_OK ? hk_part_group_name(part, clamp->word) : NULL;
+  if (status == HOOKE_OK)
+    status = name ? hk_system_add_anchors(
+                        part->system, &(struct hk_addition){&hk_force_anchor, name, lines, next, options, 1})
+                  : HOOKE_NO_MEMORY;
+  hk_free(name);
+  hk_free(next);
+  hk_free(stiffness);
+  return status;
+}
+
+static int32_t add_clamps(const struct hk_part *part, const struct hk_grid *grid) {
+  const char *rest = hooke_options_text(part->options, "clamped");
+  hooke_options *options = NULL;
+  int64_t length;
+  if (rest[0] == '\0') return HOOKE_OK;
+  if (!(hooke_options_number(part->options, "bending") > 0.0))
+    return hk_fail(HOOKE_BAD_VALUE, "clamped", "needs bending > 0, which holds the direction");
+  int32_t status = hooke_options_create("anchors", &options);
+  for (const char *word; status == HOOKE_OK && (word = hk_option_next_word(&rest, &length));) {
+    const struct clamp *clamp = clamps;
+    while (strncmp(clamp->word, word, (size_t)length) != 0 || clamp->word[length])
+      clamp++;
+    status = add_clamp(part, grid, clamp, options);
+  }
+  hooke_options_destroy(options);
+  return status;
+}
+
 /* ---- the part ---- */
 
 int32_t hk_grid_build(struct hk_part *part, struct hk_grid *grid, const char *size, const char *what) {
@@ -283,6 +355,7 @@ int32_t hk_grid_build(struct hk_part *part, struct hk_grid *grid, const char *si
   for (int k = 0; k < FAMILIES && status == HOOKE_OK; k++)
     status = add_family(part, grid, &families[k]);
   if (status == HOOKE_OK) status = add_bending(part, grid);
+  if (status == HOOKE_OK) status = add_clamps(part, grid);
   return status == HOOKE_OK ? add_fluid_drag(part, grid) : status;
 }
 

@@ -59,6 +59,10 @@ const struct hk_option_table *hk_part_find(const char *name);
 #define HOOKE_PART_GRAVITY                                                                                   \
   HOOKE_OPTION("gravity_factor", HOOKE_OPTION_COUNTED(1, 0), NULL,                                           \
                "factor on gravity, weight less buoyancy over weight: one number, or one a particle")
+#define HOOKE_PART_CLAMPED(names)                                                                            \
+  HOOKE_OPTION("clamped", HOOKE_OPTION_WHOLES(0, INT32_MAX, 0, -1), NULL,                                    \
+               "ends held still in place and in direction; needs bending", .words = (names),                 \
+               .word_lists = 1)
 #define HOOKE_PART_RIGID                                                                                     \
   HOOKE_OPTION("rigid", .type = HOOKE_OPTION_FLAG, "false",                                                  \
                "true: it moves as one rigid body, and springs inside it are dropped")

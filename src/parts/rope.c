@@ -14,6 +14,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_PART_DENSITY("kg/m", "mass over length, instead of mass: every particle has that of its piece"),
     HOOKE_PART_PINNED("start end", "particles held still: numbers within the rope, or words"),
     HOOKE_PART_GRAVITY,
+    HOOKE_PART_CLAMPED("start end"),
     HOOKE_PART_RIGID,
     HOOKE_PART_FAMILY("stretch", "springs between neighbours"),
     HOOKE_PART_FAMILY("bend", "springs two apart"),

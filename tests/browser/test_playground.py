@@ -83,6 +83,22 @@ def test_another_scene_is_drawn(browser):
         assert browser.run(drawn) > 2000
 
 
+def test_a_ball_under_a_cloth(browser):
+    """Obstacles are drawn, those that move where the library says they are at the time of the frame."""
+    begin(browser, "#open=ball-under-cloth")
+    assert browser.run("picture.obstacles.map(({ position, scale }) => [...position.toArray(), scale.x > 0.1])")[0][3]
+    assert browser.run("Array.from(scene.obstacles[0].point)") == [0] * browser.run("3 * scene.box.length")
+    browser.run("""(() => { const given = JSON.parse(at('text').value);
+      Object.assign(given.obstacles[0], { motion: 'table', time: [0, 1e3], position: [[0, 0, 0], [0, -200, 0]] });
+      document.body.dataset.heard = ''; openScene({ text: JSON.stringify(given) }); })()""")
+    wait(browser, "document.body.dataset.heard === 'frame' && Number(document.body.dataset.time) > 0.02")
+    for _ in range(3):
+        time_, y, drawn = browser.run("""[Number(document.body.dataset.time), scene.obstacles[0].point[3 * scene.live + 1],
+          picture.obstacles[0].position.y * picture.radius + picture.centre[1]]""")
+        assert y == pytest.approx(-0.2 * time_, abs=1e-12) and drawn == pytest.approx(y, abs=1e-6)
+    assert browser.console == []
+
+
 def test_an_address_opens_an_example(browser):
     begin(browser, "#open=rope")
     assert browser.run("[at('scenes').value, JSON.parse(at('text').value).title]") == ["rope", "a rope let go from horizontal"]

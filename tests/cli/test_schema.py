@@ -71,6 +71,30 @@ def test_example_passes_schema_and_program(hooke, path):
     assert scene["title"] and {"step", "duration", "every"} <= set(scene["run"])
 
 
+PLANE = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "stiffness": "2 kN/m"}
+BALL = {"shape": "sphere", "center": [0, 0, 0], "radius": "20cm", "stiffness": 1}
+SWAYS = {"motion": "harmonic", "amplitude": [0, 1, 0], "frequency": 2}
+TABLE = {"motion": "table", "time": [0, 1], "position": [[0, 0, 0], [1, 0, 0]]}
+
+
+@pytest.mark.parametrize("right, obstacle", [
+    (True, {**PLANE, "damping": 1, "friction": 0.3, "friction_speed": 0.01, "clearance": 0}),
+    (True, {**BALL, **SWAYS, "phase": 1}), (True, {**BALL, **TABLE, "particles": [0]}),
+    (True, {**BALL, "shape": "cylinder", "point": [0, 0, 0], "axis": [1, 0, 0], "center": None}),
+    (False, {**PLANE, "radius": 1}), (False, {**PLANE, "normal": None}), (False, {**BALL, "normal": [0, 1, 0]}),
+    (False, {**BALL, "radius": 0}), (False, {**PLANE, "stiffness": None}), (False, {**PLANE, "damping": -1}),
+    (False, {**PLANE, "shape": "box"}), (False, {**PLANE, "name": "ground"}), (False, {**BALL, "amplitude": [0, 1, 0]}),
+    (False, {**BALL, **SWAYS, "time": [0, 1]}), (False, {**BALL, **TABLE, "position": None}),
+])
+def test_obstacles_by_the_schema_and_the_program(hooke, tmp_path, right, obstacle):
+    """The keys of a shape and of a motion; a key that is None here is left out."""
+    scene = {"hooke": 1, "particles": {"position": [[0, 1, 0]], "mass": 1},
+             "obstacles": [{key: value for key, value in obstacle.items() if value is not None}]}
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(scene))
+    assert VALIDATOR.is_valid(scene) == right == (hooke("check", path).code == 0)
+
+
 def test_bad_scenes_fail_the_schema_or_are_beyond_it():
     scenes = {name: strict_json(row[0].encode("latin1")) for name, row in BAD.items()}
     checked = {name: scene for name, scene in scenes.items() if scene is not None}

@@ -116,6 +116,22 @@ def test_the_page_holds_the_trajectory(hooke, cloth, tmp_path):
 
 
 @needs_view
+def test_obstacles_are_where_they_are_at_each_frame(hooke, write, tmp_path):
+    """One point of what stays; of what moves, one a frame, by its sine; no obstacle widens the box of the particles."""
+    ground = {"shape": "plane", "point": [0, 0, -9], "normal": [0, 0, 4], "stiffness": 10}
+    ball = {"shape": "sphere", "center": [0.2, 0, -5], "radius": "2 m", "stiffness": 10, "motion": "harmonic",
+            "amplitude": [0, 0.5, 0], "frequency": 3}
+    assert hooke("run", write({**CLOTH, "obstacles": [ground, ball]}), "-o", "out.h5").code == 0
+    data = look(hooke, tmp_path, "--frames", "6")[0].data
+    assert data["obstacles"][0] == {"shape": "plane", "direction": [0, 0, 1], "radius": 0, "point": [0, 0, -9]}
+    points = np.array(data["obstacles"][1].pop("point")).reshape(-1, 3)
+    assert data["obstacles"][1] == {"shape": "sphere", "direction": [0, 0, 0], "radius": 2} and data["frames"] == 6
+    time = np.array(data["time"])
+    assert np.allclose(points, np.stack([0 * time + 0.2, 0.5 * np.sin(6 * np.pi * time), 0 * time - 5], axis=1), 0, 1e-15)
+    assert np.array(data["box"])[:, 2].min() > -1
+
+
+@needs_view
 def test_the_page_fetches_nothing(hooke, cloth, tmp_path):
     view, _ = look(hooke, tmp_path)
     library = (Path(CLI).parent / "share/hooke/three.js").read_text(encoding="utf-8")

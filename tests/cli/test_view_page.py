@@ -325,6 +325,38 @@ def test_bodies(browser, tmp_path, kind, triangles, segments):
         assert min(outwards) >= 0 and sum(value > 0 for value in outwards) == 3 * 4 * 5 - 1 * 2 * 3
 
 
+def test_obstacles(browser, tmp_path):
+    """Solids without lines, by day and by night: the ball, which the picture has room for, moves with its frame; the plane and
+    the roller, which have no end, are as long as what is seen."""
+    scene = {"hooke": 1, "parts": [BODIES["lattice"]], "run": {"method": "verlet", "step": 1e-3, "duration": 1, "every": 0.25},
+             "obstacles": [{"shape": "plane", "point": [5, -2, 0], "normal": [0, 2, 0], "stiffness": 1},
+                           {"shape": "sphere", "center": [-3, 0.5, 0.5], "radius": 1, "stiffness": 1, "motion": "table",
+                            "time": [0, 1], "position": [[0, 0, 0], [0, 2, 0]]},
+                           {"shape": "cylinder", "point": [3, 0, 9], "axis": [0, 0, 1], "radius": 0.5, "stiffness": 1}]}
+    browser.open(still(make(tmp_path, scene)))
+    plain = ink(seen(browser))
+    home, radius = browser.run("[picture.home, picture.radius]")
+    assert np.allclose(home, [-4, -0.5, -0.5, 1, 3.5, 1.5]) and radius == 2.5
+    places = {}
+    for frame in (0, 2):
+        browser.run(f"show({frame})")
+        places[frame] = np.array(browser.run(
+            "picture.obstacles.map(({ position }) => position.toArray().map((x, k) => x * picture.radius + picture.centre[k]))"))
+    assert np.allclose(places[0], [[-1.5, -2.0575, 0.5], [-3, 0.5, 0.5], [3, 0, 0.5]])
+    assert np.allclose(places[2] - places[0], [[0, 0, 0], [0, 1, 0], [0, 0, 0]])
+    disc, ball, roller = browser.run("picture.obstacles.map(({ scale }) => scale.toArray().map((x) => x * picture.radius))")
+    assert disc[0] > 0.5 * np.hypot(5, 4) and ball == pytest.approx([0.98] * 3) and roller == pytest.approx([0.48, 2.4, 0.48])
+    browser.run("show(0); for (const mesh of picture.obstacles) mesh.visible = false; draw()")
+    assert ink(seen(browser)) < 0.3 * plain
+    browser.run("for (const mesh of picture.obstacles) mesh.visible = true; draw()")
+    greys = {}
+    for dark in (False, True):
+        browser.dark(dark)
+        greys[dark] = np.median(seen(browser)[-60:, 200:400].reshape(-1, 3), axis=0)
+        assert np.ptp(greys[dark]) < 12  # no colour of its own
+    assert greys[False].mean() > 130 > 90 > greys[True].mean() > 30 and browser.console == []
+
+
 def test_picking(page):
     page.run("show(10, true)")
     x, y = page.run("projector()(20).slice(0, 2)")

@@ -13,7 +13,7 @@ ASKED = "--want 1cm --want 1mm --want 10um --study"
 EVALUATIONS = 5e6  # that a solution may take: nothing in the examples needs more
 LARGEST = "cloth-64"  # half an hour for the solution
 LARGE = {"curl", "cloth-16", "lattice", "cloth-damped", "rope-resolution"}
-OTHERS = {"buoy", "tissue"}  # the independent solution has inertia, and no bodies
+OTHERS = {"ball-under-cloth", "buoy", "mooring", "tissue"}  # the independent solution has inertia, neither bodies nor obstacles
 EXAMPLES = sorted({path.stem for path in (ROOT / "examples/scenes").glob("*.json")} - OTHERS)
 
 

@@ -87,10 +87,10 @@ static void solve(int64_t size, int64_t width, double *band, double *x) {
   gsl_linalg_cholesky_band_svx(&matrix.matrix, &vector.vector);
 }
 
-/* Deflection of the last particle; the system is destroyed. `across` particles are in a row, two rows are
+/* Deflection of the last particle; the system is destroyed. `across` particles are in a row, `rows` rows are
  * pinned. */
-static double sag_of(hooke_system *system, int64_t across) {
-  const int64_t n = hooke_system_particle_count(system), held = 2 * across, width = 3 * (2 * across + 1);
+static double sag_below(hooke_system *system, int64_t across, int64_t rows) {
+  const int64_t n = hooke_system_particle_count(system), held = rows * across, width = 3 * (2 * across + 1);
   const int64_t size = 3 * (n - held);
   owned_state *state = start_state(system);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
@@ -109,6 +109,10 @@ static double sag_of(hooke_system *system, int64_t across) {
   free(force);
   hooke_system_destroy(system);
   return sag;
+}
+
+static double sag_of(hooke_system *system, int64_t across) {
+  return sag_below(system, across, 2);
 }
 
 /* ---- ropes ---- */
@@ -130,6 +134,37 @@ TEST(tips_sink_as_beams_do) {
   check_between(tip[3] / tip[0], 0.98, 1.02);
   /* the error scales with the square of a piece */
   check_between((SAG * LENGTH - tip[0]) / (SAG * LENGTH - tip[1]), 3.5, 4.8);
+}
+
+/* A clamp holds the first particle and the direction there: to w L^4/(8 B), with an error that scales with
+ * the square of a piece. */
+TEST(clamped_tips_sink_as_beams_do) {
+  double off[3];
+  for (int k = 0; k < 3; k++) {
+    const int segments = 16 << k;
+    hooke_system *rope = small_part(
+        NULL, "rope", "beam",
+        "from=0,0,0 to=%.17g,0,0 segments=%d density=%.17g bending=%.17g stretch.stiffness=1e5 clamped=start",
+        LENGTH, segments, DENSITY, stiffness());
+    off[k] = sag_below(commit(rope), 1, 1) / (SAG * LENGTH) - 1.0;
+  }
+  check_between(off[0], 1e-3, 5e-3);
+  check_between(log2(off[0] / off[1]), 1.8, 2.2);
+  check_between(log2(off[1] / off[2]), 1.8, 2.2);
+}
+
+/* A strip clamped at its first row is such a beam over its width, an edge having half of a line's share. */
+TEST(clamped_sheets_sink_as_ropes_do) {
+  hooke_system *rope = small_part(NULL, "rope", "beam",
+                                  "from=0,0,0 to=1,0,0 segments=12 density=%.17g bending=%.17g "
+                                  "stretch.stiffness=1e5 clamped=start",
+                                  DENSITY, stiffness());
+  hooke_system *sheet = small_part(NULL, "cloth", "sheet",
+                                   "origin=0,0,0 edges=0,0.5,0,1,0,0 size=4,13 density=%.17g bending=%.17g "
+                                   "structural.stiffness=1e5 clamped=top",
+                                   DENSITY, stiffness());
+  const double tip = sag_below(commit(rope), 1, 1);
+  check_close(sag_below(commit(sheet), 4, 1), tip, 1e-6 * tip);
 }
 
 /* Equal masses give the tip twice its proper mass; with a wall at the first particle the length is off by

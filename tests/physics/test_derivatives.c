@@ -121,7 +121,8 @@ TEST(test_pattern) {
 TEST(test_blocks_are_products) {
   const double zero[LAW_SIZE] = {0};
   for (int k = 0; k < LAW_COUNT; k++) {
-    if (laws[k].callback) continue;
+    /* friction by N is not symmetric, and not in blocks */
+    if (laws[k].callback || (laws[k].obstacles && laws[k].damped)) continue;
     owned_law_scene scene;
     struct blocks blocks;
     double unit[LAW_SIZE], product[LAW_SIZE], *matrix = new_doubles(LAW_SIZE * LAW_SIZE);

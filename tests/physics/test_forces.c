@@ -131,7 +131,7 @@ TEST(test_dissipated_power) {
 
 TEST(test_third_law) {
   for (int k = 0; k < LAW_COUNT; k++) {
-    if (laws[k].gravity || laws[k].drag || laws[k].callback || laws[k].anchors) continue;
+    if (laws[k].gravity || laws[k].drag || laws[k].callback || laws[k].anchors || laws[k].obstacles) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
       owned_law_scene scene;
       double force[LAW_SIZE], sum[3] = {0}, torque[3] = {0}, size = 0.0;

@@ -154,6 +154,39 @@ def test_bending_is_that_of_the_scene(tmp_path):
     assert hooke.verify(tmp_path / "out.h5", bits=True)
 
 
+def test_obstacles_are_those_of_the_scene(tmp_path):
+    """For all free particles, some, one of a part, and moved; built, parsed, saved and added to a system they are the same."""
+    built = hooke.Scene(gravity=[0, -9.81, 0]).particles([[0, 0, 0], [1, 0, 0], [2, 0, 0]], mass=1, pinned=[0])
+    built.rope("line", from_=(0, 0.1, 0), to=(1, 0.1, 0), segments=4, mass=1, stretch={"stiffness": 10})
+    ground = {"shape": "plane", "point": [0, 0.2, 0], "normal": [0, 2, 0], "stiffness": 100, "damping": 3}
+    ball = {"shape": "sphere", "center": np.array([0.2, 0, 0]), "radius": "50cm", "stiffness": 40, "friction": 0.3,
+            "friction_speed": 0.01, "clearance": 0.01, "motion": "table", "time": [0, 1, 2], "position": np.eye(3)}
+    roller = {"shape": "cylinder", "point": [0, 0, 0], "axis": [0, 0, 1], "radius": 0.5, "stiffness": 10,
+              "motion": "harmonic", "amplitude": [0, 0.1, 0], "frequency": 2}
+    built.obstacles(**ground).obstacles(particles=[2, ("line", 1)], **ball).obstacles(particles=("line", 4), **roller)
+    with pytest.raises(hooke.BadValue, match=r"obstacles\[3\].*particles\[0\]"):
+        built.obstacles(particles=[8], **ground)
+    with pytest.raises(hooke.BadValue, match=r"obstacles\[3\].*radius: .*sphere"):
+        built.obstacles(**ground, radius=1)
+    written = json.loads(built.text)["obstacles"]
+    assert [one.get("particles") for one in written] == [None, [2, 4], [7]] and written[1]["position"] == np.eye(3).tolist()
+    parsed = hooke.Scene.parse(built.text)
+    system = hooke.Scene.parse({key: value for key, value in json.loads(built.text).items() if key != "obstacles"}).system
+    for particles, options in ((None, ground), ([2, 4], ball), (7, roller)):
+        system.add_obstacle(particles, **options)
+    built.save(tmp_path / "scene.json")
+    read = hooke.Scene.load(tmp_path / "scene.json")
+    assert json.loads(read.text)["obstacles"][1]["motion"] == "table"
+    for other in (parsed.system, read.system, system):
+        assert same(built.system, other)
+    q, v = built.system.state().q, np.ones((8, 3))
+    free = hooke.Scene.parse({key: value for key, value in json.loads(built.text).items() if key != "obstacles"}).system
+    pushed = np.flatnonzero((built.system.force(q, v, 0.25) != free.force(q, v, 0.25)).any(axis=1))
+    assert pushed.tolist() == [1, 2, 3, 4, 5, 6, 7] and "obstacles" in built.system.forces
+    with pytest.raises(hooke.BadValue, match="particles"):
+        hooke.Scene().particles([[0, 0, 0]], mass=1).anchors(particles=None, stiffness=1)
+
+
 def test_keywords_are_those_of_the_schema():
     """Keywords that are not in the tables: the keys of a scene itself, of particles and of drives."""
     schema = json.loads((ROOT / "examples/scene.schema.json").read_text())
@@ -163,13 +196,14 @@ def test_keywords_are_those_of_the_schema():
 
     properties = schema["properties"]
     pieces = set(properties) - {"$schema", "hooke", "names", "particles", "springs", "bending", "anchors", "parts", "bodies",
-                                "driven", "loads"}
+                                "driven", "loads", "obstacles"}
     assert keywords(hooke.Scene.__init__) == pieces
     assert keywords(hooke.Scene.names) == {"names"}
     assert keywords(hooke.Scene.bodies) == set(_keys(schema, properties["bodies"]["items"]))
     assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))
     assert keywords(hooke.Scene.loads) == set(_keys(schema, properties["loads"]["items"]))
     assert keywords(hooke.Scene.driven) == set(_keys(schema, properties["driven"]["items"]))
+    assert keywords(hooke.Scene.obstacles) == set(_keys(schema, properties["obstacles"]["items"]))
 
 
 def _keys(schema, node):

@@ -381,6 +381,29 @@ static void add_drag(const struct canonical *canonical, const double *each, int 
   }
 }
 
+static void push_out(const struct canonical_obstacle *o, const double *q, const double *v, double *force) {
+  double arm[3], n[3], w[3], distance = 0.0, depth;
+  for (int a = 0; a < 3; a++)
+    arm[a] = q[a] - o->point[a];
+  const double along = (arm[0] * o->axis[0] + arm[1] * o->axis[1]) + arm[2] * o->axis[2];
+  for (int a = 0; a < 3 && o->shape == 2; a++)
+    arm[a] -= along * o->axis[a];
+  if (o->shape > 0) distance = sqrt((arm[0] * arm[0] + arm[1] * arm[1]) + arm[2] * arm[2]);
+  depth = o->shape == 0 ? o->clearance - along : (o->radius + o->clearance) - distance;
+  if (!(depth > 0.0) || (o->shape > 0 && distance == 0.0)) return;
+  for (int a = 0; a < 3; a++)
+    n[a] = o->shape == 0 ? o->axis[a] : 1.0 / distance * arm[a];
+  const double rate = -((v[0] * n[0] + v[1] * n[1]) + v[2] * n[2]);
+  const double push = fmax(0.0, o->stiffness * depth + o->damping * rate);
+  for (int a = 0; a < 3; a++)
+    w[a] = v[a] + rate * n[a];
+  const double slip =
+      sqrt(((w[0] * w[0] + w[1] * w[1]) + w[2] * w[2]) + o->friction_speed * o->friction_speed);
+  const double brake = o->friction > 0.0 ? o->friction * push / slip : 0.0;
+  for (int a = 0; a < 3; a++)
+    force[a] += push * n[a] - brake * w[a];
+}
+
 /* Damping at v; springs that only pull and the callback are evaluated at `seen`. */
 void canonical_accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
                           const double *seen, double *acceleration) {
@@ -396,6 +419,9 @@ void canonical_accelerate(const struct canonical *canonical, double t, const dou
     add_tetrahedron(canonical, k, q, v, seen, force);
   for (int64_t k = 0; k < canonical->anchor_count; k++)
     add_anchor(canonical, k, q, v, force);
+  for (int64_t k = 0; k < canonical->obstacle_count * n; k++)
+    if (w[k % n] != 0.0)
+      push_out(&canonical->obstacle[k / n], q + 3 * (k % n), v + 3 * (k % n), force + 3 * (k % n));
   add_pieces(canonical, q, v, force);
   if (canonical->drag != 0.0) {
     for (int64_t p = 0; p < n; p++) {

@@ -2,9 +2,9 @@
  *
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first
  * end, subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs
- * likewise, anchors likewise, segments in a fluid, triangles in a fluid, drag, quadratic drag, loads in
- * ascending number, the callback. The acceleration is w f, then gravity is added to it, or its product with a
- * factor of the particle. Particles that are constrained (pinned or driven) have none. */
+ * likewise, anchors likewise, obstacles in order, segments in a fluid, triangles in a fluid, drag, quadratic
+ * drag, loads in ascending number, the callback. The acceleration is w f, then gravity is added to it, or its
+ * product with a factor of the particle. Particles that are constrained (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
 
@@ -15,6 +15,13 @@
  * such a group, or of a family of a part ("stretch."), are set by canonical_follow(). */
 enum { CANONICAL_FOLLOWS = 1, CANONICAL_BY_STRAIN = 2 };
 void canonical_follow(hooke_options *options, const char *family);
+
+/* A plane (0), a sphere (1) or a cylinder (2) that pushes out all free particles; axis: the unit normal, or
+ * axis. */
+struct canonical_obstacle {
+  int shape;
+  double point[3], axis[3], radius, stiffness, damping, friction, friction_speed, clearance;
+};
 
 struct canonical {
   int64_t particle_count, spring_count;
@@ -34,6 +41,8 @@ struct canonical {
   int64_t *anchored;    /* anchor_count: the particle of each */
   double *anchor_point; /* 3 anchor_count */
   double *anchor[3];    /* stiffness, damping and rest length */
+  int64_t obstacle_count;
+  const struct canonical_obstacle *obstacle; /* the caller's */
   int64_t load_count;
   int64_t *loaded;           /* load_count: the particle of each */
   const hooke_system *loads; /* of load_count particles, each with the load of that number; NULL: none */

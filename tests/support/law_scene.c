@@ -48,6 +48,8 @@ const struct law laws[LAW_COUNT] = {
      .damped = 1,
      .pull_only = 1,
      .follows = 1},
+    {.name = "obstacles", .law = "strain", .obstacles = 1},
+    {.name = "obstacles, damped", .law = "length", .damped = 1, .gravity = 1, .obstacles = 1},
 };
 
 struct material {
@@ -204,6 +206,48 @@ static void add_loads(hooke_system *system) {
   check_ok(hooke_system_add_loads(system, 2, (int64_t[]){5, 7}, options));
 }
 
+/* The depth of a particle, from a plane of this unit normal, or from the surface of a sphere or a cylinder of
+ * this axis, whose distance from it is 1. */
+static double depth_of(int shape, const double *x, const double point[3], const double axis[3]) {
+  double along = 0.0, square = 0.0;
+  for (int a = 0; a < 3; a++) {
+    along += (x[a] - point[a]) * axis[a];
+    square += (x[a] - point[a]) * (x[a] - point[a]);
+  }
+  return shape == 0 ? -along : 1.0 - sqrt(square - (shape == 2 ? along * along : 0.0));
+}
+
+/* A plane, a sphere and a cylinder of radius 1 that some particles touch, no depth being near 0, nor any
+ * particle near a centre; stiff, so that damping never pulls. */
+static void add_obstacle(const struct law *law, struct random_source *source, int shape, const double *q,
+                         hooke_system *system) {
+  static const char *const words[] = {
+      "shape=plane normal=%.17g,%.17g,%.17g point=%.17g,%.17g,%.17g",
+      "shape=sphere radius=0.9 clearance=0.1 center=%.17g,%.17g,%.17g",
+      "shape=cylinder radius=1 axis=%.17g,%.17g,%.17g point=%.17g,%.17g,%.17g"};
+  const double angle = random_between(source, 0.0, 6.0), axis[3] = {0.6 * cos(angle), 0.6 * sin(angle), 0.8};
+  double point[3];
+  for (int touching = 0, clear = 0; touching < 3 || !clear;) {
+    touching = 0;
+    clear = 1;
+    for (int a = 0; a < 3; a++)
+      point[a] = random_between(source, -0.5, 0.5);
+    for (int p = 0; p < LAW_PARTICLES; p++) {
+      const double depth = depth_of(shape, q + 3 * p, point, axis);
+      touching += depth > 0.0;
+      clear &= fabs(depth) > 0.06 && depth < 0.85 + 10.0 * (shape == 0);
+    }
+  }
+  owned_options *options = new_options("obstacles");
+  if (shape == 1)
+    set_options(options, words[1], point[0], point[1], point[2]);
+  else
+    set_options(options, words[shape], axis[0], axis[1], axis[2], point[0], point[1], point[2]);
+  set_options(options, "stiffness=40");
+  if (law->damped) set_options(options, "damping=0.4 friction=0.6 friction_speed=0.7");
+  check_ok(hooke_system_add_obstacle(system, -1, NULL, options));
+}
+
 void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene) {
   struct random_source source = {seed};
   struct material material;
@@ -229,6 +273,8 @@ void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *sc
   if (law->loads) add_loads(scene->system);
   for (int p = 0; p < LAW_PARTICLES && law->factors; p++)
     check_ok(hooke_system_set_gravity_factor(scene->system, p, 1, 1, (double[]){0.5 * p - 2.0}));
+  for (int shape = 0; shape < 3 && law->obstacles; shape++)
+    add_obstacle(law, &source, shape, scene->q, scene->system);
   const double gravity[] = {0.3, -9.81, 1.7};
   if (law->gravity) check_ok(hooke_system_set_gravity(scene->system, gravity));
   if (law->drag) check_ok(hooke_system_set_drag(scene->system, 0.37));

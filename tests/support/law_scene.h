@@ -17,13 +17,13 @@ struct law {
   const char *name, *law;
   int32_t zero_rest, damped, pull_only, gravity, drag;
   int32_t callback; /* 1: without a product, 2: with one */
-  int32_t bending, altitude, anchors, loads, factors;
+  int32_t bending, altitude, anchors, loads, factors, obstacles;
   int32_t curve;   /* 1: by coefficients, in place of the stiffness */
   int32_t follows; /* 1: springs follow time, and are those of the others at LAW_TIME */
 };
 
 #define LAW_TIME 0.3
-enum { LAW_COUNT = 25 };
+enum { LAW_COUNT = 27 };
 extern const struct law laws[LAW_COUNT];
 
 struct law_scene {

@@ -311,28 +311,52 @@ const char *hk_options_unit_given(const hooke_options *options, const char *name
   return value_of(options, name)->unit;
 }
 
-static int32_t refuse_elsewhere(const hooke_options *options, const struct slot *slot, const char *chosen) {
+/* The choice that an option belongs to: in its table or family, by name or the first. */
+static const struct slot *choice_of(const hooke_options *options, const struct slot *slot) {
+  const struct slot *choice = &options->slot[slot->family + 1];
+  while (slot->row->by && (choice->family != slot->family || strcmp(choice->row->name, slot->row->by) != 0))
+    choice++;
+  return choice;
+}
+
+static const char *chosen_for(const hooke_options *options, const struct slot *slot) {
+  return hooke_options_text(options, choice_of(options, slot)->name);
+}
+
+static int belongs(const hooke_options *options, const struct slot *slot) {
+  if (slot->row->only == NULL) return 1;
+  const char *chosen = chosen_for(options, slot);
+  return hk_option_has_word(slot->row->only, chosen, (int64_t)strlen(chosen));
+}
+
+static int32_t refuse_elsewhere(const hooke_options *options, const struct slot *slot) {
+  const struct slot *choice = choice_of(options, slot);
+  const char *chosen = chosen_for(options, slot);
+  if (chosen[0] == '\0')
+    return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\", which is missing", choice->row->name,
+                   slot->row->only);
   char list[TEXT_SIZE] = "";
   for (int64_t k = 0; k < options->slot_count; k++) {
-    const struct hk_option_row *row = options->slot[k].row;
-    if (options->slot[k].family == slot->family && row->only && strcmp(row->only, chosen) == 0)
-      hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", row->name);
+    const struct slot *other = &options->slot[k];
+    const int alike = other->family == slot->family && other->row->only;
+    if (alike && choice_of(options, other) == choice && belongs(options, other))
+      hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", other->row->name);
   }
   return hk_fail(HOOKE_BAD_VALUE, slot->name, "belongs to %s \"%s\"; allowed with \"%s\": %s",
-                 options->slot[slot->family + 1].row->name, slot->row->only, chosen,
-                 list[0] ? list : "nothing more");
+                 choice->row->name, slot->row->only, chosen, list[0] ? list : "nothing more");
 }
 
 int32_t hk_options_check_required(const hooke_options *options) {
   for (int64_t k = 0; k < options->slot_count; k++) {
-    const struct slot *slot = &options->slot[k], *first = &options->slot[slot->family + 1];
-    const char *chosen = slot->row->only ? hooke_options_text(options, first->name) : "";
+    const struct slot *slot = &options->slot[k];
     char with[NAME_SIZE] = "";
-    if (slot->row->only && strcmp(slot->row->only, chosen) != 0) {
-      if (slot->is_set) return refuse_elsewhere(options, slot, chosen);
+    if (!belongs(options, slot)) {
+      if (slot->is_set) return refuse_elsewhere(options, slot);
       continue;
     }
-    if (slot->row->only) hk_print(with, sizeof with, " with %s \"%s\"", first->row->name, chosen);
+    if (slot->row->only)
+      hk_print(with, sizeof with, " with %s \"%s\"", choice_of(options, slot)->row->name,
+               chosen_for(options, slot));
     if (!slot->row->required || slot->is_set || slot->row->fallback) continue;
     if (slot->family >= 0 && !is_family(&options->slot[slot->family])) continue;
     char allowed[HOOKE_OPTION_ALLOWED];
@@ -375,7 +399,7 @@ const char *hooke_options_row(const hooke_options *options, int64_t row, const c
       {"unit", of->unit},       {"default", of->fallback},
       {"doc", of->doc},         {"words", of->words},
       {"only", of->only},       {"family", slot->family >= 0 ? options->slot[slot->family].name : NULL},
-      {"example", of->example},
+      {"example", of->example}, {"by", of->by},
   };
   for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
     if (strcmp(known[k].name, property) == 0) return known[k].text ? known[k].text : "";
@@ -396,7 +420,7 @@ double hooke_options_row_number(const hooke_options *options, int64_t row, const
       {"whole", of->whole},
       {"required", of->required},
       {"min_count", counted && of->min_count > 0 ? (double)of->min_count : NAN},
-      {"max_count", counted && of->max_count > 0 ? (double)of->max_count : NAN},
+      {"max_count", counted && of->max_count != 0 ? (double)of->max_count : NAN},
       {"columns", of->columns > 0 ? (double)of->columns : NAN},
       {"flat", of->flat},
       {"word_lists", of->word_lists},

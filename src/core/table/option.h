@@ -26,13 +26,14 @@ struct hk_option_row {
   int32_t whole;        /* 1: whole numbers only */
   int32_t particles;    /* 1: numbers of particles, which a scene may also name */
   int32_t required;
-  int64_t min_count, max_count; /* of HOOKE_OPTION_NUMBERS; max_count 0: any */
+  int64_t min_count, max_count; /* of HOOKE_OPTION_NUMBERS; max_count 0: any, -1: words alone */
   int32_t columns;              /* in a scene numbers come in rows of this many ([[x,y,z],...]); 0: flat */
   int32_t flat;                 /* 1: a single row may also be flat ([x,y,z]) */
   const char *words; /* separated by blanks: the words allowed instead of numbers, or the choices */
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;
-  const char *only;                     /* of the table's first row, a choice: the word that it belongs to */
+  const char *only;                     /* the words of a choice that it belongs to; NULL: all */
+  const char *by;                       /* that choice; NULL: the first row of the table */
   const struct hk_option_table *family; /* also of numbers: in their place */
   const char *doc;
   const char *example; /* as text: an example value */

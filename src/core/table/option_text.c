@@ -108,9 +108,11 @@ void hk_option_describe(const struct hk_option_row *row, char *text, int64_t siz
     if (row->family) add_members(row, text, size);
     break;
   case HOOKE_OPTION_NUMBERS:
-    add_count(row, text, size);
-    add_bounds(row, text, size);
-    if (row->words) hk_append(text, (size_t)size, row->word_lists ? ", or any of " : " or ");
+    if (row->max_count >= 0) {
+      add_count(row, text, size);
+      add_bounds(row, text, size);
+      if (row->words) hk_append(text, (size_t)size, row->word_lists ? ", or any of " : " or ");
+    }
     add_words(row->words, "\"", text, size);
     break;
   case HOOKE_OPTION_FLAG:

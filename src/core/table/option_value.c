@@ -77,7 +77,7 @@ static int32_t check_number(const struct hk_option_row *row, const char *where, 
 static int32_t check_count(const struct hk_option_row *row, const char *where, int64_t count) {
   int64_t least = row->type == HOOKE_OPTION_NUMBERS ? row->min_count : 1;
   int64_t most = row->type == HOOKE_OPTION_NUMBERS ? row->max_count : 1;
-  int fits = count >= least && (most == 0 || count <= most);
+  int fits = count >= least && (most == 0 || count <= (most < 0 ? 0 : most));
   if (row->columns > 1 && count % row->columns != 0) fits = 0;
   if (fits) return HOOKE_OK;
   char may[HOOKE_OPTION_ALLOWED];

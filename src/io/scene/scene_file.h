@@ -21,6 +21,7 @@ extern const struct hk_scene_list {
   const char *allowed;
   int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                  const hooke_options *options);
+  int32_t may_be_all; /* 1: without particles it is for all, with -1 as their count */
 } hk_scene_lists[];
 
 /* HOOKE_NO_MEMORY if a scene of `length` bytes of text may need more than `limit` (0: the machine's memory).

@@ -11,7 +11,7 @@
 enum { METHODS_SIZE = 512, MOST_LISTS = 16 };
 
 static const char other_keys[] =
-    "hooke particles springs bending anchors parts bodies driven loads run names";
+    "hooke particles springs bending anchors parts bodies driven loads obstacles run names";
 
 /* ---- pieces of a scene ---- */
 

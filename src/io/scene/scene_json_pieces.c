@@ -181,6 +181,10 @@ static int32_t read_particles(struct hk_scene_reader *reader, const char *object
   if (value && part)
     return hk_fail(HOOKE_BAD_VALUE, "part", "is given beside particles; allowed: %s", list->allowed);
   if (part) return list_part(reader, part, particles, count);
+  if (value == NULL && list->may_be_all) {
+    *count = -1;
+    return HOOKE_OK;
+  }
   if (value == NULL)
     return hk_fail(HOOKE_BAD_VALUE, list->particles, "is required but missing; allowed: %s", list->allowed);
   const int32_t status = hk_scene_read_particles(reader, value, list, particles, count);
@@ -217,8 +221,8 @@ int32_t hooke_system_add_members(hooke_system *system, const char *key, const ch
   while (list->key && strcmp(list->key, key) != 0)
     list++;
   if (list->key == NULL)
-    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven loads", "key", "key",
-                             key);
+    return hk_option_unknown(NULL, "particles springs bending anchors bodies driven loads obstacles", "key",
+                             "key", key);
   char maker[64];
   hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
   int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
@@ -264,17 +268,25 @@ static int32_t add_load(hooke_system *system, const char *name, int64_t count, c
   return hooke_system_add_loads(system, count, particles, options);
 }
 
+static int32_t add_obstacle(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                            const hooke_options *options) {
+  (void)name;
+  return hooke_system_add_obstacle(system, count, particles, options);
+}
+
 /* The keys of a member are those of its options and `others`, between blanks. */
 const struct hk_scene_list hk_scene_lists[] = {
-    {"particles", "", NULL, 1, NULL, NULL, add_particles},
+    {"particles", "", NULL, 1, NULL, NULL, add_particles, 0},
     {"springs", " name between ", "between", 2, "stiffness", "an array of pairs of particles",
-     hooke_system_add_springs},
+     hooke_system_add_springs, 0},
     {"bending", " name triples ", "triples", 3, "coefficient", "an array of triples of particles",
-     add_bending},
+     add_bending, 0},
     {"anchors", " name particles ", "particles", 1, "stiffness", "an array of particles",
-     hooke_system_add_anchors},
-    {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body},
-    {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive},
-    {"loads", " particles ", "particles", 1, "force", "an array of particles", add_load},
-    {NULL, NULL, NULL, 0, NULL, NULL, NULL},
+     hooke_system_add_anchors, 0},
+    {"bodies", " name particles part ", "particles", 1, NULL, "particles, or the name of a part", add_body,
+     0},
+    {"driven", " particles ", "particles", 1, NULL, "an array of particles", add_drive, 0},
+    {"loads", " particles ", "particles", 1, "force", "an array of particles", add_load, 0},
+    {"obstacles", " particles ", "particles", 1, NULL, "an array of particles", add_obstacle, 1},
+    {NULL, NULL, NULL, 0, NULL, NULL, NULL, 0},
 };

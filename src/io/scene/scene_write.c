@@ -235,6 +235,7 @@ static void open_member(struct writer *to, const struct hk_scene_list *list, con
   if (!to->open++) hk_text_open(text, list->key, '[');
   hk_text_open(text, NULL, '{');
   if (name && name[0]) hk_text_word(text, "name", name);
+  if (count < 0) return;
   hk_text_open(text, list->particles, '[');
   for (int64_t k = 0; k < count; k++) {
     if (list->columns > 1) hk_text_open(text, NULL, '[');
@@ -368,6 +369,15 @@ static void add_drives(struct writer *to, const struct hk_scene_list *list) {
   }
 }
 
+static void add_obstacles(struct writer *to, const struct hk_scene_list *list) {
+  for (int64_t k = 0; k < to->system->rest->obstacles.count; k++) {
+    const struct hk_obstacle *obstacle = &to->system->rest->obstacles.obstacle[k];
+    open_member(to, list, NULL, obstacle->count, &obstacle->particle);
+    add_options(&to->json, obstacle->options, NULL);
+    hk_text_close(&to->json, '}');
+  }
+}
+
 static void add_lists(struct writer *to) {
   for (const struct hk_scene_list *list = hk_scene_lists; list->key; list++) {
     to->open = 0;
@@ -377,6 +387,8 @@ static void add_lists(struct writer *to) {
       add_bodies(to, list);
     else if (strcmp(list->key, "driven") == 0)
       add_drives(to, list);
+    else if (strcmp(list->key, "obstacles") == 0)
+      add_obstacles(to, list);
     if (to->open) hk_text_close(&to->json, ']');
   }
 }

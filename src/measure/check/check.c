@@ -6,6 +6,7 @@
 #include "core/table/option.h"
 #include "integrate/integrator.h"
 #include "measure/estimate/estimate.h"
+#include "measure/limit/contact.h"
 #include "measure/spectrum/step_bound.h"
 
 #include <math.h>
@@ -131,6 +132,7 @@ static int32_t warn(struct hk_check *check, const double *q) {
   warn_of_lacks(check, method, bound);
   warn_of_method(check, method, bound);
   warn_of_coincident_springs(check, q);
+  hk_claim_contacts(&check->warnings, check->m->system, 0.0, q);
   int32_t status = warn_of_loose_particles(check);
   if (status == HOOKE_OK) status = hooke_system_warnings(check->m->system, hear, &check->warnings);
   return status == HOOKE_OK ? check->warnings.status : status;

@@ -16,6 +16,9 @@ const double hk_costs[HOOKE_WORKS] = {
     8.64,
     19.8,
     0.1, /* anchors */
+    5,
+    10,
+    0.1, /* obstacles */
     50,
     100,
     100, /* drag in a fluid */

@@ -1,5 +1,6 @@
 /* What a limit says of its results: of the state that it was taken at, and with "along" of a run's frames. */
 #include "core/print.h"
+#include "measure/limit/contact.h"
 #include "measure/limit/limit.h"
 #include "model/force/spring.h"
 #include "model/particles.h"
@@ -108,6 +109,7 @@ void hk_limit_claim(const hooke_measurement *measurement, struct hk_claims *clai
     tell_none(&t);
   if (limit->suggestion.sentence[0]) say(&t, "changes", HOOKE_OF_PART, "%s", limit->suggestion.sentence);
   tell_left_out(&t);
+  hk_claim_contacts(claims, limit->system, limit->time, limit->q);
   for (int32_t k = 0; k < limit->row_count; k++) {
     int32_t first = 0;
     while (strcmp(limit->row[first].note, limit->row[k].note) != 0)

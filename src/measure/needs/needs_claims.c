@@ -4,6 +4,8 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "measure/limit/contact.h"
+#include "model/particles.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -154,4 +156,5 @@ void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *clai
         "wanted: changes are those up to %.6g s of %.6g s",
         hk_needs_judged_until(needs), hk_needs_judged_until(needs), needs->duration);
   tell_full(needs, claims);
+  hk_claim_contacts(claims, needs->m->system, 0.0, needs->m->system->position);
 }

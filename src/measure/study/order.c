@@ -78,6 +78,7 @@ static void list_causes(const struct hk_study *study, int32_t method, double coa
       {has_curve(system), "curves by tables bend at their samples"},
       {has_table(system), "a drive by a table bends at its samples"},
       {hk_system_calls_back(system) & HOOKE_CALLS_DRIVE, "the drive callback may not be smooth enough"},
+      {hk_force_is_present(system, &hk_force_obstacles), "contacts begin and end within steps"},
       {near_limit(study, method, coarsest), "steps are near the limit of stability"},
       {1, "steps do not resolve the motion yet"},
   };

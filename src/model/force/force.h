@@ -9,8 +9,9 @@
 
 /* The rows, in the order of summation at a particle. Gravity is last: a = w f + g. */
 #define HOOKE_FORCE_ROWS(each)                                                                               \
-  each(springs) each(bending) each(altitude) each(anchor) each(fluid) each(linear) each(drag) each(medium)   \
-      each(quadratic) each(wind) each(loads) each(callback) each(weight) each(gravity)
+  each(springs) each(bending) each(altitude) each(anchor) each(obstacles) each(fluid) each(linear)           \
+      each(drag) each(medium) each(quadratic) each(wind) each(loads) each(callback) each(weight)             \
+          each(gravity)
 #define HOOKE_COUNT_ROW(name) +1
 enum { HOOKE_FORCES = 0 HOOKE_FORCE_ROWS(HOOKE_COUNT_ROW) };
 

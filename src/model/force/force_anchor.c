@@ -26,19 +26,24 @@ static const struct hk_option_table options_table = {"anchors", HOOKE_OPTION_ROW
 
 /* ---- adding a group ---- */
 
-int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
-                                 const int64_t *particles, const hooke_options *options) {
-  const struct hk_addition added = {&hk_force_anchor, name, count, particles, options, 0};
+int32_t hk_system_add_anchors(hooke_system *system, const struct hk_addition *added) {
+  const hooke_options *options = added->options;
   struct hk_group group;
-  int32_t status = hk_group_begin(system, &added, &group);
+  int32_t status = hk_group_begin(system, added, &group);
   if (status == HOOKE_OK) hk_group_fill(&group, options);
   const double *points = status == HOOKE_OK && hooke_options_number_count(options, "points") > 0
                              ? hooke_options_numbers(options, "points")
                              : NULL;
-  for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
-    memcpy(group.number[HOOKE_POINT] + 3 * k, points ? points + 3 * k : system->position + 3 * particles[k],
-           3 * sizeof(double));
+  for (int64_t k = 0; k < added->count && status == HOOKE_OK; k++)
+    memcpy(group.number[HOOKE_POINT] + 3 * k,
+           points ? points + 3 * k : system->position + 3 * added->particles[k], 3 * sizeof(double));
   return hk_group_end(system, status, &group);
+}
+
+int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
+                                 const int64_t *particles, const hooke_options *options) {
+  return hk_system_add_anchors(system,
+                               &(struct hk_addition){&hk_force_anchor, name, count, particles, options, 0});
 }
 
 /* ---- from groups ---- */

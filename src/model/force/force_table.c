@@ -49,7 +49,7 @@ int32_t hk_system_has_dampers(const hooke_system *system) {
 int32_t hk_system_is_not_linear(const hooke_system *system) {
   int32_t found = system->rest->linear.of_velocities;
   for (int32_t k = 0; k < system->force_row_count; k++)
-    found |= system->force_row[k]->not_linear;
+    found |= system->force_row[k]->not_linear && hk_force_is_damped(system, system->force_row[k]);
   return found;
 }
 

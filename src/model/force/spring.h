@@ -146,6 +146,9 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
  * same as hooke_system_add_springs(). */
 int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *added);
 
+/* The same of anchors. */
+int32_t hk_system_add_anchors(hooke_system *system, const struct hk_addition *added);
+
 /* Kappa, gamma and rest length of every spring of a group, whose ends are known; damping ratios are kept
  * until commit. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_springs_find_material(const hooke_system *system, const hooke_options *options,

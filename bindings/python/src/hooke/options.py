@@ -24,8 +24,9 @@ class Row(NamedTuple):
     `words` are the choices, or the words allowed instead of numbers; `family` is the family of the option; `example`
     is a value for a first try. `low` and `high` are bounds of every number, inclusive unless `above_low`; `required`
     of a member of a family applies if the family is given; `min_count` and `max_count` bound the count of "numbers",
-    in rows of `columns`, a single one `flat` as well; with `word_lists` words and numbers may be mixed; `units` are those that a text may name
-    instead of `unit`; `only` is the word of the first option, a choice, with which it may be given.
+    in rows of `columns`, a single one `flat` as well; with `word_lists` words and numbers may be mixed; `units` are those
+    that a text may name instead of `unit`; `only` are the words of a choice with which it may be given, `by` that choice
+    ("": the first).
     """
 
     name: str
@@ -49,6 +50,7 @@ class Row(NamedTuple):
     flat: bool
     word_lists: bool
     only: str
+    by: str
 
 
 _LISTS = ("methods", "watch")  #: texts that are lists of words

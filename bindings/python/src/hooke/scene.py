@@ -159,10 +159,14 @@ class Scene(Parts, Problem):
                 if (given[what] is None) == (part is None):
                     raise BadValue(f"{what}: allowed: {what}, or the name of a part")
                 given[what] = given[what] if part is None else list(self._in_part(part, "part"))
-            numbers = self._numbers(given[what], what)
-            numbers = numbers.reshape(-1) if what == "particles" else numbers
+            if given[what] is None and kind == "obstacles":  # of all free particles
+                numbers = None
+            else:
+                numbers = self._numbers(given[what], what)
+                numbers = numbers.reshape(-1) if what == "particles" else numbers
             self._system._add(kind, name, what, numbers, keys)
-        return self._note(kind, {**({"name": name} if name else {}), what: numbers, **keys})
+        known = {"name": name or None, what: numbers}
+        return self._note(kind, {**{key: value for key, value in known.items() if value is not None}, **keys})
 
     def _part(self, kind: str, given: dict[str, Any]) -> Scene:
         keys = _keys(given, "name", "file")

@@ -114,10 +114,16 @@ class System(Queries):
         have to be those of a rigid motion, or with `project` become those of the nearest one."""
         self._add("bodies", name, "particles", particles, {"project": project})
 
+    def add_obstacle(self, particles: Any = None, **options: Any) -> None:
+        """Adds a plane, a sphere or a cylinder that pushes out `particles` (m,), None: all free ones, with the options
+        that ``hooke.describe("obstacles")`` lists."""
+        self._add("obstacles", None, "particles", particles, options)
+
     def _add(self, kind: str, name: str | None, what: str, members: Any, options: dict[str, Any]) -> None:
-        """Adds what a scene has under the key `kind`, whose particles are its key `what`."""
-        numbers, chosen = _members(kind, members, what), Options._of(kind).set(**options)
-        given = kind.encode(), _encoded(name), numbers.size, index_pointer(numbers)
+        """Adds what a scene has under the key `kind`, whose particles, None: all, are its key `what`."""
+        chosen, every = Options._of(kind).set(**options), members is None and kind == "obstacles"
+        numbers = _members(kind, () if every else members, what)
+        given = kind.encode(), _encoded(name), -1 if every else numbers.size, index_pointer(numbers)
         lib.hooke_system_add_members(self._handle, *given, chosen._handle)
 
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:

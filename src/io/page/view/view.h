@@ -80,6 +80,9 @@ int64_t hk_base64_length(int64_t bytes);
  * count, and "size" (particles along each axis) of a grid or "triangle" (corners, from the first particle on)
  * of a mesh. Failures go to the text's status. */
 void hk_view_add_bodies(struct hk_text *data, const hooke_system *system);
+/* Adds "obstacles": of each shape, direction (its normal or axis), radius, and "point", one a frame shown if
+ * it moves. */
+void hk_view_add_obstacles(struct hk_text *data, const struct hk_view *view, const hooke_system *system);
 /* Adds "groups" of springs: name and count of each, and whether it only pulls; and "stiffness": that of the
  * springs shown [N/m]. */
 void hk_view_add_springs(struct hk_text *data, const struct hk_view *view, const hooke_system *system);

@@ -1,10 +1,12 @@
-/* Bodies and groups of springs of a scene, for pages. */
+/* Bodies, obstacles and groups of springs of a scene, for pages. */
 #include "io/page/view/view.h"
 
 #include "core/memory.h"
+#include "io/trajectory/record.h"
 #include "model/force/force.h"
 #include "model/group.h"
 #include "model/part_record.h"
+#include "model/system.h"
 #include "parts/surface.h"
 
 #include <string.h>
@@ -41,6 +43,42 @@ void hk_view_add_bodies(struct hk_text *data, const hooke_system *system) {
     hk_text_number(data, "count", (double)part->count);
     if (part->grid) add_grid(data, part);
     if (strcmp(part->kind, "mesh") == 0) add_triangles(data, part);
+    hk_text_close(data, '}');
+  }
+  hk_text_close(data, ']');
+}
+
+/* ---- obstacles ---- */
+
+static void add_numbers(struct hk_text *data, const double *number, int count) {
+  for (int k = 0; k < count; k++)
+    hk_text_number(data, NULL, number[k]);
+}
+
+/* One that stays has one point. */
+static void add_obstacle(struct hk_text *data, const struct hk_view *view, const hooke_system *system,
+                         int64_t number) {
+  const int64_t points = system->rest->obstacles.obstacle[number].moves ? view->frames : 1;
+  double place[7];
+  hk_text_open(data, "point", '[');
+  for (int64_t k = 0; k < points; k++) {
+    hooke_system_obstacle_place(system, number, view->record->time[view->frame[k]], place);
+    add_numbers(data, place, 3);
+  }
+  hk_text_close(data, ']');
+  hk_text_open(data, "direction", '[');
+  add_numbers(data, place + 3, 3);
+  hk_text_close(data, ']');
+  hk_text_number(data, "radius", place[6]);
+}
+
+void hk_view_add_obstacles(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
+  const char *shape;
+  hk_text_open(data, "obstacles", '[');
+  for (int64_t k = 0; (shape = hooke_system_obstacle_shape(system, k)) != NULL; k++) {
+    hk_text_open(data, NULL, '{');
+    hk_text_word(data, "shape", shape);
+    add_obstacle(data, view, system, k);
     hk_text_close(data, '}');
   }
   hk_text_close(data, ']');

@@ -31,6 +31,7 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, char *co
   if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->fall;
     hk_view_add_bodies(data, hooke_scene_system(scene));
+    hk_view_add_obstacles(data, view, hooke_scene_system(scene));
     hk_view_add_springs(data, view, hooke_scene_system(scene));
     if (title == NULL && hooke_scene_text(scene, "title")[0]) title = hooke_scene_text(scene, "title");
   }

@@ -173,14 +173,15 @@ function frameNear(times, time) {
 
 /* What is drawn of one trajectory. */
 class Run {
-  constructor({ data, ends, marks, bytesOfFrame }, { centre, radius }) {
-    Object.assign(this, { data, ends, marks, bytesOfFrame, centre, radius });
-    this.uniforms = Object.fromEntries(Object.entries({ palette: [], paper: null, plain: null, ink: null, driven: null, cloth: null, rope: null,
+  constructor({ data, ends, marks, bytesOfFrame }, { home, centre, radius }) {
+    Object.assign(this, { data, ends, marks, bytesOfFrame, home, centre, radius });
+    this.uniforms = Object.fromEntries(Object.entries({ palette: [], paper: null, plain: null, ink: null, driven: null, cloth: null, stone: null, rope: null,
       reach: new THREE.Vector2(), size: new THREE.Vector2(), width: 1, scale: 9, thickness: 0, tinted: 0, tintedLines: 1, night: 0, opacity: 1 })
       .map(([name, value]) => [name, { value }]));
     const bodies = findBodies(data, marks.length);
     Object.assign(this, bodies, { lines: makeLines(ends.length / 2, this.uniforms) }, makePoints(marks, this.uniforms, bodies.inBody));
-    this.objects = [this.lines, this.points];
+    this.obstacles = (data.obstacles || []).map((obstacle) => makeObstacle(obstacle, this.uniforms, SHADE));
+    this.objects = [this.lines, this.points, ...this.obstacles];
     this.place = new Float32Array(3 * marks.length);
     this.makeBodies();
     this.stride = 1; // every k-th spring is drawn
@@ -246,7 +247,7 @@ class Run {
     uniforms.palette.value = palette.map(colour);
     uniforms.night.value = isDark() ? 1 : 0;
     for (const [name, stop] of [["paper", styleOf("--paper")], ["cloth", this.own || (isDark() ? "#8fb0cc" : "#a9c1d6")],
-      ["rope", this.own || (isDark() ? "#a89878" : "#8a7a5c")], ["ink", styleOf("--ink")], ["plain", styleOf("--edge")],
+      ["stone", isDark() ? "#565b60" : "#d6d5d1"], ["rope", this.own || (isDark() ? "#a89878" : "#8a7a5c")], ["ink", styleOf("--ink")], ["plain", styleOf("--edge")],
       ["driven", isDark() ? "#ff8fd0" : "#d6409f"]]) uniforms[name].value = colour(stop);
     return palette;
   }
@@ -259,12 +260,13 @@ class Run {
     return kept.filter((_, place) => place % stride === 0 || place === kept.length - 1);
   }
 
-  /* Some of the particles in these frames. */
+  /* Some of the particles in these frames, and what is outermost of spheres. */
   sample(frames, unit = this) {
     const stride = Math.max(1, Math.floor((this.marks.length * frames.length) / 6000)), points = [];
     for (const frame of frames) {
       this.placeAll(this.bytesOfFrame(frame), this.data.box[frame], unit);
       for (let k = 0; k < this.marks.length; k += stride) points.push(new THREE.Vector3().fromArray(this.place, 3 * k));
+      for (const ball of ballsOf(this.data, widthOf(this.home))) points.push(...outermostOf(ball, frame, unit));
     }
     return points;
   }
@@ -285,6 +287,7 @@ class Run {
     const bytes = this.bytesOfFrame(frame), { place } = this;
     this.unit = unit;
     this.placeAll(bytes, this.data.box[frame], unit);
+    this.obstacles.forEach((mesh, k) => placeObstacle(mesh, this.data.obstacles[k], frame, this, unit));
     const strain = bytes.subarray(2 * place.length);
     fillLines(this.lines, place, this.ends, this.order, this.stride, (k) => strain[k]);
     const points = this.points.geometry.attributes.position;

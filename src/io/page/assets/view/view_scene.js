@@ -2,7 +2,7 @@
 /* The picture: a trajectory, others over it, and a camera that turns. */
 
 /* What is seen of a run: of one that blew up, the frames that are not much wider than the first. */
-const homeOf = (data) => around(boxAround(keptFrames(data).map((k) => data.box[k])));
+const homeOf = (data) => around(boxAround(keptFrames(data).map((k) => boxWithBalls(data, data.box[k], k))));
 
 function around(home) {
   return { home, centre: [0, 1, 2].map((axis) => home[axis] / 2 + home[axis + 3] / 2),
@@ -12,8 +12,8 @@ function around(home) {
 class Picture extends Run {
   constructor(canvas, run) {
     const { home, centre, radius } = homeOf(run.data);
-    super(run, { centre, radius });
-    Object.assign(this, { canvas, home, others: [] });
+    super(run, { home, centre, radius });
+    Object.assign(this, { canvas, others: [] });
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: run.ends.length / 2 <= THICK_BELOW });
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
