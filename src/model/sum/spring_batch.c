@@ -75,9 +75,11 @@ static void take_ends(const struct hk_tiled *tiled, int64_t tile, struct hk_spri
 
 static void take_material(const struct hk_tiled *tiled, const struct hk_tiled_kind *kind,
                           struct hk_spring_batch *batch) {
+  const int32_t each = kind->shape & HOOKE_TILED_MIXED; /* 0: one material */
+  struct hk_material m = {0};
   for (int64_t k = 0; k < batch->count; k++) {
-    const struct hk_material m =
-        hk_scaled(hk_tiled_material(tiled, kind, batch->at + k), kind->scaling, &batch->scaler);
+    if (k == 0 || each)
+      m = hk_scaled(hk_tiled_material(tiled, kind, batch->at + k), kind->scaling, &batch->scaler);
     batch->kappa[k] = m.kappa;
     batch->gamma[k] = m.gamma;
     batch->rest_length[k] = m.rest_length;
