@@ -194,16 +194,6 @@ static void add_triple(const struct canonical *canonical, int64_t k, const doubl
 static const int role[7][4] = {{1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3},
                                {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}};
 
-static double dot(const double a[3], const double b[3]) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double n[3]) {
-  n[0] = a[1] * b[2] - a[2] * b[1];
-  n[1] = a[2] * b[0] - a[0] * b[2];
-  n[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static void altitude_vectors(const double *const x[4], int k, double e[3], double f[3], double r[3]) {
   const double *x0 = x[role[k][0]], *x1 = x[role[k][1]], *x2 = x[role[k][2]], *x3 = x[role[k][3]];
   for (int a = 0; a < 3; a++) {
@@ -217,8 +207,8 @@ void canonical_altitudes(const double *const x[4], double square[7]) {
   for (int k = 0; k < 7; k++) {
     double e[3], f[3], r[3], n[3];
     altitude_vectors(x, k, e, f, r);
-    cross(e, f, n);
-    square[k] = dot(n, n);
+    canonical_cross(e, f, n);
+    square[k] = canonical_dot(n, n);
   }
 }
 
@@ -233,7 +223,7 @@ static double altitude_rate(const int64_t *p, const double g[4], const double u[
   for (int a = 0; a < 3; a++)
     w[a] =
         ((g[0] * v[3 * p[0] + a] + g[1] * v[3 * p[1] + a]) + g[2] * v[3 * p[2] + a]) + g[3] * v[3 * p[3] + a];
-  return dot(u, w);
+  return canonical_dot(u, w);
 }
 
 /* The altitude that acts: its length, rest length, direction and weights. */
@@ -254,16 +244,16 @@ static int find_altitude(const struct canonical *canonical, int64_t number, cons
   }
   if (k < 0) return 0;
   altitude_vectors(x, k, e, f, r);
-  cross(e, f, n);
-  cross(r, f, rf);
-  cross(r, e, re);
+  canonical_cross(e, f, n);
+  canonical_cross(r, f, rf);
+  canonical_cross(r, e, re);
   const double rest = canonical->altitude[2][7 * number + k], side = rest < 0.0 ? -1.0 : 1.0;
   const double c = side * (1.0 / sqrt(square[k]));
   out->l = fabs(rest);
   for (int a = 0; a < 3; a++)
     out->u[a] = c * n[a];
-  const double a = dot(rf, n) / square[k], b = dot(re, n) / square[k];
-  out->h = dot(out->u, r);
+  const double a = canonical_dot(rf, n) / square[k], b = canonical_dot(re, n) / square[k];
+  out->h = canonical_dot(out->u, r);
   out->g[role[k][0]] = k < 4 ? (a - b) - 1.0 : a - 1.0;
   out->g[role[k][1]] = -a;
   out->g[role[k][2]] = k < 4 ? b : 1.0 - b;
@@ -300,110 +290,6 @@ static void add_anchor(const struct canonical *canonical, int64_t k, const doubl
     force[3 * canonical->anchored[k] + a] -= tension * ir * d[a];
 }
 
-static void add_loads(const struct canonical *canonical, double t, double *force) {
-  const int64_t n = canonical->load_count;
-  double *zero = new_doubles(3 * n), *load = new_doubles(3 * n);
-  check_ok(hooke_system_force(canonical->loads, t, zero, zero, load));
-  for (int64_t k = 0; k < 3 * n; k++)
-    force[3 * canonical->loaded[k / 3] + k % 3] += load[k];
-  free(zero);
-  free(load);
-}
-
-/* ---- drag in a medium ---- */
-
-static double wind_of(const struct canonical *canonical, int a) {
-  return canonical->wind ? canonical->wind[a] : 0.0;
-}
-
-static void add_segment(const struct canonical *canonical, int64_t k, const double *q, const double *v,
-                        double *force) {
-  const int64_t *p = canonical->pieces + 3 * k;
-  double d[3], t[3], w[3], across[3];
-  for (int a = 0; a < 3; a++) {
-    d[a] = q[3 * p[1] + a] - q[3 * p[0] + a];
-    w[a] = 0.5 * (v[3 * p[0] + a] + v[3 * p[1] + a]) - wind_of(canonical, a);
-  }
-  const double l = sqrt(dot(d, d)), il = l > 0.0 ? 1.0 / l : 0.0;
-  for (int a = 0; a < 3; a++)
-    t[a] = il * d[a];
-  const double along = dot(w, t);
-  for (int a = 0; a < 3; a++)
-    across[a] = w[a] - along * t[a];
-  const double by_normal = canonical->normal[k] * sqrt(dot(across, across)),
-               by_tangential = canonical->tangential[k] * fabs(along) * along;
-  for (int e = 0; e < 2; e++) {
-    for (int a = 0; a < 3; a++)
-      force[3 * p[e] + a] += 0.5 * -(l * (by_normal * across[a] + by_tangential * t[a]));
-  }
-}
-
-static void add_triangle(const struct canonical *canonical, int64_t k, const double *q, const double *v,
-                         double *force) {
-  const int64_t *p = canonical->pieces + 3 * k;
-  double one[3], other[3], n[3], w[3];
-  for (int a = 0; a < 3; a++) {
-    one[a] = q[3 * p[1] + a] - q[3 * p[0] + a];
-    other[a] = q[3 * p[2] + a] - q[3 * p[0] + a];
-    w[a] = ((v[3 * p[0] + a] + v[3 * p[1] + a]) + v[3 * p[2] + a]) / 3.0 - wind_of(canonical, a);
-  }
-  cross(one, other, n);
-  const double twice = sqrt(dot(n, n)), by = twice > 0.0 ? 1.0 / twice : 0.0;
-  for (int a = 0; a < 3; a++)
-    n[a] = by * n[a];
-  const double rate = dot(w, n), size = -(canonical->normal[k] * twice * fabs(rate) * rate);
-  for (int e = 0; e < 3; e++) {
-    for (int a = 0; a < 3; a++)
-      force[3 * p[e] + a] += size * n[a] / 3.0;
-  }
-}
-
-/* Segments first. */
-static void add_pieces(const struct canonical *canonical, const double *q, const double *v, double *force) {
-  for (int triangles = 0; triangles < 2; triangles++) {
-    for (int64_t k = 0; k < canonical->piece_count; k++) {
-      const int64_t *p = canonical->pieces + 3 * k;
-      if ((p[1] != p[2]) == triangles) (triangles ? add_triangle : add_segment)(canonical, k, q, v, force);
-    }
-  }
-}
-
-/* f = -c w, or -c |w| w. */
-static void add_drag(const struct canonical *canonical, const double *each, int squared, const double *v,
-                     double *force) {
-  for (int64_t p = 0; each && p < canonical->particle_count; p++) {
-    double w[3];
-    for (int a = 0; a < 3; a++)
-      w[a] = v[3 * p + a] - wind_of(canonical, a);
-    const double c = squared ? each[p] * sqrt(dot(w, w)) : each[p];
-    for (int a = 0; a < 3 && canonical->inverse_mass[p] != 0.0; a++)
-      force[3 * p + a] -= c * w[a];
-  }
-}
-
-static void push_out(const struct canonical_obstacle *o, const double *q, const double *v, double *force) {
-  double arm[3], n[3], w[3], distance = 0.0, depth;
-  for (int a = 0; a < 3; a++)
-    arm[a] = q[a] - o->point[a];
-  const double along = (arm[0] * o->axis[0] + arm[1] * o->axis[1]) + arm[2] * o->axis[2];
-  for (int a = 0; a < 3 && o->shape == 2; a++)
-    arm[a] -= along * o->axis[a];
-  if (o->shape > 0) distance = sqrt((arm[0] * arm[0] + arm[1] * arm[1]) + arm[2] * arm[2]);
-  depth = o->shape == 0 ? o->clearance - along : (o->radius + o->clearance) - distance;
-  if (!(depth > 0.0) || (o->shape > 0 && distance == 0.0)) return;
-  for (int a = 0; a < 3; a++)
-    n[a] = o->shape == 0 ? o->axis[a] : 1.0 / distance * arm[a];
-  const double rate = -((v[0] * n[0] + v[1] * n[1]) + v[2] * n[2]);
-  const double push = fmax(0.0, o->stiffness * depth + o->damping * rate);
-  for (int a = 0; a < 3; a++)
-    w[a] = v[a] + rate * n[a];
-  const double slip =
-      sqrt(((w[0] * w[0] + w[1] * w[1]) + w[2] * w[2]) + o->friction_speed * o->friction_speed);
-  const double brake = o->friction > 0.0 ? o->friction * push / slip : 0.0;
-  for (int a = 0; a < 3; a++)
-    force[a] += push * n[a] - brake * w[a];
-}
-
 /* Damping at v; springs that only pull and the callback are evaluated at `seen`. */
 void canonical_accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
                           const double *seen, double *acceleration) {
@@ -421,17 +307,17 @@ void canonical_accelerate(const struct canonical *canonical, double t, const dou
     add_anchor(canonical, k, q, v, force);
   for (int64_t k = 0; k < canonical->obstacle_count * n; k++)
     if (w[k % n] != 0.0)
-      push_out(&canonical->obstacle[k / n], q + 3 * (k % n), v + 3 * (k % n), force + 3 * (k % n));
-  add_pieces(canonical, q, v, force);
+      canonical_push_out(&canonical->obstacle[k / n], q + 3 * (k % n), v + 3 * (k % n), force + 3 * (k % n));
+  canonical_add_pieces(canonical, q, v, force);
   if (canonical->drag != 0.0) {
     for (int64_t p = 0; p < n; p++) {
       for (int a = 0; a < 3 && w[p] != 0.0; a++)
         force[3 * p + a] -= canonical->drag * v[3 * p + a];
     }
   }
-  add_drag(canonical, canonical->drags, 0, v, force);
-  add_drag(canonical, canonical->quadratic, 1, v, force);
-  if (canonical->load_count > 0) add_loads(canonical, t, force);
+  canonical_add_drag(canonical, canonical->drags, 0, v, force);
+  canonical_add_drag(canonical, canonical->quadratic, 1, v, force);
+  if (canonical->load_count > 0) canonical_add_loads(canonical, t, force);
   if (canonical->force != NULL) assert_int_equal(canonical->force(n, t, q, seen, force, canonical->ctx), 0);
   for (int64_t p = 0; p < n; p++) {
     for (int a = 0; a < 3; a++) {
@@ -600,7 +486,7 @@ static void damp_element(const struct canonical *canonical, int count, const int
     }
   }
   if (!(w > 0.0)) return;
-  double impulse = damper_share(time, c, w) * dot(u, rate);
+  double impulse = damper_share(time, c, w) * canonical_dot(u, rate);
   if (elastic && impulse < -(time * *elastic)) impulse = -(time * *elastic);
   if (elastic && !(*elastic > 0.0)) impulse = 0.0;
   for (int j = 0; j < count; j++) {
@@ -634,7 +520,8 @@ static void damp_anchor(const struct canonical *canonical, int64_t k, double tim
 static void damp_in_wind(const struct canonical *canonical, int64_t p, double time, double *v) {
   const double w = canonical->inverse_mass[p];
   for (int a = 0; a < 3 && w > 0.0; a++)
-    v[3 * p + a] -= w * (damper_share(time, canonical->drags[p], w) * (v[3 * p + a] - wind_of(canonical, a)));
+    v[3 * p + a] -=
+        w * (damper_share(time, canonical->drags[p], w) * (v[3 * p + a] - canonical_wind(canonical, a)));
 }
 
 /* Springs in their order, tetrahedra and anchors by number, then drag; or all of it backwards. */

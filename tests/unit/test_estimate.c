@@ -226,3 +226,19 @@ TEST(long_runs_are_judged_by_coarser_ones) {
       assert_non_null(strstr(e->reason, "the run is too long"));
   }
 }
+
+/* Three frames of 200 periods, each far from a whole one: the step loses the motion, and twice the step has
+ * none, so that no order is seen. */
+TEST(a_lost_motion_has_no_error) {
+  owned_system *system = small_oscillator(OMEGA);
+  owned_state *state = start_state(system);
+  owned_measurement *estimate;
+  owned_options *options =
+      run_options((struct run){.method = "symplectic-euler", .step = 0.2, .duration = 200.0, .every = 100.0});
+  check_ok(estimate_of(system, NAN, &estimate));
+  struct hk_estimate *e = estimate_run(estimate, options, 0, state);
+  measure_anew(estimate, state);
+  check_between(true_error(e, OMEGA), 1.0, 3.0);
+  assert_true(isnan(e->error));
+  assert_non_null(strstr(e->reason, "twice the step none"));
+}

@@ -7,6 +7,7 @@
 #include "core/print.h"
 #include "integrate/method.h"
 #include "model/state.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -16,6 +17,7 @@ static const double LONG = 10.0;                /* [s] of counted work */
 static const double FACTOR = 10.0, POWER = 0.7; /* of tolerances, and how errors scale with them */
 static const double LEAST_POWER = 0.5, MOST_POWER = 1.5, LOOSEST = 0.1, TIGHTEST = 1e-14;
 static const double ORDERS_APART = 0.4, LEAST_ORDER = 0.05, ORDERS_ABOVE = 1.0;
+static const double LOST = 0.1; /* of the size of a motion: beyond, a distance alone tells no error */
 /* safety factors: where the order is the expected one, and where it is another or not seen */
 static const double SURE = 1.25, SURE_TOLERANCE = 1.5, UNSURE = 3.0;
 static const double MOST_WORK = 4.0, MOMENT = 0.01; /* of other runs in all, in times of the run, or [s] */
@@ -176,11 +178,21 @@ static int is_expected(const struct hk_estimate *e, double seen) {
   return fabs(seen - expected_order(e)) <= ORDERS_APART;
 }
 
+/* 1 if another step, `near`, gives another motion, as far as its size tells, where no order is seen. */
+static int is_lost(const struct hk_estimate *e, const struct level *near, const struct level *far) {
+  const double size = hk_diagonal(e->kept.recorded * e->kept.size / 3, e->kept.position);
+  return !isnan(far->factor) && isnan(far->from.most) && near->from.most > LOST * size;
+}
+
 /* From the run `near`, at half the step, and `far`, at twice the step or unknown. */
 static void judge_by_finer(struct hk_estimate *e, const struct level *near, const struct level *far) {
   const int32_t adaptive = method_of(e)->adaptive;
   const char *by = adaptive ? "tolerance" : "half-step";
   double order = expected_order(e), safety = UNSURE;
+  if (!adaptive && is_lost(e, near, far)) {
+    say(e, "half the step gives another motion, and twice the step none");
+    return;
+  }
   if (far->from.most > 0.0 && near->from.most > noise(e)) {
     const double seen = order_seen(far->factor, near->factor, far->from.most / near->from.most);
     if (is_expected(e, seen)) safety = adaptive ? SURE_TOLERANCE : SURE;
