@@ -45,6 +45,8 @@ PICTURES = [
     Picture("buoy", 0.6, "A buoy on three slack lines; four springs that end in driven points lift it."),
     Picture("ball-under-cloth", 1, "A cloth that hangs over a ball."),
     Picture("mooring", 1, "A line that rises from the sea bed."),
+    Picture("flag", 0.6, "A flag in the wind, held at its left edge."),
+    Picture("crane", 0.6, "A crane with a crate on its rope, above the ground."),
     Picture("tissue", 1, "A sheet of cells."),
     Picture("mesh", 1, "A ball that hangs from its highest point."),
 ]

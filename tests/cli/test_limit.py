@@ -2,6 +2,8 @@
 
 import copy
 import math
+import os
+from pathlib import Path
 
 import pytest
 from conftest import SIX_PARTICLES, STIFF_PAIR
@@ -116,6 +118,17 @@ def test_words(hooke, write):
 
 def claims_of(answer):
     return {claim["key"]: claim for claim in answer.json["claims"]}
+
+
+@pytest.mark.parametrize("scene, of, words", [
+    ("crane", "part", "verlet is stable up to a step between 0 and "),
+    ("flag", "unknown", "no limit of the step of these methods is known"),
+])
+def test_what_is_not_known_is_no_number_and_not_nothing(hooke, scene, of, words):
+    """A body has no bound; damping that verlet predicts has no limiting mode in a large scene, and limits the step."""
+    path = Path(os.environ["HOOKE_SOURCE_DIR"]) / f"examples/scenes/{scene}.json"
+    claim = claims_of(hooke("limit", path, "--methods", "verlet", "--predict", "--json"))["limit"]
+    assert claim["of"] == of and claim["text"].startswith(f"at t = 0 s, {words}")
 
 
 def test_claims(hooke, write):

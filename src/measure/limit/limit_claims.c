@@ -24,7 +24,8 @@ static void tell_limit(const struct teller *t, const struct hk_limit_row *row) {
   if (row->predicted > 0.0 && row->exact)
     hk_print(predicted, sizeof predicted, "up to %.6g s", row->predicted);
   else if (row->predicted > 0.0)
-    hk_print(predicted, sizeof predicted, "up to a step between %.6g and %.6g s", row->bound, row->predicted);
+    hk_print(predicted, sizeof predicted, "up to a step between %.6g and %.6g s", fmax(row->bound, 0.0),
+             row->predicted);
   if (isinf(row->measured))
     hk_print(measured, sizeof measured, ", by runs at every step");
   else if (!isnan(row->measured))
@@ -46,7 +47,7 @@ static void tell_along(const struct teller *t, const struct hk_limit_row *row) {
 static void tell_none(const struct teller *t) {
   int32_t known = 1;
   for (int32_t k = 0; k < t->limit->row_count; k++)
-    known &= !isnan(t->limit->row[k].predicted);
+    known &= isinf(t->limit->row[k].predicted) != 0;
   say(t, "limit", known ? HOOKE_OF_PART : HOOKE_OF_UNKNOWN, "%s",
       known ? "nothing limits the step of any of these methods"
             : "no limit of the step of these methods is known");
@@ -72,8 +73,6 @@ static void tell_left_out(const struct teller *t) {
         "springs whose curve has no largest stiffness: %lld; limits and bounds are those of this state",
         (long long)curved.unbounded);
 }
-
-/* ---- notes ---- */
 
 /* 1 if a number of the row was asked for and not found. */
 static int lacks(const struct hk_limit_row *row) {
