@@ -207,12 +207,14 @@ static int32_t copy_movers(const struct hk_variant_maker *maker) {
   return status;
 }
 
-static void scale_stiffness(hooke_system *made, double factor) {
-  for (int64_t g = 0; g < made->group_count; g++)
-    if (made->group[g].curve) hk_curve_scale(made->group[g].curve, factor);
+static int32_t scale_stiffness(hooke_system *made, double factor) {
+  int32_t status = HOOKE_OK;
+  for (int64_t g = 0; g < made->group_count && status == HOOKE_OK; g++)
+    if (made->group[g].curve) status = hk_curve_scale(&made->group[g].curve, factor);
   for (int64_t g = 0; g < made->group_count; g++)
     for (int64_t k = 0; k < made->group[g].count && made->group[g].number[HOOKE_KAPPA]; k++)
       made->group[g].number[HOOKE_KAPPA][k] *= factor;
+  return status;
 }
 
 /* Rigid bodies take it as far as their pins let them. */
@@ -240,10 +242,10 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) status = copy_others(&maker);
   if (status == HOOKE_OK && !from->overdamped) status = hk_medium_copy_wind(&maker); /* there it is a force */
   if (status == HOOKE_OK) {
-    if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);
+    if (variant->stiffness != 1.0) status = scale_stiffness(maker.made, variant->stiffness);
     add_velocity(maker.made, variant->velocity);
-    status = hooke_system_commit(maker.made);
   }
+  if (status == HOOKE_OK) status = hooke_system_commit(maker.made);
   if (status == HOOKE_OK) {
     *made = maker.made;
   } else {
