@@ -147,6 +147,22 @@ static int32_t take_options(const struct hk_variant_maker *maker, const hooke_op
   return status == HOOKE_OK ? hk_springs_find_material(maker->made, kept->options, kept) : status;
 }
 
+int hk_variant_frees_clamps(const struct hk_variant_maker *maker, int64_t part) {
+  for (int64_t g = 0; g < maker->from->group_count; g++) {
+    const struct hk_group *group = &maker->from->group[g];
+    if (maker->variant->group[g] && group->from_part && group->part == part &&
+        (group->force == &hk_force_bending || group->force == &hk_force_anchor))
+      return 1;
+  }
+  return 0;
+}
+
+/* Clamps that the part no longer adds; those of another resolution go with its bending. */
+static int keeps_clamps(const struct hk_variant_maker *maker, const struct hk_group *group) {
+  return group->force == &hk_force_anchor && maker->map->part[group->part].axes == 0 &&
+         !maker->variant->rigid[group->part] && hk_variant_frees_clamps(maker, group->part);
+}
+
 /* Adds a group that no part adds; `first` is the number of its first member. Members keep their numbers, but
  * for springs whose options are known. A group whose members all have neither stiffness nor damping keeps its
  * place. */
@@ -176,7 +192,8 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
     const struct hk_group *group = &from->group[g];
     if (group->force != force) first = 0;
     force = group->force;
-    if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
+    if (maker->variant->group[g] ||
+        (group->from_part && !hk_variant_breaks_up(maker, group, first) && !keeps_clamps(maker, group)))
       continue;
     status = keep_group(maker, group, first);
   }
