@@ -218,6 +218,17 @@ TEST(can_be_stopped) {
   assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "memory_bytes")));
 }
 
+TEST(a_clamped_rope_has_the_cost_of_its_bending) {
+  owned_system *system = new_system();
+  owned_options *rope =
+      options_with("rope", "from=0,0,0 to=1,0,0 segments=4 mass=1 bending=0.2 clamped=start,end");
+  check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_measurement *cost = cost_of(system, (struct run){.method = "verlet", .step = 1e-4}, 1);
+  assert_int_equal(hooke_measurement_row_count(cost, "rows"), 3);
+  hooke_measurement_destroy(cost);
+}
+
 TEST(wrong_calls) {
   owned_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
   owned_state *state = start_state(other);

@@ -6,6 +6,7 @@
 #include "small.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- motions ---- */
@@ -130,6 +131,15 @@ TEST(forces_have_the_bits_of_the_formula) {
              ignored);
   run_to_end(all, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1, .threads = 2}, two,
              ignored);
+  check_same_bits(24, one, two);
+  char words[256];
+  snprintf(words, sizeof words, "curve.strain=-0.2,-0.1,0.1,0.4 curve.force=%.17g,%.17g,%.17g,%.17g",
+           -0.56 * 1.14, 4.92 * 1.14, 5.06 * 1.14, 17.98 * 1.14);
+  owned_system *product = net(2, 0.1, words);
+  owned_system *scaled =
+      net(2, 0.1, "curve.strain=-0.2,-0.1,0.1,0.4 curve.force=-0.56,4.92,5.06,17.98 stiffness_scale=1.14");
+  run_to_end(scaled, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1}, one, ignored);
+  run_to_end(product, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1}, two, ignored);
   check_same_bits(24, one, two);
 }
 

@@ -204,16 +204,16 @@ void hk_curve_destroy(struct hk_curve *curve) {
   hk_free(curve);
 }
 
-void hk_curve_scale(struct hk_curve *curve, double factor) {
-  for (int64_t k = 0; k < (curve->samples > 0 ? curve->samples : 3); k++)
-    curve->force[k] *= factor;
-  for (int64_t k = 0; k < curve->count; k++) {
-    for (int j = 0; j < 4; j++)
-      curve->piece[k].c[j] *= factor;
-    curve->piece[k].stored *= factor;
-  }
-  curve->slope *= factor;
-  curve->steepest *= factor;
+int32_t hk_curve_scale(struct hk_curve **curve, double factor) {
+  struct hk_curve *const from = *curve;
+  for (int64_t k = 0; k < (from->samples > 0 ? from->samples : 3); k++)
+    from->force[k] *= factor;
+  const int32_t status = hk_curve_copy(from, from->pull_only, curve);
+  if (status == HOOKE_OK)
+    hk_curve_destroy(from);
+  else
+    *curve = from;
+  return status;
 }
 
 /* ---- from options ---- */

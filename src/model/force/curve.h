@@ -34,8 +34,8 @@ int32_t hk_curve_from_options(const hooke_options *options, int32_t strain, int3
 int32_t hk_curve_copy(const struct hk_curve *from, int32_t pull_only, struct hk_curve **curve);
 void hk_curve_destroy(struct hk_curve *curve);
 
-/* Multiplies the tension. */
-void hk_curve_scale(struct hk_curve *curve, double factor);
+/* Multiplies the forces, to the same bits as a law of their products. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+int32_t hk_curve_scale(struct hk_curve **curve, double factor);
 
 static inline const struct hk_curve_piece *hk_curve_at(const struct hk_curve *curve, double e) {
   int64_t low = 0, high = curve->count;

@@ -193,7 +193,7 @@ int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *ad
   if (status == HOOKE_OK)
     status = hk_curve_from_options(added->options, is_strain(added->options), group.pull_only, &group.curve);
   if (status == HOOKE_OK && group.curve)
-    hk_curve_scale(group.curve, hk_scale_number(added->options, "stiffness_scale"));
+    status = hk_curve_scale(&group.curve, hk_scale_number(added->options, "stiffness_scale"));
   if (status == HOOKE_OK)
     status = hk_scaling_create(added->options, is_strain(added->options), &group.scaling);
   if (status == HOOKE_OK) status = hk_springs_find_material(system, added->options, &group);

@@ -147,6 +147,22 @@ static int32_t take_options(const struct hk_variant_maker *maker, const hooke_op
   return status == HOOKE_OK ? hk_springs_find_material(maker->made, kept->options, kept) : status;
 }
 
+int hk_variant_frees_clamps(const struct hk_variant_maker *maker, int64_t part) {
+  for (int64_t g = 0; g < maker->from->group_count; g++) {
+    const struct hk_group *group = &maker->from->group[g];
+    if (maker->variant->group[g] && group->from_part && group->part == part &&
+        (group->force == &hk_force_bending || group->force == &hk_force_anchor))
+      return 1;
+  }
+  return 0;
+}
+
+/* Clamps that the part no longer adds; those of another resolution go with its bending. */
+static int keeps_clamps(const struct hk_variant_maker *maker, const struct hk_group *group) {
+  return group->force == &hk_force_anchor && maker->map->part[group->part].axes == 0 &&
+         !maker->variant->rigid[group->part] && hk_variant_frees_clamps(maker, group->part);
+}
+
 /* Adds a group that no part adds; `first` is the number of its first member. Members keep their numbers, but
  * for springs whose options are known. A group whose members all have neither stiffness nor damping keeps its
  * place. */
@@ -176,7 +192,8 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
     const struct hk_group *group = &from->group[g];
     if (group->force != force) first = 0;
     force = group->force;
-    if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
+    if (maker->variant->group[g] ||
+        (group->from_part && !hk_variant_breaks_up(maker, group, first) && !keeps_clamps(maker, group)))
       continue;
     status = keep_group(maker, group, first);
   }
@@ -207,12 +224,14 @@ static int32_t copy_movers(const struct hk_variant_maker *maker) {
   return status;
 }
 
-static void scale_stiffness(hooke_system *made, double factor) {
-  for (int64_t g = 0; g < made->group_count; g++)
-    if (made->group[g].curve) hk_curve_scale(made->group[g].curve, factor);
+static int32_t scale_stiffness(hooke_system *made, double factor) {
+  int32_t status = HOOKE_OK;
+  for (int64_t g = 0; g < made->group_count && status == HOOKE_OK; g++)
+    if (made->group[g].curve) status = hk_curve_scale(&made->group[g].curve, factor);
   for (int64_t g = 0; g < made->group_count; g++)
     for (int64_t k = 0; k < made->group[g].count && made->group[g].number[HOOKE_KAPPA]; k++)
       made->group[g].number[HOOKE_KAPPA][k] *= factor;
+  return status;
 }
 
 /* Rigid bodies take it as far as their pins let them. */
@@ -240,10 +259,10 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) status = copy_others(&maker);
   if (status == HOOKE_OK && !from->overdamped) status = hk_medium_copy_wind(&maker); /* there it is a force */
   if (status == HOOKE_OK) {
-    if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);
+    if (variant->stiffness != 1.0) status = scale_stiffness(maker.made, variant->stiffness);
     add_velocity(maker.made, variant->velocity);
-    status = hooke_system_commit(maker.made);
   }
+  if (status == HOOKE_OK) status = hooke_system_commit(maker.made);
   if (status == HOOKE_OK) {
     *made = maker.made;
   } else {

@@ -90,6 +90,8 @@ int32_t hk_variant_add_particles(struct hk_variant_maker *maker);
 /* Pins and drives. A particle of a part at another resolution is constrained if all particles that it lies
  * between are, or one that it is nearest to (variant_constrained.c). */
 int32_t hk_variant_constrain(struct hk_variant_maker *maker);
+/* Whether bending or clamps of the part are left out, so that it adds no clamps itself. */
+int hk_variant_frees_clamps(const struct hk_variant_maker *maker, int64_t part);
 /* 1 if the part of a group does not add it because single springs of it are left out; the remaining ones are
  * added as a group of their own. `first` is the group's first member. Not for a part at another resolution,
  * whose springs differ. */

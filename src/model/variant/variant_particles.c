@@ -24,10 +24,12 @@ static int32_t leave_families_out(const struct hk_variant_maker *maker, int64_t 
     const struct hk_group *group = &from->group[g];
     if (!group->from_part || group->part != part) continue;
     const int32_t out = maker->variant->group[g] || hk_variant_breaks_up(maker, group, first);
-    const int32_t status = out ? hooke_options_unset(options, family_of(group->name)) : HOOKE_OK;
+    const int is_clamp = group->force == &hk_force_anchor;
+    const int32_t status =
+        out ? hooke_options_unset(options, is_clamp ? "clamped" : family_of(group->name)) : HOOKE_OK;
     if (status != HOOKE_OK) return status;
   }
-  return HOOKE_OK;
+  return hk_variant_frees_clamps(maker, part) ? hooke_options_unset(options, "clamped") : HOOKE_OK;
 }
 
 static int ends_in(const char *name, const char *ending) {
