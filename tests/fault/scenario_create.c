@@ -53,11 +53,16 @@ end:
 
 static void add_loads(struct attempt *a, hooke_system *system) {
   const int64_t loaded[] = {1, 2};
-  hooke_options *loads = make_options(a, "loads", "motion=table force=0,0,0;0,1,0 time=0,1");
-  if (loads == NULL) return;
+  hooke_options *loads = make_options(a, "loads", "motion=table force=0,0,0;0,1,0 time=0,1"),
+                *floor = make_options(a, "obstacles", "shape=plane point=0,-1,0 normal=0,1,0 stiffness=9");
+  if (floor == NULL) goto end;
   TRY(a, hooke_system_add_loads(system, 2, loaded, loads));
+  TRY(a, hooke_system_add_obstacle(system, -1, NULL, floor));
+  TRY(a, try_words(floor, "motion=table time=0,1 position=0,0,0;0,0.1,0"));
+  TRY(a, hooke_system_add_obstacle(system, 2, loaded, floor));
 end:
   hooke_options_destroy(loads);
+  hooke_options_destroy(floor);
 }
 
 static void add_drives(struct attempt *a, hooke_system *system) {

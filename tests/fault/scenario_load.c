@@ -46,6 +46,9 @@ static const struct scene scenes[] = {
      "0], \"frequency\": 2},\n"
      " {\"particles\": [1], \"motion\": \"table\", \"time\": [0, 1], \"position\": [[0, 0, "
      "0], [0, 0.1, 0]]}],\n"
+     "\"obstacles\": [{\"shape\": \"sphere\", \"center\": [2, 0, 0], \"radius\": 0.5, \"stiffness\": 9, "
+     "\"particles\": [2, 3],\n"
+     "  \"motion\": \"table\", \"time\": [0, 1], \"position\": [[0, 0, 0], [0, 0.1, 0]]}],\n"
      "\"run\": {\"method\": \"verlet\", \"step\": 1e-3, \"duration\": 1}}\n"},
     {"stiff.json",
      "{\"hooke\": 1, \"particles\": {\"position\": [[0,0,0],[1.1,0,0]], \"mass\": 1, \"pinned\": [0]},\n"

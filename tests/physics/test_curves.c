@@ -103,7 +103,8 @@ TEST(a_straight_curve_is_the_linear_law) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct run run = {.method = hooke_method_name(k), .step = 1e-3, .duration = 0.1};
     if (hooke_method_is_built(run.method) != 1) continue;
-    if (hooke_method_is_adaptive(run.method)) run.step = 0.0, run.rtol = 1e-10, run.atol = 1e-12;
+    /* at a corner their steps fall apart by rounding, and the solutions by what the tolerance allows */
+    if (hooke_method_is_adaptive(run.method)) run.step = 0.0, run.rtol = 1e-10;
     for (size_t p = 0; p < sizeof pairs / sizeof pairs[0]; p++) {
       owned_system *linear = net(p + 1, 0.1, pairs[p][0]), *curved = net(p + 1, 0.1, pairs[p][1]);
       run_to_end(linear, run, q, v);

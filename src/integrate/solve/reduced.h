@@ -14,8 +14,8 @@
 #include "kernel/spring/tangent_loops.h"
 
 /* What is asked: iterations by BiCGSTAB(4), to rounding; by conjugate gradients, for alpha = 0 and with
- * callbacks left out; by GMRES, for few of them. The first reads the option `linear_solver`, whose `auto` and
- * `blocks` are by blocks, in every build. */
+ * callbacks left out, where forces are linear in velocities; by GMRES, for few of them. The first reads the
+ * option `linear_solver`, whose `auto` and `blocks` are by blocks, in every build. */
 enum { HOOKE_REDUCED_GENERAL, HOOKE_REDUCED_SYMMETRIC, HOOKE_REDUCED_MINIMAL };
 
 enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_NONE };

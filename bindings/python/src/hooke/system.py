@@ -84,9 +84,9 @@ class System(Queries):
     def add_springs(self, name: str | None, between: Any, **options: Any) -> None:
         """Adds a group of springs `between` pairs of particles (m, 2), with the options that
         ``hooke.describe("springs")`` lists: ``law`` "strain" or "length"; ``stiffness`` [N] or, in the
-        length law, [N/m]; ``damping`` [N s] or [N s/m], or ``damping_ratio``; ``rest_length`` "initial" or [m]; ``rest_scale`` and
-        ``stiffness_scale``, each a number or, if it follows time, a dict; ``compression``. Where several numbers
-        are allowed it is one for all or (m,)."""
+        length law, [N/m]; ``damping`` [N s] or [N s/m], or ``damping_ratio``; ``rest_length`` "initial"
+        or [m]; ``rest_scale`` and ``stiffness_scale``, each a number or, if it follows time, a dict;
+        ``compression``. Where several numbers are allowed it is one for all or (m,)."""
         self._add("springs", name, "between", between, options)
 
     def add_bending(self, name: str | None, triples: Any, coefficient: Any) -> None:
