@@ -156,6 +156,8 @@ static hooke_system *with_every_force(int32_t overdamped, int32_t wind) {
   check_ok(hooke_system_add_anchors(system, "tie", 1, &tied, anchor));
   owned_options *load = options_with("loads", "force=0.1,0.2,0.3");
   check_ok(hooke_system_add_loads(system, 1, &tied, load));
+  owned_options *ball = options_with("obstacles", "shape=sphere center=0,0.2,0 radius=0.4 stiffness=30");
+  check_ok(hooke_system_add_obstacle(system, 2, (const int64_t[]){0, 1}, ball));
   hk_system_set_linear(system, 1, &element, at);
   check_ok(hooke_system_set_gravity(system, (const double[]){1.0, -9.81, 0.5}));
   if (wind && !overdamped)
