@@ -25,12 +25,13 @@ static void take_plain(const struct hk_run *run, struct hk_spring_batch *batch) 
 
 static void take_any(const struct hk_run *run, struct hk_spring_batch *batch) {
   for (int64_t k = 0; k < batch->count; k++) {
-    const struct hk_spring spring = hk_run_spring_at(run, batch->done + k, &batch->scaler);
-    batch->head[k] = (int32_t)spring.head;
-    batch->tail[k] = (int32_t)spring.tail;
-    batch->kappa[k] = spring.kappa;
-    batch->gamma[k] = spring.gamma;
-    batch->rest_length[k] = spring.rest_length;
+    const ptrdiff_t at = batch->done + k;
+    const struct hk_material m = hk_scaled(hk_run_material(run, at), run->scaling, &batch->scaler);
+    batch->head[k] = (int32_t)hk_run_head(run, at);
+    batch->tail[k] = (int32_t)hk_run_tail(run, at);
+    batch->kappa[k] = m.kappa;
+    batch->gamma[k] = m.gamma;
+    batch->rest_length[k] = m.rest_length;
   }
 }
 
