@@ -164,7 +164,10 @@ static int32_t need_factors(hooke_system *system) {
 int32_t hooke_system_set_gravity_factor(hooke_system *system, int64_t first, int64_t count,
                                         int64_t factor_count, const double *factor) {
   int32_t status = hk_system_require_open(system), changes = 0;
-  if (status == HOOKE_OK && (first < 0 || count < 0 || first > system->particle_count - count))
+  if (status == HOOKE_OK && (count < 0 || count > system->particle_count))
+    status = hk_fail(HOOKE_BAD_VALUE, "count", "%lld particles of %lld", (long long)count,
+                     (long long)system->particle_count);
+  if (status == HOOKE_OK && (first < 0 || first > system->particle_count - count))
     status =
         hk_fail_index("first", "there is no particle", (double)first, system->particle_count - count + 1);
   if (status == HOOKE_OK && factor_count != 1 && factor_count != count)

@@ -241,6 +241,7 @@ TEST(a_scene_that_begins_in_a_well_goes_on) {
   check_close(q[3], 10.7565717916655548, 1e-8);
 }
 
+#if HOOKE_HAVE_LAPACK
 /* Beyond the last sample the line falls for ever, and so does the mass. */
 TEST(what_a_falling_line_pushes_away_is_explained) {
   owned_system *system =
@@ -253,6 +254,7 @@ TEST(what_a_falling_line_pushes_away_is_explained) {
   check_ok(explain_run(run, &why));
   assert_non_null(strstr(claim_of(why, "course"), "negative stiffness"));
 }
+#endif
 
 /* ---- in overdamped scenes, and what is watched ---- */
 

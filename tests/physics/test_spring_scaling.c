@@ -77,6 +77,7 @@ TEST(a_pumped_oscillator_grows_in_the_first_tongue_alone) {
 
 /* ---- limits ---- */
 
+#if HOOKE_HAVE_LAPACK
 /* Of one spring whose stiffness is four times as large at t = 1: 2/omega of Verlet there, and along a run. */
 TEST(a_limit_is_that_of_the_asked_time) {
   const double place[6] = {0, 0, 0, 1.001, 0, 0};
@@ -100,3 +101,4 @@ TEST(a_limit_is_that_of_the_asked_time) {
     if (along) check_close(hooke_measurement_number(limit, "rows", 0, "smallest_time"), 1.0, 1e-9);
   }
 }
+#endif
