@@ -303,11 +303,11 @@ DAMPED_CLOTH = {
 def test_reference_keeps_to_its_share_of_the_budget(hooke, write):
     """Its result is used, and reported as a part."""
     scene = write(DAMPED_CLOTH, duration=10)
-    words = ["study", scene, "--methods", "backward-euler", "--budget", "4s", "--want", "1cm"]
+    words = ["study", scene, "--methods", "backward-euler", "--budget", "6s", "--want", "1cm"]
     begun = time.monotonic()
     answer = hooke(*words, "--json")
     value = answer.json
-    assert answer.code == (0 if value["recommendation"]["met"] else 7) and time.monotonic() - begun < 20
+    assert answer.code == (0 if value["recommendation"]["met"] else 7) and time.monotonic() - begun < 30
     assert value["budget_spent"] is True and 0 < value["reference"]["trusted_until"] < 10
     assert value["reference"]["ended"] == "time"
     assert 0 < value["reference"]["agreement"] < 1e-3
