@@ -13,20 +13,34 @@
 
 /* ---- cubics ---- */
 
-static double parabolic_slope(int64_t m, int32_t width, const double *x, const double *value, int64_t k) {
-  const double *p = value;
+/* The two intervals about sample k, at an end the first or last two: widths and secants; the distance of the
+ * sample from the middle one; -1, 1: an end. */
+struct neighbours {
+  double h0, h1, s0, s1, off;
+  int end;
+};
+
+typedef double slope_from(const struct neighbours *n);
+
+static double slope_at(int64_t m, int32_t width, const double *x, const double *p, int64_t k,
+                       slope_from *from) {
   if (m == 2) return (p[width] - p[0]) / (x[1] - x[0]);
   const int64_t i = k == 0 ? 1 : k == m - 1 ? m - 2 : k;
-  const double h0 = x[i] - x[i - 1], h1 = x[i + 1] - x[i];
-  const double s0 = (p[width * i] - p[width * (i - 1)]) / h0, s1 = (p[width * (i + 1)] - p[width * i]) / h1;
-  const double curve = (s1 - s0) / (h0 + h1); /* half the second derivative */
-  return s0 + curve * (h0 + 2.0 * (x[k] - x[i]));
+  struct neighbours n = {x[i] - x[i - 1], x[i + 1] - x[i], .off = x[k] - x[i], .end = (k > i) - (k < i)};
+  n.s0 = (p[width * i] - p[width * (i - 1)]) / n.h0;
+  n.s1 = (p[width * (i + 1)] - p[width * i]) / n.h1;
+  return from(&n);
+}
+
+static double parabolic(const struct neighbours *n) {
+  const double curve = (n->s1 - n->s0) / (n->h0 + n->h1); /* half the second derivative */
+  return n->s0 + curve * (n->h0 + 2.0 * n->off);
 }
 
 void hk_parabolic_slopes(int64_t samples, int32_t width, const double *x, const double *value,
                          double *slope) {
   for (int64_t k = 0; k < width * samples; k++)
-    slope[k] = parabolic_slope(samples, width, x, value + k % width, k / width);
+    slope[k] = slope_at(samples, width, x, value + k % width, k / width, parabolic);
 }
 
 /* By three points, limited so that the cubic of the first interval is monotone. */
@@ -36,22 +50,17 @@ static double slope_at_end(double h0, double h1, double s0, double s1) {
   return s0 * s1 < 0.0 && fabs(slope) > 3.0 * fabs(s0) ? 3.0 * s0 : slope;
 }
 
-static double monotone_slope(int64_t m, int32_t width, const double *x, const double *value, int64_t k) {
-  const double *p = value;
-  if (m == 2) return (p[width] - p[0]) / (x[1] - x[0]);
-  const int64_t i = k == 0 ? 1 : k == m - 1 ? m - 2 : k;
-  const double h0 = x[i] - x[i - 1], h1 = x[i + 1] - x[i];
-  const double s0 = (p[width * i] - p[width * (i - 1)]) / h0, s1 = (p[width * (i + 1)] - p[width * i]) / h1;
-  if (k == 0) return slope_at_end(h0, h1, s0, s1);
-  if (k == m - 1) return slope_at_end(h1, h0, s1, s0);
-  if (s0 * s1 <= 0.0) return 0.0;
-  const double w0 = 2.0 * h1 + h0, w1 = h1 + 2.0 * h0;
-  return (w0 + w1) / (w0 / s0 + w1 / s1);
+static double monotone(const struct neighbours *n) {
+  if (n->end < 0) return slope_at_end(n->h0, n->h1, n->s0, n->s1);
+  if (n->end > 0) return slope_at_end(n->h1, n->h0, n->s1, n->s0);
+  if (n->s0 * n->s1 <= 0.0) return 0.0;
+  const double w0 = 2.0 * n->h1 + n->h0, w1 = n->h1 + 2.0 * n->h0;
+  return (w0 + w1) / (w0 / n->s0 + w1 / n->s1);
 }
 
 void hk_monotone_slopes(int64_t samples, int32_t width, const double *x, const double *value, double *slope) {
   for (int64_t k = 0; k < width * samples; k++)
-    slope[k] = monotone_slope(samples, width, x, value + k % width, k / width);
+    slope[k] = slope_at(samples, width, x, value + k % width, k / width, monotone);
 }
 
 int64_t hk_interval(int64_t samples, const double *x, double at) {
