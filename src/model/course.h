@@ -42,6 +42,16 @@ int32_t hk_course_from_options(struct hk_course *course, const hooke_options *op
 int32_t hk_course_copy(const struct hk_course *from, struct hk_course *to);
 void hk_course_release(struct hk_course *course);
 
+/* The rows that options of a course have beside its numbers: of the choice `chosen` (NULL: the first row),
+ * with examples of a frequency and of times. For files that see core/table/option.h. */
+#define HOOKE_COURSE_OPTIONS(chosen, often, when)                                                            \
+  HOOKE_OPTION("frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), NULL, "oscillations a second", .required = 1,   \
+               .by = (chosen), .only = "harmonic", .example = (often)),                                      \
+      HOOKE_OPTION("phase", .type = HOOKE_OPTION_NUMBER, "0", "angle at time 0", .unit = "rad",              \
+                   .by = (chosen), .only = "harmonic"),                                                      \
+      HOOKE_OPTION("time", HOOKE_OPTION_COUNTED(2, 0), NULL, "ascending times", .unit = "s", .required = 1,  \
+                   .by = (chosen), .only = "table", .example = (when))
+
 /* The numbers at time t, and their rates, which may be NULL. */
 void hk_course_at(const struct hk_course *course, double t, double *value, double *rate);
 

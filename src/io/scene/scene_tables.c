@@ -3,6 +3,7 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "hooke/scene.h"
+#include "model/course.h"
 #include "model/medium.h"
 
 #include <string.h>
@@ -47,12 +48,7 @@ static const struct hk_option_row drive_rows[] = {
     HOOKE_OPTION("motion", HOOKE_OPTION_ONE_OF("harmonic table"), NULL, "kind of motion", .required = 1),
     HOOKE_OPTION("amplitude", HOOKE_OPTION_VECTOR("m"), NULL, "largest displacement along each axis",
                  .required = 1, .only = "harmonic"),
-    HOOKE_OPTION("frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), NULL, "oscillations a second", .required = 1,
-                 .only = "harmonic"),
-    HOOKE_OPTION("phase", .type = HOOKE_OPTION_NUMBER, "0", "angle at time 0", .unit = "rad",
-                 .only = "harmonic"),
-    HOOKE_OPTION("time", HOOKE_OPTION_COUNTED(2, 0), NULL, "ascending times", .unit = "s", .required = 1,
-                 .only = "table"),
+    HOOKE_COURSE_OPTIONS(NULL, NULL, NULL),
     HOOKE_OPTION("position", HOOKE_OPTION_VECTORS("m", 2, 0), NULL, "displacement at each time",
                  .required = 1, .only = "table"),
 };

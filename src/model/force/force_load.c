@@ -16,12 +16,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_OPTION("motion", HOOKE_OPTION_ONE_OF("constant harmonic table"), "constant", "course of the force"),
     HOOKE_OPTION("force", HOOKE_OPTION_VECTORS("N", 1, 0), NULL,
                  "force on each particle; its amplitude, or a row for each time", .required = 1, .flat = 1),
-    HOOKE_OPTION("frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), NULL, "oscillations a second", .required = 1,
-                 .only = "harmonic"),
-    HOOKE_OPTION("phase", .type = HOOKE_OPTION_NUMBER, "0", "angle at time 0", .unit = "rad",
-                 .only = "harmonic"),
-    HOOKE_OPTION("time", HOOKE_OPTION_COUNTED(2, 0), NULL, "ascending times", .unit = "s", .required = 1,
-                 .only = "table"),
+    HOOKE_COURSE_OPTIONS(NULL, NULL, NULL),
 };
 
 static const struct hk_option_table options_table = {"loads", HOOKE_OPTION_ROWS(rows)};

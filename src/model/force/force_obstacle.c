@@ -38,12 +38,7 @@ static const struct hk_option_row rows[] = {
                  "the obstacle is moved, and not turned; without it, it stays"),
     HOOKE_OPTION("amplitude", HOOKE_OPTION_VECTOR("m"), NULL, "largest displacement along each axis",
                  .required = 1, .by = "motion", .only = "harmonic"),
-    HOOKE_OPTION("frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), NULL, "oscillations a second", .required = 1,
-                 .by = "motion", .only = "harmonic"),
-    HOOKE_OPTION("phase", .type = HOOKE_OPTION_NUMBER, "0", "angle at time 0", .unit = "rad", .by = "motion",
-                 .only = "harmonic"),
-    HOOKE_OPTION("time", HOOKE_OPTION_COUNTED(2, 0), NULL, "ascending times", .unit = "s", .required = 1,
-                 .by = "motion", .only = "table"),
+    HOOKE_COURSE_OPTIONS("motion", NULL, NULL),
     HOOKE_OPTION("position", HOOKE_OPTION_VECTORS("m", 2, 0), NULL, "displacement at each time",
                  .required = 1, .by = "motion", .only = "table"),
 };
