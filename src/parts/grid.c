@@ -284,7 +284,6 @@ static const struct clamp {
   int32_t along, last;
 } clamps[] = {{"start", 0, 0}, {"end", 0, 1}, {"left", 0, 0},
               {"right", 0, 1}, {"top", 1, 0}, {"bottom", 1, 1}};
-enum { CLAMPS = sizeof clamps / sizeof clamps[0] };
 
 /* A line is pinned at its end q_0, and goes on beyond it by a fixed particle q_0 - l t: with t the direction
  * as built, its triple of twice the coefficient is a spring of no length of its next particle, to where that
