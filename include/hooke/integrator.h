@@ -200,8 +200,8 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
 
 /* Warns of what a committed system may be, but is seldom meant to be, of kind "no-stiffness" (a part or a
  * group of springs), "same-pair" (three springs of a group between two particles), "added-mass" (a rope no
- * heavier than the liquid that it displaces) or "nothing-moves". `limit` is NaN, and spring and particle are
- * -1 where there is none. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY; HOOKE_STOPPED if a warning returned
+ * heavier than the liquid that it displaces), "jump" (springs that only pull, whose curve is above 0 at the
+ * rest length) or "nothing-moves". `limit` is NaN, and spring and particle are -1 where there is none. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY; HOOKE_STOPPED if a warning returned
  * anything but 0. */
 HOOKE_API int32_t hooke_system_warnings(const hooke_system *system, hooke_warning *warning, void *ctx);
 
