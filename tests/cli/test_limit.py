@@ -40,6 +40,19 @@ def test_predictions(hooke, write):
     assert rows["backward-euler"]["predicted"] is None and "accuracy limits it" in rows["backward-euler"]["note"]
 
 
+def test_an_unknown_prediction_is_no_number(hooke, write):
+    scene = {"hooke": 1, "gravity": [0, -9.81, 0],
+             "parts": [{"kind": "cloth", "size": [12, 12], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 1,
+                        "structural": {"stiffness": 50, "damping": 0.1}, "shear": {"stiffness": 20}}],
+             "obstacles": [{"shape": "plane", "point": [0, 0.001, 0], "normal": [0, 1, 0], "stiffness": 100, "damping": 1}],
+             "run": {"method": "verlet", "duration": 1e-3, "every": 5e-4, "step": 1e-4}}
+    row = rows_of(hooke("limit", write(scene), "--methods", "verlet", "--json"))["verlet"]
+    assert row["predicted"] is None and row["ratio"] is None and row["exact"] is False and "not known" in row["note"]
+    assert 0 < row["bound"] < row["measured"] < 3 * row["bound"]  # by runs it is found all the same
+    along = rows_of(hooke("limit", write(scene), "--along", "--methods", "verlet", "--json"))["verlet"]
+    assert along["smallest"] is None and "not known at 3 of 3 frames" in along["note"]
+
+
 def test_blame(hooke, write):
     answer = hooke("limit", write(SIX_PARTICLES), "--predict", "--json").json
     shares = [spring["share"] for spring in answer["blame"]]
