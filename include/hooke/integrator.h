@@ -168,7 +168,7 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations",
  * "nonlinear_failures", "linear_iterations", "error_test_failures", "explicit_damping" (1 of verlet that
  * takes the damping of springs at the predicted velocity, 0 where it solves for it and of anything else),
- * "coincident_springs" (springs without direction in the last force evaluation), "zero_passages" (times
+ * "coincident_springs" (springs and contacts without direction in the last force evaluation), "zero_passages" (times
  * that a spring or an anchor with a rest length passed through length zero, where its ends go through
  * each other; -1: not known, as a part of the run was before a checkpoint or a frame that it goes on
  * from, or without memory), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one

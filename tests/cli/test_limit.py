@@ -53,6 +53,16 @@ def test_an_unknown_prediction_is_no_number(hooke, write):
     assert along["smallest"] is None and "not known at 3 of 3 frames" in along["note"]
 
 
+def test_friction_limits_the_step_of_what_lies(hooke, write):
+    """It is a damping of mu g/s, 39240 1/s, by which Euler's methods are stable up to 2 s/(mu g)."""
+    floor = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "stiffness": 1e5, "friction": 0.4, "friction_speed": 1e-4}
+    scene = {"hooke": 1, "gravity": [0, -9.81, 0], "particles": {"position": [[0, -9.81e-5, 0]], "mass": 1}, "obstacles": [floor]}
+    answer = hooke("limit", write(scene), "--predict", "--methods", "symplectic-euler", "--json")
+    assert math.isclose(rows_of(answer)["symplectic-euler"]["predicted"], 2 / 39240, rel_tol=1e-6)
+    assert answer.json["changes"]["sentence"] == "contact limits the step, with 100 % of the limiting mode"
+    assert "contact limits the step" in hooke("limit", write(scene), "--predict").out
+
+
 def test_blame(hooke, write):
     answer = hooke("limit", write(SIX_PARTICLES), "--predict", "--json").json
     shares = [spring["share"] for spring in answer["blame"]]

@@ -85,7 +85,7 @@ TEST(a_run_is_warned_of_at_the_state_given) {
   check_warning(check, 0, "above-limit", "is above");
   memset(hooke_state_position(state), 0, 9 * sizeof(double));
   check_ok(hooke_measurement_run(check, state));
-  check_warning(check, 1, "coincident-springs", "1 spring starts with both ends at the same place");
+  check_warning(check, 1, "coincident-springs", "1 spring or contact starts without a direction");
 }
 
 TEST(memory_adds_to_that_of_the_process) {
