@@ -260,15 +260,17 @@ static void tell_coincident(const struct cli_run *run) {
   const int64_t before = run->coincident_before, after = cli_run_coincident(run);
   if (before > 0) {
     cli_report_words(run->arguments,
-                     "%" PRId64 " springs began with both ends at one place; such a spring has no direction "
-                     "and exerts no force, until something else parts them",
+                     "%" PRId64
+                     " springs or contacts began without a direction, with both ends, or particle and "
+                     "centre, at one place; they exert no force until something else parts them",
                      before);
   }
   if (after > 0) {
     cli_report_words(
         run->arguments,
         "%" PRId64
-        " springs ended with both ends at one place; such a spring has no direction and exerts no force",
+        " springs or contacts ended without a direction, with both ends, or particle and centre, at one place; "
+        "they exert no force",
         after);
   }
 }

@@ -305,7 +305,8 @@ HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const
  * motion in a body; of an overdamped system the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
-/* Springs at q whose ends coincide although their rest length is not zero. */
+/* What has no direction at q, and so no force: springs whose ends coincide although their rest length is not
+ * zero, and particles at the centre or on the axis of an obstacle, which is where it is at time 0. */
 HOOKE_API int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q);
 
 /* out = (df/dq) dq + (df/dv) dv, 3n, of the force above. A callback without a product is differentiated by
