@@ -54,6 +54,7 @@ extern const struct cli_verb cli_verb_study;
 extern const struct cli_verb cli_verb_limit;
 extern const struct cli_verb cli_verb_why;
 extern const struct cli_verb cli_verb_needs;
+extern const struct cli_verb cli_verb_rest;
 extern const struct cli_verb cli_verb_make;
 extern const struct cli_verb cli_verb_view;
 extern const struct cli_verb cli_verb_verify;
