@@ -443,6 +443,7 @@ static const struct cli_verb_row rows[] = {
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    HOOKE_FROM_REST,
     {"strict", 0, NULL,
      "refuses a run without a step, or whose every or duration is "
      "no whole multiple of it, rather than choosing or moving them"},
