@@ -66,6 +66,10 @@ module hooke
   type, extends(hooke_handle) :: hooke_trajectory
   end type
 
+  ! Watched quantities over the runs of an integrator, in a file (CSV or HDF5) being written.
+  type, extends(hooke_handle) :: hooke_probes
+  end type
+
   ! A trajectory file being read.
   type, extends(hooke_handle) :: hooke_record
     type(hooke_options) :: options ! of the run, with defaults filled in
@@ -261,6 +265,21 @@ contains
     type(c_ptr), value :: object
     integer(c_int32_t) :: code
     code = c_trajectory_close(object, int(hooke_stopped, c_int32_t))
+    if (code /= 0) return ! no status can be returned
+  end subroutine
+
+  ! Closes the file.
+  subroutine probes_close(self, status)
+    class(hooke_probes), intent(inout) :: self
+    integer, intent(out), optional :: status
+    if (missing(status, self)) return
+    call accept(c_probes_close(self%give_up()), status)
+  end subroutine
+
+  subroutine abandon_probes(object) bind(c, name="")
+    type(c_ptr), value :: object
+    integer(c_int32_t) :: code
+    code = c_probes_close(object)
     if (code /= 0) return ! no status can be returned
   end subroutine
 

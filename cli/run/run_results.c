@@ -245,6 +245,7 @@ static void print_json(const struct cli_run *run) {
   cli_print_json("'energy': {'initial': %g, 'final': %g}, 'momentum': [%g, %g, %g], ", run->energy_before,
                  run->energy_after, momentum[0], momentum[1], momentum[2]);
   if (cli_run_goes_beyond(run)) cli_print_json("'frames_beyond': %" PRId64 ", ", run->frames_beyond);
+  if (run->probes_file) cli_print_json("'probes': %s, ", run->probes_file);
   cli_print_json("'output': %s, 'diagnosis': %s, ", run->output,
                  cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
   print_json_want(run);
@@ -309,6 +310,9 @@ static void print_words(const struct cli_run *run) {
   if (run->output)
     cli_say("%-22s%s (%" PRId64 " frame%s)\n", "output", run->output, run->frames,
             run->frames == 1 ? "" : "s");
+  if (run->probes_file)
+    cli_say("%-22s%s (%" PRId64 " line%s, until %.6g s)\n", "probes", run->probes_file, run->lines,
+            run->lines == 1 ? "" : "s", run->last_line);
 }
 
 void cli_run_print(const struct cli_run *run) {

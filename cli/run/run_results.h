@@ -34,6 +34,11 @@ struct cli_run {
   char warnings[HOOKE_WARNINGS_SIZE]; /* held back for a second of work */
   int32_t write_status;               /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
+  hooke_options *probe_options; /* NULL without --probe */
+  const char *probes_file;
+  hooke_probes *probes; /* NULL while there is no run */
+  int64_t lines;        /* that it has, and the time of the last one [s] */
+  double last_line;
   hooke_measurement *why;      /* diagnosis of the outcome; NULL: there is none, or it could not be made */
   hooke_measurement *estimate; /* of its error; NULL: none was requested */
   char message[2048];          /* about the outcome, or the failed write */

@@ -3,6 +3,7 @@
 #include "command.h"
 #include "fit.h"
 #include "os.h"
+#include "probes.h"
 #include "report.h"
 
 #include <errno.h>
@@ -96,6 +97,7 @@ static int32_t prepare(struct cli_run *run) {
   /* a pick has computed the limits already */
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
   if (status == HOOKE_OK && warns) status = watch_warnings(run);
+  if (status == HOOKE_OK) status = cli_probes_begin(run);
   if (status != HOOKE_OK || !run->output) return status;
   status = run->resumed
                ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator, run->setup.state,
@@ -192,9 +194,18 @@ static int take_finished(struct cli_run *run) {
 /* Of a run that could not take its first step. */
 static int give_up(struct cli_run *run, int32_t status) {
   const int code = cli_report_status(run->arguments, status);
+  (void)cli_probes_end(run);
   (void)hooke_trajectory_close(run->trajectory, status);
   run->trajectory = NULL;
   return code;
+}
+
+/* A failed write is why the run was stopped. */
+static void end_probes(struct cli_run *run) {
+  const int32_t status = cli_probes_end(run);
+  if (status == HOOKE_OK || run->write_status != HOOKE_OK) return;
+  run->write_status = status;
+  keep_message(run);
 }
 
 /* Runs and closes the trajectory; a failure is reported and returned as exit code. */
@@ -216,6 +227,7 @@ static int integrate(struct cli_run *run) {
   cli_watch_end(&run->watch);
   cli_run_take_counts(run);
   run->energy_after = state_energy(run);
+  end_probes(run);
   keep_place(run);
   status = hooke_trajectory_close(run->trajectory, run->outcome);
   run->trajectory = NULL;
@@ -246,13 +258,16 @@ static void tell_how(const struct cli_run *run) {
 /* On standard error: that a run was interrupted, and what is kept. */
 static void tell_interrupted(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
-  char kept[sizeof run->message] = "";
+  char kept[sizeof run->message] = "", lines[sizeof run->message / 2] = "";
   if (run->output) {
     snprintf(kept, sizeof kept, ", and %" PRId64 " frame%s in %s", run->frames, run->frames == 1 ? "" : "s",
              run->output);
   }
-  cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s",
-                   hooke_state_time(run->setup.state), kept);
+  if (run->probes_file)
+    snprintf(lines, sizeof lines, ", and %" PRId64 " line%s in %s", run->lines, run->lines == 1 ? "" : "s",
+             run->probes_file);
+  cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s%s",
+                   hooke_state_time(run->setup.state), kept, lines);
   if (run->output) tell_how(run);
 }
 
@@ -359,6 +374,7 @@ static void release(struct cli_run *run) {
   hooke_measurement_destroy(run->estimate);
   hooke_integrator_destroy(run->integrator);
   hooke_options_destroy(run->options);
+  hooke_options_destroy(run->probe_options);
   cli_setup_destroy(&run->setup);
 }
 
@@ -424,7 +440,8 @@ static int do_run(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;
-  code = make_ready(&run);
+  code = cli_probes_read(&run);
+  if (code == HOOKE_EXIT_DONE) code = make_ready(&run);
   if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
   release(&run);
   return code;
@@ -440,6 +457,11 @@ static const struct cli_verb_row rows[] = {
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
+    {"probe", 0, "Q,Q",
+     "quantities to write over the run into the file of --probes, such as 57.y,line:50.x,energy"},
+    {"probe-every", 0, "DT",
+     "time between two lines of probes, a whole multiple of a fixed step; that of frames if not given"},
+    {"probes", 0, "FILE", "the file of --probe, FILE.csv or FILE.h5, written while the run goes"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
     {"strict", 0, NULL,
      "refuses a run without a step, or whose every or duration is "
