@@ -103,17 +103,6 @@ static int32_t read_format(const char *path, hooke_probes *probes) {
   return hk_fail(HOOKE_BAD_VALUE, "probes", "%s: allowed are names that end in .csv, .h5 or .hdf5", path);
 }
 
-static int32_t read_quantities(const hooke_options *options, hooke_probes *probes) {
-  int32_t status = hk_watched_read(&probes->list, "probe", hooke_options_text(options, "probe"));
-  for (int64_t k = 0; status == HOOKE_OK && k < probes->list.count; k++) {
-    const struct hk_watched *one = &probes->list.item[k];
-    if (one->is_period)
-      status = hk_fail(HOOKE_BAD_VALUE, "probe", "%.80s is one number of a whole run; probe %.80s", one->text,
-                       strchr(one->text, ':') + 1);
-  }
-  return status;
-}
-
 /* Has its times from the integrator. */
 static int32_t attach(hooke_probes *probes, double every) {
   const int32_t status = hk_integrator_on_sample(probes->integrator, every, see, probes);
@@ -143,7 +132,8 @@ static void release(hooke_probes *probes) {
 
 static int32_t make(const hooke_options *options, const char *path, hooke_probes *probes) {
   int32_t status = read_format(path, probes);
-  if (status == HOOKE_OK) status = read_quantities(options, probes);
+  if (status == HOOKE_OK)
+    status = hk_watched_read_over_time(&probes->list, "probe", hooke_options_text(options, "probe"));
   if (status != HOOKE_OK) return status;
   probes->line = hk_new(probes->list.count + 1, sizeof *probes->line);
   if (probes->line == NULL) return HOOKE_NO_MEMORY;

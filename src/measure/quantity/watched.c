@@ -253,6 +253,17 @@ int32_t hk_watched_read(struct hk_watched_list *list, const char *where, const c
   return status;
 }
 
+int32_t hk_watched_read_over_time(struct hk_watched_list *list, const char *where, const char *text) {
+  const int32_t status = hk_watched_read(list, where, text);
+  for (int64_t k = 0; status == HOOKE_OK && k < list->count; k++) {
+    const char *one = list->item[k].text;
+    if (list->item[k].is_period)
+      return hk_fail(HOOKE_BAD_VALUE, where, "%.80s is one number of a whole run; over time there is %.80s",
+                     one, strchr(one, ':') + 1);
+  }
+  return status;
+}
+
 void hk_watched_release(struct hk_watched_list *list) {
   for (int64_t k = 0; k < list->count; k++)
     hk_free(list->item[k].text);

@@ -42,6 +42,8 @@ struct hk_watched_list {
  * not added again. HOOKE_BAD_VALUE, for the option `where`; HOOKE_NO_MEMORY. In either case the list
  * keeps its contents. */
 int32_t hk_watched_read(struct hk_watched_list *list, const char *where, const char *text);
+/* The same for quantities that have a value at every time: none is a period. */
+int32_t hk_watched_read_over_time(struct hk_watched_list *list, const char *where, const char *text);
 void hk_watched_release(struct hk_watched_list *list);
 /* Number of the quantity with that text; -1 if there is none. */
 int64_t hk_watched_find(const struct hk_watched_list *list, const char *text);
