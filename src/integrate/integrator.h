@@ -147,7 +147,7 @@ struct hooke_integrator {
   double diverged_at;
   struct hk_energies energies; /* of the state that was last checked; system NULL: not known */
 
-  struct hk_watch on_frame, on_step, on_checkpoint;
+  struct hk_watch on_frame, on_step, on_checkpoint, on_motion;
   struct hk_teller teller;
   struct hk_checker checker;
   int32_t thorough; /* 1: every check includes the energy */
@@ -184,6 +184,9 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
 /* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
 int32_t hk_integrator_keep_start(hooke_integrator *integrator);
+/* Has the observer called at every step and, by a method that interpolates, at times within it, before the
+ * frames there; none of these states was checked for divergence. NULL removes it. HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_motion(hooke_integrator *integrator, hooke_observer *observer, void *ctx);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
 void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
                            struct hk_move *move);
