@@ -45,7 +45,7 @@ RENAMED = {
     "integrator_get.q": "position", "integrator_get.v": "velocity", "integrator_put.q": "position",
     "integrator_put.v": "velocity", "options_set_numbers.values": "value", "options_set_text.text": "value",
     "state_copy.to": "other", "system_with_force.with": "forced", "system_acceleration.acceleration": "accelerations",
-    "system_force.force": "forces", "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
+    "system_force.force": "forces", "system_reaction.reaction": "reactions", "system_tension.tension": "tensions", "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
     "estimate_number.column": "what", "estimate_text.column": "what", "view_number.column": "what",
 }
 # Several results in one array.
@@ -61,12 +61,12 @@ OUTPUTS = {
     "system_members.damping": [MEMBERS], "system_members.stiffness": [MEMBERS],
     "system_members.particles": ["int(c_member_particles(to_c(force)))", MEMBERS],
     "system_members.rest_length": [f'merge(7, 1, force == "altitude")*{MEMBERS}'],
-    "system_step_bounds.bound": ["c_method_count()"],
+    "system_step_bounds.bound": ["c_method_count()"], "system_tension.tension": ['self%count("springs")'],
 }
 WIDTHS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
 # The forms of arrays by their names; others are lists.
 ARRAYS = {
-    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"],
+    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "reaction", "out", "position", "velocity", "displacement", "vertices"],
                     "rows"),
     **dict.fromkeys(headers.VECTORS, "vector"), **dict.fromkeys(WIDTHS, "members"), **dict.fromkeys(PARTS, "parts"),
 }

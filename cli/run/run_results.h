@@ -72,13 +72,16 @@ int32_t cli_run_goes_beyond(const struct cli_run *run);
  * or tolerance, which it reports. Does nothing without --want. */
 int cli_want_pick(struct cli_run *run);
 
-/* Estimates the error of the finished run; not without --want under --no-estimate. */
+/* 1 if the error is looked into: not without --want under --no-estimate. */
+int32_t cli_want_judges(const struct cli_run *run);
+
+/* Estimates the error of the finished run, if that is looked into, and of any run tells what is watched. */
 int32_t cli_want_measure(struct cli_run *run);
 
 /* 1 if the wanted error was not met and something finer is set in the options of the run. */
 int32_t cli_want_goes_on(struct cli_run *run);
 
-/* What the estimate says of the run. */
+/* What the estimate says of the run, and what is watched. */
 void cli_want_print(const struct cli_run *run);
 
 /* Exit code of a finished run. */

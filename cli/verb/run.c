@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 static const double MOST_STEPS = 9007199254740992.0; /* 2^53, up to which doubles hold every integer */
-static const char MAY_BE_GIVEN[] = "resume threads final no-why json quiet help";
+static const char MAY_BE_GIVEN[] = "resume threads final watch no-why json quiet help";
 
 /* Of the state; the scale becomes the largest sum of its kinds without their signs. */
 static double state_energy(struct cli_run *run) {
@@ -186,8 +186,9 @@ static int take_finished(struct cli_run *run) {
   if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   run->energy_after = state_energy(run);
   if (!run->arguments->quiet)
-    cli_report_words(run->arguments, "the run of %s had finished; there is nothing to go on with",
-                     run->output);
+    cli_report_words(run->arguments, "the run of %s had finished; there is nothing to go on with%s",
+                     run->output,
+                     cli_arguments_text(run->arguments, "watch") ? ", and no step to watch" : "");
   return HOOKE_EXIT_DONE;
 }
 
@@ -220,6 +221,7 @@ static int integrate(struct cli_run *run) {
   if (run->was_finished) return take_finished(run);
   if (status == HOOKE_OK && run->estimate)
     status = hooke_estimate_begin(run->estimate, run->integrator, run->setup.state);
+  if (status == HOOKE_OK && run->estimate) status = hooke_estimate_follow(run->estimate, run->integrator);
   if (status != HOOKE_OK) return give_up(run, status);
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
@@ -327,7 +329,9 @@ static void estimate(struct cli_run *run) {
 
 /* Writes it into the output, which is complete already. */
 static int write_estimate(const struct cli_run *run) {
-  if (!run->output || !run->estimate || run->was_finished || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
+  if (!run->output || !run->estimate || !cli_want_judges(run) || run->was_finished ||
+      run->outcome != HOOKE_OK)
+    return HOOKE_EXIT_DONE;
   const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
@@ -453,7 +457,8 @@ static const struct cli_verb_row rows[] = {
      "reads it, replacing them"},
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
-     "it had never stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
+     "it had never stopped; only --threads, --final, --watch, --no-why, --json and --quiet may be "
+     "given with it"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
@@ -463,6 +468,9 @@ static const struct cli_verb_row rows[] = {
      "time between two lines of probes, a whole multiple of a fixed step; that of frames if not given"},
     {"probes", 0, "FILE", "the file of --probe, FILE.csv or FILE.h5, written while the run goes"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    {"watch", 0, "Q,Q",
+     "prints quantities at the end, and their smallest and largest values over all steps: 57.y, 57.reaction, "
+     "group:3.tension, group:max.tension, energy, period:57.y and others of one grammar"},
     {"strict", 0, NULL,
      "refuses a run without a step, or whose every or duration is "
      "no whole multiple of it, rather than choosing or moving them"},

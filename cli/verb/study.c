@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12, HEAD_SIZE = 128 };
+enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12 };
 
 /* A bias below this many standard errors is compatible with chance. */
 static const double SEEN = 2.0;
@@ -117,15 +117,6 @@ static void print_legend(const hooke_measurement *study, int32_t once) {
 
 /* ---- watched quantities ---- */
 
-/* "57.y [m]", from a row of a table. */
-static const char *head_of(const hooke_measurement *study, const char *table, int64_t row,
-                           char head[HEAD_SIZE]) {
-  const char *unit = hooke_measurement_text(study, table, row, "unit");
-  snprintf(head, HEAD_SIZE, "%.100s%s%s%s", hooke_measurement_text(study, table, row, "quantity"),
-           unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
-  return head;
-}
-
 /* The step, or the tolerance that stands for it. */
 static void print_setting(const hooke_measurement *study, const char *table, int64_t row) {
   const double step = hooke_measurement_number(study, table, row, "step");
@@ -134,8 +125,8 @@ static void print_setting(const hooke_measurement *study, const char *table, int
 }
 
 static int width_of(const hooke_measurement *study, int64_t quantity) {
-  char head[HEAD_SIZE];
-  const int length = (int)strlen(head_of(study, "watched", quantity, head));
+  char head[HOOKE_HEAD_SIZE];
+  const int length = (int)strlen(cli_quantity(study, "watched", quantity, head));
   return length < CELL ? CELL : length;
 }
 
@@ -154,11 +145,11 @@ static void print_cells(const hooke_measurement *study, int64_t row) {
 /* A line a row of the study; nothing if none are watched. */
 static void print_watched(const hooke_measurement *study, int32_t method_width) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
-  char head[HEAD_SIZE];
+  char head[HOOKE_HEAD_SIZE];
   if (count <= 0) return;
   printf("\n%-*s %*s", method_width, "error in", SETTING, "step [s]");
   for (int64_t k = 0; k < count; k++) {
-    const char *text = head_of(study, "watched", k, head);
+    const char *text = cli_quantity(study, "watched", k, head);
     cli_say("%*s%s", 2 + width_of(study, k) - (int)strlen(text), "", text);
   }
   printf("\n%-*s %*s", method_width, "agreement", SETTING, "");
@@ -214,12 +205,12 @@ static void print_source(const hooke_measurement *study, int32_t method_width, i
 
 static void print_ensemble(const hooke_measurement *study, int32_t method_width) {
   const int64_t count = quantity_count(study);
-  char head[HEAD_SIZE];
+  char head[HOOKE_HEAD_SIZE];
   if (isnan(cli_number(study, "ensemble", "from"))) return;
   printf("\nstatistics\n  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs",
          CELL, "mean", CELL, "spread", "bias");
   for (int64_t k = 0; k < count; k++) {
-    cli_say("%s\n", head_of(study, "statistics", k, head));
+    cli_say("%s\n", cli_quantity(study, "statistics", k, head));
     for (int64_t row = k; row < hooke_measurement_row_count(study, "statistics"); row += count)
       print_source(study, method_width, row);
   }

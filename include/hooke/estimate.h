@@ -50,6 +50,12 @@ HOOKE_API int32_t hooke_estimate_begin(hooke_measurement *estimate, const hooke_
  * between them. HOOKE_BAD_VALUE for a state of another size, HOOKE_BAD_CALL for none, which stop the run. */
 HOOKE_API int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate);
 
+/* Shows the estimate every step of the runs of an integrator of its system, for the extremes of its option
+ * `watch`, and seven states within each step of cvode-bdf and cvode-adams; does nothing if nothing is
+ * watched. The estimate has to stay as long as the integrator runs; NULL ends it. HOOKE_BAD_VALUE for another
+ * system, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_estimate_follow(hooke_measurement *estimate, hooke_integrator *integrator);
+
 /* Sets a finer step or tolerance in `run`, chosen from the measured error. HOOKE_UNSUITED if that cannot
  * succeed or takes too long. */
 HOOKE_API int32_t hooke_estimate_refine(hooke_measurement *estimate, hooke_options *run);

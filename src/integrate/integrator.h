@@ -147,7 +147,7 @@ struct hooke_integrator {
   double diverged_at;
   struct hk_energies energies; /* of the state that was last checked; system NULL: not known */
 
-  struct hk_watch on_frame, on_step, on_checkpoint, on_sample;
+  struct hk_watch on_frame, on_step, on_checkpoint, on_motion, on_sample;
   struct hk_schedule sampling; /* that of the run, with samples for frames */
   struct hk_teller teller;
   struct hk_checker checker;
@@ -172,7 +172,9 @@ int32_t hk_integrator_tell(hooke_integrator *integrator);
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
                          struct hk_schedule *schedule);
-/* Sets another `every` in it, and what follows from that. HOOKE_BAD_VALUE. */
+/* Sets another `every` > 0 in it (NaN: it stays), and what follows from that. HOOKE_BAD_VALUE, also without a
+ * duration.
+ */
 int32_t hk_schedule_every(int32_t adaptive, double every, struct hk_schedule *schedule);
 /* Frames of a run: its start, whole multiples of `every` after it, and its end, if that is none of them.
  * HOOKE_MOST_STEPS + 1 if they are too many. */
@@ -187,6 +189,9 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
 /* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
 int32_t hk_integrator_keep_start(hooke_integrator *integrator);
+/* Has the observer called at every step and, by a method that interpolates, at times within it, before the
+ * frames there; none of these states was checked for divergence. NULL removes it. HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_motion(hooke_integrator *integrator, hooke_observer *observer, void *ctx);
 /* Has the observer of whole runs called at times of its own, which are those of frames with another `every`
  * [s] (NaN: that of the frames): before the frame of the same time, and not checked for divergence. A method
  * that ends steps at frames ends them at samples, too. One observer at most; NULL removes it. HOOKE_BAD_VALUE

@@ -57,9 +57,13 @@ static int64_t until_multiple(int64_t k, int64_t stride) {
   return stride - k % stride;
 }
 
+static int sees_step(const hooke_integrator *it) {
+  return it->on_step.observer && it->k % it->on_step.stride == 0;
+}
+
 /* Events after the current step. */
 struct due {
-  int frame, point, seen, sampled; /* a frame, a checkpoint, a step observer, a sample */
+  int frame, point, seen, sampled; /* a frame, a checkpoint, observers of steps, a sample */
   int thorough, checked;           /* a check for divergence, with energy or of any kind */
 };
 
@@ -69,7 +73,7 @@ static struct due find_due(const hooke_integrator *it, int64_t last, int64_t fra
   struct due due = {.frame = frame_steps && hk_schedule_has_frame(&it->schedule, it->k),
                     .point = point_steps && it->k % point_steps == 0 && it->k < last,
                     .sampled = sample_steps && hk_schedule_has_frame(&it->sampling, it->k),
-                    .seen = it->on_step.observer && it->k % it->on_step.stride == 0};
+                    .seen = it->on_motion.observer || sees_step(it)};
   due.thorough = due.frame || it->thorough || it->k % HOOKE_CHECK_STEPS == 0;
   due.checked = due.thorough || due.point || (shows && it->k == last);
   return due;
@@ -83,6 +87,7 @@ static int64_t steps_to_take(const hooke_integrator *it, int64_t last, int64_t f
   if (frame_steps && (next = until_multiple(it->k, frame_steps)) < count) count = next;
   if (sample_steps && (next = until_multiple(it->k, sample_steps)) < count) count = next;
   if (point_steps && (next = until_multiple(it->k, point_steps)) < count) count = next;
+  if (it->on_motion.observer) return 1;
   if (it->on_step.observer && (next = until_multiple(it->k, it->on_step.stride)) < count) count = next;
   return count;
 }
@@ -96,7 +101,7 @@ static int32_t store_and_check(hooke_integrator *it, hooke_state *state, int32_t
 
 /* 1 if only the caller sees states, and then has the last good one. */
 static int is_unwatched(const hooke_integrator *it) {
-  return it->on_step.observer == NULL && it->on_sample.observer == NULL &&
+  return it->on_step.observer == NULL && it->on_motion.observer == NULL && it->on_sample.observer == NULL &&
          it->on_checkpoint.observer == NULL && it->checker.look == NULL;
 }
 
@@ -112,7 +117,8 @@ int32_t hk_run_fixed(hooke_integrator *it, hooke_state *state, int64_t last, int
     if (status == HOOKE_OK && due.checked && !due.thorough && is_unwatched(it))
       return hk_divergence_glance(it, state);
     status = store_and_check(it, state, status, due);
-    if (status == HOOKE_OK && due.seen) status = hk_run_observe(it, &it->on_step, state);
+    if (status == HOOKE_OK && due.seen) status = hk_run_observe(it, &it->on_motion, state);
+    if (status == HOOKE_OK && sees_step(it)) status = hk_run_observe(it, &it->on_step, state);
     if (status == HOOKE_OK && due.sampled) status = hk_run_observe(it, &it->on_sample, state);
     if (status == HOOKE_OK && due.frame) status = hk_run_report(it, state);
     if (status == HOOKE_OK && due.point) status = hk_run_observe(it, &it->on_checkpoint, state);

@@ -11,6 +11,8 @@
 #include <float.h>
 #include <math.h>
 
+enum { PARTS = 8 }; /* of a step, at whose ends its motion is shown */
+
 int64_t hk_run_first_after(double t0, double every, double t) {
   int64_t low = 0, high = HOOKE_MOST_STEPS;
   while (high - low > 1) {
@@ -141,6 +143,18 @@ static int32_t report_samples(hooke_integrator *it, hooke_state *state, double t
   return status;
 }
 
+/* Of what has the motion: the end of the last step up to time t, and times within it where the method knows
+ * them. */
+static int32_t show_motion(hooke_integrator *it, hooke_state *state, double from, double t) {
+  const int parts = it->method->interpolates ? PARTS : 1;
+  int32_t status = HOOKE_OK;
+  for (int k = 1; k <= parts && status == HOOKE_OK && it->on_motion.observer; k++) {
+    status = hk_run_store(it, k < parts ? from + (double)k / parts * (t - from) : t, state, 0);
+    if (status == HOOKE_OK) status = hk_run_observe(it, &it->on_motion, state);
+  }
+  return status;
+}
+
 static int32_t refuse_duration(const hooke_integrator *it) {
   return hk_fail(HOOKE_BAD_VALUE, "duration",
                  "%.6g s does not change the time t = %.6g s; take a longer one, or a fixed-step method",
@@ -175,6 +189,7 @@ static int32_t go_on(hooke_integrator *it, hooke_state *state, double end) {
   const double next = next_point(it), point = next < end ? next : INFINITY, from = it->t;
   it->goal = fmin(fmin(frame_time(it, &it->schedule, it->frames, end), sample_time(it, end)), point);
   int32_t status = take_step(it, state);
+  if (status == HOOKE_OK) status = show_motion(it, state, from, fmin(it->t, fmin(point, end)));
   if (status == HOOKE_OK) status = report_samples(it, state, fmin(it->t, point), end);
   if (status == HOOKE_OK) status = report_frames(it, state, fmin(it->t, point), end);
   const int anew = status == HOOKE_OK && it->t >= point;

@@ -169,10 +169,9 @@ static int32_t refuse_every(double every, double step) {
 }
 
 int32_t hk_schedule_every(int32_t adaptive, double every, struct hk_schedule *s) {
-  if (!(every > 0.0 && every < INFINITY))
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a time > 0 [s] is", every);
   if (s->frames == 0)
     return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  if (isnan(every)) return HOOKE_OK;
   if (!adaptive && !is_multiple(every, s->step, &s->frame_steps)) return refuse_every(every, s->step);
   s->every = every;
   count_frames(adaptive, s);

@@ -78,10 +78,9 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
   const double t = *state->t;
   if (hk_atomic_file_require_own(&probes->file) != HOOKE_OK) return 1;
   probes->line[0] = t;
-  for (int64_t k = 0; k < probes->list.count; k++) {
-    const double value = hk_watched_value(&probes->list.item[k], probes->list.system, t, state->q, state->v);
-    probes->line[k + 1] = isfinite(value) ? value : NAN;
-  }
+  hk_watched_values(&probes->list, t, state->q, state->v, probes->line + 1);
+  for (int64_t k = 1; k <= probes->list.count; k++)
+    if (!isfinite(probes->line[k])) probes->line[k] = NAN;
   const int32_t status =
       probes->is_table ? add(probes, probes->line, line_bytes(probes)) : add_numbers(probes);
   if (status != HOOKE_OK) return 1;
