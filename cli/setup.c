@@ -139,7 +139,7 @@ int cli_setup_check_ending(const struct cli_arguments *arguments, const char *fl
     const char *own =
         argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
     const int of_hdf5 = own && strcmp(own, "h5") == 0;
-    if (of_hdf5 && dot[1] && cli_is_among("h5 hdf5 h5md", dot + 1)) continue;
+    if (of_hdf5 && (dot[1] == '\0' || cli_is_among("h5 hdf5 h5md", dot + 1))) continue;
     for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
       const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
       if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;

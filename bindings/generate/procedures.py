@@ -45,7 +45,8 @@ RENAMED = {
     "integrator_get.q": "position", "integrator_get.v": "velocity", "integrator_put.q": "position",
     "integrator_put.v": "velocity", "options_set_numbers.values": "value", "options_set_text.text": "value",
     "state_copy.to": "other", "system_with_force.with": "forced", "system_acceleration.acceleration": "accelerations",
-    "system_force.force": "forces", "system_reaction.reaction": "reactions", "system_tension.tension": "tensions", "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
+    "system_force.force": "forces", "system_reaction.reaction": "reactions", "system_tension.tension": "tensions",
+    "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
     "estimate_number.column": "what", "estimate_text.column": "what", "view_number.column": "what",
 }
 # Several results in one array.
@@ -66,8 +67,8 @@ OUTPUTS = {
 WIDTHS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
 # The forms of arrays by their names; others are lists.
 ARRAYS = {
-    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "reaction", "out", "position", "velocity", "displacement", "vertices"],
-                    "rows"),
+    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "reaction", "out", "position", "velocity", "displacement",
+                     "vertices"], "rows"),
     **dict.fromkeys(headers.VECTORS, "vector"), **dict.fromkeys(WIDTHS, "members"), **dict.fromkeys(PARTS, "parts"),
 }
 # The forms of numbers; other whole numbers are indices, which count from 1 in Fortran.

@@ -72,9 +72,9 @@ class Result:
 
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
     the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
-    returned by the callback that stopped the run, `output` the file that was written. `integrator` is kept if the run
-    blew up, for `hooke.why`. `probes_file` is the file of probes that was written. `error` is the error of the run, if that was requested, and `claims` what is
-    said of it, which ``print(result)`` shows.
+    returned by the callback that stopped the run, `output` the file that was written, `probes_file` that of probes.
+    `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and
+    `claims` what is said of it, which ``print(result)`` shows.
     """
 
     status: str

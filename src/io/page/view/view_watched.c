@@ -9,7 +9,7 @@
 
 int32_t hk_view_watch(struct hk_view *view) {
   const char *text = hooke_options_text(view->options, "watch"), *path = hk_record_path(view->record);
-  if (text == NULL) return HOOKE_OK;
+  if (text[0] == '\0') return HOOKE_OK;
   if (hooke_record_text(view->record, "scene")[0] == '\0')
     return hk_fail(HOOKE_BAD_VALUE, "watch", "%s holds no scene, which quantities are read by", path);
   int32_t status = hooke_scene_load(path, NULL, &view->scene);
