@@ -135,13 +135,13 @@ static int width_of(const hooke_measurement *study, int64_t quantity) {
  * reference, with its agreements, if it is -1. */
 static void print_cells(const hooke_measurement *study, int64_t row) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
-  const char *table = row < 0 ? "watched" : "watched_errors";
+  const char *table = row < 0 ? "watched" : "watched_errors", *end = row < 0 ? "reference_end" : "at_end";
   for (int64_t k = 0; k < count; k++) {
     const int64_t at = row < 0 ? k : row * count + k;
     const double agreement = hooke_measurement_number(study, "watched", k, "agreement"),
                  error = hooke_measurement_number(study, "watched_errors", at, "error");
-    cli_rows_print_as(width_of(study, k) - CELL - 1, hooke_measurement_number(study, table, at, "at_end"),
-                      "%.7g", NULL, NULL);
+    cli_rows_print_as(width_of(study, k) - CELL - 1, hooke_measurement_number(study, table, at, end), "%.7g",
+                      NULL, NULL);
     cli_rows_print_as(CELL, row < 0 ? agreement : error, "%.4g", NULL, NULL);
     putchar(row >= 0 && error <= 10.0 * agreement ? '*' : ' ');
   }

@@ -356,8 +356,8 @@ const struct hk_table hk_study_tables[] = {
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
          HOOKE_COLUMN_BY_AS(watched_unit, unit, TEXT, "", "its unit"),
-         HOOKE_COLUMN_BY_AS(reference_end, at_end, NUMBER, "of the quantity",
-                            "the reference's value at the last trusted frame; of a period that until then"),
+         HOOKE_COLUMN_BY(reference_end, NUMBER, "of the quantity",
+                         "the reference's value at the last trusted frame; of a period that until then"),
          HOOKE_COLUMN_BY(agreement, NUMBER, "of the quantity",
                          "twice the largest difference in it between the two runs of the "
                          "reference, the floor of its errors"),
