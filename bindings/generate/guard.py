@@ -46,6 +46,8 @@ def may_be_null(name, kind):
     """Whether a handle may be NULL, or is checked by the function itself."""
     if (name, kind) == ("hooke_measurement_run", "hooke_state"):
         return True  # the initial state
+    if (name, kind) == ("hooke_estimate_follow", "hooke_measurement"):
+        return True  # none any more
     return name.endswith(("_destroy", "_close")) or (kind == "hooke_options" and name not in NEED_OPTIONS)
 
 

@@ -28,6 +28,7 @@ FURTHER = {
     "integrator_stop_value": ("integrator_count", {"what": "stop_value"}),
     "estimate_number": ("measurement_number", {"table": "estimate", "row": 0}),
     "estimate_text": ("measurement_text", {"table": "estimate", "row": 0}),
+    "estimate_watched": ("measurement_number", {"table": "watched"}),
     "estimate_on_progress": ("measurement_on_progress", {}),
     "view_number": ("measurement_number", {"table": "view", "row": 0}),
     "trajectory_run": ("trajectory_text", {"what": "run"}),
@@ -47,7 +48,8 @@ RENAMED = {
     "state_copy.to": "other", "system_with_force.with": "forced", "system_acceleration.acceleration": "accelerations",
     "system_force.force": "forces", "system_reaction.reaction": "reactions", "system_tension.tension": "tensions",
     "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
-    "estimate_number.column": "what", "estimate_text.column": "what", "view_number.column": "what",
+    "estimate_number.column": "what", "estimate_watched.column": "what",
+    "estimate_text.column": "what", "view_number.column": "what",
 }
 # Several results in one array.
 PARTS = {"bound": "bound", "inertia": "mass inertia(3)", "motion": "point(3) quaternion(4) velocity(3) angular_momentum(3)",

@@ -19,7 +19,12 @@
  * work of the run. NaN, with the "reason", where the runs do not tell, where a callback takes part and the
  * option "callbacks" is not set, and for a run that hooke_integrator_resume() continued. It may be called
  * again after the next hooke_estimate_begin(). HOOKE_BAD_CALL without one, HOOKE_BAD_VALUE without a state,
- * HOOKE_STOPPED, HOOKE_NO_MEMORY. The results are one row, the table "estimate". */
+ * HOOKE_STOPPED, HOOKE_NO_MEMORY. The results are one row, the table "estimate".
+ *
+ * With the option `watch`, quantities as of a study (hooke/measurement.h), the table "watched" has a row for
+ * each: its value at `state`, and its smallest and largest over all steps, if hooke_estimate_follow() shows
+ * them, with the time from and until which they are known. The option `error` set to 0 leaves all else out:
+ * then hooke_measurement_run() computes nothing again. */
 #ifndef HOOKE_ESTIMATE_H
 #define HOOKE_ESTIMATE_H
 

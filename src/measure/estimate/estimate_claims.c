@@ -71,7 +71,7 @@ static void tell_watched(const struct hk_estimate *e, struct hk_claims *claims) 
         e->course.from, e->course.until);
   else
     hk_claim(claims, "watched", HOOKE_OF_UNKNOWN, "",
-             "smallest and largest values are not known: no steps of the run were seen");
+             "smallest and largest values are not known: no steps of the run were seen that are known to be good");
 }
 
 void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *claims) {

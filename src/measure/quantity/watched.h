@@ -126,6 +126,10 @@ static inline double *hk_watched_series_of(const struct hk_watched_series *serie
 void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, double t, const double *q,
                             const double *v);
 
+/* Of the first `frames` frames at `time`: the value at the last, or the period over them. */
+double hk_watched_series_last(const struct hk_watched_series *series, int64_t quantity, int64_t frames,
+                              const double *time);
+
 /* Sets the differences to `factor` times the largest one over the first `frames` frames at `time`; for a
  * period to the difference of the periods over these frames; NaN if that is unknown, or without a frame after
  * the first. Does nothing if the other series watches nothing. */

@@ -38,14 +38,15 @@ static void search(const struct hk_extremes *e, double sign, double *at, double 
   *value = hk_interpolate(POINTS, e->time, e->value, *at);
 }
 
-/* Whether the middle one of the last samples is an extremum, and beyond the one so far. */
+/* Whether the middle one of the last samples is an extremum, and beyond the one so far. It has the sign of
+ * the sample, as no energy or length is below 0. */
 static void look(struct hk_extremes *e, int k, double sign) {
   const double before = sign * e->value[1], middle = sign * e->value[2], after = sign * e->value[3];
   double at, value;
   if (!(middle >= before && middle >= after)) return;
   if (middle + fmax(middle - before, middle - after) <= e->most[k] || !is_smooth(e, sign)) return;
   search(e, sign, &at, &value);
-  if (!(sign * value > e->most[k])) return;
+  if (!(sign * value > e->most[k]) || value * e->value[2] < 0.0) return;
   e->most[k] = sign * value;
   e->at[k] = at;
 }
@@ -128,6 +129,7 @@ void hk_watched_run_keep(struct hk_watched_run *run, double t, const double *q, 
 void hk_watched_run_end(struct hk_watched_run *run, double t, const double *q, const double *v) {
   if (run->result == NULL) return;
   const int32_t beyond = run->until > t;
+  if (!beyond) hk_watched_run_see(run, t, q, v);
   const struct hk_extremes *extremes = beyond ? run->good : run->now;
   if (beyond) run->until = run->good_until;
   hk_watched_values(run->list, t, q, v, run->value);
@@ -137,8 +139,8 @@ void hk_watched_run_end(struct hk_watched_run *run, double t, const double *q, c
     *result = unknown;
     result->value = run->value[k];
     if (run->list->item[k].is_period)
-      result->value = hk_watched_period(run->frames, run->time, hk_watched_series_of(&run->series, k));
-    else if (run->follows && e->seen > 0)
+      result->value = hk_watched_series_last(&run->series, k, run->frames, run->time);
+    else if (run->follows && run->until > run->from)
       *result = (struct hk_watched_result){run->value[k], -e->most[1], e->at[1], e->most[0], e->at[0]};
   }
 }

@@ -202,6 +202,13 @@ void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, dou
     hk_watched_series_of(series, k)[frame] = series->now[k];
 }
 
+double hk_watched_series_last(const struct hk_watched_series *series, int64_t quantity, int64_t frames,
+                              const double *time) {
+  const double *value = hk_watched_series_of(series, quantity);
+  if (series->list->item[quantity].is_period) return hk_watched_period(frames, time, value);
+  return frames > 0 ? value[frames - 1] : NAN;
+}
+
 /* The start alone says nothing. */
 static double largest_difference(int64_t frames, const double *a, const double *b) {
   double largest = 0.0;

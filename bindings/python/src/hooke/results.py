@@ -74,7 +74,9 @@ class Result:
     the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
     returned by the callback that stopped the run, `output` the file that was written, `probes_file` that of probes.
     `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and
-    `claims` what is said of it, which ``print(result)`` shows.
+    `claims` what is said of it, which ``print(result)`` shows. `watched` is a table of what was watched, a row a quantity,
+    with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
+    `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early.
     """
 
     status: str
@@ -92,6 +94,7 @@ class Result:
     error: RunError | None = None
     claims: tuple[Claim, ...] = ()
     probes_file: Path | None = None
+    watched: Table | None = None
 
     @property
     def diagnosis(self) -> str:
@@ -145,6 +148,7 @@ def run(
     on_step: tuple[int, Observer] | None = None,
     want: Length | None = None,
     estimate: bool = False,
+    watch: str | None = None,
     probe: str | None = None,
     probe_every: float | str | None = None,
     probes: Path | None = None,
@@ -164,16 +168,27 @@ def run(
     runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice.
     ``estimate=True`` estimates the error of the run after it. The result's `error` holds it.
 
+    ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the largest
+    over all steps, in the result's `watched`.
+
     ``probe="57.y,energy"`` writes these quantities, in the grammar of `watch`, into the file `probes` (.csv or .h5) while
     the run goes: a line every `probe_every` [s], which is that of frames if None. The result's `probes` reads them.
     """
     scene, problem, wanted = resolve(problem, force, options)
     once = _Once(problem, scene, output, frames, progress, on_frame, on_step, probe, probe_every, probes)
-    if want is None and not estimate:
-        return once.run(wanted, problem.state() if state is None else state)
-    if state is not None:
+    start = problem.state() if state is None else state
+    asked = want is not None or estimate
+    if not asked and watch is None:
+        return once.run(wanted, start)
+    if asked and state is not None:
         raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
-    return _run_to_want(once, system_of(problem, "want"), wanted, options, want)
+    system = system_of(problem, "want" if asked else "watch")
+    wish = want.strip() if isinstance(want, str) else want
+    chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=asked)
+    measurement = Measurement.create("estimate", system, None, chosen)
+    if not asked:
+        return once.run(wanted, start, measurement, judged=False)
+    return _run_to_want(once, measurement, system, wanted, options, want)
 
 
 @dataclass(frozen=True)
@@ -191,7 +206,7 @@ class _Once:
     probe_every: float | str | None
     probes: Path | None
 
-    def run(self, options: Options, state: State, estimate: Measurement | None = None) -> Result:
+    def run(self, options: Options, state: State, estimate: Measurement | None = None, judged: bool = True) -> Result:
         integrator = Integrator(self.problem, options)
         integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
@@ -200,6 +215,7 @@ class _Once:
             watchers.append(recorder)
         if estimate is not None:
             lib.hooke_estimate_begin(estimate.handle, integrator._handle, state._handle)
+            lib.hooke_estimate_follow(estimate.handle, integrator._handle)
             seen = estimate.handle
             watchers.append(lambda step, state: lib.hooke_estimate_see(step, state._handle, seen))
         with shown(self.progress, fills=False) as tell:  # a run may end early
@@ -211,10 +227,15 @@ class _Once:
         result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None, self.probes)
         if estimate is None:
             return result
+        lib.hooke_estimate_follow(None, integrator._handle)
         estimate.run(None, state)
+        watched = estimate.rows("watched") if estimate.count("watched") > 0 else None
+        result = replace(result, watched=watched, claims=tuple(estimate.each(Claim, "claims")))
+        if not judged:
+            return result
         if self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
-        return replace(result, error=estimate.one(RunError, "estimate"), claims=tuple(estimate.each(Claim, "claims")))
+        return replace(result, error=estimate.one(RunError, "estimate"))
 
     @contextlib.contextmanager
     def _probing(self, integrator: Integrator) -> Iterator[None]:
@@ -242,12 +263,10 @@ class _Once:
 
 
 def _run_to_want(
-    once: _Once, system: System, options: Options, given: dict[str, Any], want: Length | None
+    once: _Once, estimate: Measurement, system: System, options: Options, given: dict[str, Any], want: Length | None
 ) -> Result:
     """Runs; with a wanted error, picks a method and its step or tolerance, keeping a method that is among those `given`,
     and repeats until the error is met or nothing finer is known to help."""
-    chosen = Options._of("estimate").set(want=want.strip() if isinstance(want, str) else want, callbacks=True)
-    estimate = Measurement.create("estimate", system, None, chosen)
     if want is not None:
         named = [name for name in _CHOSEN if given.get(name) is not None]
         if named:
