@@ -173,23 +173,31 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
 }
 
 int cli_setup_check_ending(const struct cli_arguments *arguments, const char *flag, const char *file) {
-  static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
-                                          {".html", "'hooke view -o' writes a page"},
-                                          {".h5", "'hooke run -o' writes a trajectory"},
-                                          {".csv", "'hooke study -o' writes a table"},
-                                          {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
-                                          {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
-  const char *dot = file ? strrchr(file, '.') : NULL;
+  static const char *const others[][2] = {
+      {".json", "'hooke make -o' writes a scene"},
+      {".html", "'hooke view -o' writes a page"},
+      {".h5", "'hooke run -o' writes a trajectory"},
+      {".csv", "'hooke run --probes' writes values over time, and 'hooke study -o' a table"},
+      {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
+      {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
+  const char *slash = file ? cli_os_last_slash(file) : NULL,
+             *dot = file ? strrchr(slash ? slash : file, '.') : NULL;
   for (int32_t i = 0; dot && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     const char *own =
         argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
+    const int of_hdf5 = own && strcmp(own, "h5") == 0;
+    if (of_hdf5 && (dot[1] == '\0' || cli_is_among("h5 hdf5 h5md", dot + 1))) continue;
     for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
       const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
       if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
       return cli_report(arguments, HOOKE_EXIT_USAGE, "%s %s: its name has to end in .%s; %s", flag, file, own,
                         others[k][1]);
     }
+    if (of_hdf5)
+      return cli_report(arguments, HOOKE_EXIT_USAGE,
+                        "%s %s: a file of HDF5 has a name that ends in .h5, .hdf5 or .h5md, or has no ending",
+                        flag, file);
   }
   return HOOKE_EXIT_DONE;
 }

@@ -232,15 +232,34 @@ int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_obser
   return HOOKE_OK;
 }
 
+/* For states that are stored between checks. */
+static int32_t keep_good(hooke_integrator *integrator) {
+  return integrator->recent.capacity == 0 ? hk_divergence_keep(integrator) : HOOKE_OK;
+}
+
+int32_t hk_integrator_on_sample(hooke_integrator *it, double every, hooke_observer *observer, void *ctx) {
+  struct hk_schedule sampling = it->schedule;
+  int32_t status = hk_schedule_every(it->method->adaptive, every, &sampling);
+  if (status == HOOKE_OK) status = keep_good(it);
+  if (status != HOOKE_OK) return status;
+  it->sampling = sampling;
+  it->on_sample = (struct hk_watch){observer, ctx, 1};
+  return HOOKE_OK;
+}
+
+int32_t hk_integrator_on_motion(hooke_integrator *integrator, hooke_observer *observer, void *ctx) {
+  const int32_t status = keep_good(integrator);
+  if (status == HOOKE_OK) integrator->on_motion = (struct hk_watch){observer, ctx, 1};
+  return status;
+}
+
 int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, hooke_observer *observer,
                                  void *ctx) {
   if (stride < 1) {
     return hk_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
   }
-  if (integrator->recent.capacity == 0) {
-    const int32_t status = hk_divergence_keep(integrator); /* states are stored between checks */
-    if (status != HOOKE_OK) return status;
-  }
+  const int32_t status = keep_good(integrator);
+  if (status != HOOKE_OK) return status;
   integrator->on_step = (struct hk_watch){observer, ctx, stride};
   return HOOKE_OK;
 }

@@ -137,8 +137,8 @@ struct hooke_integrator {
       HOOKE_STANDING
     };
   };
-  double goal;   /* the next time needed by the run loop; a method that does not interpolate stops there */
-  int64_t point; /* number of the next checkpoint, with error control */
+  double goal; /* the next time needed by the run loop; a method that does not interpolate stops there */
+  int64_t point, samples;    /* with error control: number of the next checkpoint, and of the next sample */
   struct hk_restart restart; /* with error control and the option `checkpoint` */
   int32_t phase;             /* HOOKE_NOT_BEGUN: the numbers above are those of no run */
   struct hk_recent recent;   /* the newest is the last state that passed the check */
@@ -147,7 +147,8 @@ struct hooke_integrator {
   double diverged_at;
   struct hk_energies energies; /* of the state that was last checked; system NULL: not known */
 
-  struct hk_watch on_frame, on_step, on_checkpoint;
+  struct hk_watch on_frame, on_step, on_checkpoint, on_motion, on_sample;
+  struct hk_schedule sampling; /* that of the run, with samples for frames */
   struct hk_teller teller;
   struct hk_checker checker;
   int32_t thorough; /* 1: every check includes the energy */
@@ -171,6 +172,10 @@ int32_t hk_integrator_tell(hooke_integrator *integrator);
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
                          struct hk_schedule *schedule);
+/* Sets another `every` > 0 in it (NaN: it stays), and what follows from that. HOOKE_BAD_VALUE, also without a
+ * duration.
+ */
+int32_t hk_schedule_every(int32_t adaptive, double every, struct hk_schedule *schedule);
 /* Frames of a run: its start, whole multiples of `every` after it, and its end, if that is none of them.
  * HOOKE_MOST_STEPS + 1 if they are too many. */
 int64_t hk_schedule_frames(double duration, double every);
@@ -184,6 +189,15 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
 /* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
 int32_t hk_integrator_keep_start(hooke_integrator *integrator);
+/* Has the observer called at every step and, by a method that interpolates, at times within it, before the
+ * frames there; none of these states was checked for divergence. NULL removes it. HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_motion(hooke_integrator *integrator, hooke_observer *observer, void *ctx);
+/* Has the observer of whole runs called at times of its own, which are those of frames with another `every`
+ * [s] (NaN: that of the frames): before the frame of the same time, and not checked for divergence. A method
+ * that ends steps at frames ends them at samples, too. One observer at most; NULL removes it. HOOKE_BAD_VALUE
+ * with the nearest times that are allowed, or without a duration; HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_sample(hooke_integrator *integrator, double every, hooke_observer *observer,
+                                void *ctx);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
 void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
                            struct hk_move *move);

@@ -22,6 +22,7 @@ static const char *source_of(const char *by) {
 }
 
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
+  if (!e->is_asked) return;
   if (e->by)
     hk_claim(claims, "error", hk_estimate_knows_all(e) ? HOOKE_OF_WHOLE : HOOKE_OF_PART, e->by,
              "the error is at most %.3g m until t = %.6g s, of any particle (root mean square %.2g m), %s",
@@ -59,6 +60,20 @@ static void tell_energy(const struct hk_estimate *e, struct hk_claims *claims) {
         100.0 * e->heat_excess);
 }
 
+/* Extremes of a run that stopped, diverged or was continued. */
+static void tell_watched(const struct hk_estimate *e, struct hk_claims *claims) {
+  if (e->course.result == NULL || hk_estimate_saw_all(e)) return;
+  if (e->course.follows && e->course.until > e->course.from)
+    hk_claim(
+        claims, "watched", HOOKE_OF_PART, "",
+        "smallest and largest values are those from t = %.6g s until t = %.6g s: of the rest of the run they "
+        "are not known",
+        e->course.from, e->course.until);
+  else
+    hk_claim(claims, "watched", HOOKE_OF_UNKNOWN, "",
+             "smallest and largest values are not known: no steps of the run were seen that are known to be good");
+}
+
 void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_estimate *e = measurement->object;
   tell_error(e, claims);
@@ -69,5 +84,6 @@ void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *c
         "%.2g m more or less at the end was made from t = %.6g s on: a part of an error that is not known",
         e->last_error, e->last_from);
   tell_energy(e, claims);
+  tell_watched(e, claims);
   if (e->reversal[0]) hk_claim(claims, "machine", HOOKE_OF_PART, "clock", "picked %s", e->reversal);
 }

@@ -36,11 +36,9 @@ static const struct hk_option_row study_rows[] = {
         "error that one can live with, the largest distance of any free particle, for a recommendation"),
     HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
                  "time that the study may take; no limit if not given"),
-    HOOKE_OPTION(
-        "watch", .type = HOOKE_OPTION_TEXT, NULL,
-        "quantities whose error is told too: 57.y or tip.y (a particle), part:0.y, group:3.length, .strain "
-        "or .tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas",
-        .example = "0.y,energy"),
+    HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
+                 "quantities whose values and errors are told too: " HOOKE_WATCHED_FORMS,
+                 .example = "0.y,energy"),
     HOOKE_OPTION("ensemble", HOOKE_OPTION_WHOLE(0.0, 1e6), "0",
                  "displaced starts of which each method's means and spreads are told where the motion is too "
                  "chaotic to be judged; 0: none"),

@@ -66,8 +66,8 @@ class Study(Paged, Closing, kind="study"):
     `outcome` is "finished", or "stopped" if the progress function asked for it. `orders` has an `Order` for each
     fixed-step method.
 
-    `watched` has for each watched quantity an array of its errors, one a row, in its unit; `agreement` is the
-    accuracy of the reference in it. `statistics`, empty unless an ensemble was requested and the reference is not
+    `watched` has for each watched quantity an array of its errors, one a row, in its unit, `at_end` of its values at the
+    last frame that the reference is trusted at; `agreement` is the accuracy of the reference in it. `statistics`, empty unless an ensemble was requested and the reference is not
     trusted to the end, has for each quantity ("kinetic", "potential", "energy" and the watched ones) a `Statistic`
     for "reference" and for each method.
     """
@@ -83,9 +83,10 @@ class Study(Paged, Closing, kind="study"):
             if order.method in self.method and not lib.hooke_method_is_adaptive(order.method.encode())
         }
         watched, errors = found.rows("watched"), found.rows("watched_errors")
-        self.watched: dict[str, FloatArray] = {
-            str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]
-        }
+        self.watched, self.at_end = (
+            {str(name): errors[what][errors["quantity"] == name] for name in watched["quantity"]}
+            for what in ("error", "at_end")
+        )
         self.agreement: dict[str, float] = dict(watched[["quantity", "agreement"]].tolist())
         self.statistics: dict[str, dict[str, Statistic]] = {}
         for statistic in found.each(Statistic, "statistics"):
