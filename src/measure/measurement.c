@@ -6,6 +6,7 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "model/callbacks.h"
+#include "model/generalized.h"
 #include "model/state.h"
 #include "model/system.h"
 
@@ -17,6 +18,8 @@ static int32_t check(const struct hk_measurement_kind *kind, const hooke_system 
                      const hooke_options *run, const hooke_options *options) {
   int32_t status = system ? hk_system_require_committed(system) : HOOKE_OK;
   if (status == HOOKE_OK && system) status = hk_callbacks_require(system);
+  if (status == HOOKE_OK && system && !kind->takes_problems)
+    status = hk_system_require_scene(system, kind->name, "");
   if (status == HOOKE_OK && (run || kind->needs_run)) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
     status = hk_options_require(options, kind->options, "options", "hooke_options_create()");
