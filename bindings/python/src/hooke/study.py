@@ -142,7 +142,8 @@ def study(
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Study:
-    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None) over a
+    """Runs a scene (or the path of one), a system or a first- or second-order problem by each of `methods` (all that this
+    build has, if None) over a
     ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the `Study`.
 
     The keywords `options` are those of ``hooke.describe("study")``: ladders of your own (`steps` [s], `tolerances`, from
