@@ -188,6 +188,13 @@ static struct hk_value value_of(const hooke_measurement *m, const char *table, i
   return hk_measured_value(m, t, t ? hk_table_find(t, column) : NULL, row);
 }
 
+const char *hooke_measurement_unit(const hooke_measurement *m, const char *table, const char *column) {
+  const struct hk_table *t = hk_measurement_table(m->kind, table);
+  const struct hk_column *c = t ? hk_table_find(t, column) : NULL;
+  if (c == NULL) return NULL;
+  return m->system && m->system->generalized && strcmp(c->unit, "m") == 0 ? "" : c->unit;
+}
+
 double hooke_measurement_number(const hooke_measurement *m, const char *table, int64_t row,
                                 const char *column) {
   return value_of(m, table, row, column).number;

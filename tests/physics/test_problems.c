@@ -135,7 +135,8 @@ TEST(errors_and_orders_of_a_study_are_those_of_the_exponential) {
     check_close(error, worst_off_spiral(system, run), agreement + 1e-15);
     assert_true(isnan(hooke_measurement_number(study, "rows", k, "energy_drift")));
   }
-  assert_null(hooke_measurement_text(study, "study", 0, "unit"));
+  assert_string_equal(hooke_measurement_unit(study, "rows", "error"), "");
+  assert_string_equal(hooke_measurement_unit(study, "rows", "step"), "s");
 }
 
 /* ---- estimates ---- */

@@ -1,8 +1,6 @@
 /* The table of an estimate. */
 #include "measure/estimate/estimate.h"
 
-#include "model/particles.h"
-
 #include <math.h>
 
 /* States, and frames of times, energies and positions. */
@@ -12,7 +10,6 @@ static double memory_of(const struct hk_estimate *e) {
   return (double)sizeof(double) * (2.0 * state + (double)e->kept.count * frame);
 }
 
-HOOKE_READER(const char *, unit, struct hk_estimate, it->system->generalized ? NULL : "m")
 HOOKE_READER(double, met, struct hk_estimate, hk_estimate_met(it))
 HOOKE_READER(double, memory_bytes, struct hk_estimate, memory_of(it))
 
@@ -26,8 +23,6 @@ const struct hk_table hk_estimate_tables[] = {
          HOOKE_COLUMN_AS(
              struct hk_estimate, error, estimate, NUMBER, "m",
              "error of the run: distance of the farthest free particle, at any frame, from where it should be"),
-         HOOKE_COLUMN_BY(unit, TEXT, "",
-                         "of all errors: m, or none, where they are in the units of a problem's numbers"),
          HOOKE_COLUMN(struct hk_estimate, rms, NUMBER, "m",
                       "its root mean square over free particles, at the worst frame"),
          HOOKE_COLUMN(

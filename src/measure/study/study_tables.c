@@ -1,8 +1,6 @@
 /* The tables of a study. */
 #include "measure/study/study.h"
 
-#include "model/particles.h"
-
 #include <math.h>
 #include <stddef.h>
 
@@ -14,7 +12,6 @@ static int is_made(const struct hk_study *study) {
 
 /* ---- the study ---- */
 
-HOOKE_READER(const char *, unit, struct hk_study, it->m->system->generalized ? NULL : "m")
 HOOKE_READER(double, frames, struct hk_study, is_made(it) ? (double)it->reference.trusted : NAN)
 
 /* ---- the reference ---- */
@@ -196,8 +193,6 @@ const struct hk_table hk_study_tables[] = {
      .record = 1,
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN(struct hk_study, duration, NUMBER, "s", "duration of the run"),
-         HOOKE_COLUMN_BY(unit, TEXT, "",
-                         "of all errors: m, or none, where they are in the units of a problem's numbers"),
          HOOKE_COLUMN_BY(frames, COUNT, "", "frames over which errors are judged"),
          HOOKE_COLUMN(struct hk_study, budget_spent, FLAG, "", "rows are missing for lack of time"))},
     {.name = "reference",

@@ -73,9 +73,11 @@ class Study(Paged, Closing, kind="study"):
     """
 
     _progress: Any = None
+    unit: str  #: that of its errors: "m", or "" where they are in the units of a problem's numbers
 
     def _read(self, found: Measurement) -> None:
         vars(self).update((name, self.rows[name]) for name in self.rows.dtype.names or ())
+        self.unit = found.unit("rows", "error")
         self.reference = found.each(Reference, "reference")[0]
         self.orders = {
             order.method: order
