@@ -24,9 +24,6 @@ extern "C" {
 
 typedef struct hooke_integrator hooke_integrator;
 
-/* Writes x' = phi(t, x) (size n) into `rate`. Return 0 to go on, anything else to stop. */
-typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
-
 /* Receives the state after `step` steps; must not change it. Return 0 to go on, anything else to stop the
  * run. */
 typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);

@@ -67,6 +67,9 @@ typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const 
  * each). Return 0 to go on, anything else to stop. It must depend on t alone. */
 typedef int32_t hooke_drive(int64_t count, double t, double *q, double *v, void *ctx);
 
+/* Writes x' = phi(t, x) (size n) into `rate`. Return 0 to go on, anything else to stop. */
+typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
+
 /* ---- building ---- */
 
 /* An empty system, owned by the caller. HOOKE_NO_MEMORY. */
