@@ -4,6 +4,7 @@
 
 #include "core/table/option.h"
 #include "integrate/method.h"
+#include "integrate/numbers.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
 #include "model/state.h"
@@ -116,14 +117,13 @@ struct hooke_integrator {
   /* first-order problem */
   hooke_rate *rate;
   void *rate_ctx;
-  double *x;    /* of a fixed-step method, in `array` */
   double *rows; /* x and its rate, for the callback */
 
-  double *start;              /* q and v at the start of a step that may fail midway, for the loop; or NULL */
-  struct hk_one_array *array; /* of explicit steps that particles in rows are not enough for; else NULL */
-  int64_t size;               /* numbers in q */
-  void *own;                  /* the method's own data */
-  void *around;               /* scratch of a method whose step contains that of another, which has `own` */
+  double *start;             /* q and v at the start of a step that may fail midway, for the loop; or NULL */
+  struct hk_numbers numbers; /* of explicit steps: x, or own coordinates of movers */
+  int64_t size;              /* numbers in q */
+  void *own;                 /* the method's own data */
+  void *around;              /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */

@@ -79,17 +79,22 @@ static void move_share(hooke_integrator *it, int64_t from, int64_t count, void *
 }
 
 void hk_integrator_move_on(hooke_integrator *it, struct hk_move *move) {
+  struct hk_numbers *own = it->numbers.x ? &it->numbers : NULL;
+  if (own) hk_numbers_push(it->system, it->motion, move->kind, own);
   hk_integrator_each(it, move_share, move);
+  if (own) hk_numbers_follow(it->system, move, own, it->motion);
 }
 
-/* Drag is part of the move, except where a force comes after it in the sum. */
+/* Drag is part of the move, except where a force comes after it in the sum, and with movers, which it pushes.
+ */
 int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move *move) {
   if (it->by_tiles) {
     it->count.force_evaluations++;
     hk_motion_pass(it->system, it->motion, t, move);
     return HOOKE_OK;
   }
-  const int summed = it->system->sums_after_drag && !hk_move_brakes(move->kind);
+  const hooke_system *system = it->system;
+  const int summed = system->mover_count > 0 || (system->sums_after_drag && !hk_move_brakes(move->kind));
   const int32_t status = hk_integrator_forces_without(it, t, summed ? 0 : HOOKE_UNIFORM);
   if (summed) move->drag = 0.0;
   if (status == HOOKE_OK) hk_integrator_move_on(it, move);
@@ -145,7 +150,7 @@ int32_t hk_fixed_begin(hooke_integrator *it, const hooke_state *state) {
   if (it->motion)
     hk_motion_load(it->system, it->motion, state->q, state->v);
   else
-    memcpy(it->x, state->q, (size_t)it->size * sizeof(double));
+    memcpy(it->numbers.x, state->q, (size_t)it->size * sizeof(double));
   return HOOKE_OK;
 }
 
@@ -153,7 +158,7 @@ int32_t hk_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
   if (it->motion)
     hk_motion_store(it->motion, state->q, state->v);
   else
-    memcpy(state->q, it->x, (size_t)it->size * sizeof(double));
+    memcpy(state->q, it->numbers.x, (size_t)it->size * sizeof(double));
   *state->t = t;
   return HOOKE_OK;
 }

@@ -21,7 +21,8 @@ static int is_at(const hooke_integrator *it, const hooke_state *state) {
   if (it->method->adaptive)
     return last && memcmp(last->t, state->t, (state->has_v ? 2 : 1) * bytes + sizeof(double)) == 0;
   if (memcmp(&it->t, state->t, sizeof(double)) != 0) return 0;
-  return it->motion ? hk_motion_is_at(it->motion, state->q, state->v) : memcmp(it->x, state->q, bytes) == 0;
+  return it->motion ? hk_motion_is_at(it->motion, state->q, state->v)
+                    : memcmp(it->numbers.x, state->q, bytes) == 0;
 }
 
 static int32_t check_steps(int64_t steps) {

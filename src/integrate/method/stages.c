@@ -1,15 +1,16 @@
 /* Steps of explicit Runge-Kutta methods. Pinned and driven particles are constrained in every stage. */
 #include "core/memory.h"
 #include "core/status.h"
-#include "integrate/method/one_array.h"
-#include "kernel/step_loops.h"
+#include "integrate/integrator.h"
 
 #include <stddef.h>
 #include <string.h>
 
 /* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */
 static int32_t create(hooke_integrator *it) {
-  if (it->array || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
+  if (it->system && it->system->mover_count > 0 && hk_integrator_keep_start(it) != HOOKE_OK)
+    return HOOKE_NO_MEMORY;
+  if (it->rate || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
   const int64_t numbers = 12 * hk_motion_stride(it->motion);
   it->own = hk_new(numbers, sizeof(double));
   it->own_memory += numbers * (int64_t)sizeof(double);
@@ -40,44 +41,27 @@ static double kick_of(const hooke_integrator *it, int stage) {
   return it->schedule.step / it->method->stages.over[stage];
 }
 
-/* Moves `count` numbers x from a stage on by their `rate` there. */
-static void move_numbers(const hooke_integrator *it, int stage, int64_t count, const double *rate,
-                         double *start, double *sum, double *x) {
-  const double kick = kick_of(it, stage);
+static int32_t kind_of(const hooke_integrator *it, int stage) {
   const int last = it->method->stages.count - 1;
-  if (last == 0)
-    hk_advance(count, kick, rate, x);
-  else if (stage == 0)
-    hk_first_stage(count, kick, rate, start, sum, x);
-  else if (stage < last)
-    hk_middle_stage(count, kick, rate, start, sum, x);
-  else
-    hk_last_stage(count, kick, rate, start, sum, x);
+  return last == 0      ? HOOKE_DRIFT_THEN_KICK
+         : stage == 0   ? HOOKE_FIRST_STAGE
+         : stage < last ? HOOKE_MIDDLE_STAGE
+                        : HOOKE_LAST_STAGE;
 }
 
-/* ---- one array ---- */
+/* ---- a first-order problem ---- */
 
-static int32_t find_rate(hooke_integrator *it, double t) {
-  struct hk_one_array *array = it->array;
-  if (it->rate) return hk_integrator_rate(it, t, array->y, array->slope);
-  const int found = hk_unknowns_slope(it, &array->unknowns, t, array->y, array->slope);
-  return found == HOOKE_SLOPE_STOPPED ? HOOKE_STOPPED : HOOKE_OK;
-}
-
-static int32_t step_array(hooke_integrator *it) {
-  struct hk_one_array *array = it->array;
-  hk_one_array_begin(it);
+static int32_t step_numbers(hooke_integrator *it) {
+  const struct hk_numbers *y = &it->numbers;
   for (int stage = 0; stage < it->method->stages.count; stage++) {
-    const int32_t status = find_rate(it, stage_time(it, stage));
+    const int32_t status = hk_integrator_rate(it, stage_time(it, stage), y->x, y->rate);
     if (status != HOOKE_OK) {
-      if (it->rate && stage > 0) memcpy(array->y, array->start, (size_t)it->size * sizeof(double));
+      if (stage > 0) memcpy(y->x, y->start, (size_t)y->count * sizeof(double));
       return status;
     }
-    move_numbers(it, stage, array->unknowns.size, array->slope, array->start, array->sum, array->y);
+    hk_numbers_move(kind_of(it, stage), kick_of(it, stage), y->count, y->rate, y->start, y->sum, y->x);
   }
-  if (it->rate) return HOOKE_OK;
-  hk_one_array_give(it, array->y);
-  return hk_integrator_drive(it, hk_integrator_next_time(it)); /* the last stage may be earlier */
+  return HOOKE_OK;
 }
 
 /* ---- particles ---- */
@@ -93,14 +77,9 @@ static int32_t hold(hooke_integrator *it, int stage) {
 }
 
 static int32_t move(hooke_integrator *it, int stage) {
-  const int last = it->method->stages.count - 1;
-  const int32_t kind = last == 0      ? HOOKE_DRIFT_THEN_KICK
-                       : stage == 0   ? HOOKE_FIRST_STAGE
-                       : stage < last ? HOOKE_MIDDLE_STAGE
-                                      : HOOKE_LAST_STAGE;
   const double kick = kick_of(it, stage);
   struct hk_move move;
-  hk_integrator_move_of(it, kind, kick, kick, &move);
+  hk_integrator_move_of(it, kind_of(it, stage), kick, kick, &move);
   if (it->own) move.start = it->own, move.sum = sum_of(it);
   return hk_integrator_move(it, stage_time(it, stage), &move);
 }
@@ -119,9 +98,11 @@ static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ct
 static void move_positions(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   double *start = it->own, *sum = sum_of(it);
   struct hk_motion *m = it->motion;
+  const int stage = *(const int *)ctx;
   for (int a = 0; a < 3; a++) {
     const int64_t q = a * m->n + from; /* as hk_motion_save() has them */
-    move_numbers(it, *(const int *)ctx, count, m->v[a] + from, start + q, sum + q, m->q[a] + from);
+    hk_numbers_move(kind_of(it, stage), kick_of(it, stage), count, m->v[a] + from, start + q, sum + q,
+                    m->q[a] + from);
   }
 }
 
@@ -143,8 +124,9 @@ static int32_t step_overdamped(hooke_integrator *it) {
 }
 
 static int32_t step(hooke_integrator *it) {
-  if (it->array) return step_array(it);
+  if (it->rate) return step_numbers(it);
   if (it->system->overdamped) return step_overdamped(it);
+  if (it->numbers.x) hk_numbers_begin(it->system, it->motion, &it->numbers);
   for (int stage = 0; stage < it->method->stages.count; stage++) {
     int32_t status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);
