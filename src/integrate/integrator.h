@@ -200,8 +200,8 @@ void hk_integrator_each(hooke_integrator *integrator, hk_particle_work *work, vo
  * particles there. */
 int32_t hk_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hk_integrator_hold(hooke_integrator *integrator, double t);
-/* Of an overdamped system: velocities of free particles from the forces at time t, where the motion is, of
- * held ones from the drives, which were called for t. Not counted. */
+/* Of an overdamped system, and nothing of another: velocities of free particles from the forces at time t,
+ * where the motion is, of held ones from the drives, which were called for t. Not counted. */
 int32_t hk_integrator_flow(hooke_integrator *integrator, double t);
 /* Time at the end of the next step of a fixed-step method. */
 double hk_integrator_next_time(const hooke_integrator *integrator);

@@ -23,18 +23,6 @@ void hk_numbers_release(struct hk_numbers *numbers) {
   hk_free(numbers->x);
 }
 
-void hk_numbers_move(int32_t kind, double kick, int64_t count, const double *rate, double *start, double *sum,
-                     double *x) {
-  if (kind == HOOKE_FIRST_STAGE)
-    hk_first_stage(count, kick, rate, start, sum, x);
-  else if (kind == HOOKE_MIDDLE_STAGE)
-    hk_middle_stage(count, kick, rate, start, sum, x);
-  else if (kind == HOOKE_LAST_STAGE)
-    hk_last_stage(count, kick, rate, start, sum, x);
-  else
-    hk_advance(count, kick, rate, x);
-}
-
 /* ---- movers ---- */
 
 void hk_numbers_begin(const hooke_system *system, struct hk_motion *motion, struct hk_numbers *own) {
@@ -48,27 +36,24 @@ void hk_numbers_push(const hooke_system *system, const struct hk_motion *motion,
   hk_movers_push(system, motion, own->x, own->push);
 }
 
-/* With u half-way in `start`, as in move_loops.h. */
-static void kick_and_drift(const hooke_system *system, const struct hk_move *move, struct hk_numbers *own) {
-  const size_t bytes = (size_t)own->count * sizeof(double);
-  if (move->kind == HOOKE_CORRECT) memcpy(own->x, own->start, bytes);
-  hk_movers_kick(system, move->kick, own->push, own->x);
-  if (move->kind == HOOKE_CORRECT) return;
-  hk_movers_drift(system, move->drift, own->x);
-  if (move->kind == HOOKE_KICK_THEN_DRIFT) return;
-  memcpy(own->start, own->x, bytes);
-  hk_movers_kick(system, move->kick, own->push, own->x);
-}
-
-/* Stages between have quaternions of other lengths. */
+/* As in move_loops.h, with `start` for u. Stages between have quaternions of other lengths. */
 void hk_numbers_follow(const hooke_system *system, const struct hk_move *move, struct hk_numbers *own,
                        struct hk_motion *motion) {
   const int32_t kind = move->kind;
-  if (kind == HOOKE_KICK_THEN_DRIFT || kind == HOOKE_PREDICT || kind == HOOKE_CORRECT) {
-    kick_and_drift(system, move, own);
-  } else {
-    hk_movers_slope(system, own->x, own->push, own->rate);
-    hk_numbers_move(kind, move->kick, own->count, own->rate, own->start, own->sum, own->x);
+  for (int64_t k = 0; k < system->mover_count; k++) {
+    const struct hk_mover *m = &system->mover[k];
+    const size_t bytes = (size_t)m->row->numbers * sizeof(double);
+    double *x = own->x + m->at, *start = own->start + m->at, *push = own->push + HOOKE_PUSH * k;
+    if (kind == HOOKE_KICK_THEN_DRIFT || kind == HOOKE_PREDICT || kind == HOOKE_CORRECT) {
+      if (kind == HOOKE_CORRECT) memcpy(x, start, bytes);
+      m->row->kick(m->thing, move->kick, push, x);
+      if (kind != HOOKE_CORRECT) m->row->drift(m->thing, move->drift, x);
+      if (kind == HOOKE_PREDICT) memcpy(start, x, bytes);
+      if (kind == HOOKE_PREDICT) m->row->kick(m->thing, move->kick, push, x);
+    } else {
+      m->row->slope(m->thing, x, push, own->rate + m->at);
+      hk_move_numbers(kind, move->kick, m->row->numbers, own->rate + m->at, start, own->sum + m->at, x);
+    }
   }
   if (kind != HOOKE_FIRST_STAGE && kind != HOOKE_MIDDLE_STAGE) hk_movers_normalise(system, own->x);
   hk_movers_write(system, motion, own->x);

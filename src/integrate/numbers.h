@@ -17,11 +17,6 @@ struct hk_numbers {
 int32_t hk_numbers_create(int64_t count, int64_t pushes, struct hk_numbers *numbers);
 void hk_numbers_release(struct hk_numbers *numbers);
 
-/* A stage (HOOKE_FIRST_STAGE .. HOOKE_LAST_STAGE) or, of another kind, x += kick rate; for numbers of any
- * arrays. */
-void hk_numbers_move(int32_t kind, double kick, int64_t count, const double *rate, double *start, double *sum,
-                     double *x);
-
 /* Before the first stage of a step, whose forces are those at rows that the own coordinates give. */
 void hk_numbers_begin(const struct hooke_system *system, struct hk_motion *motion,
                       struct hk_numbers *numbers);

@@ -116,6 +116,7 @@ static void set_rates(hooke_integrator *it, int64_t from, int64_t count, void *c
 }
 
 int32_t hk_integrator_flow(hooke_integrator *it, double t) {
+  if (!it->system->overdamped) return HOOKE_OK;
   const int32_t status = keep_stop_value(it, hk_motion_forces(it->system, it->motion, t));
   if (status != HOOKE_OK) return status;
   hk_integrator_each(it, set_rates, NULL);

@@ -176,5 +176,5 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
   it->scale0 = INFINITY; /* energy comes from outside: a rise of it proves nothing */
   if (it->method->steps->forget) it->method->steps->forget(it);
   if (it->method->adaptive) return it->method->steps->begin(it, it->shown);
-  return it->system->overdamped ? hk_integrator_flow(it, it->t) : HOOKE_OK;
+  return hk_integrator_flow(it, it->t);
 }

@@ -2,14 +2,16 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "kernel/step_loops.h"
 
 #include <stddef.h>
 #include <string.h>
 
 /* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */
 static int32_t create(hooke_integrator *it) {
-  if (it->system && it->system->mover_count > 0 && hk_integrator_keep_start(it) != HOOKE_OK)
-    return HOOKE_NO_MEMORY;
+  if (it->rate == NULL && (it->system->force || it->system->drive_count > 0) &&
+      hk_integrator_keep_start(it) != HOOKE_OK)
+    return HOOKE_NO_MEMORY; /* callbacks may stop a step midway */
   if (it->rate || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
   const int64_t numbers = 12 * hk_motion_stride(it->motion);
   it->own = hk_new(numbers, sizeof(double));
@@ -26,9 +28,9 @@ static double *sum_of(const hooke_integrator *it) {
   return (double *)it->own + 6 * hk_motion_stride(it->motion);
 }
 
-/* A stage is a step over this ahead; 0: at the start. */
+/* A stage is a step over this ahead; 0: at the start. The one past the last is the end. */
 static int32_t ahead_over(const hooke_integrator *it, int stage) {
-  return stage > 0 ? it->method->stages.over[stage - 1] : 0;
+  return stage == 0 ? 0 : stage == it->method->stages.count ? 1 : it->method->stages.over[stage - 1];
 }
 
 static double stage_time(const hooke_integrator *it, int stage) {
@@ -59,7 +61,7 @@ static int32_t step_numbers(hooke_integrator *it) {
       if (stage > 0) memcpy(y->x, y->start, (size_t)y->count * sizeof(double));
       return status;
     }
-    hk_numbers_move(kind_of(it, stage), kick_of(it, stage), y->count, y->rate, y->start, y->sum, y->x);
+    hk_move_numbers(kind_of(it, stage), kick_of(it, stage), y->count, y->rate, y->start, y->sum, y->x);
   }
   return HOOKE_OK;
 }
@@ -84,15 +86,6 @@ static int32_t move(hooke_integrator *it, int stage) {
   return hk_integrator_move(it, stage_time(it, stage), &move);
 }
 
-static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  const double *start = ctx;
-  struct hk_motion *m = it->motion;
-  for (int a = 0; a < 6; a++) {
-    double *x = a < 3 ? m->q[a] : m->v[a - 3];
-    memcpy(x + from, start + a * hk_motion_stride(m) + from, (size_t)count * sizeof(double));
-  }
-}
-
 /* ---- an overdamped system: velocities are the rates, and those at the start are there ---- */
 
 static void move_positions(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
@@ -100,42 +93,34 @@ static void move_positions(hooke_integrator *it, int64_t from, int64_t count, vo
   struct hk_motion *m = it->motion;
   const int stage = *(const int *)ctx;
   for (int a = 0; a < 3; a++) {
-    const int64_t q = a * m->n + from; /* as hk_motion_save() has them */
-    hk_numbers_move(kind_of(it, stage), kick_of(it, stage), count, m->v[a] + from, start + q, sum + q,
+    const int64_t q = a * hk_motion_stride(m) + from;
+    hk_move_numbers(kind_of(it, stage), kick_of(it, stage), count, m->v[a] + from, start + q, sum + q,
                     m->q[a] + from);
   }
 }
 
 static int32_t step_overdamped(hooke_integrator *it) {
-  hk_motion_save(it->motion, it->own);
-  for (int stage = 0; stage < it->method->stages.count; stage++) {
-    const int last = stage + 1 == it->method->stages.count;
-    const double t = last ? hk_integrator_next_time(it) : stage_time(it, stage + 1);
+  int32_t status = HOOKE_OK;
+  for (int stage = 0; stage < it->method->stages.count && status == HOOKE_OK; stage++) {
+    const double t = stage_time(it, stage + 1);
     hk_integrator_each(it, move_positions, &stage);
-    int32_t status = hk_integrator_hold(it, t);
+    status = hk_integrator_hold(it, t);
     if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
     it->count.force_evaluations++;
-    if (status != HOOKE_OK) {
-      hk_motion_restore(it->motion, it->own);
-      return status;
-    }
   }
-  return HOOKE_OK;
+  return status;
 }
 
 static int32_t step(hooke_integrator *it) {
+  int32_t status = HOOKE_OK;
   if (it->rate) return step_numbers(it);
   if (it->system->overdamped) return step_overdamped(it);
   if (it->numbers.x) hk_numbers_begin(it->system, it->motion, &it->numbers);
-  for (int stage = 0; stage < it->method->stages.count; stage++) {
-    int32_t status = hold(it, stage);
+  for (int stage = 0; stage < it->method->stages.count && status == HOOKE_OK; stage++) {
+    status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);
-    if (status != HOOKE_OK) {
-      if (stage > 0) hk_integrator_each(it, put_back, it->own);
-      return status;
-    }
   }
-  return HOOKE_OK;
+  return status;
 }
 
 const struct hk_steps hk_explicit_steps = {create, destroy, NULL, hk_fixed_begin, step, hk_fixed_store};

@@ -15,7 +15,7 @@ const struct hk_method hk_symplectic_euler = {.name = "symplectic-euler",
                                               .summary = "fixed step, order 1; keeps undamped motion bounded",
                                               .order = 1,
                                               .judge = "verlet",
-                                              .bodies = 1,
+                                              .takes = HOOKE_TAKES_BODIES,
                                               .stability = {.kind = HOOKE_STABLE_BY_K_AND_C},
                                               .by_tiles = 1,
                                               .steps = &steps};

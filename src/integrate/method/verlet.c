@@ -315,7 +315,7 @@ const struct hk_method hk_verlet = {
     .summary = "fixed step, order 2; keeps undamped motion bounded, and damping leaves its limit",
     .order = 2,
     .judge = "rk4",
-    .bodies = 1,
+    .takes = HOOKE_TAKES_BODIES,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .with_bodies = {.kind = HOOKE_STABLE_BY_PREDICTION},
     .by_tiles = 1,

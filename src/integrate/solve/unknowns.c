@@ -116,7 +116,7 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
     return HOOKE_OK;
   }
   int32_t status = hk_unknowns_place(it, u, t, y);
-  if (status == HOOKE_OK && !u->has_v) status = hk_integrator_flow(it, t);
+  if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
   if (status == HOOKE_OK || u->has_v) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }
