@@ -120,8 +120,12 @@ static int32_t create_numbers(hooke_integrator *it) {
   const int64_t count = it->rate ? it->size : it->system->own_count;
   const int64_t pushes = it->rate ? 0 : HOOKE_PUSH * it->system->mover_count;
   if (count == 0 || it->method->adaptive || it->method->solved) return HOOKE_OK;
+  double *block = hk_new(4 * count + pushes, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += (4 * count + pushes) * (int64_t)sizeof(double);
-  return hk_numbers_create(count, pushes, &it->numbers);
+  it->numbers = (struct hk_numbers){
+      count, block, block + count, block + 2 * count, block + 3 * count, block + 4 * count};
+  return HOOKE_OK;
 }
 
 static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **out) {
@@ -209,7 +213,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   destroy_coordinates(it->coordinates);
-  hk_numbers_release(&it->numbers);
+  hk_free(it->numbers.x);
   hk_free(it->start);
   hooke_rows_hold(it->rows, -1);
   hk_handle_free(it);

@@ -4,7 +4,6 @@
 
 #include "core/table/option.h"
 #include "integrate/method.h"
-#include "integrate/numbers.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
 #include "model/state.h"
@@ -104,6 +103,15 @@ struct hk_generalized {
   hooke_system *system; /* committed */
 };
 
+/* What explicit steps move beside the particles in rows: x of a first-order problem, or the own coordinates
+ * of movers (model/coordinates). These are taken from the rows where a step begins and written back by each
+ * of its moves, so that a step remains a map of (t, q, v). */
+struct hk_numbers {
+  int64_t count;
+  double *x, *start, *rate, *sum; /* x begins the block of all */
+  double *push;                   /* on every mover */
+};
+
 struct hooke_integrator {
   const struct hk_method *method;
   hooke_options *options;
@@ -119,11 +127,11 @@ struct hooke_integrator {
   void *rate_ctx;
   double *rows; /* x and its rate, for the callback */
 
-  double *start;             /* q and v at the start of a step that may fail midway, for the loop; or NULL */
-  struct hk_numbers numbers; /* of explicit steps: x, or own coordinates of movers */
-  int64_t size;              /* numbers in q */
-  void *own;                 /* the method's own data */
-  void *around;              /* scratch of a method whose step contains that of another, which has `own` */
+  double *start; /* q and v at the start of a step that may fail midway, for the loop; or NULL */
+  struct hk_numbers numbers;
+  int64_t size; /* numbers in q */
+  void *own;    /* the method's own data */
+  void *around; /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */
@@ -190,7 +198,7 @@ void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, dou
 /* Forces at time t, counted, and every particle moved under them, in one pass over memory where the forces
  * allow it. HOOKE_STOPPED with the stop value kept: nothing has moved. */
 int32_t hk_integrator_move(hooke_integrator *integrator, double t, struct hk_move *move);
-/* The same under the forces that the last move kept. */
+/* The same under the forces in the motion. */
 void hk_integrator_move_on(hooke_integrator *integrator, struct hk_move *move);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);

@@ -3,6 +3,7 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "kernel/step_loops.h"
+#include "model/coordinates/coordinates.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -115,7 +116,8 @@ static int32_t step(hooke_integrator *it) {
   int32_t status = HOOKE_OK;
   if (it->rate) return step_numbers(it);
   if (it->system->overdamped) return step_overdamped(it);
-  if (it->numbers.x) hk_numbers_begin(it->system, it->motion, &it->numbers);
+  if (it->numbers.x) hk_movers_read(it->system, it->motion, it->numbers.x);
+  if (it->numbers.x) hk_movers_write(it->system, it->motion, it->numbers.x); /* forces are those there */
   for (int stage = 0; stage < it->method->stages.count && status == HOOKE_OK; stage++) {
     status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);
