@@ -10,10 +10,10 @@
 
 /* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */
 static int32_t create(hooke_integrator *it) {
-  if (it->rate == NULL && (it->system->force || it->system->drive_count > 0) &&
-      hk_integrator_keep_start(it) != HOOKE_OK)
-    return HOOKE_NO_MEMORY; /* callbacks may stop a step midway */
-  if (it->rate || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
+  if (it->rate) return HOOKE_OK;
+  const int whole = it->system->overdamped || it->system->mover_count > 0; /* more than put_back() knows */
+  if (whole && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  if (it->method->stages.count == 1 && !it->system->overdamped) return HOOKE_OK;
   const int64_t numbers = 12 * hk_motion_stride(it->motion);
   it->own = hk_new(numbers, sizeof(double));
   it->own_memory += numbers * (int64_t)sizeof(double);
@@ -87,6 +87,13 @@ static int32_t move(hooke_integrator *it, int stage) {
   return hk_integrator_move(it, stage_time(it, stage), &move);
 }
 
+/* Where the step began, after a callback stopped it midway. */
+static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  const double *start = ctx;
+  for (int64_t a = 0, at = from; a < 6; a++, at += hk_motion_stride(it->motion))
+    memcpy(it->motion->q[0] + at, start + at, (size_t)count * sizeof(double));
+}
+
 /* ---- an overdamped system: velocities are the rates, and those at the start are there ---- */
 
 static void move_positions(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
@@ -94,9 +101,9 @@ static void move_positions(hooke_integrator *it, int64_t from, int64_t count, vo
   struct hk_motion *m = it->motion;
   const int stage = *(const int *)ctx;
   for (int a = 0; a < 3; a++) {
-    const int64_t q = a * hk_motion_stride(m) + from;
-    hk_move_numbers(kind_of(it, stage), kick_of(it, stage), count, m->v[a] + from, start + q, sum + q,
-                    m->q[a] + from);
+    const int64_t at = a * hk_motion_stride(m) + from;
+    hk_move_numbers(kind_of(it, stage), kick_of(it, stage), count, m->v[0] + at, start + at, sum + at,
+                    m->q[0] + at);
   }
 }
 
@@ -121,6 +128,7 @@ static int32_t step(hooke_integrator *it) {
   for (int stage = 0; stage < it->method->stages.count && status == HOOKE_OK; stage++) {
     status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);
+    if (status != HOOKE_OK && stage > 0) hk_integrator_each(it, put_back, it->own);
   }
   return status;
 }
