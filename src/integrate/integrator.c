@@ -6,9 +6,9 @@
 #include "core/memory.h"
 #include "core/named_number.h"
 #include "core/status.h"
-#include "integrate/method/one_array.h"
 #include "integrate/solve/reduced.h"
 #include "model/callbacks.h"
+#include "model/coordinates/coordinates.h"
 #include "model/force/force.h"
 #include "model/generalized.h"
 #include "model/particles.h"
@@ -42,10 +42,21 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
   return status;
 }
 
+/* Of explicit steps. */
+static int32_t create_numbers(hooke_integrator *it) {
+  const int64_t count = it->rate ? it->size : it->system->own_count;
+  const int64_t pushes = it->rate ? 0 : HOOKE_PUSH * it->system->mover_count;
+  if (count == 0 || it->method->adaptive || it->method->solved) return HOOKE_OK;
+  double *block = hk_new(4 * count + pushes, sizeof(double));
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  it->own_memory += (4 * count + pushes) * (int64_t)sizeof(double);
+  it->numbers = (struct hk_numbers){
+      count, block, block + count, block + 2 * count, block + 3 * count, block + 4 * count};
+  return HOOKE_OK;
+}
+
 static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **out) {
-  const int32_t solves = it->method->adaptive || it->method->solved;
-  if (status == HOOKE_OK && !solves && (it->rate || it->system->mover_count > 0))
-    status = hk_one_array_create(it);
+  if (status == HOOKE_OK) status = create_numbers(it);
   if (status == HOOKE_OK && it->method->steps->create) status = it->method->steps->create(it);
   if (status == HOOKE_OK)
     *out = it;
@@ -129,7 +140,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hooke_system_destroy(it->problem);
-  hk_one_array_destroy(it->array);
+  hk_free(it->numbers.x);
   hk_free(it->start);
   hooke_rows_hold(it->rows, -1);
   hk_handle_free(it);

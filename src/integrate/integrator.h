@@ -91,6 +91,15 @@ struct hk_last_good {
 /* Of a run: at a checkpoint that was read, from which it has not gone on yet. */
 enum { HOOKE_NOT_BEGUN, HOOKE_BEGUN, HOOKE_AT_CHECKPOINT };
 
+/* What explicit steps move beside the particles in rows: x of a first-order problem, or the own coordinates
+ * of movers (model/coordinates). These are taken from the rows where a step begins and written back by each
+ * of its moves, so that a step remains a map of (t, q, v). */
+struct hk_numbers {
+  int64_t count;
+  double *x, *start, *rate, *sum; /* x begins the block of all */
+  double *push;                   /* on every mover */
+};
+
 struct hooke_integrator {
   const struct hk_method *method;
   hooke_options *options;
@@ -104,14 +113,13 @@ struct hooke_integrator {
   /* first-order problem */
   hooke_rate *rate;
   void *rate_ctx;
-  double *x;    /* of a fixed-step method, in `array` */
   double *rows; /* x and its rate, for the callback */
 
-  double *start;              /* q and v at the start of a step that may fail midway, for the loop; or NULL */
-  struct hk_one_array *array; /* of explicit steps that particles in rows are not enough for; else NULL */
-  int64_t size;               /* numbers in q */
-  void *own;                  /* the method's own data */
-  void *around;               /* scratch of a method whose step contains that of another, which has `own` */
+  double *start; /* q and v at the start of a step that may fail midway, for the loop; or NULL */
+  struct hk_numbers numbers;
+  int64_t size; /* numbers in q */
+  void *own;    /* the method's own data */
+  void *around; /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */
@@ -192,7 +200,7 @@ void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, dou
 /* Forces at time t, counted, and every particle moved under them, in one pass over memory where the forces
  * allow it. HOOKE_STOPPED with the stop value kept: nothing has moved. */
 int32_t hk_integrator_move(hooke_integrator *integrator, double t, struct hk_move *move);
-/* The same under the forces that the last move kept. */
+/* The same under the forces in the motion. */
 void hk_integrator_move_on(hooke_integrator *integrator, struct hk_move *move);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
@@ -202,8 +210,8 @@ void hk_integrator_each(hooke_integrator *integrator, hk_particle_work *work, vo
  * particles there. */
 int32_t hk_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hk_integrator_hold(hooke_integrator *integrator, double t);
-/* Of an overdamped system: velocities of free particles from the forces at time t, where the motion is, of
- * held ones from the drives, which were called for t. Not counted. */
+/* Of an overdamped system, and nothing of another: velocities of free particles from the forces at time t,
+ * where the motion is, of held ones from the drives, which were called for t. Not counted. */
 int32_t hk_integrator_flow(hooke_integrator *integrator, double t);
 /* Time at the end of the next step of a fixed-step method. */
 double hk_integrator_next_time(const hooke_integrator *integrator);

@@ -107,7 +107,7 @@ const struct hk_stability *hk_method_stability_in(const char *name, const hooke_
 
 /* ---- what methods take ---- */
 
-enum { SECOND_ORDER, BODIES, OVERDAMPED, FIRST_ORDER, PROBLEMS };
+enum { SECOND_ORDER, BODIES, OVERDAMPED, FIRST_ORDER, PROBLEMS }; /* powers of 2: HOOKE_TAKES_* */
 
 static const struct {
   const char *word, *refusal;
@@ -121,7 +121,7 @@ static const struct {
 };
 
 static int32_t takes(const struct hk_method *method, int problem) {
-  return (const int32_t[]){1, method->bodies, method->overdamped, method->first_order}[problem];
+  return problem == SECOND_ORDER || method->takes >> problem & 1;
 }
 
 static int problem_of(const hooke_system *system) {

@@ -510,9 +510,8 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts) {
   stage->raised = status == HOOKE_OK && guarded &&
                   !(hk_descent_energy(&stage->descent, it) <= energy + (slack + stage->descent.slack));
   if (stage->raised) status = rises(it, "energy");
-  if (status != HOOKE_OK || !stage->overdamped) return status;
-  it->count.force_evaluations++;
-  return hk_integrator_flow(it, end);
+  it->count.force_evaluations += status == HOOKE_OK && stage->overdamped;
+  return status == HOOKE_OK ? hk_integrator_flow(it, end) : status;
 }
 
 /* Where stages find no solution a step is taken in two halves, and these likewise, down to a thousandth;
