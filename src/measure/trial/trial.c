@@ -60,12 +60,13 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
 
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest) {
   const double *reference = frames->position + f * frames->size;
+  const int32_t wide = frames->width == 3;
   double sum = 0.0, most = 0.0;
   for (int64_t k = 0; k < frames->free_count; k++) {
     const int64_t i = frames->width * frames->free_place[k];
-    double square = 0.0;
-    for (int64_t j = i; j < i + frames->width; j++)
-      square += (q[j] - reference[j]) * (q[j] - reference[j]);
+    const double dx = q[i] - reference[i], dy = wide ? q[i + 1] - reference[i + 1] : 0.0,
+                 dz = wide ? q[i + 2] - reference[i + 2] : 0.0;
+    const double square = (dx * dx + dy * dy) + dz * dz;
     sum += square;
     most = fmax(most, square);
   }
