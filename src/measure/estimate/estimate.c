@@ -178,10 +178,12 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
                             is_checked(e, it) ? NAN : it->schedule.step, state, MOST_SEEN + 2);
 }
 
-/* States between frames may be shown, too, and were not checked. */
-static int32_t is_frame(const struct hk_estimate *e, const hooke_state *state, double frame) {
-  const double left = e->begin + e->duration - hooke_state_time(state);
-  return fabs(frame - round(frame)) <= 1e-9 * fmax(1.0, frame) || fabs(left) <= 1e-9 * e->duration;
+/* States between frames may be shown, too, and were not checked. A run that goes on has the frames of the one
+ * before. */
+static int32_t is_frame(const struct hk_estimate *e, const hooke_state *state) {
+  const double since = hooke_state_time(state) - e->integrator->t0, frame = since / e->every;
+  return fabs(frame - round(frame)) <= 1e-9 * fmax(1.0, frame) ||
+         fabs(since - e->duration) <= 1e-9 * e->duration;
 }
 
 static void keep(struct hk_estimate *e, const hooke_state *state) {
@@ -217,14 +219,14 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
   if (m->kind != &hk_estimate_kind || e->options == NULL) return 0;
   const int32_t status = hk_state_check_system(state, e->system);
   if (status != HOOKE_OK) return status;
-  const double frame = (hooke_state_time(state) - e->begin) / e->every;
-  if (is_frame(e, state, frame))
+  if (is_frame(e, state))
     hk_watched_run_keep(&e->course, hooke_state_time(state), hooke_state_position(state),
                         hooke_state_velocity(state));
   if (e->only_watches) return 0;
   e->work = hk_work_of(e->integrator);
   e->steps = (double)e->integrator->count.steps;
   keep(e, state);
+  const double frame = (hooke_state_time(state) - e->begin) / e->every;
   if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
     hk_soundness_see(&e->soundness, state);
     e->frames_seen += e->frames_apart;
