@@ -192,7 +192,7 @@ static void print_watched(const struct cli_run *run) {
     char head[HOOKE_HEAD_SIZE];
     cli_print_padded(stdout, width, cli_quantity(run->estimate, "watched", row, head));
     for (int k = 0; k < COLUMNS; k++)
-      cli_rows_print_as(CELL, hooke_measurement_number(run->estimate, "watched", row, columns[k]), "%.7g",
+      cli_rows_print_as(CELL, hooke_measurement_number(run->estimate, "watched", row, columns[k]), "%.6g",
                         NULL, NULL);
     printf("\n");
   }

@@ -140,7 +140,7 @@ static void print_cells(const hooke_measurement *study, int64_t row) {
     const int64_t at = row < 0 ? k : row * count + k;
     const double agreement = hooke_measurement_number(study, "watched", k, "agreement"),
                  error = hooke_measurement_number(study, "watched_errors", at, "error");
-    cli_rows_print_as(width_of(study, k) - CELL - 1, hooke_measurement_number(study, table, at, end), "%.7g",
+    cli_rows_print_as(width_of(study, k) - CELL - 1, hooke_measurement_number(study, table, at, end), "%.6g",
                       NULL, NULL);
     cli_rows_print_as(CELL, row < 0 ? agreement : error, "%.4g", NULL, NULL);
     putchar(row >= 0 && error <= 10.0 * agreement ? '*' : ' ');

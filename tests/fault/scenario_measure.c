@@ -119,7 +119,7 @@ SCENARIO(estimate) {
   struct made m = {.system = make_oscillator(a)};
   const char *words = with;
   m.run = make_options(a, "run", "%s", words);
-  m.measurement = make_measurement(a, "estimate", m.system, NULL, "want=1e-7");
+  m.measurement = make_measurement(a, "estimate", m.system, NULL, "want=1e-7 watch=1.x,0.reaction,period:1.x");
   if (m.measurement == NULL) goto end;
   if (strstr(words, "step") == NULL) {
     fault_pause();
@@ -131,6 +131,7 @@ SCENARIO(estimate) {
   TRY(a, hooke_state_create(m.system, &m.state));
   TRY(a, hooke_integrator_on_frame(m.integrator, hooke_estimate_see, m.measurement));
   TRY(a, hooke_estimate_begin(m.measurement, m.integrator, m.state));
+  TRY(a, hooke_estimate_follow(m.measurement, m.integrator));
   TRY(a, hooke_integrator_run(m.integrator, m.state));
   TRY(a, hooke_measurement_run(m.measurement, m.state));
   TAKE(m.measurement, "estimate", "by", "#estimate", "#met", "#heat_excess");

@@ -341,6 +341,20 @@ def test_a_wanted_error_is_kept(want):
     assert (error.known_until, error.by) == (1.0, "reference") and error.rms == error.estimate
 
 
+def test_what_is_watched_is_a_table():
+    options = {"method": "cvode-adams", "rtol": 1e-9, "duration": 3.0, "every": 1.0, "watch": "1.x,0.reaction"}
+    for estimate in (False, True):
+        result = hooke.run(build_oscillator(), estimate=estimate, **options)
+        (x, reaction), state = result.watched, result.state
+        assert x["value"] == state.q[1, 0] and (result.error is not None) == estimate
+        assert abs(x["maximum"] - 1.25) < 1e-7 and abs(x["minimum"] - 0.75) < 1e-7
+        assert abs(reaction["maximum"] - 20 * 0.25) < 1e-5 and reaction["unit"] == "N" and reaction["until"] == 3
+    assert hooke.run(build_oscillator(), **{**options, "watch": None}).watched is None
+    start = build_oscillator().state()
+    with pytest.raises(hooke.BadValue, match="springs 0 to 0|allowed"):
+        hooke.run(build_oscillator(), state=start, **{**options, "watch": "1.reaction"})
+
+
 def test_an_error_is_estimated_where_that_is_asked_for(tmp_path):
     options = {"method": "symplectic-euler", "step": 1e-3, "duration": 1.0, "output": tmp_path / "out.h5"}
     assert hooke.run(build_oscillator(), **options).error is None

@@ -56,7 +56,7 @@ static int32_t create(hooke_measurement *m) {
   e->system = m->system;
   e->want = hooke_options_number(m->options, "want");
   e->callbacks = hooke_options_number(m->options, "callbacks") != 0.0;
-  e->is_asked = hooke_options_number(m->options, "error") != 0.0;
+  e->only_watches = hooke_options_number(m->options, "error") == 0.0;
   e->watched.system = m->system;
   e->first = e->rise = e->heat_excess = NAN;
   clear(e);
@@ -168,7 +168,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   e->frames_seen = 0;
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
   status = hk_watched_run_begin(&e->watched, frames, &e->course);
-  if (status != HOOKE_OK || !e->is_asked) return status;
+  if (status != HOOKE_OK || e->only_watches) return status;
   choose_kept(e, it, &count);
   status = hk_frames_create(e->system, count, &e->kept);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
@@ -179,10 +179,12 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
                             is_checked(e, it) ? NAN : it->schedule.step, state, MOST_SEEN + 2);
 }
 
-/* States between frames may be shown, too, and were not checked. */
-static int32_t is_frame(const struct hk_estimate *e, const hooke_state *state, double frame) {
-  const double left = e->begin + e->duration - hooke_state_time(state);
-  return fabs(frame - round(frame)) <= 1e-9 * fmax(1.0, frame) || fabs(left) <= 1e-9 * e->duration;
+/* States between frames may be shown, too, and were not checked. A run that goes on has the frames of the one
+ * before. */
+static int32_t is_frame(const struct hk_estimate *e, const hooke_state *state) {
+  const double since = hooke_state_time(state) - e->integrator->t0, frame = since / e->every;
+  return fabs(frame - round(frame)) <= 1e-9 * fmax(1.0, frame) ||
+         fabs(since - e->duration) <= 1e-9 * e->duration;
 }
 
 static void keep(struct hk_estimate *e, const hooke_state *state) {
@@ -218,14 +220,14 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
   if (m->kind != &hk_estimate_kind || e->options == NULL) return 0;
   const int32_t status = hk_state_check_system(state, e->system);
   if (status != HOOKE_OK) return status;
-  const double frame = (hooke_state_time(state) - e->begin) / e->every;
-  if (is_frame(e, state, frame))
+  if (is_frame(e, state))
     hk_watched_run_keep(&e->course, hooke_state_time(state), hooke_state_position(state),
                         hooke_state_velocity(state));
-  if (!e->is_asked) return 0;
+  if (e->only_watches) return 0;
   e->work = hk_work_of(e->integrator);
   e->steps = (double)e->integrator->count.steps;
   keep(e, state);
+  const double frame = (hooke_state_time(state) - e->begin) / e->every;
   if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
     hk_soundness_see(&e->soundness, state);
     e->frames_seen += e->frames_apart;
@@ -363,7 +365,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
     return hk_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
   hk_watched_run_end(&e->course, hooke_state_time(state), hooke_state_position(state),
                      hooke_state_velocity(state));
-  return e->is_asked ? measure(e, state) : HOOKE_OK;
+  return e->only_watches ? HOOKE_OK : measure(e, state);
 }
 
 /* ---- refining ---- */

@@ -21,7 +21,7 @@ struct hk_estimate {
   int32_t refined;     /* number of refinements */
 
   struct hk_watched_list watched;
-  int32_t is_asked; /* 1: for the error, too, not for what is watched alone */
+  int32_t only_watches; /* 1: it is not asked for the error */
 
   /* the run */
   hooke_options *options;             /* copy of the integrator's */

@@ -25,7 +25,7 @@ static const char *source_of(const char *by) {
 }
 
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
-  if (!e->is_asked) return;
+  if (e->only_watches) return;
   const char *m = hk_metres(e->system), *what = e->system->generalized ? "number" : "particle";
   if (e->by)
     hk_claim(claims, "error", hk_estimate_knows_all(e) ? HOOKE_OF_WHOLE : HOOKE_OF_PART, e->by,
@@ -77,8 +77,9 @@ static void tell_watched(const struct hk_estimate *e, struct hk_claims *claims) 
         "are not known",
         e->course.from, e->course.until);
   else
-    hk_claim(claims, "watched", HOOKE_OF_UNKNOWN, "",
-             "smallest and largest values are not known: no steps of the run were seen that are known to be good");
+    hk_claim(
+        claims, "watched", HOOKE_OF_UNKNOWN, "",
+        "smallest and largest values are not known: no steps of the run were seen that are known to be good");
 }
 
 void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *claims) {

@@ -140,9 +140,10 @@ void hk_watched_series_compare(struct hk_watched_series *series, const struct hk
 
 /* Smallest and largest of a series, and when: the samples, or between them, where three successive second
  * differences have one sign and no one is twice another, the extremum of the polynomial through five. So no
- * kink, and no stop where a spring is slack, is overshot. Numbers that are not finite are left out. */
+ * kink, and no stop where a spring is slack, is overshot. */
 struct hk_extremes {
   int64_t seen;
+  int32_t lost;             /* 1: a number was not finite, and they are not known */
   double time[5], value[5]; /* the last samples */
   double at[2], most[2];    /* of value and of -value */
 };

@@ -52,7 +52,8 @@ static void look(struct hk_extremes *e, int k, double sign) {
 }
 
 void hk_extremes_see(struct hk_extremes *e, double t, double value) {
-  if (!isfinite(value)) return;
+  e->lost |= !isfinite(value);
+  if (e->lost) return;
   memmove(e->time, e->time + 1, (POINTS - 1) * sizeof(double));
   memmove(e->value, e->value + 1, (POINTS - 1) * sizeof(double));
   e->time[POINTS - 1] = t;
@@ -140,7 +141,7 @@ void hk_watched_run_end(struct hk_watched_run *run, double t, const double *q, c
     result->value = run->value[k];
     if (run->list->item[k].is_period)
       result->value = hk_watched_series_last(&run->series, k, run->frames, run->time);
-    else if (run->follows && run->until > run->from)
+    else if (run->follows && run->until > run->from && !e->lost)
       *result = (struct hk_watched_result){run->value[k], -e->most[1], e->at[1], e->most[0], e->at[0]};
   }
 }

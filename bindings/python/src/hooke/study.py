@@ -66,10 +66,10 @@ class Study(Paged, Closing, kind="study"):
     `outcome` is "finished", or "stopped" if the progress function asked for it. `orders` has an `Order` for each
     fixed-step method.
 
-    `watched` has for each watched quantity an array of its errors, one a row, in its unit, `at_end` of its values at the
-    last frame that the reference is trusted at; `agreement` is the accuracy of the reference in it. `statistics`, empty unless an ensemble was requested and the reference is not
-    trusted to the end, has for each quantity ("kinetic", "potential", "energy" and the watched ones) a `Statistic`
-    for "reference" and for each method.
+    `watched` has for each watched quantity an array of its errors, one a row, in its unit, `at_end` of its values at
+    the last frame that the reference is trusted at; `agreement` is the accuracy of the reference in it. `statistics`,
+    empty unless an ensemble was requested and the reference is not trusted to the end, has for each quantity
+    ("kinetic", "potential", "energy" and the watched ones) a `Statistic` for "reference" and for each method.
     """
 
     _progress: Any = None

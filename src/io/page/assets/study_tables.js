@@ -61,7 +61,7 @@ function writeWatched() {
   const other = (say, before) => (row) => (row === agreement ? before : say(row));
   writeTable("watched", [agreement, ...study.rows], [["method", "", other(METHOD[2], agreement.method), "word"],
     ["step [s]", "or rtol", other(settingOf, "")], ...watched.flatMap((item, q) => [
-      [item.quantity, inUnit(item), other((row) => words(row.watched[q].at_end, 7), words(item.reference_end, 7))],
+      [item.quantity, inUnit(item), other((row) => words(row.watched[q].at_end, 6), words(item.reference_end, 6))],
       ["error", inUnit(item), other((row) => errorCell(row.watched[q].error, item.agreement), words(item.agreement, 4))]])],
   (row, before) => (before === agreement ? row.status : classOf(row, before)));
 }
