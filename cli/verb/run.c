@@ -277,15 +277,17 @@ static void tell_coincident(const struct cli_run *run) {
   const int64_t before = run->coincident_before, after = cli_run_coincident(run);
   if (before > 0) {
     cli_report_words(run->arguments,
-                     "%" PRId64 " springs began with both ends at one place; such a spring has no direction "
-                     "and exerts no force, until something else parts them",
+                     "%" PRId64
+                     " springs or contacts began without a direction, with both ends, or particle and "
+                     "centre, at one place; they exert no force until something else parts them",
                      before);
   }
   if (after > 0) {
     cli_report_words(
         run->arguments,
         "%" PRId64
-        " springs ended with both ends at one place; such a spring has no direction and exerts no force",
+        " springs or contacts ended without a direction, with both ends, or particle and centre, at one place; "
+        "they exert no force",
         after);
   }
 }
@@ -468,6 +470,7 @@ static const struct cli_verb_row rows[] = {
      "time between two lines of probes, a whole multiple of a fixed step; that of frames if not given"},
     {"probes", 0, "FILE", "the file of --probe, FILE.csv or FILE.h5, written while the run goes"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    HOOKE_FROM_REST,
     {"watch", 0, "Q,Q",
      "prints quantities at the end, and their smallest and largest values over all steps: 57.y, 57.reaction, "
      "group:3.tension, group:max.tension, energy, period:57.y and others of one grammar"},

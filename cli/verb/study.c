@@ -387,6 +387,7 @@ static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "FILE", "writes the rows to FILE.csv, or the whole study to FILE.h5, replacing it"},
     {"report", 0, "FILE.html",
      "writes diagrams, table and recommendation as one page to read offline, replacing it"},
+    HOOKE_FROM_REST,
 };
 
 const struct cli_verb cli_verb_study = {

@@ -59,6 +59,12 @@ HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, c
 HOOKE_API const char *hooke_measurement_column(const char *kind, const char *table, int64_t column,
                                                const char *what);
 
+/* Unit of a column of this measurement: that of its kind, but "" in place of "m" where the measurement is of
+ * a problem of coordinates (hooke_system_create_second_order()), whose numbers have units of their own. NULL
+ * if there is no such column. */
+HOOKE_API const char *hooke_measurement_unit(const hooke_measurement *measurement, const char *table,
+                                             const char *column);
+
 /* Number of rows that a table has so far; -1 if the kind has no such table. A record has one row, or none if
  * it is empty. */
 HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measurement, const char *table);

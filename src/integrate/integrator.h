@@ -91,18 +91,6 @@ struct hk_last_good {
 /* Of a run: at a checkpoint that was read, from which it has not gone on yet. */
 enum { HOOKE_NOT_BEGUN, HOOKE_BEGUN, HOOKE_AT_CHECKPOINT };
 
-/* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
- * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the
- * system scales by W. So all that takes a system takes these. */
-struct hk_generalized {
-  int64_t size;
-  hooke_force *force;
-  hooke_force_product *product; /* may be NULL */
-  void *ctx;
-  double *inverse_mass; /* those of all rows */
-  hooke_system *system; /* committed */
-};
-
 struct hooke_integrator {
   const struct hk_method *method;
   hooke_options *options;
@@ -110,8 +98,8 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_generalized *coordinates; /* NULL unless the system is made of them */
-  struct hk_pool *pool;               /* NULL: one thread */
+  hooke_system *problem; /* the system, if it is the integrator's own: a problem of coordinates */
+  struct hk_pool *pool;  /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */
   hooke_rate *rate;

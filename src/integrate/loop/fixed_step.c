@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/force/force.h"
+#include "model/generalized.h"
 #include "model/sum/strided.h"
 
 #include <stddef.h>
@@ -159,5 +160,5 @@ int32_t hk_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
 }
 
 int64_t hk_integrator_numbers(const hooke_integrator *it) {
-  return it->coordinates ? it->coordinates->size : it->size;
+  return it->system ? hk_system_numbers(it->system) : it->size;
 }

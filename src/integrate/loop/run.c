@@ -22,7 +22,8 @@ static int32_t check_numbers(const hooke_integrator *it, const hooke_state *stat
     const long long at = (long long)(k % state->size);
     hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a run starts at finite numbers", state->q[k]);
     const char *name = it->system == NULL ? "x" : k < state->size ? "position" : "velocity";
-    if (it->system == NULL || it->coordinates) return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", name, at);
+    if (it->system == NULL || it->system->generalized)
+      return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", name, at);
     return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", name, at / 3, at % 3);
   }
   return HOOKE_OK;

@@ -66,7 +66,8 @@ int32_t hk_run_options_require(const hooke_options *options, const char *where) 
 static const double OF_EXTENT = 1e-3, LARGEST = 1e300;
 
 int32_t hk_run_fill_tolerances(const hooke_system *system, hooke_options *options) {
-  const double diagonal = system ? hk_diagonal(system->particle_count, system->position) : 0.0;
+  const double diagonal =
+      system && !system->generalized ? hk_diagonal(system->particle_count, system->position) : 0.0;
   const double extent = diagonal > 0.0 ? diagonal : 1.0, rtol = hooke_options_number(options, "rtol");
   const double duration = hooke_options_number(options, "duration");
   double atol = hooke_options_number(options, "atol");

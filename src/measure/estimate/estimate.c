@@ -7,6 +7,7 @@
 #include "integrate/loop/run_loop.h"
 #include "measure/counted_work/work.h"
 #include "model/callbacks.h"
+#include "model/generalized.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -274,7 +275,8 @@ static int measure_by_reference(struct hk_estimate *e) {
     e->by = "reference";
   }
   if (is_out_of_reach(e))
-    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
+    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g%s alone", r->agreement,
+             hk_metres(e->system));
   if (r->trusted == r->frames.count) return 1;
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
@@ -421,6 +423,7 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
 }
 
 const struct hk_measurement_kind hk_estimate_kind = {.name = "estimate",
+                                                     .takes_problems = 1,
                                                      .options = &options,
                                                      .tables = hk_estimate_tables,
                                                      .claim = hk_estimate_claim,

@@ -7,6 +7,7 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "model/generalized.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -67,6 +68,12 @@ static int32_t read_times(struct hk_study *study) {
 
 static int32_t read_watch(struct hk_study *study) {
   const char *text = hooke_options_text(study->m->options, "watch");
+  const char *const of_scenes[] = {"watch", "ensemble"};
+  for (int k = 0; k < 2; k++) {
+    if (!hooke_options_is_set(study->m->options, of_scenes[k])) continue;
+    const int32_t status = hk_system_require_scene(study->m->system, of_scenes[k], "");
+    if (status != HOOKE_OK) return status;
+  }
   study->watched.system = study->m->system;
   if (hooke_options_number(study->m->options, "ensemble") == 1.0) {
     return hk_fail(HOOKE_BAD_VALUE, "ensemble",
@@ -166,6 +173,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 
 const struct hk_measurement_kind hk_study_kind = {
     .name = "study",
+    .takes_problems = 1,
     .options = &study_table,
     .needs_run = 1,
     .tables = hk_study_tables,

@@ -245,8 +245,8 @@ class Queries(Problem):
         return blocks
 
     def coincident_springs(self, q: Any) -> int:
-        """Number of springs whose ends coincide although their rest length is not zero: they have no direction and no
-        force."""
+        """Number of springs whose ends coincide although their rest length is not zero, and of particles at the centre or on
+        the axis of an obstacle, as it is at time 0: they have no direction and no force."""
         return int(lib.hooke_system_coincident_springs(self._committed(), self._argument(q, "q")))
 
     # energies

@@ -38,7 +38,7 @@ from .problems import FirstOrder, SecondOrder
 from .problems import Problem as Base
 from .scene import Scene
 from .state import State
-from .system import Force, System, system_of
+from .system import Force, System, posed, system_of
 from .why import Why
 
 #: Problems that are no scene: a system, or a first- or second-order problem.
@@ -182,7 +182,9 @@ def run(
         return once.run(wanted, start)
     if asked and state is not None:
         raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
-    system = system_of(problem, "want" if asked else "watch")
+    if output is not None:
+        system_of(problem, "output")
+    system = posed(problem) if watch is None else system_of(problem, "watch")
     wish = want.strip() if isinstance(want, str) else want
     chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=asked)
     measurement = Measurement.create("estimate", system, None, chosen)
@@ -274,8 +276,11 @@ def _run_to_want(
         method = given.get("method")
         with estimate.listening(None):
             lib.hooke_estimate_pick(estimate.handle, None if method is None else method.encode(), options._handle)
+    watched = replace(once, problem=system)
     while True:
-        result = once.run(options, system.state(), estimate)
+        result = watched.run(options, system.state(), estimate)
+        if system is not once.problem:  # its states are those of the problem, too
+            result = replace(result, problem=once.problem, state=result.state.copy())
         met = result.error is None or result.error.met
         if want is None or result.status != "finished" or met:
             return result
@@ -395,7 +400,7 @@ def measured(
     chosen = Options._of(kind)
     chosen.set(**{name: given.pop(name) for name in list(given) if name in chosen})
     scene, found, options = resolve(problem, force, given)
-    system, threads = system_of(found, kind), options["threads"]
+    system, threads = posed(found) if kind == "study" else system_of(found, kind), options["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
     made = Measurement.create(kind, system, options, chosen)

@@ -73,9 +73,11 @@ class Study(Paged, Closing, kind="study"):
     """
 
     _progress: Any = None
+    unit: str  #: that of its errors: "m", or "" where they are in the units of a problem's numbers
 
     def _read(self, found: Measurement) -> None:
         vars(self).update((name, self.rows[name]) for name in self.rows.dtype.names or ())
+        self.unit = found.unit("rows", "error")
         self.reference = found.each(Reference, "reference")[0]
         self.orders = {
             order.method: order
@@ -143,7 +145,8 @@ def study(
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Study:
-    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None) over a
+    """Runs a scene (or the path of one), a system or a first- or second-order problem by each of `methods` (all that this
+    build has, if None) over a
     ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the `Study`.
 
     The keywords `options` are those of ``hooke.describe("study")``: ladders of your own (`steps` [s], `tolerances`, from
