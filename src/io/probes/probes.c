@@ -4,6 +4,7 @@
 #include "core/keep_errno.h"
 #include "core/named_number.h"
 #include "core/number.h"
+#include "core/os/os_file.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "io/file/bytes.h"
@@ -200,7 +201,11 @@ static int32_t shorten(hooke_probes *probes) {
 }
 
 static int32_t finish(hooke_probes *probes) {
-  if (probes->failure[0]) return hk_fail(HOOKE_IO_FAILED, NULL, "%s", probes->failure);
+  if (probes->failure[0]) {
+    if (!probes->is_table)
+      (void)hk_os_set_length(probes->file.descriptor, probes->at); /* whole lines, unless that fails, too */
+    return hk_fail(HOOKE_IO_FAILED, NULL, "%s", probes->failure);
+  }
   const int32_t status = probes->is_table && probes->lines < probes->planned ? shorten(probes) : HOOKE_OK;
   return status == HOOKE_OK ? hk_atomic_file_finish(&probes->file) : status;
 }
