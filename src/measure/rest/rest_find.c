@@ -16,7 +16,8 @@
 
 /* Steps begin at some of the explicit limit and grow and shrink by these factors, up to the longest, over the
  * first. */
-static const double FIRST = 8.0, LONGER = 4.0, MUCH_LONGER = 16.0, SHORTER = 0.125, LONGEST = 1e10, SHORTEST = 1e-8;
+static const double FIRST = 8.0, LONGER = 4.0, MUCH_LONGER = 16.0, SHORTER = 0.125, LONGEST = 1e10,
+                    SHORTEST = 1e-8;
 /* The first step of a scene without stiffness [s]. */
 static const double WITHOUT_STIFFNESS = 1e-3;
 /* Residuals over the largest force: that of rest, and where one that no longer falls is as small as it gets.
