@@ -71,13 +71,14 @@ const struct cli_verb cli_verb_rest = {
     .name = "rest",
     .summary = "where a scene is at rest, and whether its energy is least there",
     .text =
-        "Moves the particles from where they are to where all forces are in equilibrium, at the time of the start "
-        "and without motion: what the scene prescribes in time stays at its value there, and friction is left out. "
-        "Says how large a force remains, whether small displacements raise the energy, and what is watched. The "
-        "exit code is 7 if there is no rest, or none was found.",
+        "Moves the particles from where they are to where all forces are in equilibrium, at the time of the "
+        "start and without motion: what the scene prescribes in time stays at its value there, and friction "
+        "is left out. Says how large a force remains, whether small displacements raise the energy, and "
+        "what is watched. The exit code is 7 if there is no rest, or none was found.",
     .example = "hooke rest cloth.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = "rest",
-    .without = "method step duration every checkpoint rtol atol threads",
+    .without =
+        "method step duration every checkpoint newton newton_tolerance verlet_damping rtol atol atol_velocity max_order linear_solver max_steps past_divergence frames_after threads",
     .function = do_rest,
 };

@@ -1,8 +1,11 @@
 """hooke rest: words, JSON, exit codes."""
 
+from pathlib import Path
+
 import pytest
 from conftest import SIX_PARTICLES
 
+SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 HANGING = {
     "hooke": 1,
     "gravity": [0, -10, 0],
@@ -41,7 +44,7 @@ def test_what_falls_has_exit_7(hooke, write):
 
 
 def test_what_is_not_found_is_said_so(hooke):
-    answer = hooke("rest", "examples/scenes/cloth-64.json", "--json", "--budget", "1ms")
+    answer = hooke("rest", SCENES / "cloth-64.json", "--json", "--budget", "1ms")
     assert answer.code == 7 and answer.json["claims"][0]["of"] == "unknown"
 
 
