@@ -10,10 +10,6 @@
 
 static const double ROUNDING = 1e-12;
 
-static const double *position_of(const struct cli_run *run) {
-  return hooke_state_position(run->setup.state);
-}
-
 static const double *velocity_of(const struct cli_run *run) {
   return hooke_state_velocity(run->setup.state);
 }
@@ -243,16 +239,8 @@ int cli_want_exit_code(const struct cli_run *run) {
 
 /* ---- JSON ---- */
 
-static void print_vectors(const char *key, int64_t rows, const double *xyz) {
-  cli_print_json("%s: [", key);
-  for (int64_t row = 0; row < rows; row++, xyz += 3)
-    cli_print_json(row ? ", [%g, %g, %g]" : "[%g, %g, %g]", xyz[0], xyz[1], xyz[2]);
-  cli_print_json("]");
-}
-
 /* What is said of it, and where every particle is. */
 static void print_json_end(const struct cli_run *run) {
-  const int64_t particles = hooke_system_particle_count(run->setup.system);
   hooke_measurement *const says[] = {run->why, run->why && !watches(run) ? NULL : run->estimate};
   const char *before = "";
   cli_print_json("'claims': [");
@@ -262,13 +250,7 @@ static void print_json_end(const struct cli_run *run) {
     before = ", ";
   }
   cli_print_json("]");
-  if (cli_arguments_text(run->arguments, "final")) {
-    cli_print_json(", 'final': {");
-    print_vectors("position", particles, position_of(run));
-    cli_print_json(", ");
-    print_vectors("velocity", particles, velocity_of(run));
-    cli_print_json("}");
-  }
+  if (cli_arguments_text(run->arguments, "final")) cli_print_final_json(run->setup.state);
   cli_print_json("}\n");
 }
 
@@ -374,15 +356,5 @@ void cli_run_print(const struct cli_run *run) {
 }
 
 void cli_run_print_final(const struct cli_run *run) {
-  const double *q = position_of(run), *v = velocity_of(run);
-  char text[HOOKE_NUMBER_SIZE];
-  if (run->arguments->json || !cli_arguments_text(run->arguments, "final")) return;
-  printf("\nparticle x y z [m] vx vy vz [m/s]\n");
-  for (int64_t i = 0; i < hooke_system_particle_count(run->setup.system); i++) {
-    printf("%" PRId64, i);
-    for (int64_t k = 0; k < 6; k++)
-      printf(" %s", cli_format_number(k < 3 ? q[3 * i + k] : v[3 * i + k - 3], text));
-    printf("\n");
-  }
-  cli_print_flush();
+  if (!run->arguments->json && cli_arguments_text(run->arguments, "final")) cli_print_final(run->setup.state);
 }

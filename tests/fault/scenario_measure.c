@@ -50,6 +50,18 @@ end:
   release(&m);
 }
 
+SCENARIO(rest) {
+  struct made m = {.system = make_rope(a, 5)};
+  m.measurement = make_measurement(a, "rest", m.system, m.run, "watch=3.y");
+  if (m.measurement == NULL) goto end;
+  TRY(a, hooke_measurement_run(m.measurement, NULL));
+  TAKE(m.measurement, "rest", "status", "#residual", "#minimum");
+  TAKE(m.measurement, "watched", "quantity", "#value");
+  (void)with;
+end:
+  release(&m);
+}
+
 SCENARIO(why) {
   struct made m = {.system = make_rope(a, 3)};
   m.run = make_options(a, "run", "method=symplectic-euler step=0.05 duration=100 every=1");
@@ -175,6 +187,7 @@ end:
 }
 
 const struct scenario measuring[] = {
+    {"rest", rest, NULL, 1, "lapack", NULL},
     {"limit, predicted", limit, NULL, 1, "lapack", NULL},
     {"limit, measured", limit, "", 5, "lapack", NULL},
     {"why", why, NULL, 20, "lapack", NULL},

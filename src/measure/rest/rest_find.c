@@ -16,17 +16,18 @@
 
 /* Steps begin at some of the explicit limit and grow and shrink by these factors, up to the longest, over the
  * first. */
-static const double FIRST = 8.0, LONGER = 4.0, SHORTER = 0.125, LONGEST = 1e10, SHORTEST = 1e-8;
+static const double FIRST = 8.0, LONGER = 4.0, MUCH_LONGER = 16.0, SHORTER = 0.125, LONGEST = 1e10,
+                    SHORTEST = 1e-8;
 /* The first step of a scene without stiffness [s]. */
 static const double WITHOUT_STIFFNESS = 1e-3;
 /* Residuals over the largest force: that of rest, and where one that no longer falls is as small as it gets.
  */
-static const double AT_REST = 1e-8, ROUNDINGS = 16.0 * DBL_EPSILON, LEAST = 1e-14;
+static const double AT_REST = 1e-8, ROUNDINGS = 16.0 * DBL_EPSILON, LEAST = 1e-12;
 /* A scene that has come this many times its extent under a force that stays, falls. */
 /* Of the change over a step, how exactly its equations are solved. */
 static const double NEWTON = 0.1;
 static const double FAR = 1e6, STAYS = 0.9, FALLEN = 0.5;
-enum { MOST_STEPS = 400, MOST_NUMBERS = 400 };
+enum { MOST_STEPS = 400, MOST_NUMBERS = 100, FEW = 3 };
 
 struct search {
   const hooke_system *system;
@@ -267,6 +268,7 @@ static int32_t search(struct search *s) {
   s->begun = found->residual;
   for (double h = first; status == HOOKE_OK && found->residual != 0.0;) {
     const double before = found->residual;
+    const int64_t counted = s->it->count.nonlinear_iterations;
     int ok;
     if (hk_budget_ends(s->budget, "rest") || found->steps + found->failures >= MOST_STEPS) {
       found->lack = HOOKE_REST_SPENT;
@@ -278,7 +280,8 @@ static int32_t search(struct search *s) {
     found->failures += !ok;
     status = find_residual(s);
     if (ok && status == HOOKE_OK && is_over(s, before, &stalled)) break;
-    h = ok ? fmin(LONGER * h, LONGEST * first) : SHORTER * h;
+    const int easy = s->it->count.nonlinear_iterations - counted <= FEW;
+    h = ok ? fmin((easy ? MUCH_LONGER : LONGER) * h, LONGEST * first) : SHORTER * h;
     if (h < SHORTEST * first || !isfinite(found->residual)) {
       found->lack = HOOKE_NO_WAY_ON;
       break;
@@ -303,10 +306,10 @@ int32_t hk_rest_find(const hooke_system *system, double t, double *q, struct hk_
     hk_motion_load(&s.still, s.it->motion, q, zeros);
     stop_motion(&s);
     status = search(&s);
-    if (status == HOOKE_STOPPED && budget && budget->spent && !budget->stopped) {
-      status = HOOKE_OK;
-      found->lack = HOOKE_REST_SPENT;
-    }
+    if (budget && budget->stopped)
+      status = hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+    else if (status == HOOKE_STOPPED && budget && budget->spent)
+      status = HOOKE_OK, found->lack = HOOKE_REST_SPENT;
     (void)find_scale(&s);
     hk_motion_store(s.it->motion, q, zeros);
     found->iterations = s.it->count.nonlinear_iterations;

@@ -17,6 +17,7 @@ from .options import Options
 from .state import State, restored
 
 if TYPE_CHECKING:
+    from .rest import Rest
     from .results import Result
 
 #: rate(t, x, rate): writes x' into its last argument, arrays (size,).
@@ -34,10 +35,15 @@ class Problem(Owner):
     _shown: dict[str, Any]  #: how `State` shows its states, where it has no particles
     #: hooke.run, which is above all problems and so sets this itself.
     _run_by: Callable[..., Result]
+    _rest_by: Callable[..., Rest]  #: hooke.rest, likewise
 
     def run(self, **options: Any) -> Result:
         """Runs it; see `hooke.run`."""
         return Problem._run_by(self, **options)
+
+    def rest(self, **options: Any) -> Rest:
+        """Finds where it is at rest; see `hooke.rest`."""
+        return Problem._rest_by(self, **options)
 
 
 class FirstOrder(Problem):
