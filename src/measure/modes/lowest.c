@@ -8,7 +8,6 @@
 #include "measure/spectrum/eigen/dense.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 void hk_lowest_release(struct hk_lowest *lowest) {
@@ -192,6 +191,20 @@ static void orthonormalise(struct search *s, int64_t k) {
   }
 }
 
+/* The block becomes the sums of the first m vectors with these rows of factors, one number of all at a time.
+ */
+static void combine(struct search *s, int64_t m, const double *factor, double *sum) {
+  for (int64_t i = 0; i < s->n; i++) {
+    for (int64_t k = 0; k < s->block; k++) {
+      sum[k] = 0.0;
+      for (int64_t c = 0; c < m; c++)
+        sum[k] += factor[k * m + c] * s->basis[c * s->n + i];
+    }
+    for (int64_t k = 0; k < s->block; k++)
+      s->basis[k * s->n + i] = sum[k];
+  }
+}
+
 /* Fills the basis from its first `block` vectors on, and finds in it the largest eigenvalues of the inverse,
  * which take their place. */
 static int32_t go_round(struct search *s) {
@@ -210,20 +223,36 @@ static int32_t go_round(struct search *s) {
     if (hk_budget_ends(s->budget, "modes")) status = HOOKE_STOPPED;
   }
   if (status == HOOKE_OK) status = hk_dense_symmetric(m, h, theta, vector);
-  /* one number of all vectors at a time */
-  double *sum = theta + m;
-  for (int64_t i = 0; i < n && status == HOOKE_OK; i++) {
-    for (int64_t k = 0; k < s->block; k++) {
-      sum[k] = 0.0;
-      for (int64_t c = 0; c < m; c++)
-        sum[k] += vector[k * m + c] * s->basis[c * n + i];
-    }
-    for (int64_t k = 0; k < s->block; k++)
-      s->basis[k * n + i] = sum[k];
-  }
+  if (status == HOOKE_OK) combine(s, m, vector, theta + m);
   for (int64_t k = 0; k < s->block && status == HOOKE_OK; k++) {
     s->before[k] = s->value[k];
     s->value[k] = 1.0 / theta[k] - s->inverse.shift;
+  }
+  hk_free(h);
+  return status;
+}
+
+/* Once more by the inverse, which clears stiff motions away, and then by the matrix itself, which the shift
+ * hides, in ascending order. */
+static int32_t sharpen(struct search *s) {
+  const int64_t n = s->n, m = s->block;
+  double *h = hk_new(2 * m * m + m, sizeof(double)), *vector = h + m * m;
+  if (h == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < m; k++) {
+    divide(&s->inverse, s->basis + k * n, s->product);
+    memcpy(s->basis + k * n, s->product, (size_t)n * sizeof(double));
+    orthonormalise(s, k);
+  }
+  for (int64_t k = 0; k < m; k++) {
+    hk_columns_multiply(s->inverse.matrix, s->basis + k * n, s->product);
+    for (int64_t j = 0; j <= k; j++)
+      h[j * m + k] = h[k * m + j] = hk_dot(n, s->basis + j * n, s->product);
+  }
+  const int32_t status = hk_dense_symmetric(m, h, s->value, vector);
+  if (status == HOOKE_OK) {
+    turn_around(m, 1, s->value);
+    turn_around(m, m, vector);
+    combine(s, m, vector, vector + m * m);
   }
   hk_free(h);
   return status;
@@ -248,12 +277,7 @@ static int32_t settle(struct search *s, int64_t have, int64_t wanted) {
   }
   if (status == HOOKE_OK && !settled)
     return hk_fail(HOOKE_SOLVER_FAILED, NULL, "the lowest %lld modes were not found", (long long)wanted);
-  /* more exact than by the shift */
-  for (int64_t k = 0; k < wanted && status == HOOKE_OK; k++) {
-    hk_columns_multiply(s->inverse.matrix, s->basis + k * s->n, s->product);
-    s->value[k] = hk_dot(s->n, s->basis + k * s->n, s->product);
-  }
-  return status;
+  return status == HOOKE_OK ? sharpen(s) : status;
 }
 
 static int32_t grow(struct search *s, int64_t wanted) {
@@ -264,32 +288,6 @@ static int32_t grow(struct search *s, int64_t wanted) {
   if (status == HOOKE_OK) status = hk_grow((void **)&s->before, s->block, block, sizeof(double));
   s->block = block;
   return status;
-}
-
-static int compare(const void *a, const void *b) {
-  const double x = **(const double *const *)a, y = **(const double *const *)b;
-  return (x > y) - (x < y);
-}
-
-/* Rounding may have exchanged some. */
-static int32_t sort(struct search *s, int64_t count) {
-  const double **at = hk_new(count, sizeof *at);
-  double *kept = hk_new(count * (s->n + 1), sizeof(double));
-  const int fine = at && kept;
-  for (int64_t k = 0; k < count && fine; k++)
-    at[k] = s->value + k;
-  if (fine) {
-    qsort(at, (size_t)count, sizeof *at, compare);
-    for (int64_t k = 0; k < count; k++) {
-      kept[count * s->n + k] = *at[k];
-      memcpy(kept + k * s->n, s->basis + (at[k] - s->value) * s->n, (size_t)s->n * sizeof(double));
-    }
-    memcpy(s->basis, kept, (size_t)(count * s->n) * sizeof(double));
-    memcpy(s->value, kept + count * s->n, (size_t)count * sizeof(double));
-  }
-  hk_free(at);
-  hk_free(kept);
-  return fine ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 int32_t hk_lowest_sparse(const struct hk_columns *matrix, double bound, int64_t count,
@@ -311,7 +309,6 @@ int32_t hk_lowest_sparse(const struct hk_columns *matrix, double bound, int64_t 
     for (int64_t k = 0; k < wanted && status == HOOKE_OK; k++)
       others += fabs(s.value[k]) > HOOKE_MODES_ZERO * bound;
   }
-  if (status == HOOKE_OK) status = sort(&s, wanted);
   if (status == HOOKE_OK) status = take(n, wanted, s.value, s.basis, bound, count, lowest);
   release(&s.inverse);
   hk_free(s.basis);

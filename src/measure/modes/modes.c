@@ -40,15 +40,25 @@ static double residual_of(const struct hk_stiffness *s) {
   return most;
 }
 
-static double largest_tension(const hooke_system *system, const double *q) {
-  double most = 0.0;
+/* Parts of the largest forces that are rounding, or nothing to speak of: of springs and weights, and of what
+ * springs would bear at twice their length. */
+static const double AT_REST = 1e-6, STRETCHED = 1e-12;
+
+static void judge_rest(struct hk_modes *modes, const struct hk_stiffness *s, const double *q) {
+  const hooke_system *system = modes->system;
+  double weight = 0.0, strength = 0.0;
+  modes->residual = residual_of(s);
+  modes->largest_force = 0.0;
   for (int64_t k = 0; k < system->springs->count; k++) {
     const struct hk_spring spring = hk_springs_find(system->springs, k, system->moment);
-    struct hk_stretch s;
-    hk_spring_stretch(&spring, q, NULL, &s);
-    most = fmax(most, fabs(s.tension));
+    struct hk_stretch stretch;
+    hk_spring_stretch(&spring, q, NULL, &stretch);
+    modes->largest_force = fmax(modes->largest_force, fabs(stretch.tension));
+    strength = fmax(strength, fabs(stretch.slope) * stretch.length);
   }
-  return most;
+  for (int64_t p = 0; p < system->particle_count && system->has_gravity; p++)
+    weight = fmax(weight, system->constrained[p] ? 0.0 : system->mass[p] * hk_length3(system->gravity));
+  modes->at_rest = modes->residual <= AT_REST * fmax(weight, modes->largest_force) + STRETCHED * strength;
 }
 
 /* ---- parts of the stiffness ---- */
@@ -118,13 +128,20 @@ static int32_t damping_of(const struct hk_stiffness *s, const double *q, const d
   return status;
 }
 
+/* Of the root of all masses. */
+static const double ROUNDING = 1e-12;
+
 static void find_masses(const hooke_system *system, struct hk_mode *mode) {
-  double along[3] = {0.0, 0.0, 0.0};
+  double along[3] = {0.0, 0.0, 0.0}, all = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (!system->constrained[p]) hk_add3(system->mass[p], mode->shape + 3 * p, along);
+    if (system->constrained[p]) continue;
+    hk_add3(system->mass[p], mode->shape + 3 * p, along);
+    all += system->mass[p];
   }
   for (int a = 0; a < 3; a++)
-    mode->mass[a] = system->overdamped ? NAN : along[a] * along[a];
+    mode->mass[a] = system->overdamped                      ? NAN
+                    : fabs(along[a]) < ROUNDING * sqrt(all) ? 0.0
+                                                            : along[a] * along[a];
 }
 
 /* The largest displacement becomes 1 long, and its largest component positive. */
@@ -183,8 +200,7 @@ static int32_t find(struct hk_modes *modes, const double *q, const double *v, in
                     struct hk_budget *budget, struct hk_stiffness *s, struct hk_lowest *lowest) {
   int32_t status = hk_stiffness_create(modes->system, q, s);
   if (status != HOOKE_OK) return status;
-  modes->residual = residual_of(s);
-  modes->largest_force = largest_tension(modes->system, q);
+  judge_rest(modes, s, q);
   modes->skew = s->skew;
   modes->unknowns = s->count;
   status = hk_lowest_find(&s->matrix, s->bound, count, budget, lowest);

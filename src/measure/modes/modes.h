@@ -29,6 +29,7 @@ struct hk_modes {
   double time, residual,
       largest_force; /* [N]: what is left on a particle or body, and the most in a spring */
   double skew;       /* of the stiffness, see stiffness.h */
+  int32_t at_rest;   /* 1: what is left is next to nothing */
   int32_t moves;     /* 1: the state has velocities, which count for damping alone */
   int64_t unknowns;
   /* without stiffness; -1: not all are known. Of those found, connected pieces as rigid bodies. */

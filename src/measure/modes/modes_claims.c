@@ -7,9 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Forces that are left at rest, against the largest in a spring, and differences of the stiffness from its
- * transpose, that are not told. */
-static const double AT_REST = 1e-6, SYMMETRIC = 1e-6;
+/* A difference of the stiffness from its transpose that is not told. */
+static const double SYMMETRIC = 1e-6;
 
 static const char *ending(long long count) {
   return count == 1 ? "" : "s";
@@ -59,14 +58,8 @@ static void tell_zeros(const struct hk_modes *modes, struct hk_claims *claims) {
              (long long)modes->zero_modes, ending((long long)modes->zero_modes), kinds, HOOKE_MODES_ZERO);
 }
 
-/* A spring that weighs nothing against gravity is no measure of it. */
 static void tell_state(const struct hk_modes *modes, struct hk_claims *claims) {
-  double scale = modes->largest_force;
-  for (int64_t p = 0; p < modes->system->particle_count; p++) {
-    for (int a = 0; a < 3 && !modes->system->constrained[p]; a++)
-      scale = fmax(scale, fabs(modes->system->mass[p] * modes->system->gravity[a]));
-  }
-  if (modes->residual > AT_REST * scale)
+  if (!modes->at_rest)
     hk_claim(claims, "not-at-rest", HOOKE_OF_WHOLE, "forces",
              "the state is not at rest: a force of %.6g N is left where the largest of a spring is %.6g N; "
              "the modes are those of its stiffness all the same",
