@@ -62,6 +62,7 @@ static const struct page {
     {"limit", "mode.js", "rows", hk_limit_page_add},
     {"needs", NULL, NULL, hk_needs_page_add},
     {"why", "mode.js", NULL, hk_why_page_add},
+    {"modes", NULL, NULL, hk_modes_page_add},
 };
 
 static const struct page *find(const hooke_measurement *m) {

@@ -177,19 +177,21 @@ static int32_t take_modes(struct hk_modes *modes, const struct hk_stiffness *s, 
                           const double *v, const struct hk_lowest *lowest) {
   const int64_t size = 3 * modes->system->particle_count, each = size + modes->part_count;
   modes->mode = hk_new(lowest->count, sizeof *modes->mode);
-  double *block = modes->block = hk_new(lowest->count * each + size, sizeof(double)), damping;
+  double *block = modes->block = hk_new(lowest->count * each + 2 * size, sizeof(double)),
+         *out = block ? block + lowest->count * each : NULL, damping;
   int32_t status = modes->mode && block ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < lowest->count && status == HOOKE_OK; k++) {
     struct hk_mode *mode = &modes->mode[k];
     mode->shape = hk_part(&block, size);
     mode->share = hk_part(&block, modes->part_count);
     hk_stiffness_spread(s, lowest->vector + k * s->count, mode->shape);
-    status = damping_of(s, q, v, mode->shape, modes->block + lowest->count * each, &damping);
+    status = damping_of(s, q, v, mode->shape, out, &damping);
     name_numbers(modes->system, lowest->value[k], damping, mode);
     find_masses(modes->system, mode);
     modes->unstable += mode->growth > 0.0;
     modes->count++;
   }
+  if (status == HOOKE_OK) modes->position = memcpy(out + size, q, (size_t)size * sizeof(double));
   if (status == HOOKE_OK) find_shares(modes, s, q);
   for (int64_t k = 0; k < modes->count && status == HOOKE_OK; k++)
     scale(modes->system->particle_count, modes->mode[k].shape);

@@ -38,7 +38,8 @@ struct hk_modes {
   struct hk_mode *mode;    /* ascending by x.Kx */
   int64_t part_count;
   struct hk_modes_part *part;
-  double *block; /* shapes and shares */
+  double *block;          /* shapes and shares */
+  const double *position; /* of the state (3n) */
 };
 
 /* The `count` lowest modes that have stiffness, of a committed system at positions q and velocities v (3n) of
