@@ -166,7 +166,7 @@ static void divide(const struct inverse *x, const double *y, double *out) {
  * inverse is applied before vectors are combined anew; and the most rounds. */
 enum { MORE = 8, BLOCKS = 3, ROUNDS = 60 };
 /* Change of eigenvalues between rounds, against each and against the bound. */
-static const double SETTLED = 1e-10, ROUNDING = 1e-14;
+static const double SETTLED = 1e-12, ROUNDING = 1e-14;
 
 struct search {
   struct inverse inverse;
@@ -224,10 +224,6 @@ static int32_t go_round(struct search *s) {
   }
   if (status == HOOKE_OK) status = hk_dense_symmetric(m, h, theta, vector);
   if (status == HOOKE_OK) combine(s, m, vector, theta + m);
-  for (int64_t k = 0; k < s->block && status == HOOKE_OK; k++) {
-    s->before[k] = s->value[k];
-    s->value[k] = 1.0 / theta[k] - s->inverse.shift;
-  }
   hk_free(h);
   return status;
 }
@@ -268,16 +264,16 @@ static int32_t settle(struct search *s, int64_t have, int64_t wanted) {
   for (int64_t k = 0; k < s->block; k++)
     s->value[k] = INFINITY;
   for (int round = 0; round < ROUNDS && !settled && status == HOOKE_OK; round++) {
+    memcpy(s->before, s->value, (size_t)s->block * sizeof(double));
     status = go_round(s);
+    if (status == HOOKE_OK) status = sharpen(s);
     settled = status == HOOKE_OK;
     for (int64_t k = 0; k < wanted && settled; k++)
       settled = fabs(s->value[k] - s->before[k]) <= SETTLED * fabs(s->value[k]) + ROUNDING * s->bound;
-    for (int64_t k = 0; k < s->block && status == HOOKE_OK; k++)
-      orthonormalise(s, k);
   }
   if (status == HOOKE_OK && !settled)
     return hk_fail(HOOKE_SOLVER_FAILED, NULL, "the lowest %lld modes were not found", (long long)wanted);
-  return status == HOOKE_OK ? sharpen(s) : status;
+  return status;
 }
 
 static int32_t grow(struct search *s, int64_t wanted) {

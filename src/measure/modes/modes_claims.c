@@ -52,10 +52,12 @@ static void tell_zeros(const struct hk_modes *modes, struct hk_claims *claims) {
     hk_claim(claims, "zero-modes", HOOKE_OF_UNKNOWN, "eigenvalues",
              "modes without stiffness were not all looked for; found: %lld%s", (long long)modes->zeros_found,
              kinds);
+  else if (modes->zero_modes == 0)
+    hk_claim(claims, "zero-modes", HOOKE_OF_WHOLE, "eigenvalues", "no mode is without stiffness");
   else
     hk_claim(claims, "zero-modes", HOOKE_OF_WHOLE, "eigenvalues",
-             "%lld mode%s without stiffness%s, its square of frequency within %g of the largest there is",
-             (long long)modes->zero_modes, ending((long long)modes->zero_modes), kinds, HOOKE_MODES_ZERO);
+             "%lld mode%s without stiffness, by a square of frequency within %g of a bound on all%s",
+             (long long)modes->zero_modes, modes->zero_modes == 1 ? " is" : "s are", HOOKE_MODES_ZERO, kinds);
 }
 
 static void tell_state(const struct hk_modes *modes, struct hk_claims *claims) {

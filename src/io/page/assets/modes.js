@@ -66,8 +66,8 @@ function look(what, key) {
 }
 
 function startModes() {
-  choice("mode", data.modes.map((mode, k) => [k, [`${k}`]]), 0, (key) => look("mode", key));
+  choice("mode", data.modes.map((_, k) => [`${k}`, [`${k}`]]), "0", (key) => look("mode", Number(key)));
   choice("view", [...VIEW_CHOICES, ["aside", ["aside"]]], firstView(), (key) => look("view", key));
-  choice("running", [[true, ["play"]], [false, ["stop"]]], true, (key) => look("running", key));
+  choice("running", [["play", ["play"]], ["stop", ["stop"]]], "play", (key) => look("running", key === "play"));
   requestAnimationFrame(step);
 }
