@@ -149,6 +149,14 @@ HOOKE_API int32_t hooke_system_add_obstacle(hooke_system *system, int64_t count,
 HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t count,
                                         const int64_t *particles, int32_t project);
 
+/* Where the motion starts, if not where the particles were given, in place of an earlier call: positions [m]
+ * and velocities [m/s], 3 `count` each, of all particles there will be; `velocity` NULL: those given. Rest
+ * lengths, bodies, clamps and anchors stay those of the given, undeformed positions. Commit wants one place
+ * for each particle, for a pinned one its own; a driven one starts where its motion says. HOOKE_BAD_VALUE,
+ * HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_start_at(hooke_system *system, int64_t count, const double *position,
+                                        const double *velocity);
+
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 

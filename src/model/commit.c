@@ -183,7 +183,8 @@ void hk_system_undo(hooke_system *system) {
 int32_t hooke_system_commit(hooke_system *system) {
   int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
-  status = check_pinned_at_rest(system);
+  status = hk_start_check(system);
+  if (status == HOOKE_OK) status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = hk_groups_check_free(system);
   if (status == HOOKE_OK) status = hk_names_check(system);
   if (status == HOOKE_OK) status = hk_medium_check(system);
@@ -208,6 +209,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   for (int64_t g = 0; g < system->group_count; g++)
     hk_group_release_columns(&system->group[g]);
   trim_particles(system);
+  hk_start_commit(system);
   system->rest->committed = 1;
   return HOOKE_OK;
 }

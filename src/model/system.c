@@ -42,6 +42,7 @@ static void release_model(hooke_system *system) {
   hk_movers_release(system);
   hk_names_release(system);
   hk_medium_release(system->medium);
+  hk_start_release(&system->rest->start);
   hk_system_drop_derived(system, 0);
   void *const block[] = {system->position, system->velocity,   system->mass,           system->constrained,
                          system->group,    system->part,       system->gravity_factor, system->rest->derived,

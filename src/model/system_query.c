@@ -92,6 +92,7 @@ static int64_t memory(const hooke_system *system) {
            (system->constrained_count + system->pin_count) * (int64_t)sizeof(int32_t);
   if (system->gravity_factor)
     bytes += (system->rest->particle_capacity + HOOKE_STRIDED_UNIT) * (int64_t)sizeof(double);
+  if (system->rest->start.undeformed) bytes += 3 * system->particle_count * (int64_t)sizeof(double);
   bytes += hk_movers_memory(system);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +

@@ -184,10 +184,12 @@ static void add_particles(struct writer *to) {
     return;
   }
   hk_text_open(text, "particles", '{');
-  take_alone(to, 3, system->position, rows);
+  take_alone(to, 3, hk_undeformed_position(system), rows);
   add_numbers(text, "position", 3 * count, 3, rows);
+  const int32_t starts = system->rest->start.undeformed != NULL; /* which has the velocities */
   if (system->velocity) take_alone(to, 3, system->velocity, rows);
-  if (system->velocity && is_moving(3 * count, rows)) add_numbers(text, "velocity", 3 * count, 3, rows);
+  if (!starts && system->velocity && is_moving(3 * count, rows))
+    add_numbers(text, "velocity", 3 * count, 3, rows);
   take_alone(to, 1, system->mass, rows);
   if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
   if (system->gravity_factor) take_alone(to, 1, system->gravity_factor, rows);
@@ -407,6 +409,27 @@ static void add_each(struct writer *to, const char *key, const struct hk_each *e
   hk_free(rows);
 }
 
+/* Rows of all particles, by their numbers in the scene. */
+static void add_rows(struct writer *to, const char *key, const double *value) {
+  const int64_t n = to->system->particle_count;
+  double *rows = hk_new(3 * n, sizeof *rows);
+  if (rows == NULL) to->json.status = HOOKE_NO_MEMORY;
+  for (int64_t p = 0; p < n && rows; p++)
+    memcpy(rows + 3 * to->number[p], value + 3 * p, 3 * sizeof *rows);
+  if (rows) add_numbers(&to->json, key, 3 * n, 3, rows);
+  hk_free(rows);
+}
+
+static void add_start(struct writer *to) {
+  const hooke_system *system = to->system;
+  if (system->rest->start.undeformed == NULL) return;
+  hk_text_open(&to->json, "start", '{');
+  add_rows(to, "position", system->position);
+  if (system->velocity && is_moving(3 * system->particle_count, system->velocity))
+    add_rows(to, "velocity", system->velocity);
+  hk_text_close(&to->json, '}');
+}
+
 static void add_medium(struct writer *to) {
   const struct hk_medium *medium = to->system->medium;
   add_each(to, "drag", &medium->drag);
@@ -456,6 +479,7 @@ static void add_scene(struct writer *to, const char *title, const hooke_options 
   if (system->part_count > 0) add_parts(to);
   if (system->rest->name_count > 0) add_names(to);
   add_lists(to);
+  add_start(to);
   if (run) {
     hk_text_open(text, "run", '{');
     add_options(text, run, NULL);

@@ -150,6 +150,15 @@ class System(Queries):
         count = self.particle_count - first if count is None else count
         lib.hooke_system_set_gravity_factor(self._handle, first, count, factor.size, double_pointer(factor))
 
+    def start_at(self, position: Any, velocity: Any = None) -> None:
+        """Where the motion starts, if not where the particles were given: `position` [m] and `velocity` [m/s] of all of
+        them (n, 3); velocities None: those given. Rest lengths, bodies, clamps and anchors stay those of the given
+        positions. Pinned particles keep their places, driven ones start where their motion says."""
+        places = particle_keys(position, velocity, ())
+        count, v = np.size(places["position"]) // 3, places.get("velocity")
+        rows = double_pointer(places["position"]), None if v is None else double_pointer(v)
+        lib.hooke_system_start_at(self._handle, count, *rows)
+
     def limit_memory(self, size: float) -> None:
         """Sets the maximum memory of the system [bytes]; 0: the machine's memory. From here on, additions that would
         need more are refused (NoMemory)."""
