@@ -1,15 +1,12 @@
 """hooke.modes: values known beforehand, frames of bodies and cables, zero modes, damping, and what states are refused or told."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import hooke
 
-RANDOM = np.random.default_rng(5)
-CASES = Path(__file__).parents[1] / "data" / "cases"
 
 
 def turned(axis):
@@ -48,31 +45,31 @@ class Frame:
         unit = h * np.eye(self.size)
         return np.array([(np.asarray(of(e)) - np.asarray(of(-e))) / (2 * h) for e in unit])
 
-    def brace(self, pairs, stiffness, tension=None):
-        """Rest lengths by which the springs hold the frame as it is: tensions that balance, or the nearest to these."""
+    def lengths(self, y):
+        return np.linalg.norm(np.subtract(*self.place(y)[self.pairs.T]), axis=1)
+
+    def brace(self, pairs, stiffness, tension):
+        """Rest lengths by which the springs hold the frame as it is: the tensions that balance which are nearest to these."""
         self.pairs, self.stiffness = np.asarray(pairs), np.asarray(stiffness, float)
-        lengths = lambda y: np.linalg.norm(np.subtract(*self.place(y)[self.pairs.T]), axis=1)
-        balance = np.linalg.svd(self.slopes(lengths))[2][np.linalg.matrix_rank(self.slopes(lengths), tol=1e-6) :]
-        tension = balance.T @ (balance @ (RANDOM.normal(size=len(pairs)) if tension is None else tension))
-        self.rest = lengths(np.zeros(self.size)) - tension / self.stiffness
+        slopes = self.slopes(self.lengths)
+        balance = np.linalg.svd(slopes)[2][np.linalg.matrix_rank(slopes, tol=1e-6) :]
+        tension = balance.T @ (balance @ tension)
+        self.rest = self.lengths(np.zeros(self.size)) - tension / self.stiffness
         return tension
 
     def energy(self, y):
-        lengths = np.linalg.norm(np.subtract(*self.place(y)[self.pairs.T]), axis=1)
-        return float(np.sum(0.5 * self.stiffness * (lengths - self.rest) ** 2))
+        return float(np.sum(0.5 * self.stiffness * (self.lengths(y) - self.rest) ** 2))
 
     def squares(self):
         """Of the frequencies, of both signs, from differences of the energy and of the positions."""
         free = np.setdiff1d(np.arange(len(self.q)), self.pinned)
         moves = self.slopes(lambda y: self.place(y)[free].ravel())
         mass, h = moves * np.repeat(self.mass[free], 3) @ moves.T, 1e-4
-        unit, here = h * np.eye(self.size), self.energy(np.zeros(self.size))
-        stiffness = np.empty((self.size, self.size))
+        unit, stiffness = h * np.eye(self.size), np.empty((self.size, self.size))
         for i, a in enumerate(unit):
             for j, b in enumerate(unit):
                 stiffness[i, j] = (self.energy(a + b) - self.energy(a - b) - self.energy(b - a) + self.energy(-a - b)) / (4 * h * h)
-        assert np.isfinite(here)
-        return np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)
+            return np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)
 
     def system(self):
         system = hooke.System()
@@ -114,15 +111,14 @@ def test_a_mast_is_held_by_the_tension_of_its_guys_alone():
     assert hooke.modes(frame.system()).zero_modes == 1 == found.zero_modes
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_frames_of_bodies_and_cables(seed):
-    global RANDOM
-    RANDOM = np.random.default_rng(seed)
+    random = np.random.default_rng(seed)
     bodies = [(0, 1, 2, 3), (4, 5, 6, 7)]
-    q, mass = RANDOM.normal(size=(14, 3)), RANDOM.uniform(0.5, 2, 14)
+    q, mass = random.normal(size=(14, 3)), random.uniform(0.5, 2, 14)
     frame = Frame(q, mass, bodies, (8, 9, 10, 11) if seed else (0, 8, 9, 10, 11))
-    pairs = [(a, b) for a in (0, 1, 2, 3, 12, 13) for b in (4, 5, 6, 7, 8, 9, 10, 11) if RANDOM.random() < 0.6]
-    tension = frame.brace(pairs, RANDOM.uniform(5, 50, len(pairs)))
+    pairs = [(a, b) for a in (0, 1, 2, 3, 12, 13) for b in (4, 5, 6, 7, 8, 9, 10, 11) if random.random() < 0.6]
+    tension = frame.brace(pairs, random.uniform(5, 50, len(pairs)), random.normal(size=len(pairs)))
     assert tension.min() < 0 < tension.max()  # some are compressed
     compare(frame)
 
