@@ -65,5 +65,6 @@ extern const struct cli_verb cli_verb_rest;
 extern const struct cli_verb cli_verb_make;
 extern const struct cli_verb cli_verb_view;
 extern const struct cli_verb cli_verb_verify;
+extern const struct cli_verb cli_verb_modes;
 
 #endif

@@ -23,4 +23,7 @@ int cli_results_make(const struct cli_arguments *arguments, const char *kind,
                      int (*check)(const struct cli_arguments *arguments),
                      int (*ready)(struct cli_results *results), int (*tell)(struct cli_results *results));
 
+/* The state that --at names, FILE:FRAME, or FILE alone for its last frame; the start without it. */
+int cli_results_at(struct cli_results *results);
+
 #endif

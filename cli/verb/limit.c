@@ -12,41 +12,11 @@
 
 enum { INDENT = 12 };
 
-/* ---- the state ---- */
-
-/* FILE:FRAME, or FILE alone for its last frame. */
-static int read_state(struct cli_results *l, const char *at) {
-  const char *colon = strrchr(at, ':');
-  char *end = NULL;
-  errno = 0;
-  const long long frame = colon ? strtoll(colon + 1, &end, 10) : -1;
-  if (colon && (end == colon + 1 || *end || errno)) {
-    return cli_report(l->arguments, HOOKE_EXIT_USAGE,
-                      "--at %s: allowed: a trajectory and a frame of it, FILE:FRAME, counted from 0, or from "
-                      "-1 backwards; the last one if not given",
-                      at);
-  }
-  hooke_record *record = NULL;
-  char *file = strdup(at);
-  if (file && colon) file[colon - at] = '\0';
-  if (!file) return cli_report(l->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  const char *report = cli_arguments_text(l->arguments, "report");
-  const int code = cli_setup_check_apart(l->arguments, file, "the trajectory of --at", report);
-  int32_t status = code == HOOKE_EXIT_DONE ? hooke_record_open(file, &record) : HOOKE_OK;
-  if (status == HOOKE_OK && record) status = hooke_record_read(record, frame, l->setup.state);
-  free(file);
-  hooke_record_close(record);
-  if (code != HOOKE_EXIT_DONE) return code;
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);
-}
-
 /* ---- computing ---- */
 
 static int make_ready(struct cli_results *l) {
-  const char *at = cli_arguments_text(l->arguments, "at");
-  const int code = at ? read_state(l, at) : HOOKE_EXIT_DONE;
+  const int code = cli_results_at(l);
   if (code != HOOKE_EXIT_DONE) return code;
-  l->from = l->setup.state;
   const char *method = hooke_options_text(l->setup.options, "method");
   if (cli_arguments_asks(l->arguments, "along")) return cli_setup_require(l->arguments, &l->setup, method);
   if (cli_arguments_asks(l->arguments, "nonlinear")) return cli_setup_require(l->arguments, &l->setup, NULL);

@@ -1,5 +1,5 @@
-/* Measurements as JSON: every column of every table but series. Some tables stand inside of others, and rows
- * have arrays of what columns say one by one. */
+/* Measurements as JSON: every column of every table, series only where a table says so. Some tables stand
+ * inside of others, and rows have arrays of what columns say one by one. */
 #include "core/memory.h"
 #include "io/file/atomic_file.h"
 #include "io/measurement/measurement_file.h"
@@ -42,6 +42,13 @@ static void add_value(struct hk_text *text, const char *key, enum hk_column_type
     hk_text_flag(text, key, value.number != 0.0);
   else
     hk_text_number(text, key, value.number);
+}
+
+static void add_series(struct hk_text *text, const char *key, struct hk_series series) {
+  hk_text_open(text, key, '[');
+  for (int64_t k = 0; series.value && k < series.count; k++)
+    hk_text_number(text, NULL, series.value[k]);
+  hk_text_close(text, ']');
 }
 
 static int is_known(struct hk_value value) {
@@ -96,8 +103,11 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
     add_list(text, m, table, table->lists[k], row);
   for (int32_t k = 0; k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
-    if (column->type == HOOKE_COLUMN_SERIES || is_said(table, column->name)) continue;
-    add_value(text, column->name, column->type, value_of(m, table, column, row));
+    if (is_said(table, column->name)) continue;
+    if (column->type != HOOKE_COLUMN_SERIES)
+      add_value(text, column->name, column->type, value_of(m, table, column, row));
+    else if (table->series_in_json)
+      add_series(text, column->name, value_of(m, table, column, row).series);
   }
   if (table == hk_measurement_table(&hk_needs_kind, "lean")) add_left_out(text, m);
   const struct hk_table *other;

@@ -8,6 +8,7 @@
 #include "measure/cost/cost.h"
 #include "measure/estimate/estimate.h"
 #include "measure/limit/limit.h"
+#include "measure/modes/modes.h"
 #include "measure/needs/needs.h"
 #include "measure/rest/rest.h"
 #include "measure/study/study.h"
@@ -17,8 +18,8 @@
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
-    &hk_study_kind,    &hk_limit_kind, &hk_needs_kind, &hk_cost_kind, &hk_why_kind, &hk_verify_kind,
-    &hk_estimate_kind, &hk_view_kind,  &hk_check_kind, &hk_rest_kind, NULL,
+    &hk_study_kind,    &hk_limit_kind, &hk_needs_kind, &hk_cost_kind, &hk_why_kind,   &hk_verify_kind,
+    &hk_estimate_kind, &hk_view_kind,  &hk_check_kind, &hk_rest_kind, &hk_modes_kind, NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };
 

@@ -58,10 +58,9 @@ static const struct page {
   const char *own;  /* the table that it adds by itself; NULL: none */
   int32_t (*add)(struct hk_text *data, const hooke_measurement *measurement);
 } pages[] = {
-    {"study", NULL, NULL, hk_study_page_add},
-    {"limit", "mode.js", "rows", hk_limit_page_add},
-    {"needs", NULL, NULL, hk_needs_page_add},
-    {"why", "mode.js", NULL, hk_why_page_add},
+    {"study", NULL, NULL, hk_study_page_add}, {"limit", "mode.js", "rows", hk_limit_page_add},
+    {"needs", NULL, NULL, hk_needs_page_add}, {"why", "mode.js", NULL, hk_why_page_add},
+    {"modes", NULL, NULL, hk_modes_page_add},
 };
 
 static const struct page *find(const hooke_measurement *m) {

@@ -74,24 +74,11 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
 /* Shares of the elements at q; the mode is 0 at constrained particles. */
 static void find_elements(const hooke_system *system, const double *q, const double *v, const double *mode,
                           struct weights h, struct whole *whole, struct hk_participation *participation) {
-  const struct hk_force_row *force = NULL;
-  int64_t group = -1, in_group = 0;
-  struct hk_elements at;
-  hk_begin_elements(system, system->moment, q, NULL, &at);
-  at.by_number = 1;
-  at.flow = v;
-  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    /* a member may have several elements, one walk over all members after the other */
-    const int64_t members = system->rest->member_count[hk_force_number(at.force)];
-    const int again = at.force != force || (members > 0 && hk_element_number(&at) % members == 0);
-    if (again) group = at.force->members ? hk_system_first_group(system, at.force) : -1;
-    if (again) in_group = 0;
-    force = at.force;
-    while (group >= 0 && in_group == system->group[group].count)
-      group++, in_group = 0;
-    in_group++;
-    add_element(&at, e, group, mode, h, whole, participation);
-  }
+  struct hk_member_walk at;
+  hk_begin_members(system, system->moment, q, NULL, &at);
+  at.elements.flow = v;
+  for (const struct hk_element *e; (e = hk_next_member(&at)) != NULL;)
+    add_element(&at.elements, e, at.group, mode, h, whole, participation);
 }
 
 /* Gravity and tensions, which turn bodies. */

@@ -2,6 +2,33 @@
 
 #include "core/print.h"
 #include "model/group.h"
+#include "model/system.h"
+
+void hk_begin_members(const hooke_system *system, double t, const double *q, const double *v,
+                      struct hk_member_walk *at) {
+  hk_begin_elements(system, t, q, v, &at->elements);
+  at->elements.by_number = 1;
+  at->force = NULL;
+  at->group = -1;
+  at->in_group = 0;
+}
+
+const struct hk_element *hk_next_member(struct hk_member_walk *at) {
+  const struct hk_element *e = hk_next_element(&at->elements);
+  if (e == NULL) return NULL;
+  /* a member may have several elements, one walk over all members after the other */
+  const hooke_system *system = at->elements.system;
+  const struct hk_force_row *force = at->elements.force;
+  const int64_t members = system->rest->member_count[hk_force_number(force)];
+  const int again = force != at->force || (members > 0 && hk_element_number(&at->elements) % members == 0);
+  if (again) at->group = force->members ? hk_system_first_group(system, force) : -1;
+  if (again) at->in_group = 0;
+  at->force = force;
+  while (at->group >= 0 && at->in_group == system->group[at->group].count)
+    at->group++, at->in_group = 0;
+  at->in_group++;
+  return e;
+}
 
 static const struct hk_group *group_of(const hooke_system *system, const struct hk_force_row *force,
                                        int64_t number) {

@@ -5,6 +5,16 @@
 
 #include "model/force/force.h"
 
+/* A walk over elements by their numbers, with the group of each among those of the system; -1: none. */
+struct hk_member_walk {
+  struct hk_elements elements;
+  const struct hk_force_row *force;
+  int64_t group, in_group;
+};
+void hk_begin_members(const hooke_system *system, double t, const double *q, const double *v,
+                      struct hk_member_walk *at);
+const struct hk_element *hk_next_member(struct hk_member_walk *at);
+
 /* Name of the group of an element of a force; "" if it has none. */
 const char *hk_naming_group(const hooke_system *system, const struct hk_force_row *force, int64_t number);
 

@@ -35,6 +35,7 @@ from .cost import Check, Cost, check, cost
 from .files import Verification, verify, view, write_xdmf
 from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
+from .modes import Modes, modes
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
 from .parts import Curve, Springs, Transform
@@ -70,6 +71,7 @@ __all__ = [
     "Limit",
     "Material",
     "Method",
+    "Modes",
     "Needs",
     "NoMemory",
     "NotBuilt",
@@ -101,6 +103,7 @@ __all__ = [
     "describe",
     "limit",
     "methods",
+    "modes",
     "needs",
     "open",
     "options_of",

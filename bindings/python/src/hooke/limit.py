@@ -99,10 +99,10 @@ def limit(
     shows a bar, with tqdm) and stops the work by returning a non-zero number.
     """
     options["methods"] = methods
-    return Limit(*measured("limit", problem, options, progress, lambda system: _state_at(system, at)))
+    return Limit(*measured("limit", problem, options, progress, lambda system: state_at(system, at)))
 
 
-def _state_at(system: System, at: Place | None) -> State:
+def state_at(system: System, at: Place | None) -> State:
     """A separate state, since a run may change it."""
     state = system.state()
     if isinstance(at, State):

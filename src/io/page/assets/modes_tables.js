@@ -1,0 +1,23 @@
+"use strict";
+/* The words and the table of modes, and the start of everything. */
+
+const COLUMNS = [["omega", "omega", "[rad/s]"], ["frequency", "frequency", "[Hz]"], ["growth", "growth", "[1/s]"],
+  ["damping_ratio", "damping ratio", ""]];
+
+function writeModes() {
+  const cell = (value) => exact(value, words(value, 6));
+  const shown = COLUMNS.filter(([what]) => data.modes.some((mode) => mode[what] !== null));
+  const masses = AXES.map((axis, k) => [`mass along ${axis}`, "[kg]", (mode) => cell(mode.effective_mass[k] ?? null)]);
+  writeTable("modes", data.modes, [["mode", "", (mode) => String(data.modes.indexOf(mode))],
+    ...shown.map(([what, name, unit]) => [name, unit, (mode) => cell(mode[what])]), ...masses,
+    ["stiffness", "", groupsOf, "word"]]);
+}
+
+writeLead("modes", `Small free motions about one state, and how they are damped. ${data.date}.`);
+writeModes();
+at("about-head").textContent = "The scene";
+facts("about", { "time [s]": data.time, "modes without stiffness": data.zero_modes, translations: data.translations,
+  rotations: data.rotations, mechanisms: data.mechanisms, "all modes": data.unknowns, "force left [N]": data.residual,
+  "largest force of a spring [N]": data.largest_force, particles: picture.particles, springs: picture.springs });
+writeMachine();
+if (reveal("play", data.modes.length > 0 && particles.length > 0)) startModes();
