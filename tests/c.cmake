@@ -84,7 +84,9 @@ endfunction()
 
 hooke_add_c_tests(unit hooke_static ${PROJECT_SOURCE_DIR}/src)
 # Loops of every instruction set in turn, in place of the best that the machine has.
-target_link_options(hooke_test_unit_instruction_sets PRIVATE LINKER:--wrap=hk_spring_set)
+foreach(test instruction_sets strided tiled)
+  target_link_options(hooke_test_unit_${test} PRIVATE LINKER:--wrap=hk_spring_set)
+endforeach()
 # A file system where readers and runs share one kind of lock.
 if(TARGET hooke_test_unit_output_lock)
   target_link_options(hooke_test_unit_output_lock PRIVATE LINKER:--wrap=flock)
