@@ -93,6 +93,7 @@ static int do_modes(const struct cli_arguments *arguments) {
 static const struct cli_verb_row own_rows[] = {
     {"at", 0, "FILE:FRAME",
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
+    HOOKE_FROM_REST,
     {"report", 0, "FILE.html",
      "writes the modes as one page to read offline, on which they play, replacing it"},
 };

@@ -37,33 +37,50 @@ static int32_t print_json(const struct cli_results *r) {
   return status;
 }
 
-/* Brings the state to where the search ended. */
-static void take_state(const struct cli_results *r) {
-  const double *q = hooke_measurement_series(r->found, "rest", 0, "position", NULL);
-  const size_t bytes = (size_t)hooke_state_size(r->setup.state) * sizeof *q;
-  if (q) memcpy(hooke_state_position(r->setup.state), q, bytes);
-  memset(hooke_state_velocity(r->setup.state), 0, bytes);
+static int32_t is_at_rest(const struct cli_results *r) {
+  const char *status = cli_text(r->found, "rest", "status");
+  return status && strcmp(status, "at rest") == 0;
+}
+
+/* Writes the scene that starts there, if there is a rest. */
+static int write_scene(struct cli_results *r) {
+  const char *output = cli_arguments_text(r->arguments, "output");
+  hooke_scene *scene = NULL;
+  if (!output || !is_at_rest(r)) return HOOKE_EXIT_DONE;
+  int32_t status = cli_setup_scene_at_state(&r->setup, &scene);
+  if (status == HOOKE_OK)
+    status = hooke_scene_write(output, hooke_scene_system(scene), hooke_scene_text(scene, "title"),
+                               hooke_scene_run_options(scene));
+  hooke_scene_destroy(scene);
+  if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
+  cli_report_words(r->arguments, "%s", hooke_last_error());
+  return cli_exit_code(status);
 }
 
 static int tell(struct cli_results *r) {
-  int code = HOOKE_EXIT_DONE;
-  const char *status = cli_text(r->found, "rest", "status");
-  take_state(r);
+  cli_setup_take_rest(&r->setup, r->found);
+  int code = write_scene(r);
   if (!r->arguments->json)
     print_words(r);
   else if (print_json(r) != HOOKE_OK)
     code = cli_report_missing_words(r->arguments);
   cli_print_flush();
   if (r->outcome == HOOKE_STOPPED) return cli_report(r->arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
-  if (code == HOOKE_EXIT_DONE && (!status || strcmp(status, "at rest") != 0)) code = HOOKE_EXIT_NOT_MET;
+  if (code == HOOKE_EXIT_DONE && !is_at_rest(r)) code = HOOKE_EXIT_NOT_MET;
   return code;
 }
 
+static int check(const struct cli_arguments *arguments) {
+  const char *output = cli_arguments_text(arguments, "output");
+  return output ? cli_setup_check_ending(arguments, "-o", output) : HOOKE_EXIT_DONE;
+}
+
 static int do_rest(const struct cli_arguments *arguments) {
-  return cli_results_make(arguments, "rest", NULL, make_ready, tell);
+  return cli_results_make(arguments, "rest", check, make_ready, tell);
 }
 
 static const struct cli_verb_row own_rows[] = {
+    {"output", 'o', "REST.json", "writes the scene, its parts kept, that starts at rest, replacing it"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at rest, too"},
 };
 

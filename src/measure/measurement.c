@@ -139,12 +139,12 @@ int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
 /* ---- tables ---- */
 
 const struct hk_table *hk_measurement_table_at(const struct hk_measurement_kind *kind, int64_t k) {
-  int64_t own = 0;
-  while (own < k && kind->tables[own].name)
-    own++;
-  if (k < 0 || own < k) return NULL;
-  if (kind->tables[own].name) return &kind->tables[own];
-  return kind->claim ? &hk_claims_table : NULL;
+  const struct hk_table *const lists[] = {kind->tables, kind->more, kind->claim ? &hk_claims_table : NULL};
+  if (k < 0) return NULL;
+  for (int list = 0; list < 2; list++)
+    for (const struct hk_table *table = lists[list]; table && table->name; table++)
+      if (k-- == 0) return table;
+  return k == 0 ? lists[2] : NULL;
 }
 
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name) {

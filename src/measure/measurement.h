@@ -25,6 +25,7 @@ struct hk_measurement_kind {
   int32_t takes_problems; /* 1: those of coordinates, too (model/generalized.h) */
   int32_t takes_state;    /* 1: it is taken at a state, by default the initial one, and may be repeated */
   const struct hk_table *tables; /* its own; end without a name */
+  const struct hk_table *more;   /* of another kind, with whose object its own begins; NULL: none */
   /* Composes the claims of the results, after every run; NULL: it makes none, and has no such table. */
   void (*claim)(const hooke_measurement *measurement, struct hk_claims *claims);
   /* Creates measurement->object; destroy() follows in any case. */

@@ -114,7 +114,7 @@ def test_a_mass_on_top_of_a_spring_rests_but_does_not_stay():
 def test_what_nothing_holds_falls():
     scene = hooke.Scene(gravity=(0, 0, -GRAVITY)).particles([(0, 0, 0), (1, 0, 0)], mass=3)
     found = scene.springs(between=[(0, 1)], stiffness=10, rest_length=0.5).rest()
-    assert found.status == "none" and found.minimum is None and found.zero_modes is None or np.isnan(found.zero_modes)
+    assert (found.status == "none" and found.minimum is None and found.zero_modes is None) or np.isnan(found.zero_modes)
     assert found.residual == pytest.approx(3 * GRAVITY) and "falls along 0 0 -1" in str(found)
 
 

@@ -2,9 +2,10 @@
 
 import json
 
-import hooke
 import numpy as np
 import pytest
+
+import hooke
 
 ROPE = dict(kind="rope", name="line", to=(1, 0, 0), segments=4, mass=1, pinned="start", stretch=dict(stiffness=100))
 

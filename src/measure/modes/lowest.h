@@ -8,7 +8,7 @@
 /* An eigenvalue is 0 within this part of the bound of all. Up to so many unknowns all are found, by LAPACK
  * (more where the build has no CHOLMOD); beyond, as many as there is room for. */
 #define HOOKE_MODES_ZERO 1e-12
-enum { HOOKE_MODES_DENSE = 1500, HOOKE_MODES_DENSE_ALONE = 4000, HOOKE_MODES_SPARSE = 100 };
+enum { HOOKE_MODES_DENSE = 400, HOOKE_MODES_DENSE_ALONE = 4000, HOOKE_MODES_SPARSE = 100 };
 
 struct hk_lowest {
   int64_t count; /* of those that are not 0, ascending */

@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "measure/rest/rest_minimum.h"
 #include "model/state.h"
 #include "model/system.h"
 
@@ -13,6 +12,8 @@ static const struct hk_option_row rest_rows[] = {
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, "",
                  "quantities to tell at rest, separated by commas, such as 57.y, line.stretch:3.tension or "
                  "potential"),
+    HOOKE_OPTION("count", HOOKE_OPTION_WHOLE(0, 1e6), "6",
+                 "modes at rest, the lowest ones, beside those without stiffness"),
     HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
                  "time that the search may take; no limit if not given"),
 };
@@ -26,8 +27,8 @@ static void forget(struct hk_resting *r) {
   r->position = NULL;
   r->rest = (struct hk_rest){.residual = NAN, .allowed = NAN, .largest_force = NAN, .worst = -1};
   r->minimum = -1;
-  r->zero_modes = -1;
-  r->softest = NAN;
+  hk_modes_release(&r->modes);
+  r->modes = (struct hk_modes){.system = r->m->system, .zero_modes = -1};
 }
 
 static int32_t create(hooke_measurement *m) {
@@ -52,6 +53,7 @@ static void destroy(void *object) {
   hk_watched_release(&r->watched);
   hk_free(r->value);
   hk_free(r->position);
+  hk_modes_release(&r->modes);
   hk_free(r);
 }
 
@@ -64,6 +66,20 @@ static void see_watched(struct hk_resting *r, double t, const double *zeros) {
     if (!watched->is_period)
       r->value[k].value = hk_watched_value(watched, r->m->system, t, r->position, zeros);
   }
+}
+
+/* Without the libraries for it, or where they give up, nothing is known. */
+static int32_t find_modes(struct hk_resting *r, double t, const double *zeros, struct hk_budget *budget) {
+  const int64_t count = (int64_t)hooke_options_number(r->m->options, "count");
+  int32_t status = hk_modes_find(r->m->system, t, r->position, zeros, count, budget, &r->modes);
+  if (status == HOOKE_NOT_BUILT || status == HOOKE_SOLVER_FAILED) {
+    hk_modes_release(&r->modes);
+    r->modes = (struct hk_modes){.system = r->m->system, .zero_modes = -1};
+    return HOOKE_OK;
+  }
+  if (status == HOOKE_OK && r->rest.has_energy && (r->modes.unstable > 0 || r->modes.zero_modes >= 0))
+    r->minimum = r->modes.unstable == 0;
+  return status;
 }
 
 static int32_t run(hooke_measurement *m, hooke_state *state) {
@@ -80,7 +96,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
     status = hk_rest_find(m->system, t, r->position, &budget, &r->rest);
   }
   if (status == HOOKE_OK) see_watched(r, t, zeros);
-  if (status == HOOKE_OK && r->rest.lack == HOOKE_RESTS) status = hk_rest_see_minimum(r, t, zeros);
+  if (status == HOOKE_OK && r->rest.lack == HOOKE_RESTS) status = find_modes(r, t, zeros, &budget);
   hk_free(zeros);
   return status;
 }
@@ -89,6 +105,7 @@ const struct hk_measurement_kind hk_rest_kind = {.name = "rest",
                                                  .options = &rest_table,
                                                  .takes_state = 1,
                                                  .tables = hk_rest_tables,
+                                                 .more = &hk_modes_tables[1],
                                                  .claim = hk_rest_claim,
                                                  .create = create,
                                                  .run = run,

@@ -4,6 +4,7 @@
 #define HOOKE_MEASURE_REST_REST_H
 
 #include "measure/measurement.h"
+#include "measure/modes/modes.h"
 #include "measure/quantity/watched.h"
 #include "measure/rest/rest_find.h"
 
@@ -13,14 +14,13 @@ struct hk_rest_watched {
 };
 
 struct hk_resting {
+  struct hk_modes modes; /* about the position; none before it is known */
   const hooke_measurement *m;
   struct hk_watched_list watched;
   struct hk_rest_watched *value; /* by quantity */
   struct hk_rest rest;
   double *position;   /* 3n, of the last run; NULL before */
   int32_t minimum;    /* -1: not known */
-  int64_t zero_modes; /* -1: not known */
-  double softest;     /* the lowest eigenvalue of stiffness over mass [1/s^2]; NaN: not known */
   int32_t had_friction;
 };
 

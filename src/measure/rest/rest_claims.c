@@ -35,19 +35,20 @@ static void tell_lack(const struct hk_resting *r, struct hk_claims *claims) {
 static void tell_minimum(const struct hk_resting *r, struct hk_claims *claims) {
   if (r->minimum == 1)
     hk_claim(claims, "minimum", HOOKE_OF_WHOLE, "eigenvalues", "no small displacement lowers the energy%s",
-             r->zero_modes > 0 ? "" : ", and each raises it");
+             r->modes.zero_modes > 0 ? "" : ", and each raises it");
   else if (r->minimum == 0)
     hk_claim(claims, "minimum", HOOKE_OF_WHOLE, "eigenvalues",
              "the rest is not stable: a small displacement lowers the energy, and grows at %.6g 1/s",
-             sqrt(-r->softest));
+             r->modes.mode[0].growth);
   else
     hk_claim(claims, "minimum", HOOKE_OF_UNKNOWN, "eigenvalues",
              "whether the energy is least here is not known%s",
              r->rest.has_energy ? "" : ": some force has no energy");
-  if (r->zero_modes > 0)
+  if (r->modes.zero_modes > 0)
     hk_claim(claims, "zero-modes", HOOKE_OF_WHOLE, "eigenvalues",
-             "%lld free %s no stiffness: along %s any place is as good", (long long)r->zero_modes,
-             r->zero_modes == 1 ? "motion has" : "motions have", r->zero_modes == 1 ? "it" : "them");
+             "%lld free %s no stiffness: along %s any place is as good", (long long)r->modes.zero_modes,
+             r->modes.zero_modes == 1 ? "motion has" : "motions have",
+             r->modes.zero_modes == 1 ? "it" : "them");
 }
 
 /* What the scene does in motion and not here. */
