@@ -8,7 +8,6 @@ import pytest
 import hooke
 
 
-
 def turned(axis):
     """The matrix of a rotation by |axis| about it."""
     angle = np.linalg.norm(axis)
