@@ -10,9 +10,19 @@
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-static const struct cli_verb *const verbs[] = {
-    &cli_verb_make,  &cli_verb_run,   &cli_verb_compare, &cli_verb_study,  &cli_verb_limit, &cli_verb_why,
-    &cli_verb_needs, &cli_verb_check, &cli_verb_view,    &cli_verb_verify, &cli_verb_modes, NULL};
+static const struct cli_verb *const verbs[] = {&cli_verb_make,
+                                               &cli_verb_run,
+                                               &cli_verb_compare,
+                                               &cli_verb_study,
+                                               &cli_verb_limit,
+                                               &cli_verb_why,
+                                               &cli_verb_needs,
+                                               &cli_verb_rest,
+                                               &cli_verb_modes,
+                                               &cli_verb_check,
+                                               &cli_verb_view,
+                                               &cli_verb_verify,
+                                               NULL};
 
 static int print_help(const struct cli_program *program, const char *value) {
   (void)value;

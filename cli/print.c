@@ -249,3 +249,33 @@ int32_t cli_print_members(const char *before, hooke_measurement *measurement, co
   fwrite(text + 1, 1, strlen(text) - 2, stdout);
   return HOOKE_OK;
 }
+
+/* ---- states ---- */
+
+static void print_vectors(const char *key, int64_t rows, const double *xyz) {
+  cli_print_json("%s: [", key);
+  for (int64_t row = 0; row < rows; row++, xyz += 3)
+    cli_print_json(row ? ", [%g, %g, %g]" : "[%g, %g, %g]", xyz[0], xyz[1], xyz[2]);
+  cli_print_json("]");
+}
+
+void cli_print_final_json(hooke_state *state) {
+  cli_print_json(", 'final': {");
+  print_vectors("position", hooke_state_size(state) / 3, hooke_state_position(state));
+  cli_print_json(", ");
+  print_vectors("velocity", hooke_state_size(state) / 3, hooke_state_velocity(state));
+  cli_print_json("}");
+}
+
+void cli_print_final(hooke_state *state) {
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  char text[HOOKE_NUMBER_SIZE];
+  printf("\nparticle x y z [m] vx vy vz [m/s]\n");
+  for (int64_t i = 0; i < hooke_state_size(state) / 3; i++) {
+    printf("%" PRId64, i);
+    for (int64_t k = 0; k < 6; k++)
+      printf(" %s", cli_format_number(k < 3 ? q[3 * i + k] : v[3 * i + k - 3], text));
+    printf("\n");
+  }
+  cli_print_flush();
+}

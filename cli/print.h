@@ -63,4 +63,8 @@ void cli_print_json(const char *format, ...) __attribute__((format(printf, 1, 2)
  * nothing printed. */
 int32_t cli_print_members(const char *before, hooke_measurement *measurement, const char *table, int64_t row);
 
+/* Position and velocity of every particle: a line each, or the member "final" of a document. */
+void cli_print_final(hooke_state *state);
+void cli_print_final_json(hooke_state *state);
+
 #endif

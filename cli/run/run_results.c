@@ -10,10 +10,6 @@
 
 static const double ROUNDING = 1e-12;
 
-static const double *position_of(const struct cli_run *run) {
-  return hooke_state_position(run->setup.state);
-}
-
 static const double *velocity_of(const struct cli_run *run) {
   return hooke_state_velocity(run->setup.state);
 }
@@ -92,12 +88,28 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
                    adaptive ? "" : " s");
 }
 
+int32_t cli_want_judges(const struct cli_run *run) {
+  return cli_arguments_text(run->arguments, "want") || !cli_arguments_text(run->arguments, "no-estimate");
+}
+
+static int watches(const struct cli_run *run) {
+  return cli_arguments_text(run->arguments, "watch") != NULL;
+}
+
+/* Errors are those of whole runs; what is watched is told of any. */
+static int is_measured(const struct cli_run *run) {
+  return run->estimate && !run->was_finished && (run->outcome == HOOKE_OK || watches(run));
+}
+
 /* `want`: NULL without one. */
 static int create(struct cli_run *run, const char *want) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_create("estimate", &options);
   if (status == HOOKE_OK && want) status = hooke_options_set_text(options, "want", want);
   const int32_t refused = status == HOOKE_BAD_VALUE;
+  const char *watch = cli_arguments_text(run->arguments, "watch");
+  if (status == HOOKE_OK && watch) status = hooke_options_set_text(options, "watch", watch);
+  if (status == HOOKE_OK && !cli_want_judges(run)) status = hooke_options_set_text(options, "error", "false");
   if (status == HOOKE_OK)
     status = hooke_measurement_create("estimate", run->setup.system, NULL, options, &run->estimate);
   hooke_options_destroy(options);
@@ -110,7 +122,7 @@ int cli_want_pick(struct cli_run *run) {
   const char *text = cli_arguments_text(arguments, "want");
   int code = text ? cli_setup_require(arguments, &run->setup, NULL) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (!text && cli_arguments_text(arguments, "no-estimate")) return HOOKE_EXIT_DONE;
+  if (!cli_want_judges(run) && !watches(run)) return HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = create(run, text);
   if (code != HOOKE_EXIT_DONE) return code;
   hooke_measurement_on_progress(run->estimate, cli_watch_progress, &run->watch);
@@ -129,10 +141,12 @@ int cli_want_pick(struct cli_run *run) {
 }
 
 int32_t cli_want_measure(struct cli_run *run) {
-  if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return HOOKE_OK;
+  if (!is_measured(run)) return HOOKE_OK;
   cli_watch_start(&run->watch, run->arguments);
-  hooke_integrator_destroy(run->integrator); /* the following runs need as much memory */
-  run->integrator = NULL;
+  if (run->outcome == HOOKE_OK) {
+    hooke_integrator_destroy(run->integrator); /* the following runs need as much memory */
+    run->integrator = NULL;
+  }
   const int32_t status = hooke_measurement_run(run->estimate, run->setup.state);
   cli_watch_end(&run->watch);
   return status;
@@ -159,10 +173,32 @@ int32_t cli_want_goes_on(struct cli_run *run) {
   return 1;
 }
 
+static void print_watched(const struct cli_run *run) {
+  static const char *const heads[] = {"value", "minimum", "at t [s]", "maximum", "at t [s]"};
+  static const char *const columns[] = {"value", "minimum", "at_minimum", "maximum", "at_maximum"};
+  enum { COLUMNS = sizeof columns / sizeof columns[0], CELL = 12 };
+  const int64_t rows = hooke_measurement_row_count(run->estimate, "watched");
+  const int32_t width = cli_rows_width(run->estimate, "watched", "quantity", INDENT - 8) + 6;
+  if (rows < 1) return;
+  printf("\n%-*s", width, "watched");
+  for (int k = 0; k < COLUMNS; k++)
+    printf(" %*s", CELL, heads[k]);
+  printf("\n");
+  for (int64_t row = 0; row < rows; row++) {
+    char head[HOOKE_HEAD_SIZE];
+    cli_print_padded(stdout, width, cli_quantity(run->estimate, "watched", row, head));
+    for (int k = 0; k < COLUMNS; k++)
+      cli_rows_print_as(CELL, hooke_measurement_number(run->estimate, "watched", row, columns[k]), "%.6g",
+                        NULL, NULL);
+    printf("\n");
+  }
+}
+
 void cli_want_print(const struct cli_run *run) {
-  if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return;
+  if (!is_measured(run)) return;
   cli_claims_print(run->arguments, run->estimate, INDENT, NULL);
-  if (!text_of(run, "by") && !run->arguments->quiet)
+  print_watched(run);
+  if (run->outcome == HOOKE_OK && cli_want_judges(run) && !text_of(run, "by") && !run->arguments->quiet)
     cli_report_words(run->arguments, "'hooke study' on the same may tell how wrong it is");
   cli_print_flush();
 }
@@ -179,11 +215,17 @@ static void print_json_error(const struct cli_run *run) {
                    number_of(run, "last_from"), hooke_state_time(run->setup.state));
 }
 
-/* The keys "error" and "want", as JSON, each with a comma after it. */
+static void print_json_watched(const struct cli_run *run) {
+  const char *rows = watches(run) ? hooke_measurement_json(run->estimate, "watched", -1) : NULL;
+  if (rows) printf("\"watched\": %s, ", rows);
+}
+
+/* The keys "error", "watched" and "want", as JSON, each with a comma after it. */
 static void print_json_want(const struct cli_run *run) {
   if (!run->estimate || run->was_finished) return;
   const double met = number_of(run, "met");
-  if (run->outcome == HOOKE_OK) print_json_error(run);
+  if (run->outcome == HOOKE_OK && cli_want_judges(run)) print_json_error(run);
+  print_json_watched(run);
   if (!is_wanted(run)) return;
   cli_print_json("'want': {'wanted': %g, 'met': ", number_of(run, "wanted"));
   cli_print_json(isnan(met) ? "null" : met == 1.0 ? "true" : "false");
@@ -197,28 +239,18 @@ int cli_want_exit_code(const struct cli_run *run) {
 
 /* ---- JSON ---- */
 
-static void print_vectors(const char *key, int64_t rows, const double *xyz) {
-  cli_print_json("%s: [", key);
-  for (int64_t row = 0; row < rows; row++, xyz += 3)
-    cli_print_json(row ? ", [%g, %g, %g]" : "[%g, %g, %g]", xyz[0], xyz[1], xyz[2]);
-  cli_print_json("]");
-}
-
 /* What is said of it, and where every particle is. */
 static void print_json_end(const struct cli_run *run) {
-  const int64_t particles = hooke_system_particle_count(run->setup.system);
-  hooke_measurement *says = run->why ? run->why : run->estimate;
+  hooke_measurement *const says[] = {run->why, run->why && !watches(run) ? NULL : run->estimate};
+  const char *before = "";
   cli_print_json("'claims': [");
-  if (says && hooke_measurement_row_count(says, "claims") >= 0)
-    (void)cli_print_members("", says, "claims", -1);
-  cli_print_json("]");
-  if (cli_arguments_text(run->arguments, "final")) {
-    cli_print_json(", 'final': {");
-    print_vectors("position", particles, position_of(run));
-    cli_print_json(", ");
-    print_vectors("velocity", particles, velocity_of(run));
-    cli_print_json("}");
+  for (int k = 0; k < 2; k++) {
+    if (!says[k] || hooke_measurement_row_count(says[k], "claims") < 1) continue;
+    (void)cli_print_members(before, says[k], "claims", -1);
+    before = ", ";
   }
+  cli_print_json("]");
+  if (cli_arguments_text(run->arguments, "final")) cli_print_final_json(run->setup.state);
   cli_print_json("}\n");
 }
 
@@ -245,6 +277,7 @@ static void print_json(const struct cli_run *run) {
   cli_print_json("'energy': {'initial': %g, 'final': %g}, 'momentum': [%g, %g, %g], ", run->energy_before,
                  run->energy_after, momentum[0], momentum[1], momentum[2]);
   if (cli_run_goes_beyond(run)) cli_print_json("'frames_beyond': %" PRId64 ", ", run->frames_beyond);
+  if (run->probes_file) cli_print_json("'probes': %s, ", run->probes_file);
   cli_print_json("'output': %s, 'diagnosis': %s, ", run->output,
                  cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
   print_json_want(run);
@@ -309,6 +342,9 @@ static void print_words(const struct cli_run *run) {
   if (run->output)
     cli_say("%-22s%s (%" PRId64 " frame%s)\n", "output", run->output, run->frames,
             run->frames == 1 ? "" : "s");
+  if (run->probes_file)
+    cli_say("%-22s%s (%" PRId64 " line%s, until %.6g s)\n", "probes", run->probes_file, run->lines,
+            run->lines == 1 ? "" : "s", run->last_line);
 }
 
 void cli_run_print(const struct cli_run *run) {
@@ -320,15 +356,5 @@ void cli_run_print(const struct cli_run *run) {
 }
 
 void cli_run_print_final(const struct cli_run *run) {
-  const double *q = position_of(run), *v = velocity_of(run);
-  char text[HOOKE_NUMBER_SIZE];
-  if (run->arguments->json || !cli_arguments_text(run->arguments, "final")) return;
-  printf("\nparticle x y z [m] vx vy vz [m/s]\n");
-  for (int64_t i = 0; i < hooke_system_particle_count(run->setup.system); i++) {
-    printf("%" PRId64, i);
-    for (int64_t k = 0; k < 6; k++)
-      printf(" %s", cli_format_number(k < 3 ? q[3 * i + k] : v[3 * i + k - 3], text));
-    printf("\n");
-  }
-  cli_print_flush();
+  if (!run->arguments->json && cli_arguments_text(run->arguments, "final")) cli_print_final(run->setup.state);
 }

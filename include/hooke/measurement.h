@@ -6,11 +6,11 @@
  *   hooke_measurement_number(study, "rows", 0, "error");
  *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind: "study", "limit", "needs", "cost", "check", "why", "verify", "estimate"
- * (estimate.h) or "view" (trajectory.h). Its options are made by hooke_options_create() with the name of the
- * kind. Its results are tables, with columns that have a name, a unit and a line of documentation. A table is
- * "rows", or a "record" of one row with the numbers of the whole. The record that is named like the kind
- * describes the measurement itself. hooke_measurement_table() lists kinds and tables,
+ * A measurement is of one kind: "study", "limit", "rest", "needs", "cost", "check", "why", "verify",
+ * "estimate" (estimate.h) or "view" (trajectory.h). Its options are made by hooke_options_create() with the
+ * name of the kind. Its results are tables, with columns that have a name, a unit and a line of
+ * documentation. A table is "rows", or a "record" of one row with the numbers of the whole. The record that
+ * is named like the kind describes the measurement itself. hooke_measurement_table() lists kinds and tables,
  * hooke_measurement_column() the columns.
  *
  * A measurement belongs to one thread at a time. */
@@ -40,9 +40,9 @@ HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measuremen
 HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
                                              void *ctx);
 
-/* Measures. A limit, a cost and a check are taken at `state` (NULL: the initial one) and may be taken again;
- * an estimate needs the last state of the run; the other kinds begin at the initial state, run once, and
- * require NULL. HOOKE_STOPPED, if the progress callback or a callback of the system asked to stop, keeps
+/* Measures. A limit, a cost, a check and a rest are taken at `state` (NULL: the initial one) and may be taken
+ * again; an estimate needs the last state of the run; the other kinds begin at the initial state, run once,
+ * and require NULL. HOOKE_STOPPED, if the progress callback or a callback of the system asked to stop, keeps
  * the results so far. HOOKE_BAD_VALUE for a state of another system or one that the kind does not accept,
  * and for a run without a duration; HOOKE_BAD_CALL for a second call; HOOKE_NO_MEMORY; and the failures of
  * an integrator. */
@@ -58,6 +58,12 @@ HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, c
  * and for another word. */
 HOOKE_API const char *hooke_measurement_column(const char *kind, const char *table, int64_t column,
                                                const char *what);
+
+/* Unit of a column of this measurement: that of its kind, but "" in place of "m" where the measurement is of
+ * a problem of coordinates (hooke_system_create_second_order()), whose numbers have units of their own. NULL
+ * if there is no such column. */
+HOOKE_API const char *hooke_measurement_unit(const hooke_measurement *measurement, const char *table,
+                                             const char *column);
 
 /* Number of rows that a table has so far; -1 if the kind has no such table. A record has one row, or none if
  * it is empty. */
@@ -118,14 +124,23 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
  * (of a period: of its period) over the frames from "from" to "until", which follow the trusted ones.
  *
  * A watched quantity is 57.x, 57.y or 57.z (a coordinate of a particle [m]), part:0.y (of a part's particle),
- * group:3.length [m], group:3.strain or group:3.tension [N] (of a spring of a group: the force along it, of
- * damping, too, positive where it pulls), energy, kinetic or potential [J], or period:Q [s], the mean time
- * between passages of one of these upwards through its mean. Indices begin at 0. */
+ * 57.reaction, .reaction_x, .reaction_y or .reaction_z (the force of the support of a pinned or driven
+ * particle [N], m a - f with its weight in f), group:3.length [m], group:3.strain or group:3.tension [N] (of
+ * a spring of a group: the force along it, of damping, too, positive where it pulls), group:max.tension or
+ * group:min.tension (the largest or smallest of a group), energy, kinetic or potential [J], or period:Q [s],
+ * the mean time between passages of one of these upwards through its mean. Indices begin at 0. */
 
 /* Recommends the run that hooke_estimate_pick() picks for another wanted error [m] among the methods of the
  * study, and updates the tables "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note"
  * then says why. */
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
+
+/* ---- a rest: where forces are in equilibrium ----
+ * From the positions of the state, at its time, to f(t, q, 0) = 0. What the scene prescribes in time is held;
+ * friction and damping do not matter. "position" of the table "rest" has where particles are then (3n), or
+ * where the search ended if "status" is "none". A search that `budget` ended is a result, too. "minimum" and
+ * "zero_modes" are known of up to 200 free particles without rigid bodies, wind and callbacks, with LAPACK.
+ */
 
 /* ---- a limit: the largest stable step of each method, and what determines it ----
  * The system is linearised at the positions of the state, at rest (drag that is not linear, at its

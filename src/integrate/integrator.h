@@ -91,16 +91,13 @@ struct hk_last_good {
 /* Of a run: at a checkpoint that was read, from which it has not gone on yet. */
 enum { HOOKE_NOT_BEGUN, HOOKE_BEGUN, HOOKE_AT_CHECKPOINT };
 
-/* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
- * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the
- * system scales by W. So all that takes a system takes these. */
-struct hk_generalized {
-  int64_t size;
-  hooke_force *force;
-  hooke_force_product *product; /* may be NULL */
-  void *ctx;
-  double *inverse_mass; /* those of all rows */
-  hooke_system *system; /* committed */
+/* What explicit steps move beside the particles in rows: x of a first-order problem, or the own coordinates
+ * of movers (model/coordinates). These are taken from the rows where a step begins and written back by each
+ * of its moves, so that a step remains a map of (t, q, v). */
+struct hk_numbers {
+  int64_t count;
+  double *x, *start, *rate, *sum; /* x begins the block of all */
+  double *push;                   /* on every mover */
 };
 
 struct hooke_integrator {
@@ -110,20 +107,19 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_generalized *coordinates; /* NULL unless the system is made of them */
-  struct hk_pool *pool;               /* NULL: one thread */
+  hooke_system *problem; /* the system, if it is the integrator's own: a problem of coordinates */
+  struct hk_pool *pool;  /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */
   hooke_rate *rate;
   void *rate_ctx;
-  double *x;    /* of a fixed-step method, in `array` */
   double *rows; /* x and its rate, for the callback */
 
-  double *start;              /* q and v at the start of a step that may fail midway, for the loop; or NULL */
-  struct hk_one_array *array; /* of explicit steps that particles in rows are not enough for; else NULL */
-  int64_t size;               /* numbers in q */
-  void *own;                  /* the method's own data */
-  void *around;               /* scratch of a method whose step contains that of another, which has `own` */
+  double *start; /* q and v at the start of a step that may fail midway, for the loop; or NULL */
+  struct hk_numbers numbers;
+  int64_t size; /* numbers in q */
+  void *own;    /* the method's own data */
+  void *around; /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */
@@ -137,8 +133,8 @@ struct hooke_integrator {
       HOOKE_STANDING
     };
   };
-  double goal;   /* the next time needed by the run loop; a method that does not interpolate stops there */
-  int64_t point; /* number of the next checkpoint, with error control */
+  double goal; /* the next time needed by the run loop; a method that does not interpolate stops there */
+  int64_t point, samples;    /* with error control: number of the next checkpoint, and of the next sample */
   struct hk_restart restart; /* with error control and the option `checkpoint` */
   int32_t phase;             /* HOOKE_NOT_BEGUN: the numbers above are those of no run */
   struct hk_recent recent;   /* the newest is the last state that passed the check */
@@ -147,7 +143,8 @@ struct hooke_integrator {
   double diverged_at;
   struct hk_energies energies; /* of the state that was last checked; system NULL: not known */
 
-  struct hk_watch on_frame, on_step, on_checkpoint;
+  struct hk_watch on_frame, on_step, on_checkpoint, on_motion, on_sample;
+  struct hk_schedule sampling; /* that of the run, with samples for frames */
   struct hk_teller teller;
   struct hk_checker checker;
   int32_t thorough; /* 1: every check includes the energy */
@@ -171,6 +168,10 @@ int32_t hk_integrator_tell(hooke_integrator *integrator);
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
                          struct hk_schedule *schedule);
+/* Sets another `every` > 0 in it (NaN: it stays), and what follows from that. HOOKE_BAD_VALUE, also without a
+ * duration.
+ */
+int32_t hk_schedule_every(int32_t adaptive, double every, struct hk_schedule *schedule);
 /* Frames of a run: its start, whole multiples of `every` after it, and its end, if that is none of them.
  * HOOKE_MOST_STEPS + 1 if they are too many. */
 int64_t hk_schedule_frames(double duration, double every);
@@ -184,13 +185,22 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
 /* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
 int32_t hk_integrator_keep_start(hooke_integrator *integrator);
+/* Has the observer called at every step and, by a method that interpolates, at times within it, before the
+ * frames there; none of these states was checked for divergence. NULL removes it. HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_motion(hooke_integrator *integrator, hooke_observer *observer, void *ctx);
+/* Has the observer of whole runs called at times of its own, which are those of frames with another `every`
+ * [s] (NaN: that of the frames): before the frame of the same time, and not checked for divergence. A method
+ * that ends steps at frames ends them at samples, too. One observer at most; NULL removes it. HOOKE_BAD_VALUE
+ * with the nearest times that are allowed, or without a duration; HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_sample(hooke_integrator *integrator, double every, hooke_observer *observer,
+                                void *ctx);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
 void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
                            struct hk_move *move);
 /* Forces at time t, counted, and every particle moved under them, in one pass over memory where the forces
  * allow it. HOOKE_STOPPED with the stop value kept: nothing has moved. */
 int32_t hk_integrator_move(hooke_integrator *integrator, double t, struct hk_move *move);
-/* The same under the forces that the last move kept. */
+/* The same under the forces in the motion. */
 void hk_integrator_move_on(hooke_integrator *integrator, struct hk_move *move);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
@@ -200,8 +210,8 @@ void hk_integrator_each(hooke_integrator *integrator, hk_particle_work *work, vo
  * particles there. */
 int32_t hk_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hk_integrator_hold(hooke_integrator *integrator, double t);
-/* Of an overdamped system: velocities of free particles from the forces at time t, where the motion is, of
- * held ones from the drives, which were called for t. Not counted. */
+/* Of an overdamped system, and nothing of another: velocities of free particles from the forces at time t,
+ * where the motion is, of held ones from the drives, which were called for t. Not counted. */
 int32_t hk_integrator_flow(hooke_integrator *integrator, double t);
 /* Time at the end of the next step of a fixed-step method. */
 double hk_integrator_next_time(const hooke_integrator *integrator);

@@ -4,6 +4,7 @@
 #include "core/status.h"
 #include "model/force/force.h"
 #include "model/coordinates/coordinates.h"
+#include "model/generalized.h"
 #include "model/particles.h"
 
 #include <stddef.h>
@@ -106,7 +107,7 @@ const struct hk_stability *hk_method_stability_in(const char *name, const hooke_
 
 /* ---- what methods take ---- */
 
-enum { SECOND_ORDER, BODIES, OVERDAMPED, FIRST_ORDER, PROBLEMS };
+enum { SECOND_ORDER, BODIES, OVERDAMPED, FIRST_ORDER, PROBLEMS }; /* powers of 2: HOOKE_TAKES_* */
 
 static const struct {
   const char *word, *refusal;
@@ -120,11 +121,11 @@ static const struct {
 };
 
 static int32_t takes(const struct hk_method *method, int problem) {
-  return (const int32_t[]){1, method->bodies, method->overdamped, method->first_order}[problem];
+  return problem == SECOND_ORDER || method->takes >> problem & 1;
 }
 
 static int problem_of(const hooke_system *system) {
-  if (system == NULL) return FIRST_ORDER;
+  if (system == NULL || hk_is_first_order(system)) return FIRST_ORDER;
   return system->mover_count > 0 ? BODIES : system->overdamped ? OVERDAMPED : SECOND_ORDER;
 }
 

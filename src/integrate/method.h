@@ -58,17 +58,25 @@ struct hk_steps {
 /* Those of explicit Runge-Kutta methods, by their `stages`, and of implicit ones, by what is `solved`. */
 extern const struct hk_steps hk_explicit_steps, hk_implicit_steps;
 
+/* Problems beside q' = v, v' = W f: systems in which bodies move, overdamped ones, and x' = phi(t, x). */
+enum {
+  HOOKE_TAKES_BODIES = 2,
+  HOOKE_TAKES_OVERDAMPED = 4,
+  HOOKE_TAKES_FIRST_ORDER = 8,
+  HOOKE_TAKES_ALL = 14
+};
+
 /* What a row says of itself. */
 struct hk_method {
   const char *name, *summary;
-  const char *needs; /* required library, NULL: none */
-  int32_t reference; /* 1: for checking references only, not listed; found by name */
-  int32_t adaptive;  /* 1: chooses its steps from tolerances; 0: takes `step` */
-  int32_t order;     /* of a fixed-step method, on smooth forces */
+  const char *needs;    /* required library, NULL: none */
+  int32_t reference;    /* 1: for checking references only, not listed; found by name */
+  int32_t adaptive;     /* 1: chooses its steps from tolerances; 0: takes `step` */
+  int32_t interpolates; /* 1: its solution is known within the last step as well as at the end */
+  int32_t order;        /* of a fixed-step method, on smooth forces */
   const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
-  const char *checked_by; /* the method that the beginning of its runs is held against; NULL: rk4 */
-  /* problems beside q' = v, v' = W f: x' = phi(t, x), overdamped systems, and those in which bodies move */
-  int32_t first_order, overdamped, bodies;
+  const char *checked_by;       /* the method that the beginning of its runs is held against; NULL: rk4 */
+  int32_t takes;                /* HOOKE_TAKES_* */
   const struct hk_steps *steps; /* NULL: this build lacks the library */
   struct hk_stages stages;
   hk_stages_of_step *solved; /* takes a step by solving nonlinear equations, with the option `newton` */

@@ -4,6 +4,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/generalized.h"
 #include "model/sum/spring_batch.h"
 #include "model/system.h"
 
@@ -218,6 +219,7 @@ int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force, 
                                 void *ctx, hooke_system **with) {
   *with = NULL;
   int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_system_require_scene(system, "system", "");
   if (status != HOOKE_OK) return status;
   hooke_system *made = hk_handle_new("hooke_system", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;

@@ -32,6 +32,7 @@ DRIVEN = """{
   ]
 }
 """
+LOADED = DRIVEN.replace("driven", "loads").replace('"motion": "harmonic", "amplitude": [0, 1, 0], "frequency": 2', '"force": [0, 0, 1]')
 HARMONIC = '"harmonic", "amplitude": [0, 1, 0], "frequency": 2'
 LINE = '"kind": "rope", "name": "line", "from": [0, 0, 0], "to": [1, 0, 0], "segments": 4, "mass": 1'
 ROPE = part(LINE + ",", '"pinned": ["start"],', '"stretch": { "stiffness": 100 }').replace("\n  ]\n}", """
@@ -306,6 +307,21 @@ BAD = {
         "8:59", "driven[0].time[2]", "1 is not", "ascend"),
     "table-rows": (DRIVEN.replace(HARMONIC, '"table", "time": [0, 2, 3],\n      "position": [[0, 0, 0], [0, 1, 0]]'),
         "9:19", "driven[0].position", "2 rows", "3, one for each time"),
+    # loads and factors of gravity
+    "load-key": (LOADED.replace('"force"', '"name": "wind", "force"'),
+        "8:25", "loads[0].name", '"name"', "particles, motion, force"),
+    "load-of-another-motion": (LOADED.replace("0, 1]", '0, 1], "frequency": 1'),
+        "8:58", "loads[0].frequency", 'belongs to motion "harmonic"', 'with "constant": nothing more'),
+    "load-flat": (LOADED.replace("0, 0, 1", "0, 0"), "8:35", "loads[0].force[0]", "0 is not", "a row of 3 numbers"),
+    "load-nested": (LOADED.replace("0, 0, 1", "0, 0, [1, 2, 3]"),
+        "8:41", "loads[0].force[2]", "an array of 3", "a number"),
+    "load-range": (LOADED.replace("[0]", "[0, 2]"), "8:24", "loads[0].particles[1]", "2", "0 to 1"),
+    "load-pinned": (LOADED.replace("1\n", '1, "pinned": [0]\n'),
+        "8:21", "loads[0].particles[0]", "particle 0 is pinned", "neither pinned nor driven"),
+    "factors": (LOADED.replace("1\n", '1, "gravity_factor": [1, 2, 3]\n'),
+        "5:34", "particles.gravity_factor", "3 factors for 2 particles", "one, or one for each"),
+    "factors-of-part": (ROPE.replace('"pinned": ["start"]', '"gravity_factor": [1, 2]'),
+        "6:25", "parts[0].gravity_factor", "2 factors for 5 particles", "one, or one for each"),
     # the run
     "run-key": (CHAIN.replace('"step":', '"stepsize":'), "11:12", "run.stepsize", '"stepsize"', "method, step, duration"),
     "step-zero": (CHAIN.replace("1e-3", "0"), "11:20", "run.step", "0 is not", "a number > 0 [s]"),

@@ -13,25 +13,7 @@ SCHEMA = Path(__file__).resolve().parents[2] / "examples/scene.schema.json"
 
 pytestmark = pytest.mark.everything
 
-BOARD = {
-    "hooke": 1,
-    "gravity": [0, -9.81, 0],
-    "particles": {
-        "position": [[0, 0, 0], [0.4, 0, 0], [0.4, 0, 0.2], [0, 0, 0.2], [0, 1, 0], [0.4, 1, 0.2]],
-        "velocity": [[0, 0, 0.5], [0, 0, 0.5], [0, 0, 0.5], [0, 0, 0.5], [0, 0, 0], [0, 0, 0]],
-        "mass": 0.25,
-        "pinned": [4, 5],
-    },
-    "springs": [{"name": "ropes", "between": [[0, 4], [2, 5], [0, 2]], "stiffness": 200, "damping": 0.5}],
-    "parts": [
-        {"kind": "lattice", "name": "box", "origin": [2, 0, 0], "size": [2, 2, 3], "mass": 1, "rigid": True,
-         "edges": [[0.2, 0, 0], [0, 0.3, 0], [0, 0, 0.4]], "structural": {"stiffness": 50}},
-        {"kind": "rope", "name": "bar", "from": [5, 0, 0], "to": [6, 0.5, 0], "segments": 4, "mass": 1,
-         "pinned": "start", "stretch": {"stiffness": 10}},
-    ],
-    "bodies": [{"name": "board", "particles": [0, 1, 2, 3]}, {"part": "bar"}],
-    "run": {"method": "verlet", "step": 0.001, "duration": 0.2, "every": 0.01},
-}
+BOARD = json.loads((Path(__file__).resolve().parents[1] / "data/board.json").read_text())
 
 
 @pytest.fixture

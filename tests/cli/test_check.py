@@ -191,48 +191,10 @@ def test_memory_of_the_model_grows_with_the_scene(hooke, write):
     assert all(0 < m < v["memory_bytes"] for m, v in zip(model, (small, large)))
 
 
-def test_step_limit_of_one_spring(hooke, write):
-    """A bound, not the sharp limit: below 2/omega, and not by more than its derivation allows (a factor sqrt 2)."""
-    limits = hooke("check", write(STIFF_PAIR), "--json").json["step_limit"]
-    sharp = 2 / math.sqrt(1000)
-    assert sharp / 1.5 < limits["symplectic-euler"] <= sharp * (1 + 1e-12)
-    assert limits["forward-euler"] == 0
-    assert limits["cvode-adams"] is None
-
-
-@pytest.mark.parametrize(
-    "run, wanted",
-    [
-        ({"step": 0.1}, "is above"),
-        ({"step": 0.1, "method": "forward-euler"}, "stable at no step"),
-        ({"step": 0.01}, None),
-        ({"method": "cvode-bdf"}, None),
-    ],
-)
-def test_warns_of_a_step_above_the_bound(hooke, write, run, wanted):
-    warnings = hooke("check", write(STIFF_PAIR, **run), "--json").json["warnings"]
-    assert len(warnings) == (0 if wanted is None else 1)
-    if wanted:
-        assert wanted in warnings[0]
-
-
 def test_options_count_like_those_of_the_scene(hooke, write):
     scene = write(STIFF_PAIR)
     assert hooke("check", scene, "--json").json["warnings"]
     assert not hooke("check", scene, "--json", "--step", "0.01").json["warnings"]
-
-
-def test_warns_of_springs_without_direction_and_of_loose_particles(hooke, write):
-    scene = copy.deepcopy(SIX_PARTICLES)
-    scene["particles"]["position"] += [[9, 9, 9], [9, 9, 8]]
-    scene["particles"]["mass"] = 1
-    scene["particles"]["position"][1] = [0, 0, 0]
-    scene["springs"][0]["rest_length"] = 1
-    answer = hooke("check", write(scene, step=1e-4), "--json")
-    assert answer.code == 0
-    coincident, loose = answer.json["warnings"]
-    assert "1 spring starts with both ends at the same place" in coincident
-    assert "2 particles have no spring" in loose and "particle 6" in loose
 
 
 def test_words_have_the_same_numbers(hooke, write):
@@ -254,24 +216,6 @@ def test_words_have_the_same_numbers(hooke, write):
 def test_a_scene_without_all_of_a_run_is_still_valid(hooke, write, missing):
     scene = write(SIX_PARTICLES, **{missing: None})
     assert hooke("check", scene, "--json").code == 0
-
-
-def test_costs_of_ingredients(hooke, write):
-    cost = hooke("check", write(SIX_PARTICLES), "--json", "--cost", "--budget", "1s").json["cost"]
-    assert list(cost) == COST_KEYS and all(list(row) == ROW_KEYS for row in cost["rows"])
-    assert cost["method"] == "symplectic-euler" and cost["step"] == SIX_PARTICLES["run"]["step"]
-    assert [row["ingredient"] for row in cost["rows"]] == ["edges", "damping", "gravity"]
-    assert [row["kind"] for row in cost["rows"]] == ["springs", "damping", "gravity"]
-    assert [row["springs"] for row in cost["rows"]] == [7, None, None]
-    assert cost["nanoseconds"] > 0 and all(row["nanoseconds"] >= 0 for row in cost["rows"])
-    springs, damping, gravity = cost["rows"]
-    assert springs["step_limit_without"] is None  # nothing else limits it
-    assert 0 < cost["step_limit"] < damping["step_limit_without"]
-    assert gravity["step_limit_without"] == cost["step_limit"]
-    told = {claim["key"]: claim for claim in cost["claims"]}
-    assert list(told) == ["cost", "limit"] and (told["cost"]["of"], told["cost"]["by"]) == ("whole", "clock")
-    stable = f"symplectic-euler is stable up to {cost['step_limit']:.6g} s"
-    assert told["limit"]["text"] == f"at the state of the cost, {stable}, and without edges at any step"
 
 
 def test_the_first_limit_is_within_the_budget(hooke, write):
@@ -360,14 +304,6 @@ def test_why_no_step_can_be_chosen_is_a_warning_of_check(hooke, write):
     assert never.startswith("forward-euler, the method of the run, is stable at no step")
     sentence = "no step: forward-euler is certain to be stable here at no step; give one with --step, or take another method"
     assert (run.code, run.err) == (2, f"hooke run: {sentence}\n")
-
-
-def test_an_invalid_scene_is_3_and_names_the_place(hooke, tmp_path):
-    (tmp_path / "bad.json").write_text('{"hooke": 1,\n "gravty": [0, 0, 0]}')
-    answer = hooke("check", "bad.json")
-    assert answer.code == 3
-    assert "bad.json:2:" in answer.err and "gravty" in answer.err
-    assert answer.out == ""
 
 
 def test_strings_are_escaped(hooke, write):

@@ -1,7 +1,6 @@
 """hooke compare: rows, table, file, and rows that diverge."""
 
 import json
-import math
 import time
 
 import h5py
@@ -41,27 +40,6 @@ def test_json_has_exactly_the_keys(hooke, write):
         assert 0 < row["wall_seconds"] < 60
         fixed = not row["method"].startswith("cvode-")
         assert (row["step"], row["rtol"]) == ((1e-3, None) if fixed else (None, 1e-6))
-
-
-def test_errors_are_in_the_right_order(hooke, write):
-    """The largest distance is at least the root mean square; explicit Euler at 1e-3 has an error of millimetres,
-    CVODE at 1e-6 a far smaller one; halving the step halves the error."""
-    scene = write(SIX_PARTICLES)
-    rows = rows_of(hooke("compare", scene, "--json").json)
-    for row in rows.values():
-        assert 0 < row["error_final"] <= row["error"] < row["error_max"] < math.sqrt(5) * row["error"] * (1 + 1e-12)
-        assert row["energy_drift"] > 0
-    for euler in METHODS[:2]:
-        for cvode in METHODS[-2:]:
-            assert rows[cvode]["error"] < 0.1 * rows[euler]["error"]
-    half = rows_of(hooke("compare", scene, "--json", "--step", "5e-4").json)
-    for euler in METHODS[:2]:
-        assert 1.8 < rows[euler]["error"] / half[euler]["error"] < 2.2
-
-
-def test_methods_can_be_chosen(hooke, write):
-    value = hooke("compare", write(SIX_PARTICLES), "--methods", "cvode-bdf,forward-euler", "--json").json
-    assert sorted(rows_of(value)) == ["cvode-bdf", "forward-euler"]
 
 
 def test_no_step_is_needed_without_a_method_that_takes_one(hooke, write):

@@ -51,45 +51,11 @@ def scene(tmp_path):
     return "scene.json"
 
 
-@pytest.mark.parametrize("words, shown", [
-    ("check", ["title", "rope", "group"]),
-    ("check --cost --predict", ["title", "rope", "group"]),
-    ("run", ["title"]),
-    ("compare --methods verlet,rk4", ["title"]),
-    ("study --methods verlet --budget 2s", ["title"]),
-    ("limit --methods verlet --predict", ["title", "rope"]),
-    ("needs --want 10cm", ["title", "group", "rope"]),
-    ("needs --want 10cm --refine", ["title", "rope"]),
-])
-def test_results_show_names_and_steer_nothing(call, scene, words, shown):
-    verb, *more = words.split()
-    code, out, err = call(verb, scene, *more)
-    assert code == 0, err
-    for name in shown:
-        assert name + PLAIN in out, out
-
-
-def test_json_has_the_true_characters(call, scene):
-    names = [group["name"] for group in json.loads(call("check", scene, "--json")[1])["groups"]]
-    assert names == ["group" + EVIL, "rope" + EVIL + ".stretch"]
-    value = json.loads(call("run", "stiff.json", "--json")[1])
-    assert "group" + PLAIN in value["diagnosis"]
-
-
 def test_a_scene_that_is_made_escapes_them(call):
     out = call(*"make rope --from 0,0,0 --to 1,0,0 --segments 2 --stretch.stiffness 1 --density 1 --name".split(),
                "rope" + EVIL, "--title", "title" + EVIL)[1]
     scene = json.loads(out)
     assert (scene["title"], scene["parts"][0]["name"]) == ("title" + EVIL, "rope" + EVIL)
-
-
-def test_warnings_diagnoses_and_advice(call, scene):
-    code, out, err = call("run", "stiff.json")
-    assert code == 4 and "title" + PLAIN in out and len(err.splitlines()) == 4
-    code, out, err = call("run", "stiff.json", "--no-why")
-    assert code == 4 and "warning: " in err and "group" + PLAIN in err
-    code, out, err = call("why", "stiff.json")
-    assert code == 0 and out.count("group" + PLAIN) >= 2 and "hooke run stiff.json" in out
 
 
 def test_file_names(call, scene, tmp_path):

@@ -15,6 +15,7 @@ VERBS = {
     "compare": ["--methods", "verlet"],
     "study": ["--methods", "rk4", "--steps", "2ms", "--want", "1cm", "--budget", "3s"],
     "limit": ["--methods", "symplectic-euler,rk4"],
+    "rest": ["--final", "--watch", "2.y"],
     "modes": [],
     "needs": ["--want", "1cm", "--method", "rk4"],
     "why": ["--step", "0.3", "--every", "0.3", "--duration", "30"],

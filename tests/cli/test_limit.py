@@ -1,7 +1,6 @@
 """hooke limit: its predictions and measurements, its state, and its words."""
 
 import copy
-import math
 import os
 from pathlib import Path
 
@@ -26,42 +25,27 @@ def rows_of(answer):
     return {row["method"]: row for row in answer.json["rows"]}
 
 
-def test_predictions(hooke, write):
-    answer = hooke("limit", write(SIX_PARTICLES), "--predict", "--json")
-    rows = rows_of(answer)
-    assert list(rows) == FIXED_STEP
-    assert math.isclose(answer.json["frequency_max"], 14.658903548369766, rel_tol=1e-12)
-    for method, limit in LIMITS.items():
-        assert math.isclose(rows[method]["predicted"], limit, rel_tol=1e-6)
-        assert rows[method]["bound"] <= limit
-        assert rows[method]["never_stable"] is False and rows[method]["exact"] is True
-    for row in rows.values():
-        assert row["measured"] is None and row["ratio"] is None and row["steps_run"] is None
-    assert rows["backward-euler"]["predicted"] is None and "accuracy limits it" in rows["backward-euler"]["note"]
+def test_an_unknown_prediction_is_no_number(hooke, write):
+    scene = {"hooke": 1, "gravity": [0, -9.81, 0],
+             "parts": [{"kind": "cloth", "size": [12, 12], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 1,
+                        "structural": {"stiffness": 50, "damping": 0.1}, "shear": {"stiffness": 20}}],
+             "obstacles": [{"shape": "plane", "point": [0, 0.001, 0], "normal": [0, 1, 0], "stiffness": 100, "damping": 1}],
+             "run": {"method": "verlet", "duration": 1e-3, "every": 5e-4, "step": 1e-4}}
+    row = rows_of(hooke("limit", write(scene), "--methods", "verlet", "--json"))["verlet"]
+    assert row["predicted"] is None and row["ratio"] is None and row["exact"] is False and "not known" in row["note"]
+    assert 0 < row["bound"] < row["measured"] < 3 * row["bound"]  # by runs it is found all the same
+    along = rows_of(hooke("limit", write(scene), "--along", "--methods", "verlet", "--json"))["verlet"]
+    assert along["smallest"] is None and "not known at 3 of 3 frames" in along["note"]
 
 
-def test_blame(hooke, write):
-    answer = hooke("limit", write(SIX_PARTICLES), "--predict", "--json").json
-    shares = [spring["share"] for spring in answer["blame"]]
-    assert 0.99 < sum(shares) <= 1 + 1e-12 and shares == sorted(shares, reverse=True)
-    assert answer["blame"][0]["spring"] == [0, 1] and answer["blame"][0]["group"] == "edges"
-    assert sum(mover["share"] for mover in answer["participation"]) == pytest.approx(1, rel=1e-9)
-    assert max(mode["imaginary"] for mode in answer["modes"]) > 0 and len(answer["modes"]) == answer["mode_count"]
-    assert max(mode["frequency"] for mode in answer["modes"]) == pytest.approx(answer["frequency_max"], rel=1e-3)
-    assert answer["changes"]["kind"] is None and "spread over the scene" in answer["changes"]["sentence"]
-
-
-def test_measurements(hooke, write):
-    answer = hooke("limit", write(STIFF_PAIR), "--methods", "forward-euler,symplectic-euler,verlet,rk4", "--json")
-    rows = rows_of(answer)
-    for method, factor in {"symplectic-euler": 2, "verlet": 2, "rk4": 2 * math.sqrt(2)}.items():
-        row = rows[method]
-        # a spring stretched by a tenth: stiff along with 1000 N/m
-        assert math.isclose(row["predicted"], factor / math.sqrt(1000), rel_tol=1e-9)
-        assert 0.98 < row["ratio"] < 1.02 and row["ratio"] == row["measured"] / row["predicted"]
-        assert row["steps_run"] > 100
-    assert rows["forward-euler"]["never_stable"] is True
-    assert rows["forward-euler"]["predicted"] == 0 and rows["forward-euler"]["measured"] == 0
+def test_friction_limits_the_step_of_what_lies(hooke, write):
+    """It is a damping of mu g/s, 39240 1/s, by which Euler's methods are stable up to 2 s/(mu g)."""
+    floor = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "stiffness": 1e5, "friction": 0.4, "friction_speed": 1e-4}
+    scene = {"hooke": 1, "gravity": [0, -9.81, 0], "particles": {"position": [[0, -9.81e-5, 0]], "mass": 1}, "obstacles": [floor]}
+    answer = hooke("limit", write(scene), "--predict", "--methods", "symplectic-euler", "--json")
+    assert math.isclose(rows_of(answer)["symplectic-euler"]["predicted"], 2 / 39240, rel_tol=1e-6)
+    assert answer.json["changes"]["sentence"] == "contact limits the step, with 100 % of the limiting mode"
+    assert "contact limits the step" in hooke("limit", write(scene), "--predict").out
 
 
 def test_the_scene_itself(hooke, write):
@@ -90,30 +74,10 @@ def test_at_a_frame(hooke, write, tmp_path):
     assert hooke("limit", scene, "--predict", "--at", "out.h5:0").code == 0
 
 
-def test_along_a_run(hooke, write):
-    scene = write(SIX_PARTICLES)
-    rows = rows_of(hooke("limit", scene, "--along", "--json"))
-    start = rows_of(hooke("limit", scene, "--predict", "--json"))
-    for method in LIMITS:
-        assert rows[method]["smallest"] <= start[method]["predicted"]
-        assert 0 <= rows[method]["smallest_time"] <= 0.5
-        assert rows[method]["smallest"] <= rows[method]["predicted"]
-    assert rows["verlet"]["smallest"] > 0.5 * start["verlet"]["predicted"]
-    assert rows["backward-euler"]["smallest"] is None and rows["backward-euler"]["smallest_time"] is None
-
-
 def test_along_a_run_that_diverges(hooke, write):
     answer = hooke("limit", write(STIFF_PAIR), "--along", "--json")
     assert answer.code == 4
     assert answer.json["rows"][1]["smallest"] > 0 and "ended early" in answer.err
-
-
-def test_words(hooke, write):
-    answer = hooke("limit", write(SIX_PARTICLES), "--predict")
-    assert answer.code == 0 and answer.err == ""
-    assert "six particles, seven springs, at t = 0 s" in answer.out
-    assert "0.131625" in answer.out and "safe bound" in answer.out and "measured" not in answer.out
-    assert "spring 0, between particles 0 and 1, group edges" in answer.out
 
 
 def claims_of(answer):

@@ -1,4 +1,4 @@
-"""Strands by the command line: their description by check, and runs of a curl of either handedness."""
+"""Strands by the command line: their description by check, and what needs asks of them."""
 
 import copy
 import json
@@ -22,16 +22,6 @@ STRAIGHT = {
 }  # fmt: skip
 
 
-def volumes(q):
-    def minus(a, b):
-        return [x - y for x, y in zip(a, b)]
-
-    def volume(a, b, c):
-        return sum(a[k] * (b[(k + 1) % 3] * c[(k + 2) % 3] - b[(k + 2) % 3] * c[(k + 1) % 3]) for k in range(3))
-
-    return [volume(*(minus(q[k + j], q[k]) for j in (1, 2, 3))) for k in range(len(q) - 3)]
-
-
 def test_check_tells_of_tetrahedra(hooke, write):
     scene = write(STRAIGHT)
     answer = hooke("check", scene, "--json")
@@ -53,16 +43,6 @@ def test_check_tells_of_tetrahedra(hooke, write):
     assert derived["altitude", "kd"] == pytest.approx(0.5 * (3 / length * mass / 2) ** 0.5 * length, rel=1e-13)
     words = hooke("check", scene).out
     assert "tetrahedra   6\n           6 hair.altitude\n" in words
-
-
-@pytest.mark.parametrize("turns", [5, -5])
-def test_a_curl_keeps_its_hand(hooke, write, turns):
-    scene = copy.deepcopy(CURL)
-    scene["parts"][0]["turns"] = turns
-    scene["run"]["duration"] = 0.1
-    answer = hooke("run", write(scene), "--json", "--final")
-    assert (answer.code, answer.json["status"]) == (0, "finished")
-    assert all(volume * turns > 0 for volume in volumes(answer.json["final"]["position"]))
 
 
 def test_needs_asks_for_altitude_springs(hooke, write):

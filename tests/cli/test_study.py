@@ -7,7 +7,6 @@ import shlex
 import time
 from pathlib import Path
 
-import h5py
 import pytest
 from conftest import ENDLESS, SIX_PARTICLES, STIFF_PAIR, interrupt
 
@@ -95,28 +94,6 @@ def test_csv_reads_back_to_the_same_bits(hooke, write, tmp_path):
     assert [path.name for path in tmp_path.iterdir() if path.name.startswith("rows")] == ["rows.csv"]
 
 
-def test_hdf5_holds_the_rows_and_the_recommendation(hooke, write, tmp_path):
-    (tmp_path / "study.h5").write_text("of old")
-    scene = write(SIX_PARTICLES)
-    answer = hooke("study", scene, "--json", "-o", "study.h5", "--want", "1mm", *FEW)
-    assert answer.code == 0, answer.err
-    value = answer.json
-    with h5py.File(tmp_path / "study.h5") as file:
-        study = file["study"]
-        assert study["method"].asstr()[:].tolist() == [row["method"] for row in value["rows"]]
-        for name in ("step", "rtol", "error", "energy_drift", "force_evaluations", "wall_seconds"):
-            found = [None if math.isnan(number) else number for number in study[name][:]]
-            assert found == [row[name] for row in value["rows"]], name
-        assert study["series/error"].shape == (len(value["rows"]), len(study["series/time"]))
-        assert [study["reference"].attrs[name] for name in ("method", "check")] == value["reference"]["methods"]
-        assert study["reference"].attrs["agreement"] == value["reference"]["agreement"]
-        assert study["recommendation"].attrs["method"] == value["recommendation"]["method"]
-        assert study["recommendation"].attrs["error"] == value["recommendation"]["error"] <= 1e-3
-        assert file["hooke/scene"].asstr()[()] == (tmp_path / scene).read_text()
-        assert file["hooke/status"].asstr()[()] == "finished"
-    assert [path.name for path in tmp_path.iterdir() if path.name.startswith("study")] == ["study.h5"]
-
-
 def test_recommended_command_gives_the_error_that_was_promised(hooke, write, tmp_path):
     scene = write(SIX_PARTICLES, name="a scene.json", duration=2, every=0.05, atol_velocity=1e-5)
     tight = ["--method", "cvode-adams", "--rtol", "1e-11", "--atol", "1e-13", "--duration", "1s", "--final", "--json"]
@@ -148,7 +125,6 @@ PAIRS = [
 
 @pytest.mark.parametrize("name, duration, methods, want", PAIRS)
 def test_a_ladder_four_times_as_fine_has_nothing_much_cheaper(hooke, name, duration, methods, want):
-    """As in tests/long/recommendation.py, for a few quick scenes."""
     scene = EXAMPLES / f"{name}.json"
     every = json.loads(scene.read_text())["run"]["every"]
     words = ["study", scene, "--duration", duration, "--json", "--methods"]

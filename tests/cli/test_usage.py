@@ -6,35 +6,6 @@ import subprocess
 import pytest
 from conftest import CLI, MINIMAL, SIX_PARTICLES
 
-VERBS = ["run", "compare", "check"]
-METHODS = ["forward-euler", "symplectic-euler", "cvode-bdf", "cvode-adams"]
-RUN_OPTIONS = {  # expected in --help for each: unit and default
-    "step": ("[s]", "none"),
-    "duration": ("[s]", "none"),
-    "every": ("[s]", "none"),
-    "rtol": ("", "1e-6"),
-    "atol": ("[m]", "none"),
-    "atol-velocity": ("[m/s]", "none"),
-    "max-order": ("", "none"),
-    "max-steps": ("", "none"),
-    "threads": ("", "1"),
-}
-
-
-def paragraphs(text):
-    """The text of each option in a help text, by flag."""
-    found = {}
-    for match in re.finditer(r"^  (?:-\w, |    )--([\w-]+)(.*(?:\n {10,}.*)*)", text, re.MULTILINE):
-        found[match.group(1)] = " ".join(match.group(2).split())
-    return found
-
-
-def test_help_lists_verbs_and_methods(hooke):
-    answer = hooke("--help")
-    assert (answer.code, answer.err) == (0, "")
-    for word in VERBS + METHODS:
-        assert re.search(rf"^  {word} ", answer.out, re.MULTILINE), word
-
 
 def test_methods_say_what_they_take(hooke):
     answer = hooke("methods")
@@ -44,31 +15,6 @@ def test_methods_say_what_they_take(hooke):
     listed = hooke("--help").out.split("\nmethods:\n")[1].split("\n\n")[0]
     assert list(rows) == re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE)
     assert (rows["shardlow"], rows["tr-bdf2"], rows["rk4"]) == (["no"] * 3, ["yes", "yes", "no"], ["yes"] * 3)
-
-
-@pytest.mark.parametrize("verb", VERBS)
-def test_help_of_a_verb_has_units_and_defaults(hooke, verb):
-    answer = hooke(verb, "--help", "all")
-    assert (answer.code, answer.err) == (0, "")
-    options = paragraphs(answer.out)
-    for flag, (unit, default) in RUN_OPTIONS.items():
-        assert unit in options[flag], flag
-        assert options[flag].endswith(f"default: {default}"), options[flag]
-    assert ("method" in options) == (verb != "compare")
-    assert ("output" in options) == (verb != "check")
-    assert max(map(len, answer.out.splitlines())) <= 110
-
-
-def test_help_of_study_has_both_tables_and_the_units(hooke):
-    answer = hooke("study", "--help", "all")
-    assert (answer.code, answer.err) == (0, "")
-    for flag in ["methods", "points", "steps", "tolerances", "want", "budget", "duration", "every", "output"]:
-        assert f" --{flag} " in answer.out, flag
-    for flag in ["step", "rtol", "atol", "method"]:
-        assert f" --{flag} " not in answer.out, flag
-    for units in ["s, ms, us, ns, ps, fs, min, h", "m, km, cm, mm, um, nm, angstrom, in, ft"]:
-        assert answer.out.count(f"\n  {units}\n") == 1
-    assert max(map(len, answer.out.splitlines())) <= 110
 
 
 def test_version_says_what_it_was_built_with(hooke):
@@ -164,7 +110,6 @@ def test_what_is_not_in_a_minimal_build_is_6(hooke, write, tmp_path, words, want
     assert answer.out == ""
     assert not (tmp_path / "out.h5").exists()
     assert hooke(words[0], scene, "--json", *words[1:]).json["error"]["exit"] == 6
-
 
 
 @pytest.mark.skipif(not MINIMAL, reason="this build has the libraries")

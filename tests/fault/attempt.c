@@ -25,6 +25,7 @@ static int32_t is_apt(const struct attempt *a, int32_t status) {
 int32_t attempt_failed_saying(struct attempt *a, int32_t status, int32_t expected, const char *call,
                               const char *message) {
   const int64_t failures = fault_failures(), new_ones = failures - a->seen;
+  if (a->after) a->after(call);
   /* a failed write of a thread is reported later */
   if (status != expected || !a->on_file) a->seen = failures;
   if (status == expected) return 0;

@@ -12,8 +12,9 @@
 struct attempt {
   const char *folder, *out; /* folder of its input files; of its output files */
   enum fault_reach reach;
-  int32_t on_file; /* faults are those of files: HOOKE_IO_FAILED instead of HOOKE_NO_MEMORY */
-  int32_t foreign; /* another library had the fault: any failure may hide the cause */
+  int32_t on_file;                 /* faults are those of files: HOOKE_IO_FAILED instead of HOOKE_NO_MEMORY */
+  int32_t foreign;                 /* another library had the fault: any failure may hide the cause */
+  void (*after)(const char *call); /* after every call and before the next; NULL: nothing */
   /* results */
   uint64_t hash;
   int64_t refused; /* number of calls that failed for a fault */

@@ -82,9 +82,10 @@ end:
 
 /* Functions that allocate scratch. */
 static void ask_everything(struct attempt *a, const hooke_system *system) {
-  static double vectors[3 * COUNT], stiffness_blocks[9 * COUNT * COUNT], damping_blocks[9 * COUNT * COUNT],
-      numbers[64], bound;
-  static int64_t row_starts[COUNT * COUNT + COUNT + 1], columns[COUNT * COUNT + COUNT + 1], ends[64];
+  static _Thread_local double vectors[3 * COUNT], stiffness_blocks[9 * COUNT * COUNT],
+      damping_blocks[9 * COUNT * COUNT], numbers[64], bound;
+  static _Thread_local int64_t row_starts[COUNT * COUNT + COUNT + 1], columns[COUNT * COUNT + COUNT + 1],
+      ends[64];
   int64_t blocks = 0;
   hooke_state *state = NULL, *other = NULL;
   TRY(a, hooke_state_create(system, &state));

@@ -50,6 +50,18 @@ end:
   release(&m);
 }
 
+SCENARIO(rest) {
+  struct made m = {.system = make_rope(a, 5)};
+  m.measurement = make_measurement(a, "rest", m.system, m.run, "watch=3.y");
+  if (m.measurement == NULL) goto end;
+  TRY(a, hooke_measurement_run(m.measurement, NULL));
+  TAKE(m.measurement, "rest", "status", "#residual", "#minimum");
+  TAKE(m.measurement, "watched", "quantity", "#value");
+  (void)with;
+end:
+  release(&m);
+}
+
 SCENARIO(why) {
   struct made m = {.system = make_rope(a, 3)};
   m.run = make_options(a, "run", "method=symplectic-euler step=0.05 duration=100 every=1");
@@ -119,7 +131,7 @@ SCENARIO(estimate) {
   struct made m = {.system = make_oscillator(a)};
   const char *words = with;
   m.run = make_options(a, "run", "%s", words);
-  m.measurement = make_measurement(a, "estimate", m.system, NULL, "want=1e-7");
+  m.measurement = make_measurement(a, "estimate", m.system, NULL, "want=1e-7 watch=1.x,0.reaction,period:1.x");
   if (m.measurement == NULL) goto end;
   if (strstr(words, "step") == NULL) {
     fault_pause();
@@ -131,6 +143,7 @@ SCENARIO(estimate) {
   TRY(a, hooke_state_create(m.system, &m.state));
   TRY(a, hooke_integrator_on_frame(m.integrator, hooke_estimate_see, m.measurement));
   TRY(a, hooke_estimate_begin(m.measurement, m.integrator, m.state));
+  TRY(a, hooke_estimate_follow(m.measurement, m.integrator));
   TRY(a, hooke_integrator_run(m.integrator, m.state));
   TRY(a, hooke_measurement_run(m.measurement, m.state));
   TAKE(m.measurement, "estimate", "by", "#estimate", "#met", "#heat_excess");
@@ -174,6 +187,7 @@ end:
 }
 
 const struct scenario measuring[] = {
+    {"rest", rest, NULL, 1, "lapack", NULL},
     {"limit, predicted", limit, NULL, 1, "lapack", NULL},
     {"limit, measured", limit, "", 5, "lapack", NULL},
     {"why", why, NULL, 20, "lapack", NULL},

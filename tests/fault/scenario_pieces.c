@@ -1,9 +1,13 @@
 #include "scenarios.h"
+#include "hash.h"
 #include "small.h"
 
+#include <dirent.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { PATH_SIZE = 512 };
 
@@ -17,6 +21,40 @@ int32_t scenario_is_built(const struct scenario *scenario) {
     if (hooke_build_fact(word)[0] == '\0') return 0;
   }
   return 1;
+}
+
+const struct scenario *scenario_at(int32_t k) {
+  static const struct scenario *const lists[] = {creating, loading, running, measuring, writing, resuming};
+  for (size_t list = 0; list < sizeof lists / sizeof lists[0]; list++) {
+    for (const struct scenario *scenario = lists[list]; scenario->name; scenario++) {
+      if (scenario_is_built(scenario) && k-- == 0) return scenario;
+    }
+  }
+  return NULL;
+}
+
+struct attempt scenario_attempt(const char *folder) {
+  return (struct attempt){.folder = folder, .out = folder, .hash = HASH_START};
+}
+
+int open_folder(char folder[128]) {
+  snprintf(folder, 128, "%s/hooke-fault-XXXXXX", P_tmpdir);
+  if (mkdtemp(folder) == NULL) return -1;
+  prepare_scenes(folder);
+  return 0;
+}
+
+int close_folder(const char *folder) {
+  char path[512];
+  DIR *all = opendir(folder);
+  if (all == NULL) return -1;
+  for (struct dirent *entry; (entry = readdir(all)) != NULL;) {
+    if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+    snprintf(path, sizeof path, "%.250s/%s", folder, entry->d_name);
+    unlink(path);
+  }
+  closedir(all);
+  return rmdir(folder);
 }
 
 void release(struct made *made) {
@@ -112,7 +150,7 @@ const char *path_of(const struct attempt *a, const char *name) {
 }
 
 void read_back(struct attempt *a, const char *path, const hooke_system *system, int64_t frames) {
-  static double numbers[3 * 2000];
+  static _Thread_local double numbers[3 * 2000];
   hooke_record *record = NULL;
   hooke_state *state = NULL;
   int64_t rows, columns;

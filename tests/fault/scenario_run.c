@@ -51,9 +51,10 @@ SCENARIO(run) {
   struct made m = {.system = make_rope(a, w->threads > 1 ? 17500 : 6)};
   const double step = w->step > 0.0 ? w->step : w->threads > 1 ? 1e-7 : 1e-4;
   const double duration = w->threads > 1 ? 2.0 * step : 4.0 * step;
-  m.run = make_options(a, "run", "method=%s step=%.17g duration=%.17g threads=%d rtol=1e-4", w->method, step,
-                       duration, (int)w->threads);
+  m.run = make_options(a, "run", "method=%s threads=%d rtol=1e-4", w->method, (int)w->threads);
   if (m.run == NULL) goto end;
+  TRY(a, hooke_options_set_number(m.run, "step", step));
+  TRY(a, hooke_options_set_number(m.run, "duration", duration));
   if (w->threads > 1) TRY(a, hooke_options_set_number(m.run, "every", duration));
   if (w->linear_solver) TRY(a, hooke_options_set_text(m.run, "linear_solver", w->linear_solver));
   if (w->newton) TRY(a, hooke_options_set_text(m.run, "newton", w->newton));
@@ -130,6 +131,7 @@ SCENARIO(run_first_order) {
   if (m.run == NULL) goto end;
   TRY(a, hooke_integrator_create_first_order(3, decay, NULL, m.run, &m.integrator));
   TRY(a, hooke_state_create_first_order(3, &m.state));
+  TRY(a, hooke_system_create_first_order(decay, NULL, m.state, &m.system));
   for (int k = 0; k < 3; k++)
     hooke_state_position(m.state)[k] = 1.0;
   hooke_state_set_time(m.state, 0.0);

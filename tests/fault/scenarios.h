@@ -24,6 +24,16 @@ extern const struct scenario creating[], loading[], running[], measuring[], writ
 
 int32_t scenario_is_built(const struct scenario *scenario);
 
+/* A new folder with the input files of scenarios; 0 on success. */
+int open_folder(char folder[128]);
+int close_folder(const char *folder);
+
+/* Those of all lists but `typing`, one after the other: k = 0, 1, ...; NULL past the last. */
+const struct scenario *scenario_at(int32_t k);
+
+/* Without faults, and with its output in the folder of its input. */
+struct attempt scenario_attempt(const char *folder);
+
 /* Input files of scenarios, created once in `folder`. */
 void prepare_scenes(const char *folder);
 

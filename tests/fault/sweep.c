@@ -1,43 +1,26 @@
 #include "sweep.h"
 
 #include "check.h"
-#include "hash.h"
 #include "places.h"
 #include "sanitized.h"
 
-#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 int sweep_open(struct sweep *sweep) {
-  snprintf(sweep->folder, sizeof sweep->folder, "%s/hooke-fault-XXXXXX", P_tmpdir);
-  if (mkdtemp(sweep->folder) == NULL) return -1;
-  prepare_scenes(sweep->folder);
-  return places_prepare();
-}
-
-static int remove_folder(const char *folder) {
-  char path[512];
-  DIR *open_folder = opendir(folder);
-  if (open_folder == NULL) return -1;
-  for (struct dirent *entry; (entry = readdir(open_folder)) != NULL;) {
-    if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
-    snprintf(path, sizeof path, "%.250s/%s", folder, entry->d_name);
-    unlink(path);
-  }
-  closedir(open_folder);
-  return rmdir(folder);
+  return open_folder(sweep->folder) ? -1 : places_prepare();
 }
 
 int sweep_close(struct sweep *sweep) {
-  return remove_folder(sweep->folder);
+  return close_folder(sweep->folder);
 }
 
 struct attempt sweep_attempt(const struct sweep *sweep, enum fault_reach reach) {
-  return (struct attempt){.folder = sweep->folder, .out = sweep->folder, .reach = reach, .hash = HASH_START};
+  struct attempt attempt = scenario_attempt(sweep->folder);
+  attempt.reach = reach;
+  return attempt;
 }
 
 enum { MOST_COMPLAINTS = 20, POINTS_ALL_TRIED = 20 };

@@ -137,8 +137,9 @@ contains
     call make_run(run, "verlet", 1e-3_hooke_real, 0.5_hooke_real)
     call watch%estimate%create(system, -1.0_hooke_real, status)
     call expect(status == hooke_bad_value .and. .not. watch%estimate%exists(), "no negative error")
-    call watch%estimate%create(system, ieee_value(1.0_hooke_real, ieee_quiet_nan))
+    call watch%estimate%create(system, ieee_value(1.0_hooke_real, ieee_quiet_nan), watch="1.x,kinetic")
     call integrator%create(system, run)
+    call watch%estimate%follow(integrator)
     call state%create(system)
     call integrator%on_frame(watch)
     call watch%estimate%begin(integrator, state)
@@ -146,6 +147,8 @@ contains
     call watch%estimate%measure(integrator, state)
     call expect(watch%estimate%number("estimate") > 0 .and. watch%estimate%number("estimate") < 1e-3_hooke_real, &
       "the error of a run")
+    call expect(watch%estimate%watched(1, "minimum") < watch%estimate%watched(1, "maximum") .and. &
+      watch%estimate%watched(2, "from") < 0.25_hooke_real, "extremes of what is watched")
     call expect(watch%estimate%text("by") == "half-step" .and. ieee_is_nan(watch%estimate%number("met")), "by its order")
     if (hooke_build_fact("sundials") == "") return
     call watch%estimate%create(system, 1e-5_hooke_real)

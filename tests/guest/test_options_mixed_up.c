@@ -23,55 +23,25 @@ static hooke_system *open_system(void) {
   return small_system(4, place, NULL, 1.0, 0);
 }
 
-static int32_t add_springs(hooke_options *o) {
-  hooke_system *system = open_system();
-  const int32_t status = hooke_system_add_springs(system, NULL, 2, four, o);
-  hooke_system_destroy(system);
-  return status;
+/* Springs, altitude springs or a part of this kind. */
+static int32_t add(const char *what, hooke_options *o) {
+  owned_system *system = open_system();
+  if (strcmp(what, "springs") == 0) return hooke_system_add_springs(system, NULL, 2, four, o);
+  if (strcmp(what, "altitude") == 0) return hooke_system_add_altitude(system, NULL, 1, four, o);
+  return hooke_system_add_part(system, what, NULL, o, NULL, NULL);
 }
 
-static int32_t add_altitude(hooke_options *o) {
-  hooke_system *system = open_system();
-  const int32_t status = hooke_system_add_altitude(system, NULL, 1, four, o);
-  hooke_system_destroy(system);
-  return status;
-}
-
-static int32_t add_part(const char *kind, hooke_options *o) {
-  hooke_system *system = open_system();
-  const int32_t status = hooke_system_add_part(system, kind, NULL, o, NULL, NULL);
-  hooke_system_destroy(system);
-  return status;
-}
-static int32_t add_rope(hooke_options *o) {
-  return add_part("rope", o);
-}
-static int32_t add_cloth(hooke_options *o) {
-  return add_part("cloth", o);
-}
-static int32_t add_lattice(hooke_options *o) {
-  return add_part("lattice", o);
-}
-static int32_t add_mesh(hooke_options *o) {
-  return add_part("mesh", o);
-}
-static int32_t add_strand(hooke_options *o) {
-  return add_part("strand", o);
-}
-
-static int32_t set_mesh(hooke_options *o) {
+static int32_t set_mesh(const char *what, hooke_options *o) {
+  (void)what;
   return hooke_mesh_set(o, 3, place, 1, four);
 }
 
-static int32_t apply_scene(hooke_options *o) {
+static int32_t apply_scene(const char *what, hooke_options *o) {
+  (void)what;
   hooke_system *system = open_system();
   const int32_t status = hooke_scene_options_apply(o, system);
   hooke_system_destroy(system);
   return status;
-}
-
-static hooke_system *committed(void) {
-  return small_oscillator(10.0);
 }
 
 static int32_t grow(int64_t n, double t, const double *x, double *rate, void *ctx) {
@@ -80,7 +50,8 @@ static int32_t grow(int64_t n, double t, const double *x, double *rate, void *ct
   return 0;
 }
 
-static int32_t create_first_order(hooke_options *o) {
+static int32_t create_first_order(const char *what, hooke_options *o) {
+  (void)what;
   hooke_integrator *made = NULL;
   hooke_options_set_text(o, "method", "rk4");
   const int32_t status = hooke_integrator_create_first_order(1, grow, NULL, o, &made);
@@ -88,76 +59,41 @@ static int32_t create_first_order(hooke_options *o) {
   return status;
 }
 
-#define TAKES(name, type, create, destroy)                                                                   \
-  static int32_t name(hooke_options *o) {                                                                    \
-    hooke_system *system = committed();                                                                      \
-    type *made = NULL;                                                                                       \
-    const int32_t status = create;                                                                           \
-    if (status == HOOKE_OK) destroy(made);                                                                   \
-    hooke_system_destroy(system);                                                                            \
-    return status;                                                                                           \
-  }
-TAKES(create_integrator, hooke_integrator, hooke_integrator_create(system, o, &made),
-      hooke_integrator_destroy)
-TAKES(create_study_of_run, hooke_measurement, hooke_measurement_create("study", system, o, NULL, &made),
-      hooke_measurement_destroy)
-TAKES(create_limit_of_run, hooke_measurement, hooke_measurement_create("limit", system, o, NULL, &made),
-      hooke_measurement_destroy)
-TAKES(create_limit, hooke_measurement, hooke_measurement_create("limit", system, NULL, o, &made),
-      hooke_measurement_destroy)
-TAKES(create_cost_of_run, hooke_measurement, hooke_measurement_create("cost", system, o, NULL, &made),
-      hooke_measurement_destroy)
-TAKES(create_cost, hooke_measurement, hooke_measurement_create("cost", system, NULL, o, &made),
-      hooke_measurement_destroy)
-TAKES(create_check, hooke_measurement, hooke_measurement_create("check", system, NULL, o, &made),
-      hooke_measurement_destroy)
-TAKES(write_scene, hooke_scene, hooke_scene_of_system(system, NULL, o, "a", NULL, &made), hooke_scene_destroy)
-
-static int32_t with_run(hooke_options *o,
-                        int32_t (*create)(hooke_system *, hooke_options *, hooke_options *)) {
-  hooke_system *system = committed();
-  hooke_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 0.1});
-  const int32_t status = create(system, run, o);
-  hooke_options_destroy(run);
-  hooke_system_destroy(system);
-  return status;
+static int32_t create_integrator(const char *what, hooke_options *o) {
+  (void)what;
+  owned_system *system = small_oscillator(10.0);
+  owned_integrator *made = NULL;
+  return hooke_integrator_create(system, o, &made);
 }
 
-static int32_t study_with(hooke_system *system, hooke_options *run, hooke_options *o) {
-  hooke_measurement *made = NULL;
-  const int32_t status = hooke_measurement_create("study", system, run, o, &made);
-  if (status == HOOKE_OK) hooke_measurement_destroy(made);
-  return status;
-}
-static int32_t create_study(hooke_options *o) {
-  return with_run(o, study_with);
+static int32_t write_scene(const char *what, hooke_options *o) {
+  (void)what;
+  owned_system *system = small_oscillator(10.0);
+  owned_scene *made = NULL;
+  return hooke_scene_of_system(system, NULL, o, "a", NULL, &made);
 }
 
-static int32_t needs_with(hooke_system *system, hooke_options *run, hooke_options *o) {
-  hooke_measurement *made = NULL;
-  if (o && hooke_options_row_count(o) == 3) hooke_options_set_text(o, "want", "0.1");
-  const int32_t status = hooke_measurement_create("needs", system, run, o, &made);
-  if (status == HOOKE_OK) hooke_measurement_destroy(made);
-  return status;
-}
-static int32_t create_needs(hooke_options *o) {
-  return with_run(o, needs_with);
+/* A measurement of this kind with these options of its own. */
+static int32_t measure(const char *what, hooke_options *o) {
+  owned_system *system = small_oscillator(10.0);
+  owned_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 0.1});
+  owned_measurement *made = NULL;
+  if (o && strcmp(what, "needs") == 0) hooke_options_set_text(o, "want", "0.1");
+  return hooke_measurement_create(what, system, run, o, &made);
 }
 
-static int32_t create_needs_of_run(hooke_options *o) {
-  hooke_system *system = committed();
-  hooke_measurement *made = NULL;
-  hooke_options *options = options_with("needs", "want=0.1");
-  hooke_options_set_number(o, "duration", 0.1);
-  const int32_t status = hooke_measurement_create("needs", system, o, options, &made);
-  if (status == HOOKE_OK) hooke_measurement_destroy(made);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
-  return status;
+/* With these options of a run. */
+static int32_t measure_run(const char *what, hooke_options *o) {
+  owned_system *system = small_oscillator(10.0);
+  owned_options *options = strcmp(what, "needs") == 0 ? options_with("needs", "want=0.1") : NULL;
+  owned_measurement *made = NULL;
+  if (o && options) hooke_options_set_number(o, "duration", 0.1);
+  return hooke_measurement_create(what, system, o, options, &made);
 }
 
-static int32_t pick(hooke_options *o) {
-  hooke_system *system = committed();
+static int32_t pick(const char *what, hooke_options *o) {
+  (void)what;
+  hooke_system *system = small_oscillator(10.0);
   hooke_options_set_number(o, "duration", 0.1);
   hooke_measurement *estimate = NULL;
   int32_t status = estimate_of(system, 0.1, &estimate);
@@ -170,29 +106,30 @@ static int32_t pick(hooke_options *o) {
 static const struct {
   const char *name,
       *table; /* the table that it takes; NULL: some of its options are required, and are not set here */
-  int32_t (*take)(hooke_options *options);
-} functions[] = {{"add_springs", NULL, add_springs},
-                 {"add_altitude", NULL, add_altitude},
-                 {"add_part rope", NULL, add_rope},
-                 {"add_part cloth", NULL, add_cloth},
-                 {"add_part lattice", NULL, add_lattice},
-                 {"add_part mesh", NULL, add_mesh},
-                 {"add_part strand", NULL, add_strand},
-                 {"mesh_set", "mesh", set_mesh},
-                 {"scene_options_apply", "scene", apply_scene},
-                 {"integrator_create", "run", create_integrator},
-                 {"integrator_create_first_order", "run", create_first_order},
-                 {"limit_create run", "run", create_limit_of_run},
-                 {"limit_create", "limit", create_limit},
-                 {"cost_create run", "run", create_cost_of_run},
-                 {"cost_create", "cost", create_cost},
-                 {"check_create", "check", create_check},
-                 {"study_create run", NULL, create_study_of_run},
-                 {"study_create", "study", create_study},
-                 {"needs run", "run", create_needs_of_run},
-                 {"needs", "needs", create_needs},
-                 {"study_pick", "run", pick},
-                 {"scene_of_system", "run", write_scene}};
+  int32_t (*take)(const char *what, hooke_options *options);
+  const char *what;
+} functions[] = {{"add_springs", NULL, add, "springs"},
+                 {"add_altitude", NULL, add, "altitude"},
+                 {"add_part rope", NULL, add, "rope"},
+                 {"add_part cloth", NULL, add, "cloth"},
+                 {"add_part lattice", NULL, add, "lattice"},
+                 {"add_part mesh", NULL, add, "mesh"},
+                 {"add_part strand", NULL, add, "strand"},
+                 {"mesh_set", "mesh", set_mesh, NULL},
+                 {"scene_options_apply", "scene", apply_scene, NULL},
+                 {"integrator_create", "run", create_integrator, NULL},
+                 {"integrator_create_first_order", "run", create_first_order, NULL},
+                 {"limit_create run", "run", measure_run, "limit"},
+                 {"limit_create", "limit", measure, "limit"},
+                 {"cost_create run", "run", measure_run, "cost"},
+                 {"cost_create", "cost", measure, "cost"},
+                 {"check_create", "check", measure, "check"},
+                 {"study_create run", NULL, measure_run, "study"},
+                 {"study_create", "study", measure, "study"},
+                 {"needs run", "run", measure_run, "needs"},
+                 {"needs", "needs", measure, "needs"},
+                 {"study_pick", "run", pick, NULL},
+                 {"scene_of_system", "run", write_scene, NULL}};
 
 TEST(test_other_options_are_refused) {
   int64_t taken = 0, bad = 0;
@@ -201,7 +138,7 @@ TEST(test_other_options_are_refused) {
       owned_options *options = NULL;
       if (hooke_options_create(tables[t], &options) == HOOKE_NOT_BUILT) continue;
       hooke_options_set_number(options, "step", 0.01); /* of a run; others have none */
-      const int32_t status = functions[f].take(options);
+      const int32_t status = functions[f].take(functions[f].what, options);
       const int right = functions[f].table && strcmp(functions[f].table, tables[t]) == 0;
       if (!right && status >= 0) {
         print_error("%s takes the options of %s\n", functions[f].name, tables[t]);
@@ -227,7 +164,7 @@ TEST(test_missing_options_are_refused) {
     int may = 0;
     for (size_t k = 0; k < sizeof may_be_missing / sizeof may_be_missing[0]; k++)
       may |= strcmp(functions[f].name, may_be_missing[k]) == 0;
-    const int32_t status = functions[f].take(NULL);
+    const int32_t status = functions[f].take(functions[f].what, NULL);
     if (status == HOOKE_NOT_BUILT || (may && status == HOOKE_OK)) continue;
     /* the defaults of needs lack a required one */
     const char *word = strcmp(functions[f].name, "needs") == 0 ? "want" : "hooke_";

@@ -4,6 +4,7 @@
 #include "hash.h"
 #include "random_scene.h"
 #include "run.h"
+#include "scenarios.h"
 #include "small.h"
 
 #include <math.h>
@@ -14,8 +15,8 @@
 
 enum { THREADS = 4, PARTICLES = 400 };
 
-static struct random_scene shared;       /* shared by all threads, committed */
-static hooke_system *oscillator, *chain; /* likewise */
+static struct random_scene shared; /* shared by all threads, committed */
+static hooke_system *chain;        /* likewise */
 
 /* Work whose result is a hash, 0 for a failure. No cmocka assertions: they would jump out of the thread. */
 typedef uint64_t job(int thread);
@@ -95,174 +96,47 @@ static uint64_t queries(int thread) {
   return hash;
 }
 
-#if HOOKE_HAVE_LAPACK
-
-static uint64_t find_limit(const hooke_system *system) {
+/* ARPACK, which the limit of this chain takes, may be used by one thread at a time only. */
+static uint64_t top_modes(int thread) {
+  (void)thread;
   hooke_options *options = NULL;
   hooke_measurement *limit = NULL;
-  hooke_state *state = NULL;
   uint64_t hash = 0;
   int32_t status = hooke_options_create("limit", &options);
   if (status == 0) status = hooke_options_set_text(options, "methods", "verlet");
-  if (status == 0) status = hooke_measurement_create("limit", system, NULL, options, &limit);
-  if (status == 0) status = hooke_state_create(system, &state);
-  if (status == 0) status = hooke_measurement_run(limit, state);
+  if (status == 0) status = hooke_measurement_create("limit", chain, NULL, options, &limit);
+  if (status == 0) status = hooke_measurement_run(limit, NULL);
   if (status == 0) {
     const double value = hooke_measurement_number(limit, "rows", 0, "predicted");
     hash = hash_doubles(1, &value, HASH_START);
-  } else {
-    printf("limit: %s\n", hooke_last_error());
   }
-  if (state) hooke_state_destroy(state);
   if (limit) hooke_measurement_destroy(limit);
   hooke_options_destroy(options);
-  return hash;
+  return status == HOOKE_NOT_BUILT ? HASH_START : hash;
 }
 
-static uint64_t limits(int thread) {
-  (void)thread;
-  return find_limit(oscillator);
-}
+/* The quick scenarios of tests/fault, whose results do not depend on the clock: each thread has a folder of
+ * its own. */
+static char folder[THREADS + 1][128];
 
-/* Large enough for ARPACK, which only one thread at a time may use. */
-static uint64_t top_modes(int thread) {
-  (void)thread;
-  return find_limit(chain);
-}
-
-static uint64_t explanations(int thread) {
-  (void)thread;
-  hooke_options *options = NULL;
-  hooke_integrator *integrator = NULL;
-  hooke_state *state = NULL;
-  hooke_measurement *why = NULL;
-  uint64_t hash = 0;
-  int32_t status = hooke_options_create("run", &options);
-  if (status == 0) status = hooke_options_set_text(options, "method", "forward-euler");
-  if (status == 0) status = hooke_options_set_number(options, "step", 0.5);
-  if (status == 0) status = hooke_options_set_number(options, "duration", 500);
-  if (status == 0) status = hooke_integrator_create(oscillator, options, &integrator);
-  if (status == 0) status = hooke_state_create(oscillator, &state);
-  if (status == 0 && hooke_integrator_run(integrator, state) != HOOKE_DIVERGED) status = -1;
-  if (status == 0) status = hooke_why_create(integrator, NULL, &why);
-  if (status == 0) status = hooke_measurement_run(why, NULL);
-  if (status == 0) {
-    const double limit = hooke_measurement_number(why, "why", 0, "limit");
-    hash = hash_doubles(1, &limit, HASH_START);
-  }
-  if (why) hooke_measurement_destroy(why);
-  if (state) hooke_state_destroy(state);
-  if (integrator) hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
-  return hash;
-}
-
-#endif
-
-static const char scene_text[] =
-    "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"parts\": [{\"kind\": \"cloth\", \"size\": [6, 6], "
-    "\"edges\":"
-    " [[1, 0, 0], [0, 0, 1.125]], \"mass\": 0.25, \"pinned\": \"top-corners\","
-    " \"structural\": {\"stiffness\": 50.5, \"damping\": 1e-2}}],"
-    " \"run\": {\"method\": \"verlet\", \"step\": 1e-3, \"duration\": 0.02, \"every\": 0.01}}";
-
-static uint64_t scenes(int thread) {
-  (void)thread;
-  hooke_scene *scene = NULL, *bad = NULL;
-  if (hooke_scene_parse("{\"hooke\": 1, \"gravity\": [0, -9.81]}", 35, "bad", NULL, NULL, &bad) !=
-          HOOKE_BAD_VALUE ||
-      strstr(hooke_last_error(), "bad:1:") == NULL)
-    return 0;
-  int32_t status = hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", NULL, NULL, &scene);
-  if (status == 0) status = hooke_scene_commit(scene);
-  const uint64_t hash = status == 0 ? run_method(hooke_scene_system(scene), "rk4", 1, HASH_START) : 0;
-  hooke_scene_destroy(scene);
-  return hash;
-}
-
-#if HOOKE_HAVE_HDF5
-
-/* A trajectory and its record: files of this thread alone. */
-static uint64_t files(int thread) {
-  char path[64];
-  hooke_options *options = NULL;
-  hooke_integrator *integrator = NULL;
-  hooke_state *state = NULL;
-  hooke_trajectory *trajectory = NULL;
-  hooke_record *record = NULL;
+static uint64_t scenarios(int thread) {
   uint64_t hash = HASH_START;
-  snprintf(path, sizeof path, "guest_threads_%d.h5", thread);
-  int32_t status = hooke_options_create("run", &options);
-  if (status == 0) status = hooke_options_set_text(options, "method", "verlet");
-  if (status == 0) status = hooke_options_set_number(options, "step", 1e-3);
-  if (status == 0) status = hooke_options_set_number(options, "duration", 4e-3);
-  if (status == 0) status = hooke_options_set_number(options, "every", 1e-3);
-  if (status == 0) status = hooke_integrator_create(shared.system, options, &integrator);
-  if (status == 0) status = hooke_state_create(shared.system, &state);
-  if (status == 0) status = hooke_trajectory_create(path, shared.system, integrator, NULL, &trajectory);
-  if (status == 0) status = hooke_trajectory_write_behind(trajectory);
-  for (int k = 0; k < 5 && status == 0; k++) {
-    status = hooke_trajectory_write(trajectory, k, state);
-    if (status == 0) status = hooke_integrator_step(integrator, state, 1);
+  const struct scenario *scenario;
+  for (int32_t k = 0; (scenario = scenario_at(k)) != NULL; k++) {
+    if (scenario->share > 4) continue;
+    struct attempt a = scenario_attempt(folder[thread]);
+    scenario->run(&a, scenario->with);
+    if (a.wrong[0]) {
+      printf("%s: %s\n", scenario->name, a.wrong);
+      return 0;
+    }
+    const double part = (double)a.hash;
+    hash = hash_doubles(1, &part, hash);
   }
-  if (trajectory && hooke_trajectory_close(trajectory, HOOKE_OK) != HOOKE_OK) status = -1;
-  if (status == 0) status = hooke_record_open(path, &record);
-  for (int k = 0; k < 5 && status == 0; k++) {
-    status = hooke_record_read(record, k, state);
-    hash = hash_state(state, hash);
-  }
-  if (status != 0) printf("files: %s\n", hooke_last_error());
-  if (record) hooke_record_close(record);
-  if (state) hooke_state_destroy(state);
-  if (integrator) hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
-  remove(path);
-  return status == 0 ? hash : 0;
+  return hash;
 }
 
-#endif
-
-#if HOOKE_HAVE_SUNDIALS
-
-static uint64_t studies(int thread) {
-  (void)thread;
-  hooke_options *run = NULL, *options = NULL;
-  hooke_measurement *study = NULL;
-  uint64_t hash = HASH_START;
-  int32_t status = hooke_options_create("run", &run);
-  if (status == 0) status = hooke_options_set_number(run, "duration", 0.1);
-  if (status == 0) status = hooke_options_set_number(run, "every", 0.01);
-  if (status == 0) status = hooke_options_create("study", &options);
-  if (status == 0) status = hooke_options_set_text(options, "methods", "verlet,rk4");
-  if (status == 0) status = hooke_options_set_text(options, "steps", "0.002,0.001");
-  if (status == 0) status = hooke_measurement_create("study", oscillator, run, options, &study);
-  if (status == 0) status = hooke_measurement_run(study, NULL);
-  for (int64_t row = 0; status == 0 && row < hooke_measurement_row_count(study, "rows"); row++) {
-    const double error = hooke_measurement_number(study, "rows", row, "error");
-    hash = hash_doubles(1, &error, hash);
-  }
-  if (status != 0) printf("study: %s\n", hooke_last_error());
-  if (study) hooke_measurement_destroy(study);
-  if (options) hooke_options_destroy(options);
-  hooke_options_destroy(run);
-  return status == 0 ? hash : 0;
-}
-
-#endif
-
-static job *const jobs[] = {
-    methods, crews,     messages,     queries,
-#if HOOKE_HAVE_LAPACK
-    limits,  top_modes, explanations,
-#endif
-    scenes,
-#if HOOKE_HAVE_HDF5
-    files,
-#endif
-#if HOOKE_HAVE_SUNDIALS
-    studies,
-#endif
-};
+static job *const jobs[] = {methods, crews, messages, queries, top_modes, scenarios};
 enum { JOBS = sizeof jobs / sizeof jobs[0] };
 
 struct worker {
@@ -308,8 +182,9 @@ TEST(test_threads_get_what_one_gets) {
                                                     .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT,
                                                     .with_product = 1},
                       &shared);
-  oscillator = small_oscillator(100.0);
   chain = make_chain();
+  for (int t = 0; t <= THREADS; t++)
+    assert_int_equal(open_folder(folder[t]), 0);
   uint64_t alone[JOBS];
   struct worker worker[THREADS];
   for (int j = 0; j < JOBS; j++) {
@@ -325,7 +200,8 @@ TEST(test_threads_get_what_one_gets) {
   for (int t = 0; t < THREADS; t++)
     for (int j = 0; j < JOBS; j++)
       if (worker[t].result[j] != alone[j]) check_failed("thread %d has other bits in job %d", t, j);
+  for (int t = 0; t <= THREADS; t++)
+    close_folder(folder[t]);
   hooke_system_destroy(chain);
-  hooke_system_destroy(oscillator);
   random_scene_destroy(&shared);
 }

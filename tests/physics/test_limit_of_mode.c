@@ -89,6 +89,34 @@ TEST(test_an_oscillator) {
   }
 }
 
+/* Of an undamped spring the bound on a step is its limit, but for Runge-Kutta, and of drag alone; `bounds` of
+ * all methods are those one by one. */
+TEST(test_bounds) {
+  const double omega = 7.0, place[3] = {0.0, 0.0, 0.0};
+  owned_system *system = small_oscillator(omega), *falling = small_system(1, place, NULL, 1.0, 0),
+               *open = new_system();
+  owned_state *state = start_state(system);
+  double bounds[32], bound;
+  check_ok(hooke_step_bound(system, NULL, hooke_state_position(state), bounds));
+  for (int64_t k = 0; k < hooke_method_count(); k++) {
+    const double one = bound_at_start(system, hooke_method_name(k));
+    check_same_bits(1, &one, &bounds[k]);
+  }
+  check_close(bound_at_start(system, "symplectic-euler"), 2.0 / omega, 1e-11);
+  check_close(bound_at_start(system, "verlet"), 2.0 / omega, 1e-12);
+  check_close(bound_at_start(system, "rk4"), 2.6156 / omega, 1e-11);
+  check_between(bound_at_start(system, "forward-euler"), 0.0, 0.0);
+  assert_true(isinf(bound_at_start(system, "cvode-bdf")));
+  check_ok(hooke_system_set_drag(falling, 0.25));
+  check_ok(hooke_system_commit(falling));
+  check_close(bound_at_start(falling, "forward-euler"), 8.0, 1e-12);
+  check_close(bound_at_start(falling, "rk4"), 4.0 * 2.6156, 1e-10);
+  assert_true(isinf(bound_at_start(falling, "verlet")) && isinf(bound_at_start(falling, "backward-euler")));
+  check_status(hooke_step_bound(falling, "no-such-method", place, &bound), HOOKE_BAD_VALUE);
+  check_message("no-such-method");
+  check_status(hooke_step_bound(open, "symplectic-euler", place, &bound), HOOKE_BAD_CALL);
+}
+
 /* ---- limits and the steps themselves ---- */
 
 /* Spectral radius of a step along the spring, from where it takes two unit states. */

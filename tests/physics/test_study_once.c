@@ -1,5 +1,5 @@
-/* Studies of one row a method: the numbers of a row are correct, methods have the expected ranking, a
- * diverged row stays. */
+/* Studies of one row a method: the numbers of a row are correct and methods have the expected
+ * ranking. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"
@@ -9,28 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* `number`: an option that is 0.1; NULL: none. */
-static int32_t create_with(const hooke_system *system, struct run run, const char *methods,
-                           const char *number, hooke_measurement **study) {
-  hooke_options *of_run = run_options(run), *options = NULL;
-  check_ok(hooke_options_create("study", &options));
-  check_ok(hooke_options_set_number(options, "once", 1));
-  if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
-  if (number) check_ok(hooke_options_set_number(options, number, 0.1));
-  const int32_t status = hooke_measurement_create("study", system, of_run, options, study);
-  hooke_options_destroy(options);
-  hooke_options_destroy(of_run);
-  return status;
-}
-
-static int32_t create(const hooke_system *system, struct run run, const char *methods,
-                      hooke_measurement **study) {
-  return create_with(system, run, methods, NULL, study);
-}
-
 static hooke_measurement *compare(const hooke_system *system, struct run run, const char *methods) {
+  owned_options *of_run = run_options(run), *options = options_with("study", "once=1");
   hooke_measurement *study = NULL;
-  const int32_t status = create(system, run, methods, &study);
+  if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
+  const int32_t status = hooke_measurement_create("study", system, of_run, options, &study);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
     skip();
@@ -105,22 +88,6 @@ TEST(errors_are_true_errors) {
   hooke_system_destroy(system);
 }
 
-TEST(a_diverged_row_stays) {
-  hooke_system *system = small_oscillator(100.0);
-  hooke_measurement *study = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5},
-                                     "symplectic-euler, cvode-adams");
-  check_ok(hooke_measurement_run(study, NULL));
-  assert_int_equal(hooke_measurement_row_count(study, "rows"), 2);
-  assert_string_equal(hooke_measurement_text(study, "rows", 0, "status"), "diverged");
-  assert_true(isnan(hooke_measurement_number(study, "rows", 0, "error")));
-  assert_true(isnan(hooke_measurement_series(study, "rows", 0, "error_at", NULL)[10]));
-  assert_string_equal(hooke_measurement_text(study, "rows", 1, "status"), "finished");
-  check_between(hooke_measurement_number(study, "rows", 1, "error"), 0.0, 0.1);
-  check_status(hooke_measurement_run(study, NULL), HOOKE_BAD_CALL);
-  hooke_measurement_destroy(study);
-  hooke_system_destroy(system);
-}
-
 struct seen {
   double done;
   const char *method; /* the first with a row */
@@ -133,42 +100,6 @@ static int32_t stop_at_second(double done, const char *what, void *ctx) {
   if (strcmp(what, "reference") == 0) return 0;
   if (seen->method == NULL) seen->method = what;
   return strcmp(what, seen->method) != 0 ? 7 : 0;
-}
-
-TEST(progress_goes_on_and_stops) {
-  hooke_system *system = small_oscillator(10.0);
-  hooke_measurement *study =
-      compare(system, (struct run){.step = 1e-3, .duration = 2.0, .every = 0.1}, "verlet,rk4,heun");
-  struct seen seen = {.done = 0.0};
-  hooke_measurement_on_progress(study, stop_at_second, &seen);
-  check_status(hooke_measurement_run(study, NULL), HOOKE_STOPPED);
-  check_between(seen.done, 1e-3, 1.0);
-  assert_int_equal(hooke_measurement_row_count(study, "rows"), 2);
-  const int64_t first = row_of(study, seen.method), other = 1 - first;
-  assert_string_equal(hooke_measurement_text(study, "rows", first, "status"), "finished");
-  assert_string_equal(hooke_measurement_text(study, "rows", other, "status"), "stopped");
-  assert_true(isnan(hooke_measurement_number(study, "rows", other, "error")));
-  hooke_measurement_destroy(study);
-  hooke_system_destroy(system);
-}
-
-TEST(bad_requests) {
-  hooke_system *system = small_oscillator(10.0);
-  const struct run run = {.step = 1e-3, .duration = 1.0};
-  hooke_measurement *study = compare(system, run, NULL);
-  hooke_measurement_destroy(study);
-  check_status(create(system, (struct run){.step = 1e-3}, NULL, &study), HOOKE_BAD_VALUE);
-  check_message("duration");
-  const char *methods = hooke_method_is_built("cvode-adams") ? "cvode-adams,rk4" : "rk4";
-  check_status(create(system, (struct run){.duration = 1.0}, methods, &study), HOOKE_BAD_VALUE);
-  check_message("step");
-  check_status(create(system, (struct run){.step = 3e-3, .duration = 1.0}, NULL, &study), HOOKE_BAD_VALUE);
-  check_message("whole multiple of step 0.003 s");
-  check_status(create(system, run, "no-such-method", &study), HOOKE_BAD_VALUE);
-  check_message("no-such-method");
-  check_status(create_with(system, run, NULL, "steps", &study), HOOKE_BAD_VALUE);
-  check_message("steps: is not for `once`");
-  hooke_system_destroy(system);
 }
 
 /* The oscillator of small.h, of another length [m]. */

@@ -3,7 +3,7 @@
 #include "order.h"
 #include "run.h"
 
-#include <float.h>
+#include <complex.h>
 #include <math.h>
 #include <string.h>
 
@@ -32,40 +32,47 @@ static hooke_state *start_at_one(int64_t size) {
   return state;
 }
 
-TEST(test_real_factor) {
-  const double rates[] = {-1.0, -3.7, 0.25, -19.0, 2.0, 0.0};
-  const double h = 0.1;
-  for (size_t k = 0; k < sizeof rates / sizeof rates[0]; k++) {
-    struct rate a = {rates[k], 0.0, 0};
+/* Explicit Runge-Kutta methods multiply x by as many terms of exp(z), z = a h, as their order has. */
+TEST(test_factors) {
+  static const struct {
+    const char *method;
+    int order;
+  } methods[] = {{"forward-euler", 1}, {"heun", 2}, {"rk4", 4}};
+  const double rates[][2] = {{-1, 0}, {-19, 0}, {2, 0}, {0, 0}, {-0.8, 5}}, h = 0.1;
+  for (int k = 0; k < 15; k++) {
+    struct rate a = {rates[k % 5][0], rates[k % 5][1], 0};
+    const double complex z = h * (a.real + I * a.imaginary);
+    const int order = methods[k / 5].order;
+    double complex factor = 1.0, expected = 1.0;
+    for (int term = order; term > 0; term--)
+      factor = 1.0 + z / term * factor;
     owned_integrator *integrator =
-        start_first_order(1, multiply, &a, (struct run){.method = "forward-euler", .step = h});
-    owned_state *state = start_at_one(1);
-    const double factor = 1.0 + rates[k] * h;
+        start_first_order(2, multiply, &a, (struct run){.method = methods[k / 5].method, .step = h});
+    owned_state *state = start_at_one(2);
     for (int step = 0; step < 20; step++) {
-      const double before = hooke_state_position(state)[0];
+      expected *= factor;
       check_ok(hooke_integrator_step(integrator, state, 1));
-      check_close(hooke_state_position(state)[0] / before, factor,
-                  4 * DBL_EPSILON * (1.0 + fabs(rates[k] * h)));
+      check_close(hooke_state_position(state)[0], creal(expected), 1e-13 * cabs(expected));
+      check_close(hooke_state_position(state)[1], cimag(expected), 1e-13 * cabs(expected));
     }
-    assert_int_equal(a.calls, 20);
-    assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 20);
+    assert_int_equal(a.calls, 20 * order);
+    assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 20 * order);
   }
 }
 
-TEST(test_complex_factor) {
-  struct rate a = {-0.8, 5.0, 0};
-  const double h = 0.05, real = 1.0 + a.real * h, imaginary = a.imaginary * h;
+/* A rate that depends on time alone is integrated by Simpson's rule, which is exact for t^3. */
+static int32_t cubic(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)n, (void)x, (void)ctx;
+  rate[0] = 4.0 * t * t * t;
+  return 0;
+}
+
+TEST(test_times_of_stages) {
   owned_integrator *integrator =
-      start_first_order(2, multiply, &a, (struct run){.method = "forward-euler", .step = h});
-  owned_state *state = start_at_one(2);
-  for (int step = 0; step < 50; step++) {
-    double *x = hooke_state_position(state);
-    const double expected[] = {real * x[0] - imaginary * x[1], real * x[1] + imaginary * x[0]};
-    const double size = hypot(x[0], x[1]);
-    check_ok(hooke_integrator_step(integrator, state, 1));
-    check_close(x[0], expected[0], 4 * DBL_EPSILON * size);
-    check_close(x[1], expected[1], 4 * DBL_EPSILON * size);
-  }
+      start_first_order(1, cubic, NULL, (struct run){.method = "rk4", .step = 0.5});
+  owned_state *state = start_at_one(1);
+  check_ok(hooke_integrator_step(integrator, state, 6));
+  check_close(hooke_state_position(state)[0], 82.0, 1e-13);
 }
 
 /* ---- every method that takes first-order problems ---- */

@@ -27,16 +27,6 @@ def free_particle():
     return system
 
 
-def test_a_force_moves_particles():
-    system = free_particle()
-    system.set_force(lambda t, q, v, force: force.__iadd__([[0, 4, 0]]) is None)
-    result = hooke.run(system, **RUN)
-    assert result.status == "finished"
-    # v = 2 t; symplectic Euler adds h to the sum: y = h^2 a n (n + 1) / 2
-    np.testing.assert_allclose(result.state.v[0], [1, 2, 0], rtol=1e-12)
-    np.testing.assert_allclose(result.state.q[0], [1, 1e-4 * 2 * 100 * 101 / 2, 0], rtol=1e-12)
-
-
 def test_a_force_in_python_equals_the_same_force_in_the_library():
     """Drag as a callback against drag of the system."""
     plain, called = build_six_particles(), build_six_particles()

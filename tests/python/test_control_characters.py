@@ -52,13 +52,6 @@ def test_warnings_and_reasons(scene):
     check(str(why.blame[0]), "rope")
 
 
-def test_printed_results(scene):
-    check(str(hooke.needs(scene, 0.1, duration=0.1)), "group", "rope")
-    check(str(hooke.needs(scene, 0.1, duration=0.1, refine=True)), "rope")
-    check(str(hooke.cost(scene, method="verlet", predict=True)), "rope")
-    assert hooke.needs(scene, 0.1, duration=0.1).rows["without"][0] in ("group" + EVIL, "rope" + EVIL + ".stretch")
-
-
 def test_a_bar(scene, capfd):
     hooke.needs(scene, 0.1, duration=0.5, refine=True, progress=True)
     shown = capfd.readouterr().err

@@ -37,17 +37,6 @@ def test_without_the_timing(tmp_path):
         found.write(tmp_path / "cost.html")
 
 
-def test_the_largest_groups_are_looked_at():
-    system = hooke.System()
-    system.add_particles([[0, 0, 0], [1, 0, 0], [2, 0, 0]], mass=1)
-    system.add_springs("one", [[0, 1]], stiffness=5)
-    system.add_springs("two", [[0, 1], [1, 2]], stiffness=5)
-    found = hooke.cost(system, predict=True, groups=1)
-    assert np.isnan(found.rows["memory_bytes"]).tolist() == [True, False]
-    assert "1 ingredient was not looked at" in str(found) and "without one" not in str(found)
-    assert [(claim.key, claim.of) for claim in found.claims] == [("cost", "whole"), ("limit", "part"), ("left-out", "unknown")]
-
-
 def test_a_callback_is_an_ingredient():
     system, calls = build_oscillator(), []
     system.set_force(lambda t, q, v, force: calls.append(t))
@@ -62,30 +51,6 @@ def test_a_callback_is_an_ingredient():
     system.set_force(fail)
     with pytest.raises(RuntimeError, match="no such force"):
         hooke.cost(system, budget=0.5)
-
-
-def test_progress_can_stop():
-    seen = []
-
-    def stop(done, what):
-        seen.append((done, what))
-        return len(seen) == 3
-
-    found = hooke.cost(build_six_particles(), budget=0.5, progress=stop)
-    assert found.outcome == "stopped" and len(seen) == 3 and seen[1] == (0, "edges")
-    assert found["edges"]["nanoseconds"] >= 0 and np.isnan(found["damping"]["nanoseconds"])
-
-
-def test_what_does_nothing_is_left_out():
-    system = hooke.System()
-    system.add_particles([[0, 0, 0], [1, 0, 0], [2, 0, 0]], mass=1)
-    system.pin([0, 2])
-    system.add_springs("none", [[1, 2]], stiffness=0)
-    system.add_springs("some", [[0, 1]], stiffness=5)
-    assert system.spring_count == 2
-    assert (system.dropped_spring_count, system.idle_count) == (1, 1)
-    assert system.spring_count == 1 and system.groups == [("none", 0), ("some", 1)]
-    assert hooke.cost(system, predict=True).rows["name"].tolist() == ["some"]
 
 
 def test_options_and_wrong_problems():

@@ -59,15 +59,6 @@ def test_rows():
         found.rows["predicted"][0] = 1
 
 
-def test_words():
-    found = hooke.limit("examples/scenes/stiff-spring.json", predict=True)
-    words = str(found).splitlines()
-    assert words[0] == f"at t = 0 s, symplectic-euler is stable up to {found['symplectic-euler']['predicted']:.6g} s"
-    assert words[1] == f"at t = 0 s, {found.changes.sentence}" and "softening it" in words[1]
-    assert {claim.key for claim in found.claims[2:]} == {"note"} and len(words) == len(found.claims)
-    assert f"{len(FIXED_STEP)} methods" in repr(hooke.limit(build_oscillator(), predict=True))
-
-
 @pytest.mark.parametrize("build", [build_six_particles, lambda: build_damped(0.8), lambda: build_damped(60)])
 def test_modes_are_the_eigenvalues(build):
     system = build()

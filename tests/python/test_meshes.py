@@ -189,28 +189,6 @@ def test_driven_particles_of_parts(tmp_path):
     assert 1e-3 < np.linalg.norm(moved[36:52], axis=1).min()
 
 
-@pytest.mark.parametrize(
-    "change, words",
-    [
-        (lambda lines: lines + lines[162:163], "ball.obj:483: the edge of vertices"),
-        (lambda lines: lines + ["v 9 9 9"], "ball.obj:483: vertex 163 is in no face"),
-        (lambda lines: lines[:-1] + ["f 1 2 163"], "ball.obj:482: there is no vertex 163 yet; allowed: 1 to 162"),
-        (lambda lines: lines[:-1] + ["l 1 2"], 'ball.obj:482: "l" is not allowed; allowed: v and f'),
-    ],
-)
-def test_faults_planted_in_a_file(tmp_path, change, words):
-    path, _ = ball(tmp_path)
-    lines = [line for line in path.read_text().splitlines() if line.startswith(("v ", "f "))]
-    assert len(lines) == 162 + 320
-    path.write_text("\n".join(change(lines)) + "\n")
-    with pytest.raises(hooke.BadValue) as raised:
-        hooke.Scene.parse(scene_of(file="ball.obj", mass=1), folder=tmp_path)
-    assert "parts[0].file: " + words in str(raised.value)
-    with pytest.raises(hooke.BadValue) as raised:
-        hooke.System().add_part("mesh", file=path, mass=1)
-    assert str(path.parent) in str(raised.value) or "..." in str(raised.value)
-
-
 def test_a_file_belongs_to_a_mesh(tmp_path):
     with pytest.raises(hooke.BadValue, match=r'make them with hooke_options_create\("mesh", ...\)'):
         hooke.System().add_part("rope", file=tmp_path / "a.obj")

@@ -90,13 +90,6 @@ def test_a_lean_cloth_that_is_saved_is_the_lean_system(tmp_path):
     np.testing.assert_array_equal(hooke.run(loaded).state.v, result.state.v)
 
 
-def test_words(ropes):
-    words = str(ropes)
-    assert "can be left out" in words and all(name in words for name in ropes.left_out)
-    assert repr(ropes) == f"Needs(finished, want=0.002, {len(ropes.rows)} rows, {len(ropes.left_out)} left out)"
-    assert "watch" in hooke.describe("needs")
-
-
 def test_resolutions(ropes):
     found = hooke.needs(hooke.Scene.parse(ROPES), 2e-3, "rope", refine=True)
     assert list(found.parts["part"]) == ["rope", "twin"] and found.rows.size == 0

@@ -2,6 +2,7 @@
 
 import gc
 import json
+import sys
 import warnings
 
 import h5py
@@ -34,24 +35,6 @@ def test_every_way_to_run_gives_the_same_bits(scene, tmp_path, method):
     assert not np.array_equal(states[0].q, build_six_particles().state().q)
 
 
-def test_the_schemes_are_those_of_the_book():
-    for method in ("forward-euler", "symplectic-euler"):
-        system, h = build_oscillator(), 1e-3
-        q, v = 1.25, 0.0
-        for _ in range(100):
-            f = -20 * (q - 1) / 0.5
-            q, v = (q + h * v, v + h * f) if method == "forward-euler" else (q + h * (v + h * f), v + h * f)
-        state = hooke.run(system, method=method, step=h, duration=0.1).state
-        assert state.q[1, 0] == pytest.approx(q, rel=1e-13) and state.v[1, 0] == pytest.approx(v, rel=1e-12)
-
-
-def test_cvode_follows_the_exact_solution():
-    for method in ("cvode-bdf", "cvode-adams"):
-        result = hooke.run(build_oscillator(), method=method, duration=2, rtol=1e-10, atol=1e-12)
-        assert result.state.q[1, 0] == pytest.approx(1 + 0.25 * np.cos(np.sqrt(40) * 2), abs=1e-7)
-        assert result.counts["steps"] > 10 and result.counts["force_evaluations"] > 10
-
-
 def test_a_result_tells_what_was_done(system):
     result = hooke.run(system, **RUN)
     assert (result.status, result.counts["steps"], result.state.t) == ("finished", 500, 0.5)
@@ -82,18 +65,6 @@ def test_frames_in_memory(system):
     stopped = hooke.run(system, frames=True, on_frame=lambda step, state: step == 200, **RUN)
     assert stopped.status == "stopped" and len(stopped.frames.t) <= 5
     np.testing.assert_array_equal(stopped.frames.q[:4], q[:4])
-
-
-def test_a_file_holds_the_frames(scene, tmp_path):
-    path = tmp_path / "out.h5"
-    result = hooke.run(scene, output=path, frames=True)
-    with h5py.File(path) as file:
-        np.testing.assert_array_equal(file["particles/all/position/value"], result.frames.q)
-        np.testing.assert_array_equal(file["particles/all/velocity/value"], result.frames.v)
-        np.testing.assert_array_equal(file["particles/all/position/time"], result.frames.t)
-        np.testing.assert_array_equal(file["connectivity/springs"], scene.system.spring_ends)
-        kinetic = [scene.system.kinetic_energy(v) for v in result.frames.v]
-        np.testing.assert_array_equal(file["observables/kinetic_energy/value"], kinetic)
 
 
 def test_a_file_of_a_built_system(system, tmp_path):
@@ -189,17 +160,6 @@ def test_motions_that_are_not_there(system):
         integrator.put(0, v=[1, np.nan, 3])
     with pytest.raises(hooke.BadValue):
         integrator.advance(-1)
-
-
-def test_a_motion_that_diverges(system):
-    integrator = hooke.Integrator(system, method="forward-euler", step=10.0)
-    state, first = system.state(), system.state()
-    integrator.step(state, 0)
-    assert integrator.advance(900) == "finished"
-    assert integrator.sync(state) == "diverged" and "not finite" in integrator.message
-    np.testing.assert_array_equal(state.q, first.q)
-    with pytest.raises(hooke.BadCall, match="ended early"):
-        integrator.advance()
 
 
 def test_a_run_starts_where_it_is_told(system):
@@ -340,6 +300,20 @@ def test_a_wanted_error_is_kept(want):
     assert (error.known_until, error.by) == (1.0, "reference") and error.rms == error.estimate
 
 
+def test_what_is_watched_is_a_table():
+    options = {"method": "cvode-adams", "rtol": 1e-9, "duration": 3.0, "every": 1.0, "watch": "1.x,0.reaction"}
+    for estimate in (False, True):
+        result = hooke.run(build_oscillator(), estimate=estimate, **options)
+        (x, reaction), state = result.watched, result.state
+        assert x["value"] == state.q[1, 0] and (result.error is not None) == estimate
+        assert abs(x["maximum"] - 1.25) < 1e-7 and abs(x["minimum"] - 0.75) < 1e-7
+        assert abs(reaction["maximum"] - 20 * 0.25) < 1e-5 and reaction["unit"] == "N" and reaction["until"] == 3
+    assert hooke.run(build_oscillator(), **{**options, "watch": None}).watched is None
+    start = build_oscillator().state()
+    with pytest.raises(hooke.BadValue, match="springs 0 to 0|allowed"):
+        hooke.run(build_oscillator(), state=start, **{**options, "watch": "1.reaction"})
+
+
 def test_an_error_is_estimated_where_that_is_asked_for(tmp_path):
     options = {"method": "symplectic-euler", "step": 1e-3, "duration": 1.0, "output": tmp_path / "out.h5"}
     assert hooke.run(build_oscillator(), **options).error is None
@@ -380,3 +354,42 @@ def test_tolerances_are_in_the_scale_of_a_scene(method):
     steps, position, error = run(1e-10, 1e-14, 1e-26)  # of an atom, in decimal units, which rounding tells apart
     assert steps == pytest.approx(run(1, 1, 1)[0], rel=0.12)
     assert abs(position - (1 + 0.5 * np.cos(100))) <= error < 2e-3
+
+
+# probes
+
+
+def test_probes_of_a_run(tmp_path):
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    results = [hooke.run(scene, probe="3.y,energy", probe_every="10ms", probes=tmp_path / name) for name in ("a.csv", "a.h5")]
+    table, other = (result.probes for result in results)
+    assert table.dtype.names == ("time", "3.y", "energy") and len(table) == 51 and np.array_equal(table, other)
+    assert table["3.y"][-1] == results[0].state.q[3, 1] and table["time"][-1] == results[0].state.t
+
+
+def test_a_run_that_ends_early_keeps_its_lines(tmp_path):
+    def stop(step, state):
+        return int(state.t > 0.2)
+
+    def fail(step, state):
+        if state.t > 0.2:
+            raise KeyboardInterrupt
+
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    for name in ("a.csv", "a.h5"):
+        result = hooke.run(scene, probe="energy", probe_every=1e-3, probes=tmp_path / name, on_frame=stop)
+        assert (result.status, len(result.probes), result.probes["time"][-1]) == ("stopped", 251, 0.25)
+    with pytest.raises(KeyboardInterrupt):
+        hooke.run(scene, probe="energy", probe_every=1e-3, probes=tmp_path / "a.csv", on_frame=fail)
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 252
+
+
+def test_what_is_missing_is_said(tmp_path, monkeypatch):
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    with pytest.raises(hooke.BadValue, match="give both"):
+        hooke.run(scene, probe="energy")
+    with pytest.raises(hooke.BadValue, match="probe='energy'|probe=\"energy\""):
+        hooke.run(scene).to_pandas()
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="pip install pandas"):
+        hooke.run(scene, probe="energy", probes=tmp_path / "a.csv").to_pandas()

@@ -1,6 +1,5 @@
 """Studies: columns, the reference, orders, the recommendation, files and pictures."""
 
-import csv
 import json
 import os
 import pickle
@@ -67,38 +66,6 @@ def test_columns(study):
     assert str(study).splitlines() == [claim.text for claim in study.claims] and "rows" in repr(study) and "nan" not in str(study)
 
 
-def test_errors_are_true(study):
-    """The end of the oscillator is known exactly, and there is one free particle."""
-    exact = 1 + 0.25 * np.cos(np.sqrt(40) * 1.0)
-    for row in study.rows[study.method == "symplectic-euler"]:
-        if row["status"] != "finished":
-            continue
-        options = {"method": "symplectic-euler", "step": float(row["step"]), **RUN}
-        x = hooke.run(build_oscillator(), **options).state.q[1, 0]
-        assert row["error_final"] == pytest.approx(abs(x - exact), rel=1e-3)
-    floor = 10 * study.reference.agreement
-    np.testing.assert_array_equal(study.near_floor, study.error <= floor)
-    drift = 10 * study.reference.energy_agreement
-    np.testing.assert_array_equal(study.near_energy_floor, study.energy_drift <= drift)
-
-
-def test_the_reference(study):
-    first, second = study.reference.methods
-    assert first.startswith("cvode") and second in ("rk8pd", "arkode-esdirk")
-    assert 0 < study.reference.agreement < 1e-6 and study.reference.trusted_until == 1.0
-    assert 0.5 < study.reference.growth < 2, "an oscillator keeps displacements as they are"
-    assert study.reference.growth_probability == 1 and study.reference.displacements == 6
-    assert 0.5 < study.reference.growth_seen <= 1.001 * study.reference.growth and study.reference.ended == "agreed"
-
-
-def test_orders(study):
-    assert list(study.orders) == ["symplectic-euler", "rk4"]
-    for method, theory in (("symplectic-euler", 1), ("rk4", 4)):
-        order = study.orders[method]
-        assert order.theory == theory and theory - 0.15 < order.order < theory + 0.25
-        assert order.low <= order.order <= order.high and order.note == ""
-
-
 def test_series(study):
     for row in (0, 3, -1):
         time, error, energy_drift = study.series(row)
@@ -108,22 +75,6 @@ def test_series(study):
             assert abs(energy_drift).max() == study.energy_drift[row]
     with pytest.raises(IndexError):
         study.series(len(study.rows))
-
-
-def test_the_recommendation_holds(study):
-    found = study.recommendation
-    assert found.met and found.want == 1e-4 and found.note == "" and found.method in METHODS
-    again = hooke.study(
-        build_oscillator(),
-        [found.method],
-        steps=None if np.isnan(found.step) else [found.step],
-        tolerances=None if np.isnan(found.rtol) else [found.rtol],
-        **RUN,
-    )
-    assert again.error[0] == pytest.approx(found.error, rel=1e-6) and 0 < found.error <= 1e-4
-    assert again.force_evaluations[0] == found.force_evaluations
-    result = hooke.run(build_oscillator(), **found.options, **RUN)
-    assert result.status == "finished" and result.options["method"] == found.method
 
 
 def test_another_want(study):
@@ -142,26 +93,10 @@ def test_without_a_want_nothing_is_recommended():
     assert study.recommendation is None and study.methods == ["rk4"]
 
 
-def test_ladders_of_ones_own():
-    run = {"duration": 4, "every": 0.4}
-    study = hooke.study(build_oscillator(), METHODS, steps=[0.4, 0.01], tolerances=[1e-4, 1e-6], **run)
-    assert study.step[study.method == "rk4"].tolist() == [0.4, 0.01]
-    assert study.rtol[study.method == "cvode-adams"].tolist() == [1e-4, 1e-6]
-    coarse = study.rows[(study.method == "symplectic-euler") & (study.step == 0.4)][0]
-    assert coarse["status"] == "diverged" and np.isnan(coarse["error"]), "0.4 s is above 2/omega"
-    points = hooke.study(build_oscillator(), ["cvode-adams"], points=7, **RUN)
-    assert len(points.rows) == 7
-
-
 def test_a_scene_or_its_path_brings_its_own_options(tmp_path, scene):
     study = hooke.study(scene, ["rk4"])
     assert study.duration == SIX_PARTICLES["run"]["duration"]
     assert len(study.series(0).time) == 11
-
-
-def test_a_budget_leaves_rows_out():
-    study = hooke.study(build_oscillator(), METHODS, budget=1e-9, **RUN)
-    assert study.budget_spent and study.outcome == "finished" and len(study.rows) < 18
 
 
 def test_progress_and_stopping():
@@ -221,8 +156,6 @@ def test_what_a_study_refuses():
             hooke.study(system, **options, **RUN)
     with pytest.raises(hooke.BadValue, match="duration"):
         hooke.study(system)
-    with pytest.raises(hooke.BadValue, match="first-order"):
-        hooke.study(hooke.FirstOrder(lambda t, x, rate: None, [1.0]), **RUN)
 
 
 # ---- files ----
@@ -275,16 +208,6 @@ def test_a_file_without_rows_or_recommendation(tmp_path):
         assert "recommendation" not in h5["study"] and "scene" not in h5["hooke"]
         assert h5["hooke/status"].asstr()[()] == "stopped"
     assert [entry.name for entry in tmp_path.iterdir()] == ["study.h5"]
-
-
-def test_a_table(tmp_path, study):
-    study.write(tmp_path / "study.csv")
-    with open(tmp_path / "study.csv", newline="") as text:
-        rows = list(csv.DictReader(text))
-    assert [row["method"] for row in rows] == study.method.tolist()
-    for name in ("step", "rtol", "error", "force_evaluations"):
-        found = [float(row[name] or "nan") for row in rows]
-        np.testing.assert_array_equal(found, study.rows[name])
 
 
 def test_a_file_that_cannot_be_written(tmp_path, study):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+from conftest import SIX_PARTICLES, build_oscillator
 
 import hooke
 
@@ -37,23 +37,6 @@ def test_what_a_system_tells(system):
     np.testing.assert_allclose(kappa, 100 / rest, rtol=1e-15)
     np.testing.assert_allclose(gamma, 0.5 / rest, rtol=1e-15)
     assert "6 particles, 7 springs" in repr(system)
-
-
-def test_the_force_is_that_of_the_formula(system, moved):
-    q, v = moved
-    kappa, gamma, rest = system.spring_material
-    expected = np.zeros((6, 3))
-    for (i, j), k, c, l0 in zip(system.spring_ends, kappa, gamma, rest):
-        d = q[i] - q[j]
-        r = np.linalg.norm(d)
-        f = -(k * (r - l0) + c * np.dot(v[i] - v[j], d / r)) * d / r
-        expected[i] += f
-        expected[j] -= f
-    gravity = system.masses[:, None] * np.array([0, -9.81, 0])
-    gravity[5] = 0
-    np.testing.assert_allclose(system.force(q, v), expected + gravity, rtol=1e-12, atol=1e-12)
-    acceleration = (expected + gravity) * system.inverse_masses[:, None]
-    np.testing.assert_allclose(system.acceleration(q, v), acceleration, rtol=1e-12, atol=1e-12)
 
 
 def test_the_energies_are_those_of_the_formula(system, moved):
@@ -138,32 +121,6 @@ def test_anchors_are_springs_to_points():
         hooke.System().add_anchors(None, [], points=[1, 2, 3, 4], stiffness=1)
 
 
-def test_a_strand_is_a_part():
-    system = hooke.System()
-    family = {"stiffness": 1}
-    particles = system.add_part(
-        "strand", "hair", from_=[0, 0, 0], to=[0, 0, 2], segments=2, offset=0.25, mass=1, pinned="start",
-        stretch=family, bend=family, twist=family, altitude=family,
-    )  # fmt: skip
-    assert (len(particles), system.altitude_count) == (5, 2)
-    q = system.state().q
-    np.testing.assert_allclose(q[::2], [[0, 0, 0], [0, 0, 1], [0, 0, 2]], atol=1e-15)
-    np.testing.assert_allclose(np.linalg.norm(q[1::2, :2], axis=1), [0.25, 0.25], rtol=1e-14)
-    assert q[1, :2] @ q[3, :2] == pytest.approx(0.5 * 0.25**2, rel=1e-14)  # a sixth of a turn
-    assert system.spring_energy(q) + system.altitude_energy(q) < 1e-28
-
-
-def test_bad_bending_is_refused():
-    system = hooke.System()
-    system.add_particles(np.eye(3), mass=1)
-    with pytest.raises(hooke.BadValue, match=r"triples\[0\]"):
-        system.add_bending(None, [[0, 1, 0]], 1)
-    with pytest.raises(hooke.BadValue, match="coefficient"):
-        system.add_bending(None, [[0, 1, 2]], -1)
-    with pytest.raises(hooke.BadValue):
-        system.add_bending(None, [0, 1], 1)
-
-
 def test_parts_tell_what_they_derived():
     system = hooke.System()
     system.add_part(
@@ -181,15 +138,6 @@ def test_parts_tell_what_they_derived():
     assert rows[-1] == ("r", "bending", "c", 8.0, "N/m")
     assert {row.family for row in rows} == {None, "stretch", "bending"}
     np.testing.assert_allclose(system.masses, [0.05, 0.1, 0.05], rtol=1e-15)
-
-
-def test_dissipated_power_is_what_the_energy_loses(system, moved):
-    q, v = moved
-    v[5] = 0  # pinned
-    h, a = 1e-6, system.acceleration(q, v)
-    rate = (system.energy(q + h * v, v + h * a) - system.energy(q - h * v, v - h * a)) / (2 * h)
-    assert system.dissipated_power(q, v) == pytest.approx(-rate, rel=1e-6)
-    assert system.dissipated_power(q, v) > 0
 
 
 def test_the_derivative_is_that_of_the_force(system, moved):
@@ -225,19 +173,6 @@ def test_springs_without_direction_are_counted():
     assert system.groups == [("", 1)]
 
 
-def test_the_laws():
-    q, v = [[0, 0, 0], [3, 0, 0]], np.zeros((2, 3))
-    for law, expected in (("strain", 10 * (3 / 2 - 1)), ("length", 10 * (3 - 2))):
-        system = hooke.System()
-        system.add_particles([[0, 0, 0], [2, 0, 0]], mass=1)
-        system.add_springs("s", [[0, 1]], law=law, stiffness=10)
-        assert system.force(q, v)[0, 0] == pytest.approx(expected)
-    cable = hooke.System()
-    cable.add_particles([[0, 0, 0], [2, 0, 0]], mass=1)
-    cable.add_springs("s", [[0, 1]], stiffness=10, compression=False)
-    assert not cable.force([[0, 0, 0], [1, 0, 0]], v).any() and cable.force(q, v).any()
-
-
 def test_parts():
     system = hooke.System()
     anchor = system.add_particles([0, 5, 0], mass=1)
@@ -259,21 +194,6 @@ def test_parts():
     assert system.groups == [("sail.structural", 17), ("sail.shear", 12), ("rope1.stretch", 4)]
     np.testing.assert_allclose(system.masses[1:13], 0.1, rtol=1e-15)
     assert np.flatnonzero(system.inverse_masses == 0).tolist() == [1, 3]
-
-
-def test_drives():
-    system = hooke.System()
-    system.add_particles(np.zeros((3, 3)), mass=1)
-    system.drive_harmonic(0, [0, 0.5, 0], frequency=2, phase=0.3)
-    system.drive_table([1], [0, 1, 2], [[0, 0, 0], [1, 0, 0], [2, 0, 0]])
-    state = system.state()
-    assert state.q[0, 1] == pytest.approx(0.5 * np.sin(0.3), rel=1e-14)
-    assert state.v[0, 1] == pytest.approx(0.5 * 4 * np.pi * np.cos(0.3), rel=1e-14)
-    state = hooke.run(system, method="symplectic-euler", step=1 / 64, duration=1.5).state
-    assert state.q[0, 1] == pytest.approx(0.5 * np.sin(2 * np.pi * 2 * 1.5 + 0.3), rel=1e-12)
-    np.testing.assert_allclose(state.q[1], [1.5, 0, 0], atol=1e-14)
-    np.testing.assert_allclose(state.v[1], [1, 0, 0], atol=1e-13)
-    assert system.free_count == 1 and not state.q[2].any()
 
 
 def test_step_bound_of_an_oscillator():
@@ -316,8 +236,3 @@ def test_an_empty_system_runs():
 
 def build_empty():
     return hooke.System()
-
-
-def test_build_six_particles_is_what_the_scene_says():
-    state = build_six_particles().state()
-    np.testing.assert_array_equal(state.q, SIX_PARTICLES["particles"]["position"])

@@ -20,9 +20,6 @@ const struct reference references[REFERENCE_COUNT] = {
     {
 #include "../data/rope_12.inc"
     },
-    {
-#include "../data/chain_16.inc"
-    },
 };
 
 const struct reference_errors reference_errors[REFERENCE_ERROR_COUNT] = {

@@ -27,7 +27,7 @@ struct reference {
   const struct reference_state *state;
 };
 
-enum { REFERENCE_COUNT = 5 };
+enum { REFERENCE_COUNT = 4 };
 extern const struct reference references[REFERENCE_COUNT];
 
 /* The reference of that name; fails the test if there is none. */

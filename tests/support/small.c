@@ -3,6 +3,7 @@
 #include "check.h"
 #include "random.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -78,8 +79,14 @@ int32_t try_words(hooke_options *options, const char *words) {
   char name[64], value[128];
   int length;
   int32_t status = HOOKE_OK;
-  for (; status == HOOKE_OK && sscanf(words, " %63[^=]=%127s%n", name, value, &length) == 2; words += length)
+  while (status == HOOKE_OK) {
+    const int number = errno; /* which sscanf() changes */
+    const int found = sscanf(words, " %63[^=]=%127s%n", name, value, &length);
+    errno = number;
+    if (found != 2) break;
     status = hooke_options_set_text(options, name, value);
+    words += length;
+  }
   return status == HOOKE_OK && words[strspn(words, " ")] != '\0' ? HOOKE_BAD_VALUE : status;
 }
 

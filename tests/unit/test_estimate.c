@@ -17,6 +17,7 @@ static const double OMEGA = 6.283185307179586, WANT = 1e-3;
 /* An estimate of a run of 1 s; agreement 0: without a reference. */
 static struct hk_estimate estimate_with(const hooke_system *system, double error, double agreement) {
   return (struct hk_estimate){
+      .system = system,
       .want = WANT,
       .duration = 1.0,
       .every = 0.1,
@@ -244,4 +245,45 @@ TEST(a_lost_motion_has_no_error) {
   check_between(true_error(e, OMEGA), 1.0, 3.0);
   assert_true(isnan(e->error));
   assert_non_null(strstr(e->reason, "twice the step none"));
+}
+
+/* ---- what is watched ---- */
+
+static double watched(const hooke_measurement *estimate, int64_t row, const char *column) {
+  return hooke_measurement_number(estimate, "watched", row, column);
+}
+
+/* x = cos(omega t) over two periods, of which frames see the ends of the first alone. */
+TEST(what_is_watched_is_told_over_all_steps) {
+  owned_system *system = small_oscillator(OMEGA), *other = small_oscillator(OMEGA);
+  owned_options *asked = options_with("estimate", "watch=1.x,kinetic error=0");
+  owned_measurement *estimate = NULL;
+  check_ok(hooke_measurement_create("estimate", system, NULL, asked, &estimate));
+  assert_int_equal(hooke_measurement_row_count(estimate, "watched"), 0);
+  for (int follows = 0; follows < 3; follows++) {
+    owned_integrator *integrator =
+        start_run(system, (struct run){.method = "rk4", .step = 0.01, .duration = 2.0, .every = 1.0});
+    owned_state *state = start_state(system);
+    check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
+    check_ok(hooke_estimate_begin(estimate, integrator, state));
+    if (follows > 0) check_ok(hooke_estimate_follow(estimate, integrator));
+    if (follows > 1) check_ok(hooke_estimate_follow(NULL, integrator));
+    check_ok(hooke_integrator_run(integrator, state));
+    check_ok(hooke_measurement_run(estimate, state));
+    check_close(watched(estimate, 0, "value"), hooke_state_position(state)[3], 0.0);
+    const char *claim = hooke_measurement_text(estimate, "claims", 0, "of");
+    if (follows != 1) {
+      assert_true(isnan(watched(estimate, 0, "minimum")) && isnan(watched(estimate, 1, "maximum")));
+      assert_string_equal(claim, "unknown");
+      continue;
+    }
+    assert_null(claim);
+    check_between(-watched(estimate, 0, "minimum"), 1.0 - 1e-5, 1.0 + 1e-5);
+    check_between(watched(estimate, 1, "maximum"), OMEGA * OMEGA - 1e-3, OMEGA * OMEGA + 1e-3); /* 2 kg */
+    check_between(watched(estimate, 0, "until"), 2.0, 2.0);
+    assert_true(isnan(hooke_measurement_number(estimate, "estimate", 0, "estimate")));
+  }
+  owned_integrator *stranger = start_run(other, (struct run){.method = "rk4", .step = 0.01, .duration = 0.1});
+  check_status(hooke_estimate_follow(estimate, stranger), HOOKE_BAD_VALUE);
+  check_message("is not one of the system that the estimate is for");
 }

@@ -2,6 +2,8 @@
  * machine, at any optimisation of the build, for any number of threads. */
 #include "check.h"
 #include "hash.h"
+#include "loops.h"
+#include "lockstep.h"
 #include "random_scene.h"
 #include "run.h"
 #include "sanitized.h"
@@ -10,16 +12,6 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
-
-/* The linker replaces the first by the second everywhere else. */
-const struct hk_spring_set *__real_hk_spring_set(int32_t set);
-const struct hk_spring_set *__wrap_hk_spring_set(int32_t set);
-
-static int32_t first_set;
-
-const struct hk_spring_set *__wrap_hk_spring_set(int32_t set) {
-  return __real_hk_spring_set(first_set + set);
-}
 
 static const struct scene {
   const char *name;
@@ -78,16 +70,16 @@ static const struct {
 };
 
 static void check_scene(const struct scene *scene, int k) {
-  for (first_set = 0; __real_hk_spring_set(first_set) != NULL; first_set++) {
+  for (int32_t set = 0; use_loops(set); set++) {
     struct random_scene made;
     random_scene_create(scene->request, &made); /* runs take their loops when a system is committed */
     for (size_t m = 0; m < sizeof expected / sizeof expected[0]; m++) {
       for (int32_t threads = 1; threads <= 3; threads++) {
-        if (left_out(3 * (int64_t)m + threads + first_set, 4)) continue;
+        if (left_out(3 * (int64_t)m + threads + set, 4)) continue;
         const uint64_t hash = hash_of(made.system, expected[m].method, scene->step, threads);
         if (hash == expected[m].hash[k]) continue;
         check_failed("%s, %s, loops for %s, %d threads: hash %016" PRIx64 ", expected %016" PRIx64,
-                     scene->name, expected[m].method, __wrap_hk_spring_set(0)->name, (int)threads, hash,
+                     scene->name, expected[m].method, hk_spring_set(0)->name, (int)threads, hash,
                      expected[m].hash[k]);
       }
     }
@@ -100,15 +92,43 @@ TEST(test_same_bits) {
     check_scene(&scenes[k], k);
 }
 
+/* Accelerations and steps are those of the plain loops, whatever a scene has. */
+TEST(test_plain_loops) {
+  for (int32_t set = 0; use_loops(set); set++) {
+    for (uint64_t seed = 1; seed <= 12; seed++) {
+      owned_random_scene scene;
+      random_scene_create((struct random_scene_request){.seed = seed,
+                                                        .particles = 7 + (int64_t)(seed * 37 % 900),
+                                                        .springs = (int64_t)(seed * 53 % 1500),
+                                                        .triples = (int64_t)(seed % 2 * (seed * 71 % 400)),
+                                                        .tetrahedra = (int64_t)(seed % 3 * (seed * 37 % 90)),
+                                                        .features = (int32_t)(seed * 29) & SCENE_EVERYTHING,
+                                                        .cloth = {(int32_t)(seed % 4 * 7), 9},
+                                                        .rope = (int32_t)(seed % 70)},
+                          &scene);
+      const double step = 0.00009765;
+      for (size_t m = 0; m < sizeof expected / sizeof expected[0]; m++) {
+        if (!is_implicit(expected[m].method))
+          check_lockstep(&scene, expected[m].method, 1, scene.driven_count ? 0.0 : 0.003, step, 3);
+      }
+    }
+  }
+}
+
 /* The compiler's own library, where it has one, knows the processor as well. */
 TEST(test_best_set) {
 #if defined(__x86_64__) && defined(__GNUC__)
   const int avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
   const char *best = avx512 ? "avx512" : __builtin_cpu_supports("avx2") ? "avx2" : "baseline";
-  assert_string_equal(__real_hk_spring_set(0)->name, best);
+  assert_string_equal(hk_spring_set(0)->name, best);
 #endif
-  assert_string_equal(__real_hk_spring_set(0)->name, hooke_build_fact("instructions"));
+  assert_string_equal(hk_spring_set(0)->name, hooke_build_fact("instructions"));
+  assert_null(hk_spring_set(-1));
+  int32_t last = 0;
+  while (hk_spring_set(last + 1) != NULL)
+    last++;
+  assert_string_equal(hk_spring_set(last)->name, "baseline");
 }
 
 /* A new method needs its row. */

@@ -458,144 +458,14 @@ static void refuse(const char *quoted, const char *message) {
   hk_free(wanted);
 }
 
+/* Whole messages; their parts for every key are in tests/cli/bad_scenes.py. */
 TEST(messages_give_file_line_column_and_path) {
   refuse("{\n 'hooke': 1,\n 'particles': {'position': [[0,0,0],[1,0,0]],\n   'mass': [1,\n    -2]}}",
          "t.json:5:5: particles.mass[1]: -2 is not allowed; allowed: one or more numbers > 0 [kg]");
-  refuse(
-      "{'hooke': 1, " TWO
-      ",\n'springs': [{'between': [[0,1]], 'stiffness': 1},\n {'between': [[0,1], [0,2]], 'stiffness': 1}]}",
-      "t.json:3:25: springs[1].between[1][1]: there is no particle 2; allowed: 0 to 1, as numbers begin at "
-      "0");
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]],\n  'stifness': 1}]}",
          "t.json:3:3: springs[0].stifness: unknown key 'stifness'; did you mean 'stiffness'? allowed: name, "
          "between, law, "
          "stiffness, curve, damping, damping_ratio, rest_length, rest_scale, stiffness_scale, compression");
-  refuse("{'hooke': 1, " TWO ",\n 'springs': [{'stiffness': 1}]}",
-         "t.json:2:14: springs[0].between: is required but missing; allowed: an array of pairs of particles");
-  refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]]}]}",
-         "t.json:2:14: springs[0].stiffness: is required but missing; allowed: one or more numbers >= 0 "
-         "[N (strain law), N/m (length law)], or a curve instead");
-  refuse("{'hooke': 1, " TWO
-         ",\n 'parts': [{'kind': 'rope', 'from': [0,0,0], 'to': [0,0,1], 'segments': 4, 'mass': 1,\n"
-         "    'stretch': {'stiffness': -4}}]}",
-         "t.json:3:30: parts[0].stretch.stiffness: -4 is not allowed; allowed: a number >= 0 [N]");
-  refuse("{'hooke': 1, " TWO ",\n 'run': {'step': '1e-3'}}",
-         "t.json:2:18: run.step: '1e-3' is not allowed; allowed: a number > 0 [s]");
-}
-
-TEST(indices_are_whole_numbers) {
-  refuse(
-      "{'hooke': 1, " TWO ", 'springs': [{'between': [[0, 1.0]], 'stiffness': 1}]}",
-      "t.json:1:100: springs[0].between[0][1]: 1.0 is not allowed; allowed: the number of a particle, its name, or "
-      "['part', index]");
-  refuse("{'hooke': 1,\n'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0.0]}}",
-         "t.json:2:60: particles.pinned[0]: 0.0 is not allowed; allowed: a whole number, without a point");
-  refuse("{'hooke': 1.0, " TWO "}",
-         "t.json:1:11: hooke: 1.0 is not allowed; allowed: 1, the version of the format");
-}
-
-TEST(parts_are_named_and_counted) {
-  static const char rope[] = "'kind': 'rope', 'from': [0,0,0], 'to': [1,0,0], 'segments': 2, 'mass': 1";
-  char text[1024];
-  snprintf(text, sizeof text,
-           "{'hooke': 1,\n'parts': [{%s}],\n'springs': [{'between': [[0, ['rope0', 3]]], 'stiffness': 1}]}",
-           rope);
-  refuse(text, "t.json:3:40: springs[0].between[0][1][1]: part 'rope0' has no particle 3; allowed: 0 to 2, "
-               "as numbers begin at 0");
-  snprintf(text, sizeof text,
-           "{'hooke': 1,\n'parts': [{%s}],\n'springs': [{'between': [[0, ['string', 0]]], 'stiffness': 1}]}",
-           rope);
-  refuse(text, "t.json:3:31: springs[0].between[0][1][0]: there is no part 'string'; allowed: rope0");
-  snprintf(text, sizeof text, "{'hooke': 1,\n'parts': [{%s, 'name': 'rope1'},\n{%s}]}", rope, rope);
-  refuse(text,
-         "t.json:3:1: parts[1].name: 'rope1' is the name of part 0 already; allowed: a name of its own");
-  refuse("{'hooke': 1,\n'parts': [{'kind': 'trellis'}]}",
-         "t.json:2:20: parts[0].kind: there is no kind of part called 'trellis'; allowed: rope, cloth, "
-         "lattice, mesh, "
-         "strand");
-}
-
-/* Words between the numbers of a list do not shift the position. */
-TEST(mixed_lists_give_the_place_in_the_text) {
-  static const char rope[] =
-      "{'hooke': 1,\n'parts': [{'kind': 'rope', 'from': [0,0,0], 'to': [1,0,0], 'segments': 2, 'mass': 1,\n"
-      "'pinned': %s}]}";
-  static const struct {
-    const char *pinned, *message;
-  } cases[] = {
-      {"['start', 1, 'end', 3]",
-       "t.json:3:31: parts[0].pinned[3]: the part has no particle 3; allowed: 0 to 2, as numbers begin at 0"},
-      {"['start', -1]",
-       "t.json:3:21: parts[0].pinned[1]: -1 is not allowed; allowed: any number of whole numbers >= 0 and <= "
-       "2147483647, or any of 'start' or 'end'"},
-      {"['start', 1.0]", "t.json:3:21: parts[0].pinned[1]: 1.0 is not allowed; allowed: any number of whole "
-                         "numbers >= 0 and <= "
-                         "2147483647, or any of 'start' or 'end'"},
-  };
-  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    char text[512];
-    snprintf(text, sizeof text, rope, cases[k].pinned);
-    refuse(text, cases[k].message);
-  }
-}
-
-TEST(drives_take_the_keys_of_their_motion) {
-  refuse("{'hooke': 1, " TWO ",\n'driven': [{'particles': [0], 'motion': 'table', 'phase': 1, 'time': [0,1],"
-         " 'position': [[0,0,0],[0,0,0]]}]}",
-         "t.json:2:59: driven[0].phase: belongs to motion 'harmonic'; allowed with 'table': time, position");
-  refuse("{'hooke': 1, " TWO ",\n'driven': [{'particles': [0], 'motion': 'harmonic', 'amplitude': [0,0,1]}]}",
-         "t.json:2:12: driven[0].frequency: is required with motion 'harmonic' but missing; allowed: a "
-         "number >= 0 [Hz]");
-  refuse("{'hooke': 1, " TWO
-         ",\n'driven': [{'particles': [0], 'motion': 'table', 'time': [0,1], 'position': [[0,0,0]]}]}",
-         "t.json:2:77: driven[0].position: 1 row given; allowed: 2 or more rows of 3 numbers each [m]");
-}
-
-TEST(loads_take_the_keys_of_their_motion) {
-  refuse(
-      "{'hooke': 1, " TWO ",\n'loads': [{'particles': [0], 'force': [0,0,1], 'frequency': 1}]}",
-      "t.json:2:61: loads[0].frequency: belongs to motion 'harmonic'; allowed with 'constant': nothing more");
-  refuse("{'hooke': 1, " TWO ",\n'loads': [{'particles': [0], 'force': [0,0]}]}",
-         "t.json:2:40: loads[0].force[0]: 0 is not allowed; allowed: a row of 3 numbers");
-  refuse("{'hooke': 1, " TWO ",\n'loads': [{'particles': [0], 'force': [0,0,[1,2,3]]}]}",
-         "t.json:2:44: loads[0].force[2]: an array of 3 is not allowed; allowed: a number");
-  refuse(
-      "{'hooke': 1, " TWO ",\n'loads': [{'particles': [0, 2], 'force': [0,0,1]}]}",
-      "t.json:2:29: loads[0].particles[1]: there is no particle 2; allowed: 0 to 1, as numbers begin at 0");
-  refuse(
-      "{'hooke': 1, 'particles': {'position': [[0,0,0],[1,0,0]], 'mass': 1, 'pinned': [1]},\n'loads': "
-      "[{'particles': [0, 1], 'force': [0,0,1]}]}",
-      "t.json:2:29: loads[0].particles[1]: particle 1 is pinned; allowed: particles that are neither pinned nor driven");
-  refuse(
-      "{'hooke': 1, " TWO ",\n'loads': [{'name': 'wind', 'particles': [0], 'force': [0,0,1]}]}",
-      "t.json:2:12: loads[0].name: unknown key 'name'; did you mean 'time'? allowed: particles, motion, force, "
-      "frequency, phase, time");
-}
-
-TEST(factors_of_gravity_are_one_or_one_a_particle) {
-  refuse("{'hooke': 1, 'particles': {'position': [[0,0,0],[1,0,0]], 'mass': 1,\n'gravity_factor': [1,2,3]}}",
-         "t.json:2:19: particles.gravity_factor: 3 factors for 2 particles; allowed: one, or one for each");
-  refuse("{'hooke': 1, 'parts': [{'kind': 'rope', 'segments': 2, 'to': [1,0,0], 'from': [0,0,0], 'mass': 1,\n"
-         "'gravity_factor': [1,2]}]}",
-         "t.json:2:19: parts[0].gravity_factor: 2 factors for 3 particles; allowed: one, or one for each");
-}
-
-TEST(syntax_errors_give_line_and_column) {
-  char *text = json("{'hooke': 1,\n 'title': 'a'\n 'gravity': [0,0,0]}");
-  hooke_scene *scene = NULL;
-  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, NULL, &scene), HOOKE_BAD_VALUE);
-  check_message("t.json:3:2: \"gravity\" is not JSON here; allowed: , or }");
-  hk_free(text);
-  refuse("{'hooke': 1, " TWO ",\n 'hooke': 1}", "t.json:2:2: hooke: is given twice; allowed: each key once");
-}
-
-/* Commit finds faults that the parser does not; its message still has a position in the text. */
-TEST(commit_gives_the_place_too) {
-  static const char text[] = "{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
-                             " 'velocity': [[0,0,3]]}}";
-  owned_scene *scene = parse(text);
-  check_status(hooke_scene_commit(scene), HOOKE_BAD_VALUE);
-  check_message("test.json:2:20: particles.velocity[0][2]: ");
 }
 
 TEST(files_need_a_folder) {

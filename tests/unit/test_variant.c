@@ -1,5 +1,5 @@
-/* Variants of a system: unchanged contents have the same bits, omitted contents are absent, and parts at
- * another resolution represent the same material. */
+/* Variants of a system: omitted contents are absent, and parts at another resolution represent the same
+ * material. What is left as it was is in test_variant_same.c. */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
@@ -33,44 +33,6 @@ static void release(struct hk_variant *variant, struct hk_variant_map *map, hook
   hk_variant_release(variant);
   hk_variant_map_release(map);
   hooke_system_destroy(made);
-}
-
-/* ---- nothing changed ---- */
-
-static void check_same_run(const hooke_system *a, const hooke_system *b) {
-  const int64_t size = 3 * hooke_system_particle_count(a);
-  const struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.02};
-  owned_doubles *q = new_doubles(size), *v = new_doubles(size), *q2 = new_doubles(size),
-                *v2 = new_doubles(size);
-  run_to_end(a, run, q, v);
-  run_to_end(b, run, q2, v2);
-  check_same_bits(size, q2, q);
-  check_same_bits(size, v2, v);
-}
-
-TEST(a_variant_that_changes_nothing_has_the_same_bits) {
-  for (uint64_t seed = 1; seed <= 64; seed++) {
-    owned_random_scene scene;
-    random_scene_create((struct random_scene_request){.seed = seed,
-                                                      .particles = 30,
-                                                      .springs = 60,
-                                                      .features = (int32_t)(seed * 37 % 256),
-                                                      .cloth = {5, 4},
-                                                      .rope = 7},
-                        &scene);
-    struct hk_variant variant = nothing_of(scene.system);
-    struct hk_variant_map map;
-    hooke_system *made = make(scene.system, &variant, &map);
-    const int64_t springs = hooke_system_count(scene.system, "springs");
-    assert_int_equal(hooke_system_particle_count(made), hooke_system_particle_count(scene.system));
-    assert_int_equal(hooke_system_count(made, "springs"), springs);
-    assert_int_equal(hooke_system_group_count(made, "springs"),
-                     hooke_system_group_count(scene.system, "springs"));
-    for (int64_t p = 0; p < hooke_system_particle_count(made); p++)
-      assert_int_equal(map.to[p], p);
-    check_same_run(scene.system, made);
-    release(&variant, &map, made);
-  }
 }
 
 /* ---- a scene of two parts and a group that joins them ---- */

@@ -99,7 +99,7 @@ void hk_store_good(const hooke_integrator *it, hooke_state *state) {
   if (it->motion)
     hk_motion_store(it->motion, state->q, state->v);
   else
-    memcpy(state->q, it->x, (size_t)it->size * sizeof(double));
+    memcpy(state->q, it->numbers.x, (size_t)it->size * sizeof(double));
   *state->t = it->good.t;
 }
 
@@ -152,7 +152,7 @@ static int32_t fail_not_finite(const hooke_integrator *it, double good_time) {
 }
 
 int32_t hk_motion_is_finite(const hooke_integrator *it) {
-  if (it->motion == NULL) return hk_all_finite(it->size, it->x);
+  if (it->motion == NULL) return hk_all_finite(it->size, it->numbers.x);
   int32_t finite = 1;
   for (int a = 0; a < 3; a++) {
     finite &= hk_all_finite(it->motion->n, it->motion->q[a]);

@@ -4,7 +4,9 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/coordinates/coordinates.h"
 #include "model/force/force.h"
+#include "model/generalized.h"
 #include "model/sum/strided.h"
 
 #include <stddef.h>
@@ -78,18 +80,57 @@ static void move_share(hooke_integrator *it, int64_t from, int64_t count, void *
   hk_spring_set(0)->move(ctx, &moved, (ptrdiff_t)from, (ptrdiff_t)count, f);
 }
 
-void hk_integrator_move_on(hooke_integrator *it, struct hk_move *move) {
-  hk_integrator_each(it, move_share, move);
+/* As in move_loops.h, with `start` for u. */
+static void move_own(const struct hk_mover *m, const struct hk_move *move, const double *push,
+                     const struct hk_numbers *own) {
+  const size_t bytes = (size_t)m->row->numbers * sizeof(double);
+  double *x = own->x + m->at, *start = own->start + m->at;
+  if (move->kind == HOOKE_CORRECT) {
+    memcpy(x, start, bytes);
+    m->row->kick(m->thing, move->kick, push, x);
+  } else if (move->kind == HOOKE_KICK_THEN_DRIFT || move->kind == HOOKE_PREDICT) {
+    m->row->kick(m->thing, move->kick, push, x);
+    m->row->drift(m->thing, move->drift, x);
+    if (move->kind == HOOKE_KICK_THEN_DRIFT) return;
+    memcpy(start, x, bytes);
+    m->row->kick(m->thing, move->kick, push, x);
+  } else {
+    m->row->slope(m->thing, x, push, own->rate + m->at);
+    hk_move_numbers(move->kind, move->kick, m->row->numbers, own->rate + m->at, start, own->sum + m->at, x);
+  }
 }
 
-/* Drag is part of the move, except where a force comes after it in the sum. */
+/* Stages between have quaternions of other lengths. */
+static void move_with_movers(hooke_integrator *it, struct hk_move *move) {
+  const hooke_system *system = it->system;
+  const struct hk_numbers *own = &it->numbers;
+  const int32_t kind = move->kind;
+  if (kind == HOOKE_KICK_THEN_DRIFT || kind == HOOKE_PREDICT) hk_movers_read(system, it->motion, own->x);
+  hk_movers_push(system, it->motion, own->x, own->push);
+  hk_integrator_each(it, move_share, move);
+  for (int64_t k = 0; k < system->mover_count; k++)
+    move_own(&system->mover[k], move, own->push + HOOKE_PUSH * k, own);
+  if (kind != HOOKE_FIRST_STAGE && kind != HOOKE_MIDDLE_STAGE) hk_movers_normalise(system, own->x);
+  hk_movers_write(system, it->motion, own->x);
+}
+
+void hk_integrator_move_on(hooke_integrator *it, struct hk_move *move) {
+  if (it->system->mover_count > 0)
+    move_with_movers(it, move);
+  else
+    hk_integrator_each(it, move_share, move);
+}
+
+/* Drag is part of the move, except where a force comes after it in the sum, and with movers, which it pushes.
+ */
 int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move *move) {
   if (it->by_tiles) {
     it->count.force_evaluations++;
     hk_motion_pass(it->system, it->motion, t, move);
     return HOOKE_OK;
   }
-  const int summed = it->system->sums_after_drag && !hk_move_brakes(move->kind);
+  const hooke_system *system = it->system;
+  const int summed = system->mover_count > 0 || (system->sums_after_drag && !hk_move_brakes(move->kind));
   const int32_t status = hk_integrator_forces_without(it, t, summed ? 0 : HOOKE_UNIFORM);
   if (summed) move->drag = 0.0;
   if (status == HOOKE_OK) hk_integrator_move_on(it, move);
@@ -111,6 +152,7 @@ static void set_rates(hooke_integrator *it, int64_t from, int64_t count, void *c
 }
 
 int32_t hk_integrator_flow(hooke_integrator *it, double t) {
+  if (!it->system->overdamped) return HOOKE_OK;
   const int32_t status = keep_stop_value(it, hk_motion_forces(it->system, it->motion, t));
   if (status != HOOKE_OK) return status;
   hk_integrator_each(it, set_rates, NULL);
@@ -145,7 +187,7 @@ int32_t hk_fixed_begin(hooke_integrator *it, const hooke_state *state) {
   if (it->motion)
     hk_motion_load(it->system, it->motion, state->q, state->v);
   else
-    memcpy(it->x, state->q, (size_t)it->size * sizeof(double));
+    memcpy(it->numbers.x, state->q, (size_t)it->size * sizeof(double));
   return HOOKE_OK;
 }
 
@@ -153,11 +195,11 @@ int32_t hk_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
   if (it->motion)
     hk_motion_store(it->motion, state->q, state->v);
   else
-    memcpy(state->q, it->x, (size_t)it->size * sizeof(double));
+    memcpy(state->q, it->numbers.x, (size_t)it->size * sizeof(double));
   *state->t = t;
   return HOOKE_OK;
 }
 
 int64_t hk_integrator_numbers(const hooke_integrator *it) {
-  return it->coordinates ? it->coordinates->size : it->size;
+  return it->system ? hk_system_numbers(it->system) : it->size;
 }

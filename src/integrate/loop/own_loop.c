@@ -21,7 +21,8 @@ static int is_at(const hooke_integrator *it, const hooke_state *state) {
   if (it->method->adaptive)
     return last && memcmp(last->t, state->t, (state->has_v ? 2 : 1) * bytes + sizeof(double)) == 0;
   if (memcmp(&it->t, state->t, sizeof(double)) != 0) return 0;
-  return it->motion ? hk_motion_is_at(it->motion, state->q, state->v) : memcmp(it->x, state->q, bytes) == 0;
+  return it->motion ? hk_motion_is_at(it->motion, state->q, state->v)
+                    : memcmp(it->numbers.x, state->q, bytes) == 0;
 }
 
 static int32_t check_steps(int64_t steps) {
@@ -175,5 +176,5 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
   it->scale0 = INFINITY; /* energy comes from outside: a rise of it proves nothing */
   if (it->method->steps->forget) it->method->steps->forget(it);
   if (it->method->adaptive) return it->method->steps->begin(it, it->shown);
-  return it->system->overdamped ? hk_integrator_flow(it, it->t) : HOOKE_OK;
+  return hk_integrator_flow(it, it->t);
 }

@@ -13,7 +13,7 @@ int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
   if (it->system == NULL || (it->system->drive_count == 0 && !it->system->overdamped)) return HOOKE_OK;
   hk_motion_load(it->system, it->motion, state->q, state->v);
   int32_t status = hk_integrator_hold(it, *state->t);
-  if (status == HOOKE_OK && it->system->overdamped) status = hk_integrator_flow(it, *state->t);
+  if (status == HOOKE_OK) status = hk_integrator_flow(it, *state->t);
   if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }

@@ -295,7 +295,7 @@ static const struct hk_steps steps = {create, destroy, NULL, begin, step, store}
 #endif
 
 #define ROW_OF_CVODE                                                                                         \
-  .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .bodies = 1, .overdamped = 1, .steps = STEPS
+  .needs = "SUNDIALS", .adaptive = 1, .interpolates = 1, .takes = HOOKE_TAKES_ALL, .steps = STEPS
 
 const struct hk_method hk_cvode_bdf = {
     .name = "cvode-bdf",

@@ -1,15 +1,19 @@
 /* Steps of explicit Runge-Kutta methods. Pinned and driven particles are constrained in every stage. */
 #include "core/memory.h"
 #include "core/status.h"
-#include "integrate/method/one_array.h"
+#include "integrate/integrator.h"
 #include "kernel/step_loops.h"
+#include "model/coordinates/coordinates.h"
 
 #include <stddef.h>
 #include <string.h>
 
 /* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */
 static int32_t create(hooke_integrator *it) {
-  if (it->array || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
+  if (it->rate) return HOOKE_OK;
+  const int whole = it->system->overdamped || it->system->mover_count > 0; /* more than put_back() knows */
+  if (whole && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  if (it->method->stages.count == 1 && !it->system->overdamped) return HOOKE_OK;
   const int64_t numbers = 12 * hk_motion_stride(it->motion);
   it->own = hk_new(numbers, sizeof(double));
   it->own_memory += numbers * (int64_t)sizeof(double);
@@ -25,9 +29,9 @@ static double *sum_of(const hooke_integrator *it) {
   return (double *)it->own + 6 * hk_motion_stride(it->motion);
 }
 
-/* A stage is a step over this ahead; 0: at the start. */
+/* A stage is a step over this ahead; 0: at the start. The one past the last is the end. */
 static int32_t ahead_over(const hooke_integrator *it, int stage) {
-  return stage > 0 ? it->method->stages.over[stage - 1] : 0;
+  return stage == 0 ? 0 : stage == it->method->stages.count ? 1 : it->method->stages.over[stage - 1];
 }
 
 static double stage_time(const hooke_integrator *it, int stage) {
@@ -40,44 +44,27 @@ static double kick_of(const hooke_integrator *it, int stage) {
   return it->schedule.step / it->method->stages.over[stage];
 }
 
-/* Moves `count` numbers x from a stage on by their `rate` there. */
-static void move_numbers(const hooke_integrator *it, int stage, int64_t count, const double *rate,
-                         double *start, double *sum, double *x) {
-  const double kick = kick_of(it, stage);
+static int32_t kind_of(const hooke_integrator *it, int stage) {
   const int last = it->method->stages.count - 1;
-  if (last == 0)
-    hk_advance(count, kick, rate, x);
-  else if (stage == 0)
-    hk_first_stage(count, kick, rate, start, sum, x);
-  else if (stage < last)
-    hk_middle_stage(count, kick, rate, start, sum, x);
-  else
-    hk_last_stage(count, kick, rate, start, sum, x);
+  return last == 0      ? HOOKE_DRIFT_THEN_KICK
+         : stage == 0   ? HOOKE_FIRST_STAGE
+         : stage < last ? HOOKE_MIDDLE_STAGE
+                        : HOOKE_LAST_STAGE;
 }
 
-/* ---- one array ---- */
+/* ---- a first-order problem ---- */
 
-static int32_t find_rate(hooke_integrator *it, double t) {
-  struct hk_one_array *array = it->array;
-  if (it->rate) return hk_integrator_rate(it, t, array->y, array->slope);
-  const int found = hk_unknowns_slope(it, &array->unknowns, t, array->y, array->slope);
-  return found == HOOKE_SLOPE_STOPPED ? HOOKE_STOPPED : HOOKE_OK;
-}
-
-static int32_t step_array(hooke_integrator *it) {
-  struct hk_one_array *array = it->array;
-  hk_one_array_begin(it);
+static int32_t step_numbers(hooke_integrator *it) {
+  const struct hk_numbers *y = &it->numbers;
   for (int stage = 0; stage < it->method->stages.count; stage++) {
-    const int32_t status = find_rate(it, stage_time(it, stage));
+    const int32_t status = hk_integrator_rate(it, stage_time(it, stage), y->x, y->rate);
     if (status != HOOKE_OK) {
-      if (it->rate && stage > 0) memcpy(array->y, array->start, (size_t)it->size * sizeof(double));
+      if (stage > 0) memcpy(y->x, y->start, (size_t)y->count * sizeof(double));
       return status;
     }
-    move_numbers(it, stage, array->unknowns.size, array->slope, array->start, array->sum, array->y);
+    hk_move_numbers(kind_of(it, stage), kick_of(it, stage), y->count, y->rate, y->start, y->sum, y->x);
   }
-  if (it->rate) return HOOKE_OK;
-  hk_one_array_give(it, array->y);
-  return hk_integrator_drive(it, hk_integrator_next_time(it)); /* the last stage may be earlier */
+  return HOOKE_OK;
 }
 
 /* ---- particles ---- */
@@ -93,25 +80,18 @@ static int32_t hold(hooke_integrator *it, int stage) {
 }
 
 static int32_t move(hooke_integrator *it, int stage) {
-  const int last = it->method->stages.count - 1;
-  const int32_t kind = last == 0      ? HOOKE_DRIFT_THEN_KICK
-                       : stage == 0   ? HOOKE_FIRST_STAGE
-                       : stage < last ? HOOKE_MIDDLE_STAGE
-                                      : HOOKE_LAST_STAGE;
   const double kick = kick_of(it, stage);
   struct hk_move move;
-  hk_integrator_move_of(it, kind, kick, kick, &move);
+  hk_integrator_move_of(it, kind_of(it, stage), kick, kick, &move);
   if (it->own) move.start = it->own, move.sum = sum_of(it);
   return hk_integrator_move(it, stage_time(it, stage), &move);
 }
 
+/* Where the step began, after a callback stopped it midway. */
 static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   const double *start = ctx;
-  struct hk_motion *m = it->motion;
-  for (int a = 0; a < 6; a++) {
-    double *x = a < 3 ? m->q[a] : m->v[a - 3];
-    memcpy(x + from, start + a * hk_motion_stride(m) + from, (size_t)count * sizeof(double));
-  }
+  for (int64_t a = 0, at = from; a < 6; a++, at += hk_motion_stride(it->motion))
+    memcpy(it->motion->q[0] + at, start + at, (size_t)count * sizeof(double));
 }
 
 /* ---- an overdamped system: velocities are the rates, and those at the start are there ---- */
@@ -119,41 +99,38 @@ static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ct
 static void move_positions(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   double *start = it->own, *sum = sum_of(it);
   struct hk_motion *m = it->motion;
+  const int stage = *(const int *)ctx;
   for (int a = 0; a < 3; a++) {
-    const int64_t q = a * m->n + from; /* as hk_motion_save() has them */
-    move_numbers(it, *(const int *)ctx, count, m->v[a] + from, start + q, sum + q, m->q[a] + from);
+    const int64_t at = a * hk_motion_stride(m) + from;
+    hk_move_numbers(kind_of(it, stage), kick_of(it, stage), count, m->v[0] + at, start + at, sum + at,
+                    m->q[0] + at);
   }
 }
 
 static int32_t step_overdamped(hooke_integrator *it) {
-  hk_motion_save(it->motion, it->own);
-  for (int stage = 0; stage < it->method->stages.count; stage++) {
-    const int last = stage + 1 == it->method->stages.count;
-    const double t = last ? hk_integrator_next_time(it) : stage_time(it, stage + 1);
+  int32_t status = HOOKE_OK;
+  for (int stage = 0; stage < it->method->stages.count && status == HOOKE_OK; stage++) {
+    const double t = stage_time(it, stage + 1);
     hk_integrator_each(it, move_positions, &stage);
-    int32_t status = hk_integrator_hold(it, t);
+    status = hk_integrator_hold(it, t);
     if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
     it->count.force_evaluations++;
-    if (status != HOOKE_OK) {
-      hk_motion_restore(it->motion, it->own);
-      return status;
-    }
   }
-  return HOOKE_OK;
+  return status;
 }
 
 static int32_t step(hooke_integrator *it) {
-  if (it->array) return step_array(it);
+  int32_t status = HOOKE_OK;
+  if (it->rate) return step_numbers(it);
   if (it->system->overdamped) return step_overdamped(it);
-  for (int stage = 0; stage < it->method->stages.count; stage++) {
-    int32_t status = hold(it, stage);
+  if (it->numbers.x) hk_movers_read(it->system, it->motion, it->numbers.x);
+  if (it->numbers.x) hk_movers_write(it->system, it->motion, it->numbers.x); /* forces are those there */
+  for (int stage = 0; stage < it->method->stages.count && status == HOOKE_OK; stage++) {
+    status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);
-    if (status != HOOKE_OK) {
-      if (stage > 0) hk_integrator_each(it, put_back, it->own);
-      return status;
-    }
+    if (status != HOOKE_OK && stage > 0) hk_integrator_each(it, put_back, it->own);
   }
-  return HOOKE_OK;
+  return status;
 }
 
 const struct hk_steps hk_explicit_steps = {create, destroy, NULL, hk_fixed_begin, step, hk_fixed_store};

@@ -1,23 +1,10 @@
 /* Symplectic Euler: v += h (w f + g), q += h v(new). Order 1; undamped modes stay bounded up to h w = 2
  * (Hairer, Lubich and Wanner 2006, section I.1.2). */
-#include "core/status.h"
-#include "integrate/method/one_array.h"
-
-static int32_t step_array(hooke_integrator *it) {
-  const double h = it->schedule.step;
-  hk_one_array_begin(it);
-  const int32_t status = hk_one_array_push(it, it->t, 0);
-  if (status != HOOKE_OK) return status;
-  hk_one_array_kick(it, h, it->array->y);
-  hk_one_array_drift(it, h);
-  hk_one_array_give(it, it->array->y);
-  return HOOKE_OK;
-}
+#include "integrate/integrator.h"
 
 static int32_t step(hooke_integrator *it) {
   const double h = it->schedule.step;
   struct hk_move move;
-  if (it->array) return step_array(it);
   hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h, h, &move);
   return hk_integrator_move(it, it->t, &move);
 }
@@ -28,7 +15,7 @@ const struct hk_method hk_symplectic_euler = {.name = "symplectic-euler",
                                               .summary = "fixed step, order 1; keeps undamped motion bounded",
                                               .order = 1,
                                               .judge = "verlet",
-                                              .bodies = 1,
+                                              .takes = HOOKE_TAKES_BODIES,
                                               .stability = {.kind = HOOKE_STABLE_BY_K_AND_C},
                                               .by_tiles = 1,
                                               .steps = &steps};

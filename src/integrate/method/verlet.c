@@ -12,7 +12,6 @@
 #include "core/memory.h"
 #include "core/number.h"
 #include "core/status.h"
-#include "integrate/method/one_array.h"
 #include "integrate/solve/reduced.h"
 #include "model/force/altitude.h"
 #include "model/force/force.h"
@@ -28,8 +27,8 @@ static const double PART = 1e-3, EXACT = 1e-9, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
   int32_t implicit, predicts;
-  int32_t keeps;             /* with bodies: forces at the end of a step are those at the next start */
-  int32_t kept;              /* motion->f is the force at q, to which only drag is missing */
+  int32_t keeps;             /* forces at the end of a step are those at the next start, */
+  int32_t kept;              /* which are in motion->f, and only drag is missing to them */
   int32_t drifted;           /* the motion has done the first kick of the next step, and its drift */
   struct hk_reduced reduced; /* implicit */
   double *numbers;           /* all arrays below */
@@ -42,15 +41,13 @@ static int32_t create(hooke_integrator *it) {
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
   const int callback = it->system->force != NULL;
-  if (it->array) {
-    own->keeps = !callback && !hk_system_is_damped(it->system, 0);
-    return HOOKE_OK;
-  }
   const int64_t stride = hk_motion_stride(it->motion);
   own->implicit =
       hk_system_is_damped(it->system, ~HOOKE_UNIFORM) && !it->explicit_damping && !it->motion->zero;
   const int drag_is_between = it->system->brake > 0.0 && it->system->sums_after_drag;
-  own->predicts = own->implicit || it->explicit_damping || callback || drag_is_between;
+  const int movers = it->system->mover_count > 0;
+  own->predicts = own->implicit || it->explicit_damping || callback || drag_is_between || movers;
+  own->keeps = !own->predicts || (!callback && !hk_system_is_damped(it->system, 0));
   if (!own->predicts) return HOOKE_OK;
   if ((own->implicit || callback) && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
   const int64_t numbers = 3 * stride + (own->implicit ? 2 * it->size : 0);
@@ -85,18 +82,23 @@ void hk_verlet_forget(hooke_integrator *it) {
   own->kept = 0;
 }
 
+static void move_of(const hooke_integrator *it, int32_t kind, struct hk_move *move) {
+  const struct verlet *own = it->own;
+  hk_integrator_move_of(it, kind, it->schedule.step / 2.0, it->schedule.step, move);
+  move->half = own->half[0];
+}
+
 /* The first kick, and the drift. The force is that of the step before, if it has left it. */
 static int32_t begin_step(hooke_integrator *it) {
   struct verlet *own = it->own;
-  const double h = it->schedule.step;
   struct hk_move move;
   int32_t status = HOOKE_OK;
-  hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h / 2.0, h, &move);
+  move_of(it, own->predicts ? HOOKE_PREDICT : HOOKE_KICK_THEN_DRIFT, &move);
   if (own->kept)
     hk_integrator_move_on(it, &move);
   else
     status = hk_integrator_move(it, it->t, &move);
-  if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as counted by the run that came here */
+  if (own->keeps && !own->kept && it->k > 0) it->count.force_evaluations--; /* as the run that came here */
   own->kept = 0;
   return status;
 }
@@ -105,13 +107,12 @@ static int32_t begin_step(hooke_integrator *it) {
  * begins in the same pass; a drive may still stop before that one. */
 static int32_t step_undamped(hooke_integrator *it) {
   struct verlet *own = it->own;
-  const double h = it->schedule.step;
   const int goes_on = it->goes_on && it->system->drive_count == 0;
   int32_t status = own->drifted ? HOOKE_OK : begin_step(it);
   if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
   struct hk_move move;
-  hk_integrator_move_of(it, goes_on ? HOOKE_KICK_DRIFT_KICK : HOOKE_KICK, h / 2.0, h, &move);
+  move_of(it, goes_on ? HOOKE_KICK_DRIFT_KICK : HOOKE_KICK, &move);
   status = hk_integrator_move(it, hk_integrator_next_time(it), &move);
   own->drifted = status == HOOKE_OK && goes_on;
   own->kept = status == HOOKE_OK && !goes_on;
@@ -165,57 +166,25 @@ static int32_t solve(hooke_integrator *it) {
 
 /* ---- a step that predicts the velocity ---- */
 
-static int32_t move_half(hooke_integrator *it, double t, int32_t kind) {
-  const struct verlet *own = it->own;
-  const double h = it->schedule.step;
-  struct hk_move move;
-  hk_integrator_move_of(it, kind, h / 2.0, h, &move);
-  move.half = own->half[0];
-  return hk_integrator_move(it, t, &move);
-}
-
 static int32_t second_kick(hooke_integrator *it) {
   const struct verlet *own = it->own;
   const double t = hk_integrator_next_time(it);
-  if (!own->implicit) return move_half(it, t, HOOKE_CORRECT);
+  struct hk_move move;
+  move_of(it, HOOKE_CORRECT, &move);
+  if (!own->implicit) return hk_integrator_move(it, t, &move);
   const int32_t status = hk_integrator_forces(it, t);
   return status == HOOKE_OK ? solve(it) : status;
 }
 
-/* With bodies forces of the second kick are those at velocities and momenta predicted by twice the first, of
- * which forces that depend on positions alone see nothing. The second kick begins at the half-way velocities
- * and momenta, in `start`. */
-static int32_t step_array(hooke_integrator *it) {
-  struct verlet *own = it->own;
-  struct hk_one_array *array = it->array;
-  const double h = it->schedule.step;
-  hk_one_array_begin(it);
-  if (it->k > 0 && own->keeps && !own->kept) it->count.force_evaluations--; /* as counted by the run before */
-  int32_t status = hk_one_array_push(it, it->t, own->kept);
-  own->kept = 0;
-  if (status != HOOKE_OK) return status;
-  hk_one_array_kick(it, 0.5 * h, array->y);
-  hk_one_array_drift(it, h);
-  memcpy(array->start, array->y, (size_t)array->unknowns.size * sizeof(double));
-  hk_one_array_kick(it, 0.5 * h, array->y);
-  hk_one_array_give(it, array->y);
-  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
-  status = hk_one_array_push(it, hk_integrator_next_time(it), 0);
-  if (status != HOOKE_OK) return status;
-  hk_one_array_kick(it, 0.5 * h, array->start);
-  hk_one_array_give(it, array->start);
-  own->kept = own->keeps;
-  return HOOKE_OK;
-}
-
 static int32_t step(hooke_integrator *it) {
-  const struct verlet *own = it->own;
-  if (it->array) return step_array(it);
+  struct verlet *own = it->own;
   if (!own->predicts) return step_undamped(it);
-  const int32_t status = move_half(it, it->t, HOOKE_PREDICT);
+  int32_t status = begin_step(it);
   if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
-  return second_kick(it);
+  status = second_kick(it);
+  own->kept = status == HOOKE_OK && own->keeps;
+  return status;
 }
 
 /* ---- the choice of damping ---- */
@@ -346,7 +315,7 @@ const struct hk_method hk_verlet = {
     .summary = "fixed step, order 2; keeps undamped motion bounded, and damping leaves its limit",
     .order = 2,
     .judge = "rk4",
-    .bodies = 1,
+    .takes = HOOKE_TAKES_BODIES,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .with_bodies = {.kind = HOOKE_STABLE_BY_PREDICTION},
     .by_tiles = 1,

@@ -94,13 +94,6 @@ static void spread_to_rows(const struct hk_unknowns *u, const double *some, doub
   }
 }
 
-void hk_unknowns_take(const hooke_integrator *it, const struct hk_unknowns *u, double *y) {
-  const ptrdiff_t stride = hk_motion_stride(it->motion);
-  hk_unknowns_gather(u, it->motion->q[0], stride, y);
-  if (u->has_v) hk_unknowns_gather(u, it->motion->v[0], stride, y + 3 * u->free_count);
-  hk_movers_read(it->system, it->motion, y + 6 * u->free_count);
-}
-
 void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const hooke_state *state,
                       double *y) {
   if (it->rate) {
@@ -109,7 +102,10 @@ void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const h
   }
   y[0] = 0.0; /* the value if nothing is free */
   hk_motion_load(it->system, it->motion, state->q, state->v);
-  hk_unknowns_take(it, u, y);
+  const ptrdiff_t stride = hk_motion_stride(it->motion);
+  hk_unknowns_gather(u, it->motion->q[0], stride, y);
+  if (u->has_v) hk_unknowns_gather(u, it->motion->v[0], stride, y + 3 * u->free_count);
+  hk_movers_read(it->system, it->motion, y + 6 * u->free_count);
 }
 
 int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y,
@@ -120,26 +116,23 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
     return HOOKE_OK;
   }
   int32_t status = hk_unknowns_place(it, u, t, y);
-  if (status == HOOKE_OK && !u->has_v) status = hk_integrator_flow(it, t);
+  if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
   if (status == HOOKE_OK || u->has_v) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }
 
 /* ---- the right-hand side ---- */
 
-void hk_unknowns_give(const hooke_integrator *it, const struct hk_unknowns *u, const double *y) {
+int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
   const ptrdiff_t stride = hk_motion_stride(it->motion);
   hk_unknowns_spread(u, y, it->motion->q[0], stride);
   if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v[0], stride);
   hk_movers_write(it->system, it->motion, y + 6 * u->free_count);
-}
-
-int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
-  hk_unknowns_give(it, u, y);
   return hk_integrator_hold(it, t);
 }
 
-void hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
+/* v' of the free particles from the forces of the working copy. */
+static void find_accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   for (int a = 0; a < 3; a++) {
     const double g = system->fall[a];
@@ -173,7 +166,7 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
   const int64_t m = u->has_v ? u->free_count : 0;
   memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
   const double *own = y + 6 * u->free_count;
-  hk_unknowns_accelerations(it, u, slope + 3 * m);
+  find_accelerations(it, u, slope + 3 * m);
   hk_movers_push(it->system, it->motion, own, u->push);
   hk_movers_slope(it->system, own, u->push, slope + 6 * u->free_count);
   return slope_is_finite(u->size - 3 * m, slope + 3 * m);

@@ -42,11 +42,6 @@ void hk_unknowns_load(hooke_integrator *integrator, const struct hk_unknowns *un
 int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y, hooke_state *state);
 
-/* From the working copy, and to it. */
-void hk_unknowns_take(const hooke_integrator *integrator, const struct hk_unknowns *unknowns, double *y);
-void hk_unknowns_give(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
-                      const double *y);
-
 /* Three components of the free particles (3 free_count) from and to those of all, a stride apart; others are
  * unchanged. */
 void hk_unknowns_gather(const struct hk_unknowns *unknowns, const double *all, ptrdiff_t stride,
@@ -57,10 +52,6 @@ void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, 
 /* Loads y and the constrained particles of time t into the working copy; returns a status. */
 int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
-
-/* v' of the free particles (3 free_count) from the forces of the working copy. */
-void hk_unknowns_accelerations(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
-                               double *out);
 
 /* slope = phi(t, y), counted. */
 int hk_unknowns_slope(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,

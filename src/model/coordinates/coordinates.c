@@ -110,20 +110,6 @@ void hk_movers_push(const hooke_system *system, const struct hk_motion *motion, 
   }
 }
 
-void hk_movers_kick(const hooke_system *system, double h, const double *push, double *own) {
-  for (int64_t k = 0; k < system->mover_count; k++) {
-    const struct hk_mover *m = &system->mover[k];
-    m->row->kick(m->thing, h, push + HOOKE_PUSH * k, own + m->at);
-  }
-}
-
-void hk_movers_drift(const hooke_system *system, double h, double *own) {
-  for (int64_t k = 0; k < system->mover_count; k++) {
-    const struct hk_mover *m = &system->mover[k];
-    m->row->drift(m->thing, h, own + m->at);
-  }
-}
-
 void hk_movers_normalise(const hooke_system *system, double *own) {
   for (int64_t k = 0; k < system->mover_count; k++) {
     const struct hk_mover *m = &system->mover[k];

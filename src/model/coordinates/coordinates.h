@@ -94,8 +94,6 @@ void hk_movers_read(const struct hooke_system *system, const struct hk_motion *m
 void hk_movers_write(const struct hooke_system *system, struct hk_motion *motion, const double *own);
 void hk_movers_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
                     double *push);
-void hk_movers_kick(const struct hooke_system *system, double h, const double *push, double *own);
-void hk_movers_drift(const struct hooke_system *system, double h, double *own);
 void hk_movers_normalise(const struct hooke_system *system, double *own);
 void hk_movers_tolerance(const struct hooke_system *system, double position, double velocity,
                          double *tolerance);

@@ -10,11 +10,11 @@
 
 A scene is built (`Scene`, `System`) or read from a file (`Scene.load`) or from text (`Scene.parse`). `run` integrates
 it, `open` reads the output of a run, `compare` compares several methods with a tight reference, `study` measures
-error against cost and recommends, `limit` finds the largest stable steps, `cost` measures the cost of each
-ingredient, `check` tells what a scene is without running it, `needs` finds the ingredients that a scene can do
-without, `why` explains a run that blew up, `view` writes a page that plays a trajectory, `verify` checks that one
-reproduces from its scene, `Integrator` is for time loops of your own. Units are SI, positions and velocities are
-NumPy arrays (n, 3) over the library's own memory.
+error against cost and recommends, `limit` finds the largest stable steps, `rest` where a scene is at rest, `cost`
+measures the cost of each ingredient, `check` tells what a scene is without running it, `needs` finds the
+ingredients that a scene can do without, `why` explains a run that blew up, `view` writes a page that plays a
+trajectory, `verify` checks that one reproduces from its scene, `Integrator` is for time loops of your own. Units
+are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -40,6 +40,7 @@ from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
 from .parts import Curve, Springs, Transform
 from .problems import FirstOrder, SecondOrder
+from .rest import Rest, rest
 from .results import Frames, Result, RunError, resume, run, why
 from .scene import Scene
 from .state import State
@@ -76,6 +77,7 @@ __all__ = [
     "NotBuilt",
     "Options",
     "PassageWarning",
+    "Rest",
     "Result",
     "Row",
     "RunError",
@@ -108,6 +110,7 @@ __all__ = [
     "part_kind_summary",
     "part_kinds",
     "plot",
+    "rest",
     "resume",
     "run",
     "study",

@@ -244,6 +244,17 @@ class System(Queries):
         return f"System({self.particle_count} particles, {self.spring_count} springs)"
 
 
+class Posed(System):
+    """A first- or second-order problem as a system, for measurements and the runs that they watch."""
+
+    def __init__(self, problem: Problem):
+        self._adopt(problem._posed(), lambda: None, problem._callbacks)
+        self.problem = problem
+
+    def state(self) -> State:
+        return State._made(self._handle, lib.hooke_state_create, self._committed(), **self.problem._shown)
+
+
 def part_options(kind: str, file: Path | None, values: dict[str, Any]) -> Options:
     """The options of a part, those of a mesh with what an OBJ file has."""
     part = Options.for_part(kind).set(**values)
@@ -268,6 +279,11 @@ def particle_keys(position: Any, velocity: Any, mass: Any, gravity_factor: Any =
         if each.size:
             keys[key] = each.copy() if each.size != 1 else float(each[0])
     return keys
+
+
+def posed(problem: Problem) -> System:
+    """The problem as a system, for what takes first- and second-order problems, too."""
+    return problem if isinstance(problem, System) else Posed(problem)
 
 
 def system_of(problem: Problem, what: str) -> System:

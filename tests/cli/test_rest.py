@@ -1,0 +1,53 @@
+"""hooke rest: words, JSON, exit codes."""
+
+from pathlib import Path
+
+import pytest
+from conftest import SIX_PARTICLES
+
+SCENES = Path(__file__).parents[2] / "examples" / "scenes"
+HANGING = {
+    "hooke": 1,
+    "gravity": [0, -10, 0],
+    "particles": {"position": [[0, 0, 0], [1, 0, 0]], "mass": 2, "pinned": [0]},
+    "springs": [{"name": "cord", "between": [[0, 1]], "law": "length", "stiffness": 100, "rest_length": 1}],
+    "run": {"method": "verlet", "step": 1e-3, "duration": 1},
+}
+KEYS = ["scene", "status", "residual", "largest_force", "minimum", "zero_modes", "moved", "steps", "iterations"]
+KEYS += ["force_evaluations", "watched", "claims"]
+
+
+def test_a_weight_hangs(hooke, write):
+    answer = hooke("rest", write(HANGING), "--json", "--final", "--watch", "cord:0.tension,1.y")
+    assert (answer.code, answer.err) == (0, "")
+    value = answer.json
+    assert list(value) == [*KEYS, "final"] and value["status"] == "at rest"
+    assert value["final"]["velocity"] == [[0, 0, 0], [0, 0, 0]]
+    assert value["final"]["position"][1] == pytest.approx([0, -1.2, 0], abs=1e-9)
+    assert value["largest_force"] == pytest.approx(20, rel=1e-9) and value["residual"] < 1e-7
+    assert [(one["quantity"], one["unit"]) for one in value["watched"]] == [("cord:0.tension", "N"), ("1.y", "m")]
+    assert [one["value"] for one in value["watched"]] == pytest.approx([20, -1.2], rel=1e-9)
+
+
+def test_words(hooke, write):
+    words = hooke("rest", write(HANGING), "--watch", "1.y", "--final").out
+    assert "forces are in equilibrium to" in words and "each raises it" in words
+    assert "1.y" in words and "particle x y z [m]" in words
+    assert len(hooke("rest", write(SIX_PARTICLES), "-q").out.splitlines()) <= 3
+
+
+def test_what_falls_has_exit_7(hooke, write):
+    scene = {**HANGING, "springs": [], "run": HANGING["run"]}
+    answer = hooke("rest", write(scene), "--json")
+    assert answer.code == 7 and answer.json["status"] == "none" and answer.json["minimum"] is None
+    assert "the scene falls along 0 -1 0" in answer.json["claims"][0]["text"]
+
+
+def test_what_is_not_found_is_said_so(hooke):
+    answer = hooke("rest", SCENES / "cloth-64.json", "--json", "--budget", "1ms")
+    assert answer.code == 7 and answer.json["claims"][0]["of"] == "unknown"
+
+
+def test_nothing_to_watch(hooke, write):
+    answer = hooke("rest", write(HANGING), "--watch", "7.y")
+    assert answer.code == 3 and "particles 0 to 1" in answer.err
