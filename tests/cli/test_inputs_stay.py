@@ -24,6 +24,7 @@ OUTPUTS = {
     "study": ("study scene.json --methods verlet -o", ".h5"),
     "study --report": ("study scene.json --methods verlet --report", ""),
     "limit": ("limit scene.json --methods verlet --report", ""),
+    "modes": ("modes scene.json --report", ""),
     "needs": ("needs scene.json --want 1m -o", ""),
     "needs --report": ("needs scene.json --want 1m --report", ""),
     "why": ("why scene.json --report", ""),

@@ -68,7 +68,7 @@ class Frame:
         for i, a in enumerate(unit):
             for j, b in enumerate(unit):
                 stiffness[i, j] = (self.energy(a + b) - self.energy(a - b) - self.energy(b - a) + self.energy(-a - b)) / (4 * h * h)
-            return np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)
+        return np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)).real)
 
     def system(self):
         system = hooke.System()

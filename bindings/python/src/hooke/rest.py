@@ -7,7 +7,7 @@ from typing import Any
 from ._look import WorkProgress
 from ._measurement import Found, Measurement
 from ._types import FloatArray
-from .limit import Place, _state_at
+from .limit import Place, state_at
 from .problems import Problem
 from .results import Runnable, measured
 
@@ -36,7 +36,7 @@ def rest(
     `hooke.limit` has it. The keywords `options` are those of ``hooke.describe("rest")``: `watch` names quantities.
     ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
-    return Rest(*measured("rest", problem, options, progress, lambda system: _state_at(system, at)))
+    return Rest(*measured("rest", problem, options, progress, lambda system: state_at(system, at)))
 
 
 Problem._rest_by = rest
