@@ -1,6 +1,6 @@
 /* Runs a scenario of tests/fault repeatedly, without faults: cycles NAME COUNT. Every cycle has to give the
  * same results; after the first ones heap, resident memory, open files and threads have to stay constant.
- * Without arguments it prints the names, one a line. Scenarios of which a sweep tries one point in a hundred
+ * Without arguments it prints the names, one a line. Scenarios of which a sweep tries one point in twenty
  * are slow, and run a tenth as often. GLIBC_TUNABLES=glibc.malloc.tcache_count=0 has to be set: released
  * memory cached by threads would count as held. */
 #include "check.h"
@@ -34,7 +34,7 @@ static struct held held_now(void) {
 
 /* Growth of the heap [bytes] that is allowed with libhdf5, whose lists of released blocks fill slowly: less
  * than a block in a hundred cycles. */
-enum { SLOW = 100, HDF5_KEEPS = 4096 };
+enum { SLOW = 20, HDF5_KEEPS = 4096 };
 static const struct scenario *asked;
 static int64_t cycles;
 
