@@ -1,6 +1,7 @@
 #include "setup.h"
 #include "os.h"
 #include "report.h"
+#include "watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +37,7 @@ static int32_t load(const struct cli_arguments *arguments, hooke_scene **loaded)
 
 int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
                          const char *output) {
-  const int32_t status = output ? hooke_scene_check_output(setup->scene, output) : HOOKE_OK;
+  const int32_t status = output ? hooke_scene_check_output(setup->read, output) : HOOKE_OK;
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   if (status != HOOKE_BAD_VALUE) return cli_report_status(arguments, status);
   return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", hooke_last_error());
@@ -52,11 +53,56 @@ int32_t cli_setup_is_scene(const char *path) {
   return is;
 }
 
+/* ---- a start at rest ---- */
+
+void cli_setup_take_rest(struct cli_setup *setup, const hooke_measurement *rest) {
+  const double *q = hooke_measurement_series(rest, "rest", 0, "position", NULL);
+  const size_t bytes = (size_t)hooke_state_size(setup->state) * sizeof *q;
+  if (q) memcpy(hooke_state_position(setup->state), q, bytes);
+  memset(hooke_state_velocity(setup->state), 0, bytes);
+}
+
+int32_t cli_setup_scene_at_state(const struct cli_setup *setup, hooke_scene **scene) {
+  const int32_t status =
+      hooke_scene_of_state(setup->system, setup->state, hooke_scene_text(setup->scene, "title"),
+                           setup->options, NULL, NULL, scene);
+  return status == HOOKE_OK ? hooke_scene_commit(*scene) : status;
+}
+
+static int32_t replace_scene(struct cli_setup *setup) {
+  const int32_t status = cli_setup_scene_at_state(setup, &setup->scene);
+  setup->options = hooke_scene_run_options(setup->scene);
+  setup->system = hooke_scene_system(setup->scene);
+  hooke_state_destroy(setup->state);
+  setup->state = NULL;
+  return status == HOOKE_OK ? hooke_state_create(setup->system, &setup->state) : status;
+}
+
+static int start_from_rest(const struct cli_arguments *arguments, struct cli_setup *setup) {
+  hooke_measurement *rest = NULL;
+  int code = HOOKE_EXIT_DONE;
+  int32_t status = hooke_measurement_create("rest", setup->system, NULL, NULL, &rest);
+  if (status == HOOKE_OK) status = cli_watch_run(arguments, rest, NULL);
+  const char *found = status == HOOKE_OK ? hooke_measurement_text(rest, "rest", 0, "status") : NULL;
+  if (status == HOOKE_STOPPED) {
+    code = cli_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted before the scene was at rest");
+  } else if (found && strcmp(found, "at rest") != 0) {
+    code = cli_report(arguments, HOOKE_EXIT_NOT_MET, "--from-rest: %s",
+                      hooke_measurement_text(rest, "claims", 0, "text"));
+  } else if (found) {
+    cli_setup_take_rest(setup, rest);
+    status = replace_scene(setup);
+  }
+  hooke_measurement_destroy(rest);
+  return status == HOOKE_OK || code != HOOKE_EXIT_DONE ? code : cli_report_status(arguments, status);
+}
+
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
   memset(setup, 0, sizeof *setup);
-  int32_t status = load(arguments, &setup->scene);
+  int32_t status = load(arguments, &setup->read);
   if (ferror(stdin)) return cli_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  setup->scene = setup->read;
   setup->options = hooke_scene_run_options(setup->scene);
   status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
@@ -68,12 +114,14 @@ int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setu
   cli_os_give_back_memory(); /* of loading, so that a run does not hold it besides its own */
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  return cli_arguments_text(arguments, "from-rest") ? start_from_rest(arguments, setup) : HOOKE_EXIT_DONE;
 }
 
 void cli_setup_destroy(struct cli_setup *setup) {
   hooke_state_destroy(setup->state);
-  hooke_scene_destroy(setup->scene);
+  if (setup->scene != setup->read) hooke_scene_destroy(setup->scene);
+  hooke_scene_destroy(setup->read);
 }
 
 const char *cli_setup_title(const struct cli_arguments *arguments, const struct cli_setup *setup) {
@@ -125,23 +173,31 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
 }
 
 int cli_setup_check_ending(const struct cli_arguments *arguments, const char *flag, const char *file) {
-  static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
-                                          {".html", "'hooke view -o' writes a page"},
-                                          {".h5", "'hooke run -o' writes a trajectory"},
-                                          {".csv", "'hooke study -o' writes a table"},
-                                          {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
-                                          {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
-  const char *dot = file ? strrchr(file, '.') : NULL;
+  static const char *const others[][2] = {
+      {".json", "'hooke make -o' writes a scene"},
+      {".html", "'hooke view -o' writes a page"},
+      {".h5", "'hooke run -o' writes a trajectory"},
+      {".csv", "'hooke run --probes' writes values over time, and 'hooke study -o' a table"},
+      {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
+      {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
+  const char *slash = file ? cli_os_last_slash(file) : NULL,
+             *dot = file ? strrchr(slash ? slash : file, '.') : NULL;
   for (int32_t i = 0; dot && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     const char *own =
         argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
+    const int of_hdf5 = own && strcmp(own, "h5") == 0;
+    if (of_hdf5 && (dot[1] == '\0' || cli_is_among("h5 hdf5 h5md", dot + 1))) continue;
     for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
       const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
       if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
       return cli_report(arguments, HOOKE_EXIT_USAGE, "%s %s: its name has to end in .%s; %s", flag, file, own,
                         others[k][1]);
     }
+    if (of_hdf5)
+      return cli_report(arguments, HOOKE_EXIT_USAGE,
+                        "%s %s: a file of HDF5 has a name that ends in .h5, .hdf5 or .h5md, or has no ending",
+                        flag, file);
   }
   return HOOKE_EXIT_DONE;
 }

@@ -7,7 +7,7 @@
 #include "describe.h"
 
 struct cli_setup {
-  hooke_scene *scene;
+  hooke_scene *read, *scene;  /* the scene as read, and as it is run, which --from-rest makes another one */
   const hooke_system *system; /* the scene's */
   hooke_options *options;     /* the scene's, with the options of the command line */
   hooke_state *state;
@@ -21,6 +21,11 @@ int32_t cli_setup_is_scene(const char *path);
  * and returned as exit code. The caller destroys the set-up in either case. */
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
 void cli_setup_destroy(struct cli_setup *setup);
+
+/* Brings the state to where the search for a rest, a measurement, ended. */
+void cli_setup_take_rest(struct cli_setup *setup, const hooke_measurement *rest);
+/* The scene that starts at the state, committed; the caller owns it. */
+int32_t cli_setup_scene_at_state(const struct cli_setup *setup, hooke_scene **scene);
 
 /* The title of the scene, or the name of its file. */
 const char *cli_setup_title(const struct cli_arguments *arguments, const struct cli_setup *setup);

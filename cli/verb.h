@@ -45,6 +45,13 @@ struct cli_verb {
   int (*function)(const struct cli_arguments *arguments);
 };
 
+/* Of verbs that may begin at rest (setup.h). */
+#define HOOKE_FROM_REST                                                                                      \
+  {                                                                                                          \
+    "from-rest", 0, NULL,                                                                                    \
+        "starts the scene at its position of rest, as 'hooke rest' finds it, and not moving"                 \
+  }
+
 #define HOOKE_VERB_ROWS(list) .rows = (list), .row_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
 
 extern const struct cli_verb cli_verb_run;
@@ -54,6 +61,7 @@ extern const struct cli_verb cli_verb_study;
 extern const struct cli_verb cli_verb_limit;
 extern const struct cli_verb cli_verb_why;
 extern const struct cli_verb cli_verb_needs;
+extern const struct cli_verb cli_verb_rest;
 extern const struct cli_verb cli_verb_make;
 extern const struct cli_verb cli_verb_view;
 extern const struct cli_verb cli_verb_verify;

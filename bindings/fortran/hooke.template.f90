@@ -66,6 +66,10 @@ module hooke
   type, extends(hooke_handle) :: hooke_trajectory
   end type
 
+  ! Watched quantities over the runs of an integrator, in a file (CSV or HDF5) being written.
+  type, extends(hooke_handle) :: hooke_probes
+  end type
+
   ! A trajectory file being read.
   type, extends(hooke_handle) :: hooke_record
     type(hooke_options) :: options ! of the run, with defaults filled in
@@ -184,13 +188,14 @@ contains
   end subroutine
 
   ! `want` [m] is the error that no particle may exceed at any frame; NaN for none. `callbacks`: whether runs are
-  ! repeated even if callbacks take part; they are not if it is left out.
-  subroutine estimate_create(self, system, want, status, callbacks)
+  ! repeated even if callbacks take part; they are not if it is left out. `watch`: quantities to watch.
+  subroutine estimate_create(self, system, want, status, callbacks, watch)
     class(hooke_estimate), intent(inout) :: self
     class(hooke_system), intent(in) :: system
     real(c_double), intent(in) :: want
     integer, intent(out), optional :: status
     logical, intent(in), optional :: callbacks
+    character(*), intent(in), optional :: watch
     type(hooke_options) :: options
     type(c_ptr) :: estimate
     integer(c_int32_t) :: code
@@ -202,6 +207,7 @@ contains
       if (.not. options%is_set("want")) return
     end if
     if (present(callbacks)) call options%set("callbacks", callbacks, status)
+    if (present(watch)) call options%set("watch", watch, status)
     code = c_measurement_create(to_c("estimate"), system%address(), c_null_ptr, options%address(), estimate)
     if (code == 0) call self%take(estimate, c_measurement_destroy, system)
     call accept(code, status)
@@ -261,6 +267,21 @@ contains
     type(c_ptr), value :: object
     integer(c_int32_t) :: code
     code = c_trajectory_close(object, int(hooke_stopped, c_int32_t))
+    if (code /= 0) return ! no status can be returned
+  end subroutine
+
+  ! Closes the file.
+  subroutine probes_close(self, status)
+    class(hooke_probes), intent(inout) :: self
+    integer, intent(out), optional :: status
+    if (missing(status, self)) return
+    call accept(c_probes_close(self%give_up()), status)
+  end subroutine
+
+  subroutine abandon_probes(object) bind(c, name="")
+    type(c_ptr), value :: object
+    integer(c_int32_t) :: code
+    code = c_probes_close(object)
     if (code /= 0) return ! no status can be returned
   end subroutine
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import headers
 
 # Options may be NULL, which means the defaults, except in these functions.
-NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_row", "hooke_options_row_number"}
+NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_row", "hooke_options_row_number",
+                "hooke_probes_create"}
 # Texts, arrays, callbacks and places for results that may be NULL, by the names of their parameters; and those that need
 # the function's name as well.
 OPTIONAL = {"folder", "run", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first", "observer", "product",
@@ -45,6 +46,8 @@ def may_be_null(name, kind):
     """Whether a handle may be NULL, or is checked by the function itself."""
     if (name, kind) == ("hooke_measurement_run", "hooke_state"):
         return True  # the initial state
+    if (name, kind) == ("hooke_estimate_follow", "hooke_measurement"):
+        return True  # none any more
     return name.endswith(("_destroy", "_close")) or (kind == "hooke_options" and name not in NEED_OPTIONS)
 
 

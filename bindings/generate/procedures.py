@@ -28,6 +28,7 @@ FURTHER = {
     "integrator_stop_value": ("integrator_count", {"what": "stop_value"}),
     "estimate_number": ("measurement_number", {"table": "estimate", "row": 0}),
     "estimate_text": ("measurement_text", {"table": "estimate", "row": 0}),
+    "estimate_watched": ("measurement_number", {"table": "watched"}),
     "estimate_on_progress": ("measurement_on_progress", {}),
     "view_number": ("measurement_number", {"table": "view", "row": 0}),
     "trajectory_run": ("trajectory_text", {"what": "run"}),
@@ -45,8 +46,10 @@ RENAMED = {
     "integrator_get.q": "position", "integrator_get.v": "velocity", "integrator_put.q": "position",
     "integrator_put.v": "velocity", "options_set_numbers.values": "value", "options_set_text.text": "value",
     "state_copy.to": "other", "system_with_force.with": "forced", "system_acceleration.acceleration": "accelerations",
-    "system_force.force": "forces", "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
-    "estimate_number.column": "what", "estimate_text.column": "what", "view_number.column": "what",
+    "system_force.force": "forces", "system_reaction.reaction": "reactions", "system_tension.tension": "tensions",
+    "system_derivative_product.out": "product", "system_step_bounds.bound": "bounds",
+    "estimate_number.column": "what", "estimate_watched.column": "what",
+    "estimate_text.column": "what", "view_number.column": "what",
 }
 # Several results in one array.
 PARTS = {"bound": "bound", "inertia": "mass inertia(3)", "motion": "point(3) quaternion(4) velocity(3) angular_momentum(3)",
@@ -61,13 +64,13 @@ OUTPUTS = {
     "system_members.damping": [MEMBERS], "system_members.stiffness": [MEMBERS],
     "system_members.particles": ["int(c_member_particles(to_c(force)))", MEMBERS],
     "system_members.rest_length": [f'merge(7, 1, force == "altitude")*{MEMBERS}'],
-    "system_step_bounds.bound": ["c_method_count()"],
+    "system_step_bounds.bound": ["c_method_count()"], "system_tension.tension": ['self%count("springs")'],
 }
 WIDTHS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
 # The forms of arrays by their names; others are lists.
 ARRAYS = {
-    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"],
-                    "rows"),
+    **dict.fromkeys(["q", "v", "dq", "dv", "force", "acceleration", "reaction", "out", "position", "velocity", "displacement",
+                     "vertices"], "rows"),
     **dict.fromkeys(headers.VECTORS, "vector"), **dict.fromkeys(WIDTHS, "members"), **dict.fromkeys(PARTS, "parts"),
 }
 # The forms of numbers; other whole numbers are indices, which count from 1 in Fortran.

@@ -81,6 +81,14 @@ int32_t cli_rows_width(const hooke_measurement *measurement, const char *table, 
   return (int32_t)least;
 }
 
+const char *cli_quantity(const hooke_measurement *measurement, const char *table, int64_t row,
+                         char head[HOOKE_HEAD_SIZE]) {
+  const char *unit = hooke_measurement_text(measurement, table, row, "unit");
+  snprintf(head, HOOKE_HEAD_SIZE, "%.100s%s%s%s", hooke_measurement_text(measurement, table, row, "quantity"),
+           unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
+  return head;
+}
+
 void cli_rows_print_as(int32_t width, double value, const char *format, const char *infinite,
                        const char *zero) {
   const char *word = isnan(value) ? "-" : isinf(value) ? infinite : value == 0.0 ? zero : NULL;

@@ -57,6 +57,11 @@ void cli_rows_print_cell(int32_t width, double value);
 void cli_rows_print_as(int32_t width, double value, const char *format, const char *infinite,
                        const char *zero);
 
+/* "57.y [m]", from a row of a table with a `quantity` and a `unit`. */
+enum { HOOKE_HEAD_SIZE = 128 };
+const char *cli_quantity(const hooke_measurement *measurement, const char *table, int64_t row,
+                         char head[HOOKE_HEAD_SIZE]);
+
 /* A table of all rows. */
 void cli_rows_print(const struct cli_rows *rows, int32_t method_width);
 

@@ -92,12 +92,28 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
                    adaptive ? "" : " s");
 }
 
+int32_t cli_want_judges(const struct cli_run *run) {
+  return cli_arguments_text(run->arguments, "want") || !cli_arguments_text(run->arguments, "no-estimate");
+}
+
+static int watches(const struct cli_run *run) {
+  return cli_arguments_text(run->arguments, "watch") != NULL;
+}
+
+/* Errors are those of whole runs; what is watched is told of any. */
+static int is_measured(const struct cli_run *run) {
+  return run->estimate && !run->was_finished && (run->outcome == HOOKE_OK || watches(run));
+}
+
 /* `want`: NULL without one. */
 static int create(struct cli_run *run, const char *want) {
   hooke_options *options = NULL;
   int32_t status = hooke_options_create("estimate", &options);
   if (status == HOOKE_OK && want) status = hooke_options_set_text(options, "want", want);
   const int32_t refused = status == HOOKE_BAD_VALUE;
+  const char *watch = cli_arguments_text(run->arguments, "watch");
+  if (status == HOOKE_OK && watch) status = hooke_options_set_text(options, "watch", watch);
+  if (status == HOOKE_OK && !cli_want_judges(run)) status = hooke_options_set_text(options, "error", "false");
   if (status == HOOKE_OK)
     status = hooke_measurement_create("estimate", run->setup.system, NULL, options, &run->estimate);
   hooke_options_destroy(options);
@@ -110,7 +126,7 @@ int cli_want_pick(struct cli_run *run) {
   const char *text = cli_arguments_text(arguments, "want");
   int code = text ? cli_setup_require(arguments, &run->setup, NULL) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (!text && cli_arguments_text(arguments, "no-estimate")) return HOOKE_EXIT_DONE;
+  if (!cli_want_judges(run) && !watches(run)) return HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = create(run, text);
   if (code != HOOKE_EXIT_DONE) return code;
   hooke_measurement_on_progress(run->estimate, cli_watch_progress, &run->watch);
@@ -129,10 +145,12 @@ int cli_want_pick(struct cli_run *run) {
 }
 
 int32_t cli_want_measure(struct cli_run *run) {
-  if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return HOOKE_OK;
+  if (!is_measured(run)) return HOOKE_OK;
   cli_watch_start(&run->watch, run->arguments);
-  hooke_integrator_destroy(run->integrator); /* the following runs need as much memory */
-  run->integrator = NULL;
+  if (run->outcome == HOOKE_OK) {
+    hooke_integrator_destroy(run->integrator); /* the following runs need as much memory */
+    run->integrator = NULL;
+  }
   const int32_t status = hooke_measurement_run(run->estimate, run->setup.state);
   cli_watch_end(&run->watch);
   return status;
@@ -159,10 +177,32 @@ int32_t cli_want_goes_on(struct cli_run *run) {
   return 1;
 }
 
+static void print_watched(const struct cli_run *run) {
+  static const char *const heads[] = {"value", "minimum", "at t [s]", "maximum", "at t [s]"};
+  static const char *const columns[] = {"value", "minimum", "at_minimum", "maximum", "at_maximum"};
+  enum { COLUMNS = sizeof columns / sizeof columns[0], CELL = 12 };
+  const int64_t rows = hooke_measurement_row_count(run->estimate, "watched");
+  const int32_t width = cli_rows_width(run->estimate, "watched", "quantity", INDENT - 8) + 6;
+  if (rows < 1) return;
+  printf("\n%-*s", width, "watched");
+  for (int k = 0; k < COLUMNS; k++)
+    printf(" %*s", CELL, heads[k]);
+  printf("\n");
+  for (int64_t row = 0; row < rows; row++) {
+    char head[HOOKE_HEAD_SIZE];
+    cli_print_padded(stdout, width, cli_quantity(run->estimate, "watched", row, head));
+    for (int k = 0; k < COLUMNS; k++)
+      cli_rows_print_as(CELL, hooke_measurement_number(run->estimate, "watched", row, columns[k]), "%.7g",
+                        NULL, NULL);
+    printf("\n");
+  }
+}
+
 void cli_want_print(const struct cli_run *run) {
-  if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return;
+  if (!is_measured(run)) return;
   cli_claims_print(run->arguments, run->estimate, INDENT, NULL);
-  if (!text_of(run, "by") && !run->arguments->quiet)
+  print_watched(run);
+  if (run->outcome == HOOKE_OK && cli_want_judges(run) && !text_of(run, "by") && !run->arguments->quiet)
     cli_report_words(run->arguments, "'hooke study' on the same may tell how wrong it is");
   cli_print_flush();
 }
@@ -179,11 +219,17 @@ static void print_json_error(const struct cli_run *run) {
                    number_of(run, "last_from"), hooke_state_time(run->setup.state));
 }
 
-/* The keys "error" and "want", as JSON, each with a comma after it. */
+static void print_json_watched(const struct cli_run *run) {
+  const char *rows = watches(run) ? hooke_measurement_json(run->estimate, "watched", -1) : NULL;
+  if (rows) printf("\"watched\": %s, ", rows);
+}
+
+/* The keys "error", "watched" and "want", as JSON, each with a comma after it. */
 static void print_json_want(const struct cli_run *run) {
   if (!run->estimate || run->was_finished) return;
   const double met = number_of(run, "met");
-  if (run->outcome == HOOKE_OK) print_json_error(run);
+  if (run->outcome == HOOKE_OK && cli_want_judges(run)) print_json_error(run);
+  print_json_watched(run);
   if (!is_wanted(run)) return;
   cli_print_json("'want': {'wanted': %g, 'met': ", number_of(run, "wanted"));
   cli_print_json(isnan(met) ? "null" : met == 1.0 ? "true" : "false");
@@ -207,10 +253,14 @@ static void print_vectors(const char *key, int64_t rows, const double *xyz) {
 /* What is said of it, and where every particle is. */
 static void print_json_end(const struct cli_run *run) {
   const int64_t particles = hooke_system_particle_count(run->setup.system);
-  hooke_measurement *says = run->why ? run->why : run->estimate;
+  hooke_measurement *const says[] = {run->why, run->why && !watches(run) ? NULL : run->estimate};
+  const char *before = "";
   cli_print_json("'claims': [");
-  if (says && hooke_measurement_row_count(says, "claims") >= 0)
-    (void)cli_print_members("", says, "claims", -1);
+  for (int k = 0; k < 2; k++) {
+    if (!says[k] || hooke_measurement_row_count(says[k], "claims") < 1) continue;
+    (void)cli_print_members(before, says[k], "claims", -1);
+    before = ", ";
+  }
   cli_print_json("]");
   if (cli_arguments_text(run->arguments, "final")) {
     cli_print_json(", 'final': {");
@@ -245,6 +295,7 @@ static void print_json(const struct cli_run *run) {
   cli_print_json("'energy': {'initial': %g, 'final': %g}, 'momentum': [%g, %g, %g], ", run->energy_before,
                  run->energy_after, momentum[0], momentum[1], momentum[2]);
   if (cli_run_goes_beyond(run)) cli_print_json("'frames_beyond': %" PRId64 ", ", run->frames_beyond);
+  if (run->probes_file) cli_print_json("'probes': %s, ", run->probes_file);
   cli_print_json("'output': %s, 'diagnosis': %s, ", run->output,
                  cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
   print_json_want(run);
@@ -309,6 +360,9 @@ static void print_words(const struct cli_run *run) {
   if (run->output)
     cli_say("%-22s%s (%" PRId64 " frame%s)\n", "output", run->output, run->frames,
             run->frames == 1 ? "" : "s");
+  if (run->probes_file)
+    cli_say("%-22s%s (%" PRId64 " line%s, until %.6g s)\n", "probes", run->probes_file, run->lines,
+            run->lines == 1 ? "" : "s", run->last_line);
 }
 
 void cli_run_print(const struct cli_run *run) {

@@ -34,6 +34,11 @@ struct cli_run {
   char warnings[HOOKE_WARNINGS_SIZE]; /* held back for a second of work */
   int32_t write_status;               /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
+  hooke_options *probe_options; /* NULL without --probe */
+  const char *probes_file;
+  hooke_probes *probes; /* NULL while there is no run */
+  int64_t lines;        /* that it has, and the time of the last one [s] */
+  double last_line;
   hooke_measurement *why;      /* diagnosis of the outcome; NULL: there is none, or it could not be made */
   hooke_measurement *estimate; /* of its error; NULL: none was requested */
   char message[2048];          /* about the outcome, or the failed write */
@@ -67,13 +72,16 @@ int32_t cli_run_goes_beyond(const struct cli_run *run);
  * or tolerance, which it reports. Does nothing without --want. */
 int cli_want_pick(struct cli_run *run);
 
-/* Estimates the error of the finished run; not without --want under --no-estimate. */
+/* 1 if the error is looked into: not without --want under --no-estimate. */
+int32_t cli_want_judges(const struct cli_run *run);
+
+/* Estimates the error of the finished run, if that is looked into, and of any run tells what is watched. */
 int32_t cli_want_measure(struct cli_run *run);
 
 /* 1 if the wanted error was not met and something finer is set in the options of the run. */
 int32_t cli_want_goes_on(struct cli_run *run);
 
-/* What the estimate says of the run. */
+/* What the estimate says of the run, and what is watched. */
 void cli_want_print(const struct cli_run *run);
 
 /* Exit code of a finished run. */

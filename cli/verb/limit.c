@@ -117,6 +117,7 @@ static int do_limit(const struct cli_arguments *arguments) {
 static const struct cli_verb_row own_rows[] = {
     {"at", 0, "FILE:FRAME",
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
+    HOOKE_FROM_REST,
     {"report", 0, "FILE.html",
      "writes regions of stability, limiting mode, table and "
      "suggestion as one page to read offline, replacing it"},

@@ -172,6 +172,7 @@ static int do_needs(const struct cli_arguments *arguments) {
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "LEAN.json", "writes the lean scene, replacing it"},
     {"report", 0, "FILE.html", "writes table and pictures as one page to read offline, replacing it"},
+    HOOKE_FROM_REST,
 };
 
 const struct cli_verb cli_verb_needs = {

@@ -3,6 +3,7 @@
 #include "command.h"
 #include "fit.h"
 #include "os.h"
+#include "probes.h"
 #include "report.h"
 
 #include <errno.h>
@@ -14,7 +15,7 @@
 #include <unistd.h>
 
 static const double MOST_STEPS = 9007199254740992.0; /* 2^53, up to which doubles hold every integer */
-static const char MAY_BE_GIVEN[] = "resume threads final no-why json quiet help";
+static const char MAY_BE_GIVEN[] = "resume threads final watch no-why json quiet help";
 
 /* Of the state; the scale becomes the largest sum of its kinds without their signs. */
 static double state_energy(struct cli_run *run) {
@@ -96,6 +97,7 @@ static int32_t prepare(struct cli_run *run) {
   /* a pick has computed the limits already */
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
   if (status == HOOKE_OK && warns) status = watch_warnings(run);
+  if (status == HOOKE_OK) status = cli_probes_begin(run);
   if (status != HOOKE_OK || !run->output) return status;
   status = run->resumed
                ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator, run->setup.state,
@@ -184,17 +186,27 @@ static int take_finished(struct cli_run *run) {
   if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   run->energy_after = state_energy(run);
   if (!run->arguments->quiet)
-    cli_report_words(run->arguments, "the run of %s had finished; there is nothing to go on with",
-                     run->output);
+    cli_report_words(run->arguments, "the run of %s had finished; there is nothing to go on with%s",
+                     run->output,
+                     cli_arguments_text(run->arguments, "watch") ? ", and no step to watch" : "");
   return HOOKE_EXIT_DONE;
 }
 
 /* Of a run that could not take its first step. */
 static int give_up(struct cli_run *run, int32_t status) {
   const int code = cli_report_status(run->arguments, status);
+  (void)cli_probes_end(run);
   (void)hooke_trajectory_close(run->trajectory, status);
   run->trajectory = NULL;
   return code;
+}
+
+/* A failed write is why the run was stopped. */
+static void end_probes(struct cli_run *run) {
+  const int32_t status = cli_probes_end(run);
+  if (status == HOOKE_OK || run->write_status != HOOKE_OK) return;
+  run->write_status = status;
+  keep_message(run);
 }
 
 /* Runs and closes the trajectory; a failure is reported and returned as exit code. */
@@ -209,6 +221,7 @@ static int integrate(struct cli_run *run) {
   if (run->was_finished) return take_finished(run);
   if (status == HOOKE_OK && run->estimate)
     status = hooke_estimate_begin(run->estimate, run->integrator, run->setup.state);
+  if (status == HOOKE_OK && run->estimate) status = hooke_estimate_follow(run->estimate, run->integrator);
   if (status != HOOKE_OK) return give_up(run, status);
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
@@ -216,6 +229,7 @@ static int integrate(struct cli_run *run) {
   cli_watch_end(&run->watch);
   cli_run_take_counts(run);
   run->energy_after = state_energy(run);
+  end_probes(run);
   keep_place(run);
   status = hooke_trajectory_close(run->trajectory, run->outcome);
   run->trajectory = NULL;
@@ -246,13 +260,16 @@ static void tell_how(const struct cli_run *run) {
 /* On standard error: that a run was interrupted, and what is kept. */
 static void tell_interrupted(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
-  char kept[sizeof run->message] = "";
+  char kept[sizeof run->message] = "", lines[sizeof run->message / 2] = "";
   if (run->output) {
     snprintf(kept, sizeof kept, ", and %" PRId64 " frame%s in %s", run->frames, run->frames == 1 ? "" : "s",
              run->output);
   }
-  cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s",
-                   hooke_state_time(run->setup.state), kept);
+  if (run->probes_file)
+    snprintf(lines, sizeof lines, ", and %" PRId64 " line%s in %s", run->lines, run->lines == 1 ? "" : "s",
+             run->probes_file);
+  cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s%s",
+                   hooke_state_time(run->setup.state), kept, lines);
   if (run->output) tell_how(run);
 }
 
@@ -260,15 +277,17 @@ static void tell_coincident(const struct cli_run *run) {
   const int64_t before = run->coincident_before, after = cli_run_coincident(run);
   if (before > 0) {
     cli_report_words(run->arguments,
-                     "%" PRId64 " springs began with both ends at one place; such a spring has no direction "
-                     "and exerts no force, until something else parts them",
+                     "%" PRId64
+                     " springs or contacts began without a direction, with both ends, or particle and "
+                     "centre, at one place; they exert no force until something else parts them",
                      before);
   }
   if (after > 0) {
     cli_report_words(
         run->arguments,
         "%" PRId64
-        " springs ended with both ends at one place; such a spring has no direction and exerts no force",
+        " springs or contacts ended without a direction, with both ends, or particle and centre, at one place; "
+        "they exert no force",
         after);
   }
 }
@@ -312,7 +331,9 @@ static void estimate(struct cli_run *run) {
 
 /* Writes it into the output, which is complete already. */
 static int write_estimate(const struct cli_run *run) {
-  if (!run->output || !run->estimate || run->was_finished || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
+  if (!run->output || !run->estimate || !cli_want_judges(run) || run->was_finished ||
+      run->outcome != HOOKE_OK)
+    return HOOKE_EXIT_DONE;
   const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
@@ -359,6 +380,7 @@ static void release(struct cli_run *run) {
   hooke_measurement_destroy(run->estimate);
   hooke_integrator_destroy(run->integrator);
   hooke_options_destroy(run->options);
+  hooke_options_destroy(run->probe_options);
   cli_setup_destroy(&run->setup);
 }
 
@@ -424,7 +446,8 @@ static int do_run(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;
-  code = make_ready(&run);
+  code = cli_probes_read(&run);
+  if (code == HOOKE_EXIT_DONE) code = make_ready(&run);
   if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
   release(&run);
   return code;
@@ -436,11 +459,21 @@ static const struct cli_verb_row rows[] = {
      "reads it, replacing them"},
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
-     "it had never stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
+     "it had never stopped; only --threads, --final, --watch, --no-why, --json and --quiet may be "
+     "given with it"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
+    {"probe", 0, "Q,Q",
+     "quantities to write over the run into the file of --probes, such as 57.y,line:50.x,energy"},
+    {"probe-every", 0, "DT",
+     "time between two lines of probes, a whole multiple of a fixed step; that of frames if not given"},
+    {"probes", 0, "FILE", "the file of --probe, FILE.csv or FILE.h5, written while the run goes"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
+    HOOKE_FROM_REST,
+    {"watch", 0, "Q,Q",
+     "prints quantities at the end, and their smallest and largest values over all steps: 57.y, 57.reaction, "
+     "group:3.tension, group:max.tension, energy, period:57.y and others of one grammar"},
     {"strict", 0, NULL,
      "refuses a run without a step, or whose every or duration is "
      "no whole multiple of it, rather than choosing or moving them"},

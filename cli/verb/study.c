@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12, HEAD_SIZE = 128 };
+enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12 };
 
 /* A bias below this many standard errors is compatible with chance. */
 static const double SEEN = 2.0;
@@ -117,15 +117,6 @@ static void print_legend(const hooke_measurement *study, int32_t once) {
 
 /* ---- watched quantities ---- */
 
-/* "57.y [m]", from a row of a table. */
-static const char *head_of(const hooke_measurement *study, const char *table, int64_t row,
-                           char head[HEAD_SIZE]) {
-  const char *unit = hooke_measurement_text(study, table, row, "unit");
-  snprintf(head, HEAD_SIZE, "%.100s%s%s%s", hooke_measurement_text(study, table, row, "quantity"),
-           unit[0] ? " [" : "", unit, unit[0] ? "]" : "");
-  return head;
-}
-
 /* The step, or the tolerance that stands for it. */
 static void print_setting(const hooke_measurement *study, const char *table, int64_t row) {
   const double step = hooke_measurement_number(study, table, row, "step");
@@ -133,19 +124,25 @@ static void print_setting(const hooke_measurement *study, const char *table, int
                     isnan(step) ? "rtol %.4g" : "%.4g", NULL, NULL);
 }
 
+/* Of a value and an error; the name stands over both. */
 static int width_of(const hooke_measurement *study, int64_t quantity) {
-  char head[HEAD_SIZE];
-  const int length = (int)strlen(head_of(study, "watched", quantity, head));
-  return length < CELL ? CELL : length;
+  char head[HOOKE_HEAD_SIZE];
+  const int length = (int)strlen(cli_quantity(study, "watched", quantity, head));
+  return length < 2 * CELL + 1 ? 2 * CELL + 1 : length;
 }
 
-/* The errors of a row, marked within ten times the agreement of the reference; the agreements if it is -1. */
+/* Values at the end and errors of a row, marked within ten times the agreement of the reference; of the
+ * reference, with its agreements, if it is -1. */
 static void print_cells(const hooke_measurement *study, int64_t row) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
+  const char *table = row < 0 ? "watched" : "watched_errors", *end = row < 0 ? "reference_end" : "at_end";
   for (int64_t k = 0; k < count; k++) {
+    const int64_t at = row < 0 ? k : row * count + k;
     const double agreement = hooke_measurement_number(study, "watched", k, "agreement"),
-                 error = hooke_measurement_number(study, "watched_errors", row * count + k, "error");
-    cli_rows_print_as(width_of(study, k), row < 0 ? agreement : error, "%.4g", NULL, NULL);
+                 error = hooke_measurement_number(study, "watched_errors", at, "error");
+    cli_rows_print_as(width_of(study, k) - CELL - 1, hooke_measurement_number(study, table, at, end), "%.7g",
+                      NULL, NULL);
+    cli_rows_print_as(CELL, row < 0 ? agreement : error, "%.4g", NULL, NULL);
     putchar(row >= 0 && error <= 10.0 * agreement ? '*' : ' ');
   }
   printf("\n");
@@ -154,22 +151,27 @@ static void print_cells(const hooke_measurement *study, int64_t row) {
 /* A line a row of the study; nothing if none are watched. */
 static void print_watched(const hooke_measurement *study, int32_t method_width) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
-  char head[HEAD_SIZE];
+  char head[HOOKE_HEAD_SIZE];
   if (count <= 0) return;
-  printf("\n%-*s %*s", method_width, "error in", SETTING, "step [s]");
+  printf("\n%-*s %*s", method_width, "watched", SETTING, "");
   for (int64_t k = 0; k < count; k++) {
-    const char *text = head_of(study, "watched", k, head);
-    cli_say("%*s%s", 2 + width_of(study, k) - (int)strlen(text), "", text);
+    const char *text = cli_quantity(study, "watched", k, head);
+    cli_say("%*s%s ", 1 + width_of(study, k) - (int)strlen(text), "", text);
   }
-  printf("\n%-*s %*s", method_width, "agreement", SETTING, "");
+  printf("\n%-*s %*s", method_width, "", SETTING, "step [s]");
+  for (int64_t k = 0; k < count; k++)
+    printf(" %*s %*s ", width_of(study, k) - CELL - 1, "at the end", CELL, "error");
+  printf("\n%-*s %*s", method_width, "reference", SETTING, "");
   print_cells(study, -1);
   for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
     cli_print_padded(stdout, method_width, hooke_measurement_text(study, "rows", row, "method"));
     print_setting(study, "rows", row);
     print_cells(study, row);
   }
-  printf("the largest differences from the reference, in a period (-: none is seen) that of the two periods; "
-         "*: within ten times of the agreement\n");
+  printf(
+      "at the end: the value at the last frame that the reference is trusted at, of a period that until then (-: none "
+      "is seen);\nerror: the largest difference from the reference, of the reference its agreement, in a period "
+      "that of the two periods;\n*: within ten times of the agreement\n");
 }
 
 /* ---- statistics ---- */
@@ -214,12 +216,12 @@ static void print_source(const hooke_measurement *study, int32_t method_width, i
 
 static void print_ensemble(const hooke_measurement *study, int32_t method_width) {
   const int64_t count = quantity_count(study);
-  char head[HEAD_SIZE];
+  char head[HOOKE_HEAD_SIZE];
   if (isnan(cli_number(study, "ensemble", "from"))) return;
   printf("\nstatistics\n  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs",
          CELL, "mean", CELL, "spread", "bias");
   for (int64_t k = 0; k < count; k++) {
-    cli_say("%s\n", head_of(study, "statistics", k, head));
+    cli_say("%s\n", cli_quantity(study, "statistics", k, head));
     for (int64_t row = k; row < hooke_measurement_row_count(study, "statistics"); row += count)
       print_source(study, method_width, row);
   }
@@ -385,6 +387,7 @@ static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "FILE", "writes the rows to FILE.csv, or the whole study to FILE.h5, replacing it"},
     {"report", 0, "FILE.html",
      "writes diagrams, table and recommendation as one page to read offline, replacing it"},
+    HOOKE_FROM_REST,
 };
 
 const struct cli_verb cli_verb_study = {

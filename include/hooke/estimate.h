@@ -19,7 +19,12 @@
  * work of the run. NaN, with the "reason", where the runs do not tell, where a callback takes part and the
  * option "callbacks" is not set, and for a run that hooke_integrator_resume() continued. It may be called
  * again after the next hooke_estimate_begin(). HOOKE_BAD_CALL without one, HOOKE_BAD_VALUE without a state,
- * HOOKE_STOPPED, HOOKE_NO_MEMORY. The results are one row, the table "estimate". */
+ * HOOKE_STOPPED, HOOKE_NO_MEMORY. The results are one row, the table "estimate".
+ *
+ * With the option `watch`, quantities as of a study (hooke/measurement.h), the table "watched" has a row for
+ * each: its value at `state`, and its smallest and largest over all steps, if hooke_estimate_follow() shows
+ * them, with the time from and until which they are known. The option `error` set to 0 leaves all else out:
+ * then hooke_measurement_run() computes nothing again. */
 #ifndef HOOKE_ESTIMATE_H
 #define HOOKE_ESTIMATE_H
 
@@ -49,6 +54,12 @@ HOOKE_API int32_t hooke_estimate_begin(hooke_measurement *estimate, const hooke_
 /* A hooke_observer with the estimate as its `ctx`: receives the frames of the run, and optionally states
  * between them. HOOKE_BAD_VALUE for a state of another size, HOOKE_BAD_CALL for none, which stop the run. */
 HOOKE_API int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate);
+
+/* Shows the estimate every step of the runs of an integrator of its system, for the extremes of its option
+ * `watch`, and seven states within each step of cvode-bdf and cvode-adams; does nothing if nothing is
+ * watched. The estimate has to stay as long as the integrator runs; NULL ends it. HOOKE_BAD_VALUE for another
+ * system, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_estimate_follow(hooke_measurement *estimate, hooke_integrator *integrator);
 
 /* Sets a finer step or tolerance in `run`, chosen from the measured error. HOOKE_UNSUITED if that cannot
  * succeed or takes too long. */

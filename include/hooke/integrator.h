@@ -24,9 +24,6 @@ extern "C" {
 
 typedef struct hooke_integrator hooke_integrator;
 
-/* Writes x' = phi(t, x) (size n) into `rate`. Return 0 to go on, anything else to stop. */
-typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
-
 /* Receives the state after `step` steps; must not change it. Return 0 to go on, anything else to stop the
  * run. */
 typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);
@@ -168,8 +165,8 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations",
  * "nonlinear_failures", "linear_iterations", "error_test_failures", "explicit_damping" (1 of verlet that
  * takes the damping of springs at the predicted velocity, 0 where it solves for it and of anything else),
- * "coincident_springs" (springs without direction in the last force evaluation), "zero_passages" (times
- * that a spring or an anchor with a rest length passed through length zero, where its ends go through
+ * "coincident_springs" (springs and contacts without direction in the last force evaluation), "zero_passages"
+ * (times that a spring or an anchor with a rest length passed through length zero, where its ends go through
  * each other; -1: not known, as a part of the run was before a checkpoint or a frame that it goes on
  * from, or without memory), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one
  * included; "recent": states that hooke_integrator_recent() has; "stop_value": what the callback that
@@ -200,9 +197,9 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
 
 /* Warns of what a committed system may be, but is seldom meant to be, of kind "no-stiffness" (a part or a
  * group of springs), "same-pair" (three springs of a group between two particles), "added-mass" (a rope no
- * heavier than the liquid that it displaces) or "nothing-moves". `limit` is NaN, and spring and particle are
- * -1 where there is none. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY; HOOKE_STOPPED if a warning returned
- * anything but 0. */
+ * heavier than the liquid that it displaces), "jump" (springs that only pull, whose curve is above 0 at the
+ * rest length) or "nothing-moves". `limit` is NaN, and spring and particle are -1 where there is none.
+ * HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY; HOOKE_STOPPED if a warning returned anything but 0. */
 HOOKE_API int32_t hooke_system_warnings(const hooke_system *system, hooke_warning *warning, void *ctx);
 
 /* Turns on warnings for the runs of `integrator`: those of hooke_system_warnings() come at once, from this

@@ -59,6 +59,12 @@ HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, c
 HOOKE_API const char *hooke_measurement_column(const char *kind, const char *table, int64_t column,
                                                const char *what);
 
+/* Unit of a column of this measurement: that of its kind, but "" in place of "m" where the measurement is of
+ * a problem of coordinates (hooke_system_create_second_order()), whose numbers have units of their own. NULL
+ * if there is no such column. */
+HOOKE_API const char *hooke_measurement_unit(const hooke_measurement *measurement, const char *table,
+                                             const char *column);
+
 /* Number of rows that a table has so far; -1 if the kind has no such table. A record has one row, or none if
  * it is empty. */
 HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measurement, const char *table);
@@ -118,9 +124,11 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
  * (of a period: of its period) over the frames from "from" to "until", which follow the trusted ones.
  *
  * A watched quantity is 57.x, 57.y or 57.z (a coordinate of a particle [m]), part:0.y (of a part's particle),
- * group:3.length [m], group:3.strain or group:3.tension [N] (of a spring of a group: the force along it, of
- * damping, too, positive where it pulls), energy, kinetic or potential [J], or period:Q [s], the mean time
- * between passages of one of these upwards through its mean. Indices begin at 0. */
+ * 57.reaction, .reaction_x, .reaction_y or .reaction_z (the force of the support of a pinned or driven
+ * particle [N], m a - f with its weight in f), group:3.length [m], group:3.strain or group:3.tension [N] (of
+ * a spring of a group: the force along it, of damping, too, positive where it pulls), group:max.tension or
+ * group:min.tension (the largest or smallest of a group), energy, kinetic or potential [J], or period:Q [s],
+ * the mean time between passages of one of these upwards through its mean. Indices begin at 0. */
 
 /* Recommends the run that hooke_estimate_pick() picks for another wanted error [m] among the methods of the
  * study, and updates the tables "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note"

@@ -63,6 +63,12 @@ HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *
                                         const hooke_options *run, const char *name, const char *folder,
                                         hooke_scene **scene);
 
+/* The same for the scene that starts at a state of the system (`start` in the format), such as one at rest;
+ * NULL: where it starts. */
+HOOKE_API int32_t hooke_scene_of_state(const hooke_system *system, const hooke_state *state,
+                                       const char *title, const hooke_options *run, const char *name,
+                                       const char *folder, hooke_scene **scene);
+
 /* HOOKE_BAD_VALUE if `path` is, by any name, one of the files that the scene was read from: its own, meshes,
  * arrays. What writes results of its system refuses such a file, too. HOOKE_IO_FAILED if no file could be
  * written there: in a folder that is not there, over a device, over a file that a run is writing.

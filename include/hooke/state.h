@@ -27,6 +27,19 @@ HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **sta
  * The same failures. */
 HOOKE_API int32_t hooke_state_create_second_order(int64_t size, hooke_state **state);
 
+/* Committed systems of problems without particles, from a start that is copied, at t = 0: for integrators,
+ * states and the measurements "study" and "estimate", whose errors are the largest difference of any number,
+ * in its unit. Other measurements, and files, are HOOKE_UNSUITED.
+ * The first is q'' = W f(t, q, v) as in hooke_integrator_create_second_order(). The second is x' = phi(t, x),
+ * which the methods for "first-order" take (hooke_method_is_suited()); its states have x as the position and
+ * the rate as the velocity. HOOKE_BAD_VALUE for a start of the other kind, at another time or of numbers that
+ * are not finite; HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_create_second_order(hooke_force *force, hooke_force_product *product,
+                                                   void *ctx, int64_t mass_count, const double *inverse_mass,
+                                                   const hooke_state *start, hooke_system **system);
+HOOKE_API int32_t hooke_system_create_first_order(hooke_rate *rate, void *ctx, const hooke_state *start,
+                                                  hooke_system **system);
+
 /* Releases a state; NULL is allowed. */
 HOOKE_API void hooke_state_destroy(hooke_state *state);
 

@@ -67,6 +67,9 @@ typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const 
  * each). Return 0 to go on, anything else to stop. It must depend on t alone. */
 typedef int32_t hooke_drive(int64_t count, double t, double *q, double *v, void *ctx);
 
+/* Writes x' = phi(t, x) (size n) into `rate`. Return 0 to go on, anything else to stop. */
+typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
+
 /* ---- building ---- */
 
 /* An empty system, owned by the caller. HOOKE_NO_MEMORY. */
@@ -148,6 +151,14 @@ HOOKE_API int32_t hooke_system_add_obstacle(hooke_system *system, int64_t count,
  * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t count,
                                         const int64_t *particles, int32_t project);
+
+/* Where the motion starts, if not where the particles were given, in place of an earlier call: positions [m]
+ * and velocities [m/s], 3 `count` each, of all particles there will be; `velocity` NULL: those given. Rest
+ * lengths, bodies, clamps and anchors stay those of the given, undeformed positions. Commit wants one place
+ * for each particle, for a pinned one its own; a driven one starts where its motion says. HOOKE_BAD_VALUE,
+ * HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_start_at(hooke_system *system, int64_t count, const double *position,
+                                        const double *velocity);
 
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
@@ -297,7 +308,19 @@ HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const
  * motion in a body; of an overdamped system the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
-/* Springs at q whose ends coincide although their rest length is not zero. */
+/* Tension of every spring [N], in spring order: the force along it, of its law, curve and scale at time t,
+ * with damping; positive where it pulls its ends together, 0 where a spring that only pulls is slack. */
+HOOKE_API int32_t hooke_system_tension(const hooke_system *system, double t, const double *q, const double *v,
+                                       double *tension);
+/* Force of the support of every particle [N], 3n: m a - f where one is pinned or driven, with m the mass as
+ * it was given, a the acceleration of its drive, and f all forces on it and its own weight; 0 where a
+ * particle is free. At rest their sum is that of weights and loads with the other sign. NaN in a rigid body,
+ * whose inner forces are not known, and of a drive by a callback, whose acceleration is not; in an overdamped
+ * system nothing has inertia. */
+HOOKE_API int32_t hooke_system_reaction(const hooke_system *system, double t, const double *q,
+                                        const double *v, double *reaction);
+/* What has no direction at q, and so no force: springs whose ends coincide although their rest length is not
+ * zero, and particles at the centre or on the axis of an obstacle, which is where it is at time 0. */
 HOOKE_API int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q);
 
 /* out = (df/dq) dq + (df/dv) dv, 3n, of the force above. A callback without a product is differentiated by

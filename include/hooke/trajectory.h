@@ -1,6 +1,7 @@
-/* hooke/trajectory.h - trajectories (H5MD): writing, reading, viewing.
+/* hooke/trajectory.h - what a run writes: trajectories (H5MD), which are read and viewed, too, and probes.
  *
- * They need a build with HDF5; without it these functions return HOOKE_NOT_BUILT. */
+ * They need a build with HDF5, except for probes as CSV; without it these functions return HOOKE_NOT_BUILT.
+ */
 #ifndef HOOKE_TRAJECTORY_H
 #define HOOKE_TRAJECTORY_H
 
@@ -60,6 +61,29 @@ HOOKE_API const char *hooke_trajectory_text(const hooke_trajectory *trajectory, 
 /* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), truncates the file to its
  * frames, and releases it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
+
+/* ---- probes ---- */
+
+typedef struct hooke_probes hooke_probes;
+
+/* Writes watched quantities (hooke/measurement.h) over the runs of `integrator`, which has to live until they
+ * are closed, into the file `path` while these go: .csv, a line of names (time [s], and each quantity as it
+ * was given) and a line a time, whose numbers read back to the same bits; .h5 or .hdf5, the table /probes
+ * with these columns and the attribute "units". `options` are those of "probes": the quantities ("probe"),
+ * and the time between two lines ("probe_every"), to which all is said in hooke/integrator.h that is said of
+ * frames. A number that is not finite is left out, NaN in a table. An older file is replaced when the new one
+ * is ready to take lines; a run that ends early keeps its lines. A write that fails stops the run,
+ * HOOKE_STOPPED, and closing tells why. HOOKE_BAD_VALUE for the options, for another ending, without a
+ * duration, and for the scene's own files; HOOKE_UNSUITED for a first- or second-order problem;
+ * HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+HOOKE_API int32_t hooke_probes_create(hooke_integrator *integrator, const hooke_options *options,
+                                      const char *path, hooke_probes **probes);
+/* "lines" that were written, without that of names, and the "time" of the last one [s], NaN before the first;
+ * NaN for another word. */
+HOOKE_API double hooke_probes_number(const hooke_probes *probes, const char *what);
+/* Brings the lines to the disk, and releases the probes on every path. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. NULL
+ * is allowed. */
+HOOKE_API int32_t hooke_probes_close(hooke_probes *probes);
 
 /* ---- reading trajectories ---- */
 

@@ -10,6 +10,7 @@
 #include "model/callbacks.h"
 #include "model/coordinates/coordinates.h"
 #include "model/force/force.h"
+#include "model/generalized.h"
 #include "model/particles.h"
 #include "model/size_limit.h"
 #include "model/system.h"
@@ -18,80 +19,6 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-
-/* ---- generalized coordinates, whose callbacks are those of the caller ---- */
-
-static int32_t call_force(int64_t n, double t, const double *q, const double *v, double *out, void *ctx) {
-  (void)n;
-  const struct hk_generalized *c = ctx;
-  return c->force(c->size, t, q, v, out, c->ctx);
-}
-
-static int32_t call_product(int64_t n, double t, const double *q, const double *v, const double *dq,
-                            const double *dv, double *out, void *ctx) {
-  (void)n;
-  const struct hk_generalized *c = ctx;
-  return c->product(c->size, t, q, v, dq, dv, out, c->ctx);
-}
-
-static int32_t check_coordinates(int64_t size, int64_t mass_count, const double *inverse_mass) {
-  const int32_t status = hk_size_check(size, 13); /* its mass, and a third of what a particle needs */
-  if (status != HOOKE_OK) return status;
-  if (mass_count != 1 && mass_count != size) {
-    return hk_fail(HOOKE_BAD_VALUE, "inverse_mass",
-                   "%lld for %lld coordinates; allowed: one, or one for each", (long long)mass_count,
-                   (long long)size);
-  }
-  for (int64_t k = 0; k < mass_count; k++) {
-    if (inverse_mass[k] > 0.0 && isfinite(inverse_mass[k])) continue;
-    hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a number > 0 is", inverse_mass[k]);
-    return hk_fail_within(HOOKE_BAD_VALUE, "inverse_mass[%lld]", (long long)k);
-  }
-  return HOOKE_OK;
-}
-
-static int32_t make_system(struct hk_generalized *c) {
-  const int64_t particles = (c->size + 2) / 3;
-  const double mass = 1.0;
-  double *zeros = hk_new(3 * particles, sizeof(double));
-  int32_t status = zeros ? hooke_system_create(&c->system) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK)
-    status = hooke_system_add_particles(c->system, particles, zeros, NULL, 1, &mass, NULL);
-  if (status == HOOKE_OK) {
-    hooke_system_set_force(c->system, call_force, c->product ? call_product : NULL, c);
-    c->system->force_scale = c->inverse_mass;
-    status = hooke_system_commit(c->system);
-  }
-  hk_free(zeros);
-  return status;
-}
-
-static void destroy_coordinates(struct hk_generalized *c) {
-  if (c == NULL) return;
-  hooke_system_destroy(c->system);
-  hk_free(c->inverse_mass);
-  hk_free(c);
-}
-
-/* Copies `mass_count` inverse masses, 1 or `size`. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-static int32_t create_coordinates(int64_t size, hooke_force *given, hooke_force_product *derivative,
-                                  void *ctx, int64_t mass_count, const double *inverse_mass,
-                                  struct hk_generalized **out) {
-  int32_t status = check_coordinates(size, mass_count, inverse_mass);
-  if (status != HOOKE_OK) return status;
-  struct hk_generalized *c = hk_new(1, sizeof *c);
-  if (c == NULL) return HOOKE_NO_MEMORY;
-  *c = (struct hk_generalized){.size = size, .force = given, .product = derivative, .ctx = ctx};
-  c->inverse_mass = hk_new((size + 2) / 3 * 3, sizeof(double));
-  for (int64_t k = 0; k < size && c->inverse_mass; k++)
-    c->inverse_mass[k] = inverse_mass[mass_count == 1 ? 0 : k];
-  status = c->inverse_mass ? make_system(c) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK)
-    *out = c;
-  else
-    destroy_coordinates(c);
-  return status;
-}
 
 /* ---- creating ---- */
 
@@ -173,15 +100,15 @@ int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force, h
                                              void *ctx, int64_t mass_count, const double *inverse_mass,
                                              const hooke_options *options, hooke_integrator **out) {
   hooke_integrator *it = NULL;
-  struct hk_generalized *coordinates = NULL;
-  int32_t status = create_coordinates(size, force, product, ctx, mass_count, inverse_mass, &coordinates);
+  hooke_system *system = NULL;
+  int32_t status = hk_generalized_create(size, force, product, ctx, mass_count, inverse_mass, NULL, &system);
   if (status == HOOKE_OK) status = create(options, &it);
   if (it == NULL) {
-    destroy_coordinates(coordinates);
+    hooke_system_destroy(system);
     return status;
   }
-  it->coordinates = coordinates;
-  return take_system(it, coordinates->system, out);
+  it->problem = system;
+  return take_system(it, system, out);
 }
 
 int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
@@ -212,7 +139,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hooke_state_destroy(it->passages.now);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
-  destroy_coordinates(it->coordinates);
+  hooke_system_destroy(it->problem);
   hk_free(it->numbers.x);
   hk_free(it->start);
   hooke_rows_hold(it->rows, -1);
@@ -224,9 +151,9 @@ int32_t hk_integrator_check_state(const hooke_integrator *it, const hooke_state 
 }
 
 int32_t hk_integrator_require_particles(const hooke_integrator *it, const char *place, const char *instead) {
-  if (it->system && it->coordinates == NULL) return HOOKE_OK;
-  return hk_fail(HOOKE_UNSUITED, place, "a %s problem %s", it->system ? "second-order" : "first-order",
-                 instead);
+  if (it->system && it->system->generalized == NULL) return HOOKE_OK;
+  const int32_t second = it->system && !hk_is_first_order(it->system);
+  return hk_fail(HOOKE_UNSUITED, place, "a %s problem %s", second ? "second-order" : "first-order", instead);
 }
 
 const hooke_options *hooke_integrator_options(const hooke_integrator *integrator) {
@@ -243,15 +170,34 @@ int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_obser
   return HOOKE_OK;
 }
 
+/* For states that are stored between checks. */
+static int32_t keep_good(hooke_integrator *integrator) {
+  return integrator->recent.capacity == 0 ? hk_divergence_keep(integrator) : HOOKE_OK;
+}
+
+int32_t hk_integrator_on_sample(hooke_integrator *it, double every, hooke_observer *observer, void *ctx) {
+  struct hk_schedule sampling = it->schedule;
+  int32_t status = hk_schedule_every(it->method->adaptive, every, &sampling);
+  if (status == HOOKE_OK) status = keep_good(it);
+  if (status != HOOKE_OK) return status;
+  it->sampling = sampling;
+  it->on_sample = (struct hk_watch){observer, ctx, 1};
+  return HOOKE_OK;
+}
+
+int32_t hk_integrator_on_motion(hooke_integrator *integrator, hooke_observer *observer, void *ctx) {
+  const int32_t status = keep_good(integrator);
+  if (status == HOOKE_OK) integrator->on_motion = (struct hk_watch){observer, ctx, 1};
+  return status;
+}
+
 int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, hooke_observer *observer,
                                  void *ctx) {
   if (stride < 1) {
     return hk_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
   }
-  if (integrator->recent.capacity == 0) {
-    const int32_t status = hk_divergence_keep(integrator); /* states are stored between checks */
-    if (status != HOOKE_OK) return status;
-  }
+  const int32_t status = keep_good(integrator);
+  if (status != HOOKE_OK) return status;
   integrator->on_step = (struct hk_watch){observer, ctx, stride};
   return HOOKE_OK;
 }

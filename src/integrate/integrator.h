@@ -91,18 +91,6 @@ struct hk_last_good {
 /* Of a run: at a checkpoint that was read, from which it has not gone on yet. */
 enum { HOOKE_NOT_BEGUN, HOOKE_BEGUN, HOOKE_AT_CHECKPOINT };
 
-/* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
- * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the
- * system scales by W. So all that takes a system takes these. */
-struct hk_generalized {
-  int64_t size;
-  hooke_force *force;
-  hooke_force_product *product; /* may be NULL */
-  void *ctx;
-  double *inverse_mass; /* those of all rows */
-  hooke_system *system; /* committed */
-};
-
 /* What explicit steps move beside the particles in rows: x of a first-order problem, or the own coordinates
  * of movers (model/coordinates). These are taken from the rows where a step begins and written back by each
  * of its moves, so that a step remains a map of (t, q, v). */
@@ -119,8 +107,8 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_generalized *coordinates; /* NULL unless the system is made of them */
-  struct hk_pool *pool;               /* NULL: one thread */
+  hooke_system *problem; /* the system, if it is the integrator's own: a problem of coordinates */
+  struct hk_pool *pool;  /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */
   hooke_rate *rate;
@@ -145,8 +133,8 @@ struct hooke_integrator {
       HOOKE_STANDING
     };
   };
-  double goal;   /* the next time needed by the run loop; a method that does not interpolate stops there */
-  int64_t point; /* number of the next checkpoint, with error control */
+  double goal; /* the next time needed by the run loop; a method that does not interpolate stops there */
+  int64_t point, samples;    /* with error control: number of the next checkpoint, and of the next sample */
   struct hk_restart restart; /* with error control and the option `checkpoint` */
   int32_t phase;             /* HOOKE_NOT_BEGUN: the numbers above are those of no run */
   struct hk_recent recent;   /* the newest is the last state that passed the check */
@@ -155,7 +143,8 @@ struct hooke_integrator {
   double diverged_at;
   struct hk_energies energies; /* of the state that was last checked; system NULL: not known */
 
-  struct hk_watch on_frame, on_step, on_checkpoint;
+  struct hk_watch on_frame, on_step, on_checkpoint, on_motion, on_sample;
+  struct hk_schedule sampling; /* that of the run, with samples for frames */
   struct hk_teller teller;
   struct hk_checker checker;
   int32_t thorough; /* 1: every check includes the energy */
@@ -179,6 +168,10 @@ int32_t hk_integrator_tell(hooke_integrator *integrator);
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
                          struct hk_schedule *schedule);
+/* Sets another `every` > 0 in it (NaN: it stays), and what follows from that. HOOKE_BAD_VALUE, also without a
+ * duration.
+ */
+int32_t hk_schedule_every(int32_t adaptive, double every, struct hk_schedule *schedule);
 /* Frames of a run: its start, whole multiples of `every` after it, and its end, if that is none of them.
  * HOOKE_MOST_STEPS + 1 if they are too many. */
 int64_t hk_schedule_frames(double duration, double every);
@@ -192,6 +185,15 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
 /* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
 int32_t hk_integrator_keep_start(hooke_integrator *integrator);
+/* Has the observer called at every step and, by a method that interpolates, at times within it, before the
+ * frames there; none of these states was checked for divergence. NULL removes it. HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_motion(hooke_integrator *integrator, hooke_observer *observer, void *ctx);
+/* Has the observer of whole runs called at times of its own, which are those of frames with another `every`
+ * [s] (NaN: that of the frames): before the frame of the same time, and not checked for divergence. A method
+ * that ends steps at frames ends them at samples, too. One observer at most; NULL removes it. HOOKE_BAD_VALUE
+ * with the nearest times that are allowed, or without a duration; HOOKE_NO_MEMORY. */
+int32_t hk_integrator_on_sample(hooke_integrator *integrator, double every, hooke_observer *observer,
+                                void *ctx);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
 void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
                            struct hk_move *move);

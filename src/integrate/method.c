@@ -4,6 +4,7 @@
 #include "core/status.h"
 #include "model/force/force.h"
 #include "model/coordinates/coordinates.h"
+#include "model/generalized.h"
 #include "model/particles.h"
 
 #include <stddef.h>
@@ -124,7 +125,7 @@ static int32_t takes(const struct hk_method *method, int problem) {
 }
 
 static int problem_of(const hooke_system *system) {
-  if (system == NULL) return FIRST_ORDER;
+  if (system == NULL || hk_is_first_order(system)) return FIRST_ORDER;
   return system->mover_count > 0 ? BODIES : system->overdamped ? OVERDAMPED : SECOND_ORDER;
 }
 

@@ -69,10 +69,11 @@ enum {
 /* What a row says of itself. */
 struct hk_method {
   const char *name, *summary;
-  const char *needs; /* required library, NULL: none */
-  int32_t reference; /* 1: for checking references only, not listed; found by name */
-  int32_t adaptive;  /* 1: chooses its steps from tolerances; 0: takes `step` */
-  int32_t order;     /* of a fixed-step method, on smooth forces */
+  const char *needs;    /* required library, NULL: none */
+  int32_t reference;    /* 1: for checking references only, not listed; found by name */
+  int32_t adaptive;     /* 1: chooses its steps from tolerances; 0: takes `step` */
+  int32_t interpolates; /* 1: its solution is known within the last step as well as at the end */
+  int32_t order;        /* of a fixed-step method, on smooth forces */
   const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
   const char *checked_by;       /* the method that the beginning of its runs is held against; NULL: rk4 */
   int32_t takes;                /* HOOKE_TAKES_* */

@@ -6,6 +6,7 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "model/callbacks.h"
+#include "model/generalized.h"
 #include "model/state.h"
 #include "model/system.h"
 
@@ -17,6 +18,8 @@ static int32_t check(const struct hk_measurement_kind *kind, const hooke_system 
                      const hooke_options *run, const hooke_options *options) {
   int32_t status = system ? hk_system_require_committed(system) : HOOKE_OK;
   if (status == HOOKE_OK && system) status = hk_callbacks_require(system);
+  if (status == HOOKE_OK && system && !kind->takes_problems)
+    status = hk_system_require_scene(system, kind->name, "");
   if (status == HOOKE_OK && (run || kind->needs_run)) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
     status = hk_options_require(options, kind->options, "options", "hooke_options_create()");
@@ -183,6 +186,13 @@ static struct hk_value value_of(const hooke_measurement *m, const char *table, i
                                 const char *column) {
   const struct hk_table *t = hk_measurement_table(m->kind, table);
   return hk_measured_value(m, t, t ? hk_table_find(t, column) : NULL, row);
+}
+
+const char *hooke_measurement_unit(const hooke_measurement *m, const char *table, const char *column) {
+  const struct hk_table *t = hk_measurement_table(m->kind, table);
+  const struct hk_column *c = t ? hk_table_find(t, column) : NULL;
+  if (c == NULL) return NULL;
+  return m->system && m->system->generalized && strcmp(c->unit, "m") == 0 ? "" : c->unit;
 }
 
 double hooke_measurement_number(const hooke_measurement *m, const char *table, int64_t row,

@@ -22,7 +22,8 @@ struct hk_measurement_kind {
   const struct hk_option_table *options;
   const char *made_by; /* function that creates it, "hooke_why_create()"; NULL: hooke_measurement_create() */
   int32_t needs_run;   /* 1: options of a run are required */
-  int32_t takes_state; /* 1: it is taken at a state, by default the initial one, and may be repeated */
+  int32_t takes_problems; /* 1: those of coordinates, too (model/generalized.h) */
+  int32_t takes_state;    /* 1: it is taken at a state, by default the initial one, and may be repeated */
   const struct hk_table *tables; /* its own; end without a name */
   /* Composes the claims of the results, after every run; NULL: it makes none, and has no such table. */
   void (*claim)(const hooke_measurement *measurement, struct hk_claims *claims);

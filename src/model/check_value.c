@@ -4,6 +4,7 @@
 #include "model/coordinates/coordinates.h"
 #include "model/force/drive.h"
 #include "model/force/force.h"
+#include "model/start.h"
 
 #include <stddef.h>
 
@@ -21,6 +22,9 @@ static void add_particles(const hooke_system *system, uint32_t *value) {
   hk_check_add(value, system->position, 3 * n, sizeof(double));
   hk_check_whole(value, system->velocity != NULL);
   if (system->velocity) hk_check_add(value, system->velocity, 3 * n, sizeof(double));
+  const double *undeformed = hk_undeformed_position(system);
+  hk_check_whole(value, undeformed != system->position);
+  if (undeformed != system->position) hk_check_add(value, undeformed, 3 * n, sizeof(double));
   hk_check_add(value, system->inertia, n, sizeof(double));
   if (system->overdamped) hk_check_add(value, system->mass, n, sizeof(double));
   hk_check_add(value, system->constrained, n, 1);

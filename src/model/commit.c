@@ -4,6 +4,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/generalized.h"
 #include "model/sum/spring_batch.h"
 #include "model/system.h"
 
@@ -183,7 +184,8 @@ void hk_system_undo(hooke_system *system) {
 int32_t hooke_system_commit(hooke_system *system) {
   int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
-  status = check_pinned_at_rest(system);
+  status = hk_start_check(system);
+  if (status == HOOKE_OK) status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = hk_groups_check_free(system);
   if (status == HOOKE_OK) status = hk_names_check(system);
   if (status == HOOKE_OK) status = hk_medium_check(system);
@@ -208,6 +210,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   for (int64_t g = 0; g < system->group_count; g++)
     hk_group_release_columns(&system->group[g]);
   trim_particles(system);
+  hk_start_commit(system);
   system->rest->committed = 1;
   return HOOKE_OK;
 }
@@ -216,6 +219,7 @@ int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force, 
                                 void *ctx, hooke_system **with) {
   *with = NULL;
   int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_system_require_scene(system, "system", "");
   if (status != HOOKE_OK) return status;
   hooke_system *made = hk_handle_new("hooke_system", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;

@@ -177,8 +177,9 @@ int32_t hk_course_from_options(struct hk_course *course, const hooke_options *op
 
 /* ---- values ---- */
 
+static const double two_pi = 6.28318530717958647693;
+
 static void harmonic_at(const struct hk_course *course, double t, double *value, double *rate) {
-  const double two_pi = 6.28318530717958647693;
   double sine, cosine;
   hk_sine_of_turns(course->frequency * t + course->phase / two_pi, &sine, &cosine);
   for (int32_t a = 0; a < course->width; a++) {
@@ -208,6 +209,22 @@ static void table_at(const struct hk_course *course, double t, double *value, do
 void hk_course_at(const struct hk_course *course, double t, double *value, double *rate) {
   double ignored[HOOKE_COURSE_WIDTH];
   (course->samples > 0 ? table_at : harmonic_at)(course, t, value, rate ? rate : ignored);
+}
+
+void hk_course_acceleration(const struct hk_course *course, double t, double *acceleration) {
+  const int64_t n = course->samples, k = n > 0 ? hk_interval(n, course->time, t) : 0;
+  const int32_t held = n > 0 && (t <= course->time[0] || t >= course->time[n - 1]);
+  const double omega = two_pi * course->frequency;
+  double value[HOOKE_COURSE_WIDTH];
+  if (n == 0) hk_course_at(course, t, value, NULL);
+  for (int32_t a = 0; a < course->width; a++) {
+    acceleration[a] = n == 0 ? -omega * omega * (value[a] - course->mean[a]) : 0.0;
+    if (n == 0 || held) continue;
+    const double *p = course->value + course->width * k + a, *m = course->slope + course->width * k + a;
+    const double h = course->time[k + 1] - course->time[k], s = (t - course->time[k]) / h;
+    const double rise = p[course->width] - p[0], m0 = h * m[0], m1 = h * m[course->width];
+    acceleration[a] = (2.0 * (3.0 * rise - 2.0 * m0 - m1) + 6.0 * s * (m0 + m1 - 2.0 * rise)) / (h * h);
+  }
 }
 
 int64_t hk_course_range(const struct hk_course *course, double *low, double *high) {

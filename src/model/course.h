@@ -55,6 +55,9 @@ void hk_course_release(struct hk_course *course);
 /* The numbers at time t, and their rates, which may be NULL. */
 void hk_course_at(const struct hk_course *course, double t, double *value, double *rate);
 
+/* Their second derivatives; of a table those of its cubics, which jump at its times. */
+void hk_course_acceleration(const struct hk_course *course, double t, double *acceleration);
+
 /* Bounds of the number of a course of one, at all times, of a table whose slopes are monotone; returns the
  * sample that is the lowest, -1 without a table. */
 int64_t hk_course_range(const struct hk_course *course, double *low, double *high);

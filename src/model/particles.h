@@ -41,7 +41,8 @@ struct hooke_system {
   hooke_force *force;
   hooke_force_product *force_product;
   void *force_ctx;
-  const double *force_scale; /* factors of the callback's force, 3 a particle; NULL: 1 */
+  const double *force_scale;          /* factors of the callback's force, 3 a particle; NULL: 1 */
+  struct hk_generalized *generalized; /* NULL unless it is a problem of coordinates (model/generalized.h) */
 
   int64_t group_count;
   struct hk_group *group;

@@ -5,6 +5,7 @@
 #include "core/status.h"
 #include "model/force/drive.h"
 #include "model/force/force.h"
+#include "model/generalized.h"
 #include "model/system.h"
 
 #include <string.h>
@@ -35,7 +36,7 @@ int32_t hk_state_check(const hooke_state *state, int64_t numbers, int32_t has_v)
 }
 
 int32_t hk_state_check_system(const hooke_state *state, const hooke_system *system) {
-  return hk_state_check(state, 3 * system->particle_count, 1);
+  return hk_state_check(state, hk_system_numbers(system), 1);
 }
 
 /* Moves driven particles to their prescribed positions at t = 0. */
@@ -59,7 +60,7 @@ static int32_t place_driven(const hooke_system *system, hooke_state *state) {
 int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
   hooke_state *state = NULL;
   int32_t status = hk_system_require_committed(system);
-  if (status == HOOKE_OK) status = hk_state_create_sized(3 * system->particle_count, 1, &state);
+  if (status == HOOKE_OK) status = hk_state_create_sized(hk_system_numbers(system), 1, &state);
   if (status != HOOKE_OK) return status;
   if (system->particle_count > 0) {
     const size_t bytes = (size_t)state->size * sizeof(double);

@@ -6,6 +6,7 @@
 #include "core/status.h"
 #include "model/derived.h"
 #include "model/force/drive.h"
+#include "model/generalized.h"
 #include "model/part_record.h"
 
 #include <math.h>
@@ -42,7 +43,9 @@ static void release_model(hooke_system *system) {
   hk_movers_release(system);
   hk_names_release(system);
   hk_medium_release(system->medium);
+  hk_start_release(&system->rest->start);
   hk_system_drop_derived(system, 0);
+  hk_generalized_destroy(system->generalized);
   void *const block[] = {system->position, system->velocity,   system->mass,           system->constrained,
                          system->group,    system->part,       system->gravity_factor, system->rest->derived,
                          system->drive,    system->rest->input};

@@ -10,6 +10,7 @@
 #include "model/force/spring.h"
 #include "model/medium.h"
 #include "model/size_limit.h"
+#include "model/start.h"
 #include "model/sum/strided.h"
 #include "model/sum/tiled.h"
 
@@ -41,6 +42,7 @@ struct hk_system_rest {
   struct hk_bending bending; /* from commit on */
   struct hk_linear linear;
   struct hk_obstacles obstacles;
+  struct hk_start start;
   void *own[HOOKE_FORCES]; /* from commit on: data of a force without a member of its own here */
 
   int64_t name_count;

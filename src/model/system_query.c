@@ -1,6 +1,7 @@
 /* Queries of a system. */
 #include "model/derived.h"
 #include "model/force/drive.h"
+#include "model/force/obstacle.h"
 #include "model/sum/spring_batch.h"
 #include "model/system.h"
 #include "model/vector3.h"
@@ -39,7 +40,7 @@ double hk_diagonal(int64_t count, const double *position) {
 }
 
 int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q) {
-  int64_t count = 0;
+  int64_t count = hk_obstacles_without_direction(system, system->moment, q);
   double length[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
   for (hk_begin_batches(HOOKE_AS_GIVEN, &batch); hk_next_batch(system, &batch);) {
@@ -92,6 +93,7 @@ static int64_t memory(const hooke_system *system) {
            (system->constrained_count + system->pin_count) * (int64_t)sizeof(int32_t);
   if (system->gravity_factor)
     bytes += (system->rest->particle_capacity + HOOKE_STRIDED_UNIT) * (int64_t)sizeof(double);
+  if (system->rest->start.undeformed) bytes += 3 * system->particle_count * (int64_t)sizeof(double);
   bytes += hk_movers_memory(system);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +

@@ -123,8 +123,8 @@ def used(process):
     return sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
 
 
-def interrupt(process, after=0.0):
-    """Ctrl-C, once the program handles it and has used so many more seconds of processor."""
+def interrupt(process, after=0.0, number=signal.SIGINT):
+    """Ctrl-C, or another signal, once the program handles it and has used so many more seconds of processor."""
     while int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1), 16) & 2 == 0:
         assert process.poll() is None
         time.sleep(0.01)
@@ -133,7 +133,7 @@ def interrupt(process, after=0.0):
         assert process.poll() is None
         time.sleep(0.01)
     assert process.poll() is None
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
 
 
 @pytest.fixture

@@ -231,7 +231,7 @@ def test_warns_of_springs_without_direction_and_of_loose_particles(hooke, write)
     answer = hooke("check", write(scene, step=1e-4), "--json")
     assert answer.code == 0
     coincident, loose = answer.json["warnings"]
-    assert "1 spring starts with both ends at the same place" in coincident
+    assert "1 spring or contact starts without a direction" in coincident
     assert "2 particles have no spring" in loose and "particle 6" in loose
 
 

@@ -40,6 +40,29 @@ def test_predictions(hooke, write):
     assert rows["backward-euler"]["predicted"] is None and "accuracy limits it" in rows["backward-euler"]["note"]
 
 
+def test_an_unknown_prediction_is_no_number(hooke, write):
+    scene = {"hooke": 1, "gravity": [0, -9.81, 0],
+             "parts": [{"kind": "cloth", "size": [12, 12], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 1,
+                        "structural": {"stiffness": 50, "damping": 0.1}, "shear": {"stiffness": 20}}],
+             "obstacles": [{"shape": "plane", "point": [0, 0.001, 0], "normal": [0, 1, 0], "stiffness": 100, "damping": 1}],
+             "run": {"method": "verlet", "duration": 1e-3, "every": 5e-4, "step": 1e-4}}
+    row = rows_of(hooke("limit", write(scene), "--methods", "verlet", "--json"))["verlet"]
+    assert row["predicted"] is None and row["ratio"] is None and row["exact"] is False and "not known" in row["note"]
+    assert 0 < row["bound"] < row["measured"] < 3 * row["bound"]  # by runs it is found all the same
+    along = rows_of(hooke("limit", write(scene), "--along", "--methods", "verlet", "--json"))["verlet"]
+    assert along["smallest"] is None and "not known at 3 of 3 frames" in along["note"]
+
+
+def test_friction_limits_the_step_of_what_lies(hooke, write):
+    """It is a damping of mu g/s, 39240 1/s, by which Euler's methods are stable up to 2 s/(mu g)."""
+    floor = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "stiffness": 1e5, "friction": 0.4, "friction_speed": 1e-4}
+    scene = {"hooke": 1, "gravity": [0, -9.81, 0], "particles": {"position": [[0, -9.81e-5, 0]], "mass": 1}, "obstacles": [floor]}
+    answer = hooke("limit", write(scene), "--predict", "--methods", "symplectic-euler", "--json")
+    assert math.isclose(rows_of(answer)["symplectic-euler"]["predicted"], 2 / 39240, rel_tol=1e-6)
+    assert answer.json["changes"]["sentence"] == "contact limits the step, with 100 % of the limiting mode"
+    assert "contact limits the step" in hooke("limit", write(scene), "--predict").out
+
+
 def test_blame(hooke, write):
     answer = hooke("limit", write(SIX_PARTICLES), "--predict", "--json").json
     shares = [spring["share"] for spring in answer["blame"]]

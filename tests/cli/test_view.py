@@ -116,6 +116,22 @@ def test_the_page_holds_the_trajectory(hooke, cloth, tmp_path):
 
 
 @needs_view
+def test_watched_quantities_over_the_frames_shown(hooke, cloth, tmp_path):
+    view, _ = look(hooke, tmp_path, "--watch", "36.y,cloth0.structural:7.length,energy", "--frames", 6)
+    shown = view.data["frame"]
+    with h5py.File(tmp_path / "out.h5") as file:
+        q, (head, tail) = file["particles/all/position/value"][:][shown], file["connectivity/springs"][7]
+        expected = [q[:, 36, 1], np.linalg.norm(q[:, head] - q[:, tail], axis=1), file["observables/total_energy/value"][:][shown]]
+    assert [(each["name"], each["unit"]) for each in view.data["watched"]] == [
+        ("36.y", "m"), ("cloth0.structural:7.length", "m"), ("energy", "J")]
+    assert len(shown) == 6
+    assert np.allclose([each["values"] for each in view.data["watched"]], expected, rtol=1e-15)
+    for words, said in [("period:36.y", "over time there is 36.y"), ("36.q", "nothing to watch")]:
+        answer = hooke("view", cloth, "--watch", words, "-o", "none.html")
+        assert answer.code == 3 and said in answer.err and not (tmp_path / "none.html").exists()
+
+
+@needs_view
 def test_obstacles_are_where_they_are_at_each_frame(hooke, write, tmp_path):
     """One point of what stays; of what moves, one a frame, by its sine; no obstacle widens the box of the particles."""
     ground = {"shape": "plane", "point": [0, 0, -9], "normal": [0, 0, 4], "stiffness": 10}

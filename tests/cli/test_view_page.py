@@ -344,6 +344,9 @@ def test_obstacles(browser, tmp_path):
             "picture.obstacles.map(({ position }) => position.toArray().map((x, k) => x * picture.radius + picture.centre[k]))"))
     assert np.allclose(places[0], [[-1.5, -2.0575, 0.5], [-3, 0.5, 0.5], [3, 0, 0.5]])
     assert np.allclose(places[2] - places[0], [[0, 0, 0], [0, 1, 0], [0, 0, 0]])
+    model, corners = read_model(browser)
+    assert [mesh["name"] for mesh in model["meshes"]].count("obstacle") == 3
+    assert np.allclose(np.linalg.norm(corners[-2] + model["extras"]["origin"] - [-3, 1.5, 0.5], axis=1), 0.98, atol=1e-5)
     disc, ball, roller = browser.run("picture.obstacles.map(({ scale }) => scale.toArray().map((x) => x * picture.radius))")
     assert disc[0] > 0.5 * np.hypot(5, 4) and ball == pytest.approx([0.98] * 3) and roller == pytest.approx([0.48, 2.4, 0.48])
     browser.run("show(0); for (const mesh of picture.obstacles) mesh.visible = false; draw()")
@@ -401,17 +404,11 @@ def test_tension_over_time(browser, tmp_path):
     assert browser.console == []
 
 
-def test_files_to_keep(page):
-    assert page.run("""new Promise((done) => { picture.draw();
-        at("picture").toBlob((blob) => done([blob.type, blob.size > 3000])); })""") == ["image/png", True]
-    video = page.run("""new Promise((done) => { download = (blob, ending) => done([blob.type.split(";")[0], blob.size > 3000, ending]);
-        at("speed").selectedIndex = 7; saveVideo(); })""")
-    assert video == ["video/webm", True, ".webm"]
-    page.run("pause(); show(10, true)")
+def read_model(page):
+    """The frame as glTF, and the corners of its meshes; what it says of itself is true."""
     model = json.loads(page.run("JSON.stringify(modelOf())"))
-    assert model["asset"]["version"] == "2.0" and [node["name"] for node in model["nodes"]] == ["springs", "surface"]
     buffer = base64.b64decode(model["buffers"][0]["uri"].split(",")[1])
-    assert len(buffer) == model["buffers"][0]["byteLength"]
+    assert model["asset"]["version"] == "2.0" and len(buffer) == model["buffers"][0]["byteLength"]
 
     def numbers(accessor):
         one = model["accessors"][accessor]
@@ -420,17 +417,32 @@ def test_files_to_keep(page):
         assert view["byteOffset"] % 4 == 0 and view["byteLength"] == 4 * size * one["count"]
         return np.frombuffer(buffer, kind, size * one["count"], view["byteOffset"]).reshape(-1, size)
 
+    all_corners = []
     for mesh in model["meshes"]:
         (primitive,) = mesh["primitives"]
         corners = numbers(primitive["attributes"]["POSITION"])
         limits = model["accessors"][primitive["attributes"]["POSITION"]]
         assert np.allclose(corners.min(axis=0), limits["min"]) and np.allclose(corners.max(axis=0), limits["max"])
-        index = numbers(primitive["indices"]).ravel()
+        index = numbers(primitive["indices"]).ravel() if "indices" in primitive else np.arange(len(corners))
         assert index.max() < len(corners) and len(index) % {1: 2, 4: 3}[primitive["mode"]] == 0
         if "NORMAL" in primitive["attributes"]:
             assert np.allclose(np.linalg.norm(numbers(primitive["attributes"]["NORMAL"]), axis=1), 1, atol=1e-5)
+        assert model["materials"][primitive["material"]]["name"] == mesh["name"]
+        all_corners.append(corners)
+    return model, all_corners
+
+
+def test_files_to_keep(page):
+    assert page.run("""new Promise((done) => { picture.draw();
+        at("picture").toBlob((blob) => done([blob.type, blob.size > 3000])); })""") == ["image/png", True]
+    video = page.run("""new Promise((done) => { download = (blob, ending) => done([blob.type.split(";")[0], blob.size > 3000, ending]);
+        at("speed").selectedIndex = 7; saveVideo(); })""")
+    assert video == ["video/webm", True, ".webm"]
+    page.run("pause(); show(10, true)")
+    model, corners = read_model(page)
+    assert [node["name"] for node in model["nodes"]] == ["springs", "surface"]
     q = np.array([page.run(f"positionOf({k})") for k in (0, 20)]) - model["extras"]["origin"]
-    assert np.allclose(numbers(model["meshes"][0]["primitives"][0]["attributes"]["POSITION"])[[0, 20]], q, atol=1e-6)
+    assert np.allclose(corners[0][[0, 20]], q, atol=1e-6)
 
 
 # ---- several trajectories ----

@@ -130,6 +130,7 @@ SCENARIO(run_first_order) {
   if (m.run == NULL) goto end;
   TRY(a, hooke_integrator_create_first_order(3, decay, NULL, m.run, &m.integrator));
   TRY(a, hooke_state_create_first_order(3, &m.state));
+  TRY(a, hooke_system_create_first_order(decay, NULL, m.state, &m.system));
   for (int k = 0; k < 3; k++)
     hooke_state_position(m.state)[k] = 1.0;
   hooke_state_set_time(m.state, 0.0);

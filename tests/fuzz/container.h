@@ -34,6 +34,9 @@ void container_kill_after(int64_t frames);
 double *container_read(const struct container *container, const char *dataset, int32_t *rank,
                        int64_t size[4]);
 
+/* 1 if the file says that its run is over, so that all of its frames exist. */
+int32_t container_is_over(const struct container *container);
+
 /* True if a file beside the container was opened since the last call. */
 int32_t container_others_opened(void);
 

@@ -10,6 +10,7 @@
 
 #include "core/crc32.h"
 #include "io/trajectory/frame_file.h"
+#include "io/trajectory/h5md_h5.h"
 #include "memory_folder.h"
 
 #include <hdf5.h>
@@ -482,6 +483,13 @@ double *container_read(const struct container *container, const char *dataset, i
   if (data >= 0) H5Dclose(data);
   if (file >= 0) H5Fclose(file);
   return numbers;
+}
+
+int32_t container_is_over(const struct container *container) {
+  hid_t file = H5Fopen(container->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  const int32_t is_over = file >= 0 && hk_h5md_is_over(file);
+  if (file >= 0) H5Fclose(file);
+  return is_over;
 }
 
 int32_t container_others_opened(void) {

@@ -29,14 +29,14 @@ struct wanted {
   int32_t has_frame;
 };
 
-/* Frames before the first without a time, as documented in the reader's header. */
+/* Frames before the first without a time, or of a run that is over all, as the reader's header has it. */
 static int64_t frames_there(const char *dataset, int64_t frames) {
   char name[256];
   int32_t rank;
   int64_t size[4];
   snprintf(name, sizeof name, "%.*stime", (int)(strrchr(dataset, '/') - dataset) + 1, dataset);
   double *time = container_read(&container, name, &rank, size);
-  if (time && rank == 1 && size[0] == frames) {
+  if (time && rank == 1 && size[0] == frames && !container_is_over(&container)) {
     for (int64_t k = 0; k < frames; k++) {
       if (isnan(time[k])) frames = k;
     }

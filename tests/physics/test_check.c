@@ -54,6 +54,27 @@ TEST(a_scene_is_counted) {
   check_warning(check, 1, "nothing-moves", "nothing moves");
 }
 
+/* F(0) = 5 N of springs that only pull; not of those that push, nor of F(0) = 0. */
+TEST(a_curve_that_jumps_is_warned_of) {
+  static const char *const curves[] = {"curve.elongation=-1,0,1 curve.force=3,5,30 compression=false",
+                                       "curve.elongation=-1,0,1 curve.force=3,5,30",
+                                       "curve.elongation=0,1 curve.force=0,30 compression=false"};
+  static const double q[] = {0, 0, 0, 2, 0, 0};
+  static const int64_t ends[] = {0, 1};
+  for (int k = 0; k < 3; k++) {
+    owned_system *system = small_system(2, q, NULL, 1.0, 1);
+    owned_options *options = options_with("springs", curves[k]);
+    check_ok(hooke_options_set_number(options, "rest_length", 1.0));
+    check_ok(hooke_system_add_springs(system, "rubber", 1, ends, options));
+    check_ok(hooke_system_commit(system));
+    owned_measurement *check;
+    check_ok(hooke_measurement_create("check", system, NULL, NULL, &check));
+    check_ok(hooke_measurement_run(check, NULL));
+    assert_int_equal(hooke_measurement_row_count(check, "warnings"), k == 0);
+    if (k == 0) check_warning(check, 0, "jump", "jumps to 0 N");
+  }
+}
+
 TEST(a_run_is_warned_of_at_the_state_given) {
   owned_system *system = row_of_three();
   owned_state *state = start_state(system);
@@ -64,7 +85,7 @@ TEST(a_run_is_warned_of_at_the_state_given) {
   check_warning(check, 0, "above-limit", "is above");
   memset(hooke_state_position(state), 0, 9 * sizeof(double));
   check_ok(hooke_measurement_run(check, state));
-  check_warning(check, 1, "coincident-springs", "1 spring starts with both ends at the same place");
+  check_warning(check, 1, "coincident-springs", "1 spring or contact starts without a direction");
 }
 
 TEST(memory_adds_to_that_of_the_process) {

@@ -234,12 +234,14 @@ TEST(a_line_lies_on_the_ground_as_irvine_says) {
 
 /* At the centre there is no direction, and no force; it is counted. */
 TEST(at_a_centre_there_is_no_force) {
-  const double place[3] = {1, 2, 3}, none[3] = {0, 0, 0};
+  const double place[3] = {1, 2, 3}, beside[3] = {1, 2, 3.1}, none[3] = {0, 0, 0};
   owned_system *system = falling(place, NULL, none, "shape=sphere center=1,2,3 radius=0.5 stiffness=100");
   double force[3];
   check_ok(hooke_system_force(system, 0.0, place, none, force));
   for (int a = 0; a < 3; a++)
     check_between(force[a], 0.0, 0.0);
+  assert_int_equal(hooke_system_coincident_springs(system, place), 1);
+  assert_int_equal(hooke_system_coincident_springs(system, beside), 0);
   owned_state *state = start_state(system);
   owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = 1e-3});
   check_ok(hooke_integrator_step(run, state, 1));

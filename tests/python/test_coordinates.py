@@ -72,8 +72,6 @@ def test_bad_values():
             hooke.SecondOrder(swing, *arguments)
     with pytest.raises(hooke.BadValue, match=r"inverse_mass\[0\]"):
         hooke.SecondOrder(swing, [1.0], inverse_mass=0.0).run(method="rk4", **RUN)
-    with pytest.raises(hooke.BadValue):
-        hooke.study(hooke.SecondOrder(swing, [1.0]), **RUN)
 
 
 def test_an_exception_ends_the_run():

@@ -2,6 +2,7 @@
 
 import gc
 import json
+import sys
 import warnings
 
 import h5py
@@ -380,3 +381,42 @@ def test_tolerances_are_in_the_scale_of_a_scene(method):
     steps, position, error = run(1e-10, 1e-14, 1e-26)  # of an atom, in decimal units, which rounding tells apart
     assert steps == pytest.approx(run(1, 1, 1)[0], rel=0.12)
     assert abs(position - (1 + 0.5 * np.cos(100))) <= error < 2e-3
+
+
+# probes
+
+
+def test_probes_of_a_run(tmp_path):
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    results = [hooke.run(scene, probe="3.y,energy", probe_every="10ms", probes=tmp_path / name) for name in ("a.csv", "a.h5")]
+    table, other = (result.probes for result in results)
+    assert table.dtype.names == ("time", "3.y", "energy") and len(table) == 51 and np.array_equal(table, other)
+    assert table["3.y"][-1] == results[0].state.q[3, 1] and table["time"][-1] == results[0].state.t
+
+
+def test_a_run_that_ends_early_keeps_its_lines(tmp_path):
+    def stop(step, state):
+        return int(state.t > 0.2)
+
+    def fail(step, state):
+        if state.t > 0.2:
+            raise KeyboardInterrupt
+
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    for name in ("a.csv", "a.h5"):
+        result = hooke.run(scene, probe="energy", probe_every=1e-3, probes=tmp_path / name, on_frame=stop)
+        assert (result.status, len(result.probes), result.probes["time"][-1]) == ("stopped", 251, 0.25)
+    with pytest.raises(KeyboardInterrupt):
+        hooke.run(scene, probe="energy", probe_every=1e-3, probes=tmp_path / "a.csv", on_frame=fail)
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 252
+
+
+def test_what_is_missing_is_said(tmp_path, monkeypatch):
+    scene = hooke.Scene.parse(SIX_PARTICLES)
+    with pytest.raises(hooke.BadValue, match="give both"):
+        hooke.run(scene, probe="energy")
+    with pytest.raises(hooke.BadValue, match="probe='energy'|probe=\"energy\""):
+        hooke.run(scene).to_pandas()
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="pip install pandas"):
+        hooke.run(scene, probe="energy", probes=tmp_path / "a.csv").to_pandas()

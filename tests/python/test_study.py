@@ -221,8 +221,6 @@ def test_what_a_study_refuses():
             hooke.study(system, **options, **RUN)
     with pytest.raises(hooke.BadValue, match="duration"):
         hooke.study(system)
-    with pytest.raises(hooke.BadValue, match="first-order"):
-        hooke.study(hooke.FirstOrder(lambda t, x, rate: None, [1.0]), **RUN)
 
 
 # ---- files ----

@@ -242,3 +242,75 @@ def test_a_plot_of_a_frame(path):
     with pytest.raises(hooke.BadValue, match='up: "w" is not allowed'):
         hooke.open(path).plot(up="w")
     plt.close("all")
+
+
+# tensions and reactions
+
+SPRINGS = {
+    "hooke": 1,
+    "gravity": [0, -9.81, 0],
+    "particles": {"position": [[0, 0, 0], [1, 0, 0], [2, 0.1, 0], [3, 0, 0.2], [4, 0, 0]], "mass": [1, 2, 3, 4, 5],
+                  "velocity": [[0, 0, 0], [0.5, 0, 0.1], [-0.3, 0.2, 0], [0.1, 0, 0], [0, 0, 0]], "pinned": [0]},
+    "springs": [
+        {"name": "linear", "between": [[0, 1], [1, 2]], "stiffness": 300, "damping": 2, "rest_scale": 0.9},
+        {"name": "curved", "between": [[2, 3]], "curve": {"elongation": [-0.5, 0, 0.5], "force": [-100, 0, 300]}, "damping": 1},
+        {"name": "cables", "between": [[3, 4], [0, 2]], "law": "length", "stiffness": 50, "rest_length": 1.2, "damping": 3,
+         "compression": False},
+    ],
+    "driven": [{"particles": [4], "motion": "harmonic", "amplitude": [0.1, 0.2, 0], "frequency": 0.7}],
+    "loads": [{"particles": [2], "force": [1, 2, 3]}],
+    "run": {"method": "rk4", "step": 1e-3, "duration": 0.5, "every": 0.1},
+}
+
+
+@pytest.fixture
+def springs(tmp_path):
+    hooke.run(hooke.Scene.parse(SPRINGS), output=tmp_path / "out.h5")
+    return hooke.open(tmp_path / "out.h5")
+
+
+def test_tensions_are_those_of_their_laws(springs):
+    """k (l - l0) + c dl/dt by hand, for a curve the slope of its energy, and 0 where a cable is slack."""
+    system, slack, taut = springs.system, 0, 0
+    material = system.spring_material
+    for frame in range(len(springs)):
+        _, t, q, v = springs[frame]
+        x, u = (np.diff(each[springs.springs], axis=1)[:, 0] for each in (q, v))
+        length = np.linalg.norm(x, axis=1)
+        damping = material.gamma * (x * u).sum(axis=1) / length
+        elastic = material.kappa * (length - material.rest_length)
+        moved, h = np.array([q, q]), 1e-6
+        moved[:, 3] += h * np.outer([1, -1], x[2] / length[2])
+        cable = np.maximum(np.linalg.norm(moved[:, 4] - moved[:, 3], axis=1) - 1.2, 0)
+        energy = [system.spring_energy(each, t) for each in moved] - 0.5 * material.kappa[3] * cable**2
+        elastic[2] = (energy[0] - energy[1]) / (2 * h)
+        free = elastic + damping
+        cables = slice(3, 5)
+        is_slack = (length[cables] <= 1.2) | (free[cables] < 0)
+        free[cables][is_slack] = 0
+        slack, taut = slack + is_slack.sum(), taut + (~is_slack).sum()
+        assert springs.tension(frame) == pytest.approx(free, rel=1e-6, abs=1e-6)
+    assert slack > 0 and taut > 0
+
+
+def test_reactions_are_what_the_others_do_not_bear(springs):
+    """All forces inside cancel: the sum of m a over all particles is that of weights, loads and reactions."""
+    mass, gravity = springs.mass, np.array([0, -9.81, 0])
+    for frame in range(len(springs)):
+        _, t, q, v = springs[frame]
+        acceleration = springs.system.acceleration(q, v, t)
+        acceleration[4] = -((2 * np.pi * 0.7) ** 2) * np.array([0.1, 0.2, 0]) * np.sin(2 * np.pi * 0.7 * t)
+        reaction = springs.reaction(frame)
+        assert (reaction[1:4] == 0).all() and (np.abs(reaction[[0, 4]]).max(axis=1) > 1).all()
+        outside = mass.sum() * gravity + [1, 2, 3] + reaction.sum(axis=0)
+        assert outside == pytest.approx(mass @ acceleration, abs=1e-10)
+
+
+def test_a_callback_leaves_reactions_unknown(tmp_path):
+    def push(t, q, v, force):
+        force += 1.0
+
+    path = tmp_path / "out.h5"
+    hooke.run(hooke.Scene.parse(SIX_PARTICLES), force=push, output=path)
+    with pytest.raises(hooke.BadValue, match="callback"):
+        hooke.open(path).reaction()

@@ -17,6 +17,7 @@ static const double OMEGA = 6.283185307179586, WANT = 1e-3;
 /* An estimate of a run of 1 s; agreement 0: without a reference. */
 static struct hk_estimate estimate_with(const hooke_system *system, double error, double agreement) {
   return (struct hk_estimate){
+      .system = system,
       .want = WANT,
       .duration = 1.0,
       .every = 0.1,

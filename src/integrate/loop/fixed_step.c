@@ -6,6 +6,7 @@
 #include "core/status.h"
 #include "model/coordinates/coordinates.h"
 #include "model/force/force.h"
+#include "model/generalized.h"
 #include "model/sum/strided.h"
 
 #include <stddef.h>
@@ -99,8 +100,8 @@ static void move_own(const struct hk_mover *m, const struct hk_move *move, const
   }
 }
 
-/* Stages between have quaternions of other lengths. */
-static void move_with_movers(hooke_integrator *it, struct hk_move *move) {
+/* Stages between have quaternions of other lengths. Inlined, it would slow moves without movers down. */
+static __attribute__((noinline)) void move_with_movers(hooke_integrator *it, struct hk_move *move) {
   const hooke_system *system = it->system;
   const struct hk_numbers *own = &it->numbers;
   const int32_t kind = move->kind;
@@ -200,5 +201,5 @@ int32_t hk_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
 }
 
 int64_t hk_integrator_numbers(const hooke_integrator *it) {
-  return it->coordinates ? it->coordinates->size : it->size;
+  return it->system ? hk_system_numbers(it->system) : it->size;
 }

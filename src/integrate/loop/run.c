@@ -22,7 +22,8 @@ static int32_t check_numbers(const hooke_integrator *it, const hooke_state *stat
     const long long at = (long long)(k % state->size);
     hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a run starts at finite numbers", state->q[k]);
     const char *name = it->system == NULL ? "x" : k < state->size ? "position" : "velocity";
-    if (it->system == NULL || it->coordinates) return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", name, at);
+    if (it->system == NULL || it->system->generalized)
+      return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", name, at);
     return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", name, at / 3, at % 3);
   }
   return HOOKE_OK;
@@ -57,18 +58,23 @@ static int64_t until_multiple(int64_t k, int64_t stride) {
   return stride - k % stride;
 }
 
+static int sees_step(const hooke_integrator *it) {
+  return it->on_step.observer && it->k % it->on_step.stride == 0;
+}
+
 /* Events after the current step. */
 struct due {
-  int frame, point, seen; /* a frame, a checkpoint, a step observer */
-  int thorough, checked;  /* a check for divergence, with energy or of any kind */
+  int frame, point, seen, sampled; /* a frame, a checkpoint, observers of steps, a sample */
+  int thorough, checked;           /* a check for divergence, with energy or of any kind */
 };
 
 /* `shows`: 1 if the state at step `last` is needed in any case. */
 static struct due find_due(const hooke_integrator *it, int64_t last, int64_t frame_steps, int64_t point_steps,
-                           int32_t shows) {
+                           int64_t sample_steps, int32_t shows) {
   struct due due = {.frame = frame_steps && hk_schedule_has_frame(&it->schedule, it->k),
                     .point = point_steps && it->k % point_steps == 0 && it->k < last,
-                    .seen = it->on_step.observer && it->k % it->on_step.stride == 0};
+                    .sampled = sample_steps && hk_schedule_has_frame(&it->sampling, it->k),
+                    .seen = it->on_motion.observer || sees_step(it)};
   due.thorough = due.frame || it->thorough || it->k % HOOKE_CHECK_STEPS == 0;
   due.checked = due.thorough || due.point || (shows && it->k == last);
   return due;
@@ -76,11 +82,13 @@ static struct due find_due(const hooke_integrator *it, int64_t last, int64_t fra
 
 /* Number of steps before the next event. */
 static int64_t steps_to_take(const hooke_integrator *it, int64_t last, int64_t frame_steps,
-                             int64_t point_steps) {
+                             int64_t point_steps, int64_t sample_steps) {
   int64_t count = last - it->k, next = until_multiple(it->k, HOOKE_CHECK_STEPS);
   if (next < count) count = next;
   if (frame_steps && (next = until_multiple(it->k, frame_steps)) < count) count = next;
+  if (sample_steps && (next = until_multiple(it->k, sample_steps)) < count) count = next;
   if (point_steps && (next = until_multiple(it->k, point_steps)) < count) count = next;
+  if (it->on_motion.observer) return 1;
   if (it->on_step.observer && (next = until_multiple(it->k, it->on_step.stride)) < count) count = next;
   return count;
 }
@@ -94,21 +102,25 @@ static int32_t store_and_check(hooke_integrator *it, hooke_state *state, int32_t
 
 /* 1 if only the caller sees states, and then has the last good one. */
 static int is_unwatched(const hooke_integrator *it) {
-  return it->on_step.observer == NULL && it->on_checkpoint.observer == NULL && it->checker.look == NULL;
+  return it->on_step.observer == NULL && it->on_motion.observer == NULL && it->on_sample.observer == NULL &&
+         it->on_checkpoint.observer == NULL && it->checker.look == NULL;
 }
 
 int32_t hk_run_fixed(hooke_integrator *it, hooke_state *state, int64_t last, int64_t frame_steps,
                      int32_t shows) {
   const int64_t point_steps = it->on_checkpoint.observer ? it->schedule.checkpoint_steps : 0;
+  const int64_t sample_steps = frame_steps && it->on_sample.observer ? it->sampling.frame_steps : 0;
   int32_t status = HOOKE_OK;
   while (it->k < last && status == HOOKE_OK) {
-    status = hk_run_take_fixed_steps(it, steps_to_take(it, last, frame_steps, point_steps));
-    const struct due due = find_due(it, last, frame_steps, point_steps, shows);
-    if (status == HOOKE_OK && !shows && !due.checked && !due.seen) continue;
+    status = hk_run_take_fixed_steps(it, steps_to_take(it, last, frame_steps, point_steps, sample_steps));
+    const struct due due = find_due(it, last, frame_steps, point_steps, sample_steps, shows);
+    if (status == HOOKE_OK && !shows && !due.checked && !due.seen && !due.sampled) continue;
     if (status == HOOKE_OK && due.checked && !due.thorough && is_unwatched(it))
       return hk_divergence_glance(it, state);
     status = store_and_check(it, state, status, due);
-    if (status == HOOKE_OK && due.seen) status = hk_run_observe(it, &it->on_step, state);
+    if (status == HOOKE_OK && due.seen) status = hk_run_observe(it, &it->on_motion, state);
+    if (status == HOOKE_OK && sees_step(it)) status = hk_run_observe(it, &it->on_step, state);
+    if (status == HOOKE_OK && due.sampled) status = hk_run_observe(it, &it->on_sample, state);
     if (status == HOOKE_OK && due.frame) status = hk_run_report(it, state);
     if (status == HOOKE_OK && due.point) status = hk_run_observe(it, &it->on_checkpoint, state);
   }
@@ -148,6 +160,7 @@ int32_t hk_run_whole(hooke_integrator *it, hooke_state *state) {
   status = hk_run_begin(it, state);
   if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
   if (status == HOOKE_OK) it->restart.standing.frames = 1;
+  if (status == HOOKE_OK) status = hk_run_observe(it, &it->on_sample, state);
   if (status == HOOKE_OK) status = hk_run_report(it, state);
   if (status == HOOKE_OK) status = hk_run_to_end(it, state);
   return hk_run_end(it, state, status);

@@ -11,6 +11,8 @@
 #include <float.h>
 #include <math.h>
 
+enum { PARTS = 8 }; /* of a step, at whose ends its motion is shown */
+
 int64_t hk_run_first_after(double t0, double every, double t) {
   int64_t low = 0, high = HOOKE_MOST_STEPS;
   while (high - low > 1) {
@@ -108,8 +110,8 @@ int32_t hk_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t 
 
 /* ---- a whole run ---- */
 
-static double frame_time(const hooke_integrator *it, int64_t frame, double end) {
-  const struct hk_schedule *schedule = &it->schedule;
+static double frame_time(const hooke_integrator *it, const struct hk_schedule *schedule, int64_t frame,
+                         double end) {
   return frame < schedule->frames ? fmin(it->t0 + (double)frame * schedule->every, end) : end;
 }
 
@@ -117,11 +119,38 @@ static double frame_time(const hooke_integrator *it, int64_t frame, double end) 
 static int32_t report_frames(hooke_integrator *it, hooke_state *state, double t, double end) {
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK && it->frames < it->schedule.frames) {
-    const double at = frame_time(it, it->frames, end);
+    const double at = frame_time(it, &it->schedule, it->frames, end);
     if (at > t) break;
     status = hk_run_store(it, at, state, 0);
     if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
     if (status == HOOKE_OK) status = hk_run_report(it, state);
+  }
+  return status;
+}
+
+/* The same of samples, which are not checked. */
+static double sample_time(const hooke_integrator *it, double end) {
+  const int some = it->on_sample.observer && it->samples < it->sampling.frames;
+  return some ? frame_time(it, &it->sampling, it->samples, end) : INFINITY;
+}
+
+static int32_t report_samples(hooke_integrator *it, hooke_state *state, double t, double end) {
+  int32_t status = HOOKE_OK;
+  for (double at; status == HOOKE_OK && (at = sample_time(it, end)) <= t; it->samples++) {
+    status = hk_run_store(it, at, state, 0);
+    if (status == HOOKE_OK) status = hk_run_observe(it, &it->on_sample, state);
+  }
+  return status;
+}
+
+/* Of what has the motion: the end of the last step up to time t, and times within it where the method knows
+ * them. */
+static int32_t show_motion(hooke_integrator *it, hooke_state *state, double from, double t) {
+  const int parts = it->method->interpolates ? PARTS : 1;
+  int32_t status = HOOKE_OK;
+  for (int k = 1; k <= parts && status == HOOKE_OK && it->on_motion.observer; k++) {
+    status = hk_run_store(it, k < parts ? from + (double)k / parts * (t - from) : t, state, 0);
+    if (status == HOOKE_OK) status = hk_run_observe(it, &it->on_motion, state);
   }
   return status;
 }
@@ -158,8 +187,10 @@ static int64_t step_limit(const hooke_integrator *it) {
 /* One internal step with everything that follows it; frames at the time of a checkpoint come first. */
 static int32_t go_on(hooke_integrator *it, hooke_state *state, double end) {
   const double next = next_point(it), point = next < end ? next : INFINITY, from = it->t;
-  it->goal = fmin(frame_time(it, it->frames, end), point);
+  it->goal = fmin(fmin(frame_time(it, &it->schedule, it->frames, end), sample_time(it, end)), point);
   int32_t status = take_step(it, state);
+  if (status == HOOKE_OK) status = show_motion(it, state, from, fmin(it->t, fmin(point, end)));
+  if (status == HOOKE_OK) status = report_samples(it, state, fmin(it->t, point), end);
   if (status == HOOKE_OK) status = report_frames(it, state, fmin(it->t, point), end);
   const int anew = status == HOOKE_OK && it->t >= point;
   if (anew) status = start_anew(it, point, state);
@@ -172,6 +203,7 @@ int32_t hk_run_adaptive(hooke_integrator *it, hooke_state *state) {
   const double end = it->t0 + it->schedule.duration;
   const int64_t limit = step_limit(it), next = hk_run_first_after(it->t0, it->schedule.every, it->t);
   int32_t status = check_schedule(it, end);
+  if (it->on_sample.observer) it->samples = hk_run_first_after(it->t0, it->sampling.every, it->t);
   if (it->frames < next) it->frames = next < it->schedule.frames ? next : it->schedule.frames;
   while (it->t < end && status == HOOKE_OK) {
     status = it->k < limit ? go_on(it, state, end) : refuse_more_steps(it, limit, state);

@@ -66,7 +66,8 @@ int32_t hk_run_options_require(const hooke_options *options, const char *where) 
 static const double OF_EXTENT = 1e-3, LARGEST = 1e300;
 
 int32_t hk_run_fill_tolerances(const hooke_system *system, hooke_options *options) {
-  const double diagonal = system ? hk_diagonal(system->particle_count, system->position) : 0.0;
+  const double diagonal =
+      system && !system->generalized ? hk_diagonal(system->particle_count, system->position) : 0.0;
   const double extent = diagonal > 0.0 ? diagonal : 1.0, rtol = hooke_options_number(options, "rtol");
   const double duration = hooke_options_number(options, "duration");
   double atol = hooke_options_number(options, "atol");
@@ -149,6 +150,37 @@ int64_t hk_schedule_frames_before(const struct hk_schedule *s, int64_t k) {
   return k / s->frame_steps + (k % s->frame_steps != 0);
 }
 
+static void count_frames(int32_t adaptive, struct hk_schedule *s) {
+  /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1
+   * on */
+  s->frames =
+      adaptive ? hk_schedule_frames(s->duration, s->every) : 1 + hk_schedule_frames_before(s, s->steps);
+}
+
+static int32_t refuse_every(double every, double step) {
+  char given[HOOKE_NUMBER_SIZE], of[HOOKE_NUMBER_SIZE], low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
+  const double whole = floor(every / step);
+  hk_number_print(every, given);
+  hk_number_print(step, of);
+  hk_number_print(whole * step, low);
+  hk_number_print((whole + 1.0) * step, high);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s s is not a whole multiple of step %s s; the nearest %s %s%s%s s",
+                 given, of, whole < 1.0 ? "is" : "are", whole < 1.0 ? "" : low, whole < 1.0 ? "" : " and ",
+                 high);
+}
+
+int32_t hk_schedule_every(int32_t adaptive, double every, struct hk_schedule *s) {
+  if (s->frames == 0)
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  if (isnan(every)) return HOOKE_OK;
+  if (!adaptive && !is_multiple(every, s->step, &s->frame_steps)) return refuse_every(every, s->step);
+  s->every = every;
+  count_frames(adaptive, s);
+  if (s->frames <= HOOKE_MOST_STEPS) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%g s gives %g times; allowed: up to 9e15", every,
+                 s->duration / every);
+}
+
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options, struct hk_schedule *s) {
   const double step = hooke_options_number(options, "step");
   *s = (struct hk_schedule){.step = step,
@@ -168,10 +200,7 @@ int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
     s->every = isnan(step) ? s->duration / 100.0 : (double)s->frame_steps * step;
     hooke_options_set_number(options, "every", s->every);
   }
-  /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1
-   * on */
-  s->frames = method->adaptive ? hk_schedule_frames(s->duration, s->every)
-                               : 1 + hk_schedule_frames_before(s, s->steps);
+  count_frames(method->adaptive, s);
   if (s->frames <= HOOKE_MOST_STEPS) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, "every", "%.6g s gives %g frames; allowed: up to 9e15", s->every,
                  s->duration / s->every);

@@ -294,7 +294,8 @@ static const struct hk_steps steps = {create, destroy, NULL, begin, step, store}
 
 #endif
 
-#define ROW_OF_CVODE .needs = "SUNDIALS", .adaptive = 1, .takes = HOOKE_TAKES_ALL, .steps = STEPS
+#define ROW_OF_CVODE                                                                                         \
+  .needs = "SUNDIALS", .adaptive = 1, .interpolates = 1, .takes = HOOKE_TAKES_ALL, .steps = STEPS
 
 const struct hk_method hk_cvode_bdf = {
     .name = "cvode-bdf",

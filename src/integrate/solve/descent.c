@@ -6,6 +6,7 @@
 #include "model/force/altitude.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
+#include "model/medium.h"
 
 #include <float.h>
 #include <math.h>
@@ -17,8 +18,7 @@ static const double ROUNDINGS = 4.0 * DBL_EPSILON;
 int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   const hooke_system *system = it->system;
   double kick = 0.0;
-  if (!system->overdamped || system->force || system->altitudes->count > 0) return HOOKE_OK;
-  if (hk_forces_do_work(system)) return HOOKE_OK; /* their energy is not that of the motion */
+  if (system->force || system->medium->blows || system->altitudes->count > 0) return HOOKE_OK;
   descent->rows = hk_new(it->size, sizeof(double));
   if (descent->rows == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += it->size * (int64_t)sizeof(double);
@@ -83,7 +83,8 @@ double hk_descent_potential(struct hk_descent *descent, const hooke_integrator *
     const double x = v[p], y = v[n + p], z = v[2 * n + p];
     hk_sum_add(&square, system->inertia[p] * ((x * x + y * y) + z * z));
   }
-  const double moved = 0.5 * a * hk_sum_value(&square);
-  *slack = descent->slack + slack_of(descent, it->motion, descent->drag / a, moved);
+  const double moved = 0.5 * (system->overdamped ? a : 1.0) * hk_sum_value(&square);
+  *slack =
+      descent->slack + slack_of(descent, it->motion, descent->drag / (system->overdamped ? a : a * a), moved);
   return energy + moved;
 }

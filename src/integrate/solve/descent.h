@@ -12,7 +12,10 @@
  * Over a whole step without drives U itself must not rise, which the last three do not imply. Where U is
  * convex there is one solution, and it passes all of this.
  *
- * There is no P with a callback or a wind, nor with altitude springs, whose energy jumps. */
+ * There is no P with a callback or a wind, nor with altitude springs, whose energy jumps.
+ *
+ * In a system with inertia and from rest, backward Euler without damping is the same with M |q' - q|^2/(2
+ * h^2): the search for a position of rest descends so (measure/rest). */
 #ifndef HOOKE_INTEGRATE_SOLVE_DESCENT_H
 #define HOOKE_INTEGRATE_SOLVE_DESCENT_H
 

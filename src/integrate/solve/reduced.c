@@ -343,7 +343,7 @@ static int32_t solve(struct hk_reduced *reduced, const double *b, double toleran
   const double scale = scale_of(a.size, reduced->right);
   multiply(a.size, scale, reduced->right);
   const int32_t status =
-      isnan(absolute) ? (reduced->symmetric ? hk_solve_symmetric : hk_solve_general)(
+      isnan(absolute) ? (reduced->symmetric || reduced->downhill ? hk_solve_symmetric : hk_solve_general)(
                             &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution)
                       : hk_solve_positive(&a, reduced->right, tolerance, scale * absolute, limit,
                                           reduced->krylov, reduced->unknown, solution);
@@ -368,6 +368,14 @@ int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double toler
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {
   return hk_reduced_try(reduced, b, tolerance, limit_of(reduced), x, solution);
+}
+
+int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
+                           struct hk_solution *solution) {
+  reduced->downhill = 1;
+  const int32_t status = hk_reduced_try(reduced, b, tolerance, limit_of(reduced), x, solution);
+  reduced->downhill = 0;
+  return status;
 }
 
 /* Of every spring what its diagonal blocks have. */

@@ -35,6 +35,7 @@ struct hk_reduced {
   int64_t size;        /* of vectors: 3n, and more */
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
   int32_t direct;      /* by the option `linear_solver`, if it fits: a factor of S at every place */
+  int32_t downhill;    /* 1: the matrix is symmetric, or nearly, and may be not positive */
   int32_t projected;   /* 1: S stands for the matrix */
   int32_t rows_needed; /* the products of some force are made by its own function, in rows */
   double t, alpha, beta;
@@ -72,6 +73,11 @@ int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tol
 /* The same for so many iterations at most. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution);
+
+/* The same by conjugate gradients for a matrix that is symmetric, which may end early, with b.x > 0, where it
+ * is not positive. */
+int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
+                           struct hk_solution *solution);
 
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */

@@ -61,7 +61,9 @@ static int32_t create(hooke_integrator *it) {
   stage->overdamped = it->system->overdamped;
   int32_t status = hk_integrator_keep_start(it);
   if (status == HOOKE_OK) status = hk_body_stage_create(it, &stage->body);
-  if (status == HOOKE_OK) status = hk_descent_create(it, &stage->descent);
+  if (status == HOOKE_OK && stage->overdamped &&
+      !hk_forces_do_work(it->system)) /* else U is not that of motion */
+    status = hk_descent_create(it, &stage->descent);
   const struct hk_more_unknowns more = hk_body_stage_unknowns(stage);
   if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &more, &stage->reduced);
   stage->size = it->size + more.count;
@@ -254,15 +256,20 @@ static int32_t give_up(const struct hk_stage *stage, int iterations, const struc
                  it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
 }
 
-/* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. */
+/* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. Downhill, one leads on that
+ * ends where the matrix proves not to be positive. */
 static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   const double wanted = LINEAR_OF_TOLERANCE * now->allowed / now->before;
-  const double residual = fmin(LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
+  const double residual =
+      fmin(stage->descends ? LINEAR_SHARE : LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
   struct hk_solution solution;
-  const int32_t status = hk_reduced_try(&stage->reduced, stage->right, residual, LEAST_TRIES + now->linear,
-                                        stage->change, &solution);
+  const int32_t status =
+      stage->descends ? hk_reduced_descend(&stage->reduced, stage->right, residual, stage->change, &solution)
+                      : hk_reduced_try(&stage->reduced, stage->right, residual, LEAST_TRIES + now->linear,
+                                       stage->change, &solution);
   const double slope = dot(stage, stage->right, stage->change);
-  *found = solution.residual <= fmax(residual, FAR_ENOUGH) && slope > 0.0 && slope < INFINITY;
+  *found =
+      (stage->descends || solution.residual <= fmax(residual, FAR_ENOUGH)) && slope > 0.0 && slope < INFINITY;
   if (*found) now->size = sqrt(slope);
   return status;
 }
@@ -283,12 +290,12 @@ static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, in
  * potential, has turned by no more than half of what it was; or the potential is lower by a part of what its
  * slope promises (Armijo 1966). */
 static int may_move(struct hk_stage *stage, struct iteration *now, double fraction, double left) {
-  const double slope = now->size * now->size, a = stage->at.a;
+  const double slope = now->size * now->size, a = stage->at.a, of_potential = stage->overdamped ? a : 1.0;
   double slack;
   if (!stage->descends) return left >= -0.5 * slope && left < INFINITY;
   const double height =
       hk_descent_potential(&stage->descent, stage->reduced.integrator, a, stage->moved, &slack);
-  if (!(height <= now->height - ARMIJO * fraction * a * slope + slack)) return 0;
+  if (!(height <= now->height - ARMIJO * fraction * of_potential * slope + slack)) return 0;
   now->height = height;
   return 1;
 }
@@ -322,7 +329,7 @@ static int is_last(const struct iteration *now) {
 
 static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found) {
   const int soon = stage->reduced.rows_needed || stage->body.count > 0;
-  const int whole = now->slow >= (soon ? 1 : MANY_SLOW) && now->wait == 0;
+  const int whole = (stage->descends || now->slow >= (soon ? 1 : MANY_SLOW)) && now->wait == 0;
   int32_t status = HOOKE_OK;
   *found = 0;
   hk_body_stage_aim(stage);
@@ -339,7 +346,7 @@ static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found
   return status;
 }
 
-/* Corrections until what is left is allowed. The last one is taken without asking. */
+/* Corrections until what is left is allowed. The last one is taken without asking, but not downhill. */
 static int32_t converge(struct hk_stage *stage, double height) {
   hooke_integrator *it = stage->reduced.integrator;
   struct iteration now = {.fraction = 1.0, .height = height};
@@ -350,14 +357,16 @@ static int32_t converge(struct hk_stage *stage, double height) {
     status = iterate(stage, &now, &found);
     if (status != HOOKE_OK) break;
     if (!found) return give_up(stage, k, &now, "numbers are not finite");
-    if (is_last(&now)) {
+    const int last = is_last(&now);
+    if (last && !stage->descends) {
       hk_add_multiple(stage->size, 1.0, stage->change, stage->v);
       return HOOKE_OK;
     }
     now.slow = now.before > 0.0 && (now.fraction < 1.0 || now.size > SLOW * now.before) ? now.slow + 1 : 0;
     now.before = now.size;
     status = search(stage, &now, &found);
-    if (status == HOOKE_OK && !found) return give_up(stage, k, &now, "no way leads on");
+    if (last || status != HOOKE_OK) return status;
+    if (!found) return give_up(stage, k, &now, "no way leads on");
   }
   return status == HOOKE_OK ? give_up(stage, MOST_ITERATIONS, &now, "it still changes") : status;
 }
@@ -438,10 +447,20 @@ static int32_t descend(struct hk_stage *stage, double height, double slack) {
   stage->descends = 1;
   const int32_t status = converge(stage, height);
   stage->descends = 0;
-  if (status != HOOKE_OK) return status;
   place(stage, stage->v);
+  if (status != HOOKE_OK) return status;
   return is_right(stage, height, slack) ? HOOKE_OK
                                         : rises(stage->reduced.integrator, "potential of its equations");
+}
+
+int32_t hk_stage_descend(struct hk_stage *stage, const struct hk_equations *equations) {
+  double slack;
+  stage->at = *equations;
+  stage->descent.t = equations->t;
+  hk_stage_save(stage, stage->begin);
+  begin_at_rest(stage);
+  const double height = potential(stage, &slack);
+  return descend(stage, height, slack);
 }
 
 int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equations,

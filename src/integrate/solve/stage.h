@@ -65,4 +65,8 @@ typedef int32_t hk_first_solution(struct hk_stage *stage);
 int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equations,
                           hk_first_solution *first);
 
+/* Downhill all the way from the state of rest where the motion is; only where there is a potential, and
+ * without bodies. After a failure the motion is as far down as it came. */
+int32_t hk_stage_descend(struct hk_stage *stage, const struct hk_equations *equations);
+
 #endif

@@ -12,6 +12,7 @@
 #include "io/file/bytes.h"
 #include "model/callbacks.h"
 #include "model/check_value.h"
+#include "model/generalized.h"
 
 #include <errno.h>
 #include <math.h>
@@ -66,8 +67,8 @@ static void describe(const hooke_integrator *it, const struct hk_standing *stand
   h->size = it->size;
   h->length = length_of(h->size, h->kind);
   h->system = it->system ? hk_system_check_value(it->system) : 0;
-  if (it->coordinates)
-    h->system = hk_crc32(h->system, it->coordinates->inverse_mass, it->coordinates->size * 8);
+  if (it->system && it->system->force_scale)
+    h->system = hk_crc32(h->system, it->system->force_scale, hk_system_numbers(it->system) * 8);
   h->options = hk_checkpoint_options(it->options);
   snprintf(h->method, sizeof h->method, "%s", it->method->name);
   snprintf(h->run, sizeof h->run, "%s", run ? run : "");

@@ -32,6 +32,23 @@ void hk_text_release(struct hk_text *text) {
   *text = (struct hk_text){.bytes = NULL};
 }
 
+/* ---- CSV ---- */
+
+void hk_text_quoted(struct hk_text *text, const char *words) {
+  hk_text_say(text, "\"");
+  for (; *words; words++)
+    hk_text_add(text, *words == '"' ? "\"\"" : words, *words == '"' ? 2 : 1);
+  hk_text_say(text, "\"");
+}
+
+void hk_text_cell(struct hk_text *text, const char *words) {
+  if (words == NULL) return;
+  if (strpbrk(words, ",\"\r\n"))
+    hk_text_quoted(text, words);
+  else
+    hk_text_say(text, words);
+}
+
 /* ---- JSON ---- */
 
 /* Escapes "<", so that no text ends the enclosing element or begins a comment, and characters that control

@@ -16,6 +16,10 @@ void hk_text_add(struct hk_text *text, const char *bytes, int64_t length);
 void hk_text_say(struct hk_text *text, const char *words);
 void hk_text_release(struct hk_text *text);
 
+/* A text in CSV: always in quotes, or only where it would break the line; NULL is nothing. */
+void hk_text_quoted(struct hk_text *text, const char *words);
+void hk_text_cell(struct hk_text *text, const char *words);
+
 /* JSON, from the start of a text or of an element of a page: `key` is NULL in an array. Non-finite numbers
  * and NULL texts become null. Any text is safe inside a <script> element. */
 void hk_text_open(struct hk_text *text, const char *key, char bracket);

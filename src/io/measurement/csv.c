@@ -16,29 +16,13 @@ struct sheet {
   const struct hk_column *label, *number; /* of the matrix: column of the name, column of the value */
 };
 
-static void add_quoted(struct hk_text *text, const char *name) {
-  hk_text_say(text, "\"");
-  for (; *name; name++)
-    hk_text_add(text, *name == '"' ? "\"\"" : name, *name == '"' ? 2 : 1);
-  hk_text_say(text, "\"");
-}
-
-/* Quotes texts that would break the line. */
-static void add_text(struct hk_text *text, const char *words) {
-  if (words == NULL) return;
-  if (strpbrk(words, ",\"\r\n"))
-    add_quoted(text, words);
-  else
-    hk_text_say(text, words);
-}
-
 static void add_value(struct hk_text *text, const struct hk_table *table, const struct hk_column *column,
                       const void *object, int64_t row) {
   char number[HOOKE_NUMBER_SIZE] = "";
   const struct hk_value value = hk_table_value(table, column, object, row);
   if (isfinite(value.number)) hk_number_print(value.number, number);
   hk_text_say(text, number);
-  add_text(text, value.text);
+  hk_text_cell(text, value.text);
 }
 
 /* Line `row`; -1: the line of names. */
@@ -58,7 +42,7 @@ static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t ro
   for (int64_t k = 0; k < sheet->columns; k++) {
     hk_text_say(text, ",");
     if (row < 0)
-      add_quoted(text, hk_table_value(sheet->matrix, sheet->label, object, k).text);
+      hk_text_quoted(text, hk_table_value(sheet->matrix, sheet->label, object, k).text);
     else
       add_value(text, sheet->matrix, sheet->number, object, row * sheet->columns + k);
   }

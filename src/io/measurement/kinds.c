@@ -9,14 +9,16 @@
 #include "measure/estimate/estimate.h"
 #include "measure/limit/limit.h"
 #include "measure/needs/needs.h"
+#include "measure/rest/rest.h"
 #include "measure/study/study.h"
 #include "measure/why/why.h"
+#include "model/generalized.h"
 
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
     &hk_study_kind,  &hk_limit_kind,    &hk_needs_kind, &hk_cost_kind,  &hk_why_kind,
-    &hk_verify_kind, &hk_estimate_kind, &hk_view_kind,  &hk_check_kind, NULL,
+    &hk_verify_kind, &hk_estimate_kind, &hk_view_kind,  &hk_check_kind, &hk_rest_kind,  NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };
 
@@ -73,11 +75,12 @@ const char *hooke_measurement_column(const char *kind, const char *table, int64_
 
 static const struct format {
   const char *ending;
+  const char *of_scene; /* begins the refusal of problems of coordinates; NULL: it takes them */
   int32_t (*write)(const hooke_measurement *measurement, const char *path);
-} formats[] = {{".csv", hk_measurement_write_csv},
-               {".json", hk_measurement_write_json},
-               {".h5", hk_measurement_write_h5},
-               {".html", hk_measurement_write_page}};
+} formats[] = {{".csv", NULL, hk_measurement_write_csv},
+               {".json", NULL, hk_measurement_write_json},
+               {".h5", "an HDF5 file ", hk_measurement_write_h5},
+               {".html", "a page ", hk_measurement_write_page}};
 
 static int ends_in(const char *path, const char *ending) {
   const size_t length = strlen(path), end = strlen(ending);
@@ -91,7 +94,12 @@ int32_t hooke_measurement_write(const hooke_measurement *measurement, const char
   if (status != HOOKE_OK) return status;
   if (measurement->kind->write) return measurement->kind->write(measurement, path);
   for (size_t k = 0; k < sizeof formats / sizeof formats[0]; k++) {
-    if (ends_in(path, formats[k].ending)) return formats[k].write(measurement, path);
+    const struct format *format = &formats[k];
+    if (!ends_in(path, format->ending)) continue;
+    const int32_t refused = measurement->system && format->of_scene
+                                ? hk_system_require_scene(measurement->system, "path", format->of_scene)
+                                : HOOKE_OK;
+    return refused == HOOKE_OK ? format->write(measurement, path) : refused;
   }
   return hk_fail(HOOKE_BAD_VALUE, "path", "%s: allowed are names that end in .csv, .json, .h5 or .html",
                  path);

@@ -4,6 +4,7 @@
 #include "hooke/measurement.h"
 #include "integrate/integrator.h"
 #include "io/measurement/measurement_file.h"
+#include "io/probes/probes.h"
 #include "io/scene/scene_file.h"
 #include "model/force/force.h"
 #include "parts/part.h"
@@ -15,6 +16,8 @@ static const struct hk_option_table *table_at(int64_t k, const char **name) {
   const struct hk_option_table *table;
   *name = "run";
   if (k-- == 0) return &hk_run_options;
+  *name = hk_probes_options.name;
+  if (k-- == 0) return &hk_probes_options;
   for (int32_t i = 0; hk_force_table(i); i++) {
     *name = hk_force_table(i)->name;
     if (hk_force_table(i)->options && k-- == 0) return hk_force_table(i)->options;

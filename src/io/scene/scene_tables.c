@@ -15,6 +15,15 @@ static const struct hk_option_row wind_rows[] = {
 
 static const struct hk_option_table wind_table = {"wind", HOOKE_OPTION_ROWS(wind_rows)};
 
+static const struct hk_option_row start_rows[] = {
+    HOOKE_OPTION("position", HOOKE_OPTION_VECTORS("m", 1, 0), NULL, "one row a particle, those of parts, too",
+                 .required = 1),
+    HOOKE_OPTION("velocity", HOOKE_OPTION_VECTORS("m/s", 1, 0), NULL,
+                 "one row a particle; without it those of the particles"),
+};
+
+static const struct hk_option_table start_table = {"start", HOOKE_OPTION_ROWS(start_rows)};
+
 static const struct hk_option_row scene_rows[] = {
     HOOKE_OPTION("title", .type = HOOKE_OPTION_TEXT, NULL, "free text"),
     HOOKE_OPTION("gravity", HOOKE_OPTION_VECTOR("m/s^2"), NULL, "acceleration of every free particle"),
@@ -26,6 +35,8 @@ static const struct hk_option_row scene_rows[] = {
                  "velocity of the medium in all kinds of drag; constant, or a table", .family = &wind_table),
     HOOKE_OPTION("dynamics", HOOKE_OPTION_ONE_OF("inertial overdamped"), "inertial",
                  "overdamped: drag v = f, without inertia"),
+    HOOKE_OPTION("start", .type = HOOKE_OPTION_FAMILY, NULL, "where the motion starts, if not undeformed",
+                 .family = &start_table),
 };
 
 static const struct hk_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
@@ -98,6 +109,17 @@ static int32_t apply_wind(const hooke_options *options, hooke_system *system) {
                             hooke_options_numbers(options, "wind.velocity"));
 }
 
+static int32_t apply_start(const hooke_options *options, hooke_system *system) {
+  const int64_t count = hooke_options_number_count(options, "start.position") / 3,
+                moving = hooke_options_number_count(options, "start.velocity") / 3;
+  if (moving > 0 && moving != count)
+    return hk_fail(HOOKE_BAD_VALUE, "start.velocity",
+                   "%lld velocities for %lld places; allowed: one for each", (long long)moving,
+                   (long long)count);
+  return hooke_system_start_at(system, count, hooke_options_numbers(options, "start.position"),
+                               hooke_options_numbers(options, "start.velocity"));
+}
+
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {
   int32_t status =
       hk_options_require(options, &scene_table, "options", "hooke_options_create(\"scene\", ...)");
@@ -111,5 +133,6 @@ int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *sy
                                           hooke_options_numbers(options, "quadratic_drag"));
   if (status == HOOKE_OK && hooke_options_is_set(options, "wind")) status = apply_wind(options, system);
   if (status == HOOKE_OK) status = hooke_system_set_dynamics(system, hooke_options_text(options, "dynamics"));
+  if (status == HOOKE_OK && hk_options_has_family(options, "start")) status = apply_start(options, system);
   return status;
 }

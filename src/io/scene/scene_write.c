@@ -14,6 +14,7 @@
 #include "model/force/drive.h"
 #include "model/force/scaling.h"
 #include "model/part_record.h"
+#include "model/state.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -104,6 +105,7 @@ static void add_options(struct hk_text *text, const hooke_options *options, cons
 
 struct writer {
   const hooke_system *system;
+  const double *start[2]; /* position and velocity of a start elsewhere; NULL: as given */
   struct hk_text json;
   int32_t open;    /* members of the list so far */
   int64_t alone;   /* particles of no part, whose numbers in the scene are below this */
@@ -184,10 +186,12 @@ static void add_particles(struct writer *to) {
     return;
   }
   hk_text_open(text, "particles", '{');
-  take_alone(to, 3, system->position, rows);
+  take_alone(to, 3, hk_undeformed_position(system), rows);
   add_numbers(text, "position", 3 * count, 3, rows);
+  const int32_t starts = to->start[0] != NULL; /* which has the velocities */
   if (system->velocity) take_alone(to, 3, system->velocity, rows);
-  if (system->velocity && is_moving(3 * count, rows)) add_numbers(text, "velocity", 3 * count, 3, rows);
+  if (!starts && system->velocity && is_moving(3 * count, rows))
+    add_numbers(text, "velocity", 3 * count, 3, rows);
   take_alone(to, 1, system->mass, rows);
   if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
   if (system->gravity_factor) take_alone(to, 1, system->gravity_factor, rows);
@@ -407,6 +411,26 @@ static void add_each(struct writer *to, const char *key, const struct hk_each *e
   hk_free(rows);
 }
 
+/* Rows of all particles, by their numbers in the scene. */
+static void add_rows(struct writer *to, const char *key, const double *value) {
+  const int64_t n = to->system->particle_count;
+  double *rows = hk_new(3 * n, sizeof *rows);
+  if (rows == NULL) to->json.status = HOOKE_NO_MEMORY;
+  for (int64_t p = 0; p < n && rows; p++)
+    memcpy(rows + 3 * to->number[p], value + 3 * p, 3 * sizeof *rows);
+  if (rows) add_numbers(&to->json, key, 3 * n, 3, rows);
+  hk_free(rows);
+}
+
+static void add_start(struct writer *to) {
+  if (to->start[0] == NULL) return;
+  hk_text_open(&to->json, "start", '{');
+  add_rows(to, "position", to->start[0]);
+  if (to->start[1] && is_moving(3 * to->system->particle_count, to->start[1]))
+    add_rows(to, "velocity", to->start[1]);
+  hk_text_close(&to->json, '}');
+}
+
 static void add_medium(struct writer *to) {
   const struct hk_medium *medium = to->system->medium;
   add_each(to, "drag", &medium->drag);
@@ -456,6 +480,7 @@ static void add_scene(struct writer *to, const char *title, const hooke_options 
   if (system->part_count > 0) add_parts(to);
   if (system->rest->name_count > 0) add_names(to);
   add_lists(to);
+  add_start(to);
   if (run) {
     hk_text_open(text, "run", '{');
     add_options(text, run, NULL);
@@ -464,10 +489,17 @@ static void add_scene(struct writer *to, const char *title, const hooke_options 
   hk_text_close(text, '}');
 }
 
-static int32_t compose(const hooke_system *system, const char *title, const hooke_options *run,
-                       struct hk_text *laid) {
+/* `state`: where it starts; NULL: as the system does. */
+static int32_t compose(const hooke_system *system, const hooke_state *state, const char *title,
+                       const hooke_options *run, struct hk_text *laid) {
   struct writer to = {.system = system};
   int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK && state) status = hk_state_check_system(state, system);
+  if (state) {
+    to.start[0] = state->q, to.start[1] = state->v;
+  } else if (system->rest->start.undeformed) {
+    to.start[0] = system->position, to.start[1] = system->velocity;
+  }
   if (status == HOOKE_OK && run) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK) status = check_words(system);
   if (status == HOOKE_OK) status = find_numbers(&to);
@@ -485,7 +517,7 @@ int32_t hooke_scene_write(const char *path, const hooke_system *system, const ch
                           const hooke_options *run) {
   struct hk_text laid = {.bytes = NULL};
   int32_t status = hk_inputs_refuse_save(system, path);
-  if (status == HOOKE_OK) status = compose(system, title, run, &laid);
+  if (status == HOOKE_OK) status = compose(system, NULL, title, run, &laid);
   if (status == HOOKE_OK) status = hk_file_write(path, laid.bytes, laid.length);
   hk_text_release(&laid);
   return status;
@@ -493,9 +525,15 @@ int32_t hooke_scene_write(const char *path, const hooke_system *system, const ch
 
 int32_t hooke_scene_of_system(const hooke_system *system, const char *title, const hooke_options *run,
                               const char *name, const char *folder, hooke_scene **scene) {
+  return hooke_scene_of_state(system, NULL, title, run, name, folder, scene);
+}
+
+int32_t hooke_scene_of_state(const hooke_system *system, const hooke_state *state, const char *title,
+                             const hooke_options *run, const char *name, const char *folder,
+                             hooke_scene **scene) {
   struct hk_text laid = {.bytes = NULL};
   *scene = NULL;
-  int32_t status = compose(system, title, run, &laid);
+  int32_t status = compose(system, state, title, run, &laid);
   if (status == HOOKE_OK) status = hooke_scene_parse(laid.bytes, laid.length, name, folder, NULL, scene);
   hk_text_release(&laid);
   return status;
@@ -510,7 +548,7 @@ int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const 
   if (text == NULL || system->rest->input_count == system->rest->has_scene) return HOOKE_OK;
   int32_t status = hk_json_open(text, (int64_t)strlen(text), &json, &at);
   if (status != HOOKE_OK) return status == HOOKE_BAD_VALUE ? HOOKE_OK : status; /* what is no scene is kept */
-  status = compose(system, hk_json_text(hk_json_get(hk_json_find(json, "", 0), "title")), run, &laid);
+  status = compose(system, NULL, hk_json_text(hk_json_get(hk_json_find(json, "", 0), "title")), run, &laid);
   hk_free(json);
   hk_text_add(&laid, "", 1);
   if (status == HOOKE_OK) status = laid.status;

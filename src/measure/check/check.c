@@ -90,10 +90,11 @@ static void warn_of_method(struct hk_check *check, const char *method, double bo
 static void warn_of_coincident_springs(struct hk_check *check, const double *q) {
   const long long count = (long long)hooke_system_coincident_springs(check->m->system, q);
   if (count > 0)
-    hk_claim(&check->warnings, "coincident-springs", HOOKE_OF_WHOLE, "scene",
-             "%lld %s with both ends at the same place although the rest length is not zero: without a "
-             "direction, and so without a force",
-             count, count == 1 ? "spring starts" : "springs start");
+    hk_claim(
+        &check->warnings, "coincident-springs", HOOKE_OF_WHOLE, "scene",
+        "%lld %s without a direction, and so without a force: both ends at the same place although the rest "
+        "length is not zero, or a particle at the centre or on the axis of an obstacle",
+        count, count == 1 ? "spring or contact starts" : "springs or contacts start");
 }
 
 /* Counts particles that no spring of any kind, no bending and no body holds. */

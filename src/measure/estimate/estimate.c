@@ -7,6 +7,7 @@
 #include "integrate/loop/run_loop.h"
 #include "measure/counted_work/work.h"
 #include "model/callbacks.h"
+#include "model/generalized.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -33,6 +34,11 @@ static const struct hk_option_row rows[] = {
                  "error that no free particle may exceed at any frame; only estimates if not given"),
     HOOKE_OPTION("callbacks", .type = HOOKE_OPTION_FLAG, "false",
                  "repeats runs for the estimate even if they call callbacks of forces or drives"),
+    HOOKE_OPTION(
+        "watch", .type = HOOKE_OPTION_TEXT, NULL,
+        "quantities whose value at the end is told, and whose smallest and largest: " HOOKE_WATCHED_FORMS),
+    HOOKE_OPTION("error", .type = HOOKE_OPTION_FLAG, "true",
+                 "estimates the error of the run; if not, there is what is watched alone"),
 };
 
 static const struct hk_option_table options = {"estimate", HOOKE_OPTION_ROWS(rows)};
@@ -50,14 +56,18 @@ static int32_t create(hooke_measurement *m) {
   e->system = m->system;
   e->want = hooke_options_number(m->options, "want");
   e->callbacks = hooke_options_number(m->options, "callbacks") != 0.0;
+  e->is_asked = hooke_options_number(m->options, "error") != 0.0;
+  e->watched.system = m->system;
   e->first = e->rise = e->heat_excess = NAN;
   clear(e);
-  return HOOKE_OK;
+  const char *watch = hooke_options_text(m->options, "watch");
+  return watch[0] ? hk_watched_read(&e->watched, "watch", watch) : HOOKE_OK;
 }
 
 static void forget_run(struct hk_estimate *e) {
   hooke_options_destroy(e->options);
   hk_frames_release(&e->kept);
+  hk_watched_run_release(&e->course);
   hk_soundness_release(&e->soundness);
   hooke_state_destroy(e->start);
   hooke_state_destroy(e->late);
@@ -72,6 +82,7 @@ static void destroy(void *object) {
   if (e == NULL) return;
   forget_run(e);
   hk_pick_release(&e->pick);
+  hk_watched_release(&e->watched);
   hk_free(e);
 }
 
@@ -131,12 +142,15 @@ static int is_checked(const struct hk_estimate *e, const hooke_integrator *it) {
   return it->method->adaptive || isnan(e->want) || (e->picked && is_whole_reference(e));
 }
 
+static int32_t refuse_system(void) {
+  return hk_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
+}
+
 int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, const hooke_state *state) {
   struct hk_estimate *e = m->object;
   int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_begin");
   if (status != HOOKE_OK) return status;
-  if (it->system != e->system)
-    return hk_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
+  if (it->system != e->system) return refuse_system();
   status = hk_run_check_whole(it, state);
   if (status != HOOKE_OK) return status;
   forget_run(e);
@@ -153,6 +167,8 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   e->frames_apart = 1 + (frames - 1) / MOST_SEEN;
   e->frames_seen = 0;
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
+  status = hk_watched_run_begin(&e->watched, frames, &e->course);
+  if (status != HOOKE_OK || !e->is_asked) return status;
   choose_kept(e, it, &count);
   status = hk_frames_create(e->system, count, &e->kept);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
@@ -163,12 +179,36 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
                             is_checked(e, it) ? NAN : it->schedule.step, state, MOST_SEEN + 2);
 }
 
+/* States between frames may be shown, too, and were not checked. */
+static int32_t is_frame(const struct hk_estimate *e, const hooke_state *state, double frame) {
+  const double left = e->begin + e->duration - hooke_state_time(state);
+  return fabs(frame - round(frame)) <= 1e-9 * fmax(1.0, frame) || fabs(left) <= 1e-9 * e->duration;
+}
+
 static void keep(struct hk_estimate *e, const hooke_state *state) {
   const double t = hooke_state_time(state) - e->begin;
   if (fabs(t - (double)e->kept.recorded * e->apart) <= 1e-9 * e->duration) hk_frames_record(&e->kept, state);
   if (!(t + e->begin >= e->late_after) || t >= e->duration * (1.0 - 1e-9)) return;
   hooke_state_copy(state, e->late);
   e->late_after = NAN;
+}
+
+static int32_t see_motion(int64_t step, const hooke_state *state, void *estimate) {
+  struct hk_estimate *e = ((const hooke_measurement *)estimate)->object;
+  (void)step;
+  e->course.follows = 1;
+  hk_watched_run_see(&e->course, hooke_state_time(state), hooke_state_position(state),
+                     hooke_state_velocity(state));
+  return 0;
+}
+
+int32_t hooke_estimate_follow(hooke_measurement *m, hooke_integrator *it) {
+  if (m == NULL) return hk_integrator_on_motion(it, NULL, NULL);
+  const int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_follow");
+  if (status != HOOKE_OK) return status;
+  const struct hk_estimate *e = m->object;
+  if (it->system != e->system) return refuse_system();
+  return e->watched.count > 0 ? hk_integrator_on_motion(it, see_motion, m) : HOOKE_OK;
 }
 
 int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate) {
@@ -178,10 +218,14 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
   if (m->kind != &hk_estimate_kind || e->options == NULL) return 0;
   const int32_t status = hk_state_check_system(state, e->system);
   if (status != HOOKE_OK) return status;
+  const double frame = (hooke_state_time(state) - e->begin) / e->every;
+  if (is_frame(e, state, frame))
+    hk_watched_run_keep(&e->course, hooke_state_time(state), hooke_state_position(state),
+                        hooke_state_velocity(state));
+  if (!e->is_asked) return 0;
   e->work = hk_work_of(e->integrator);
   e->steps = (double)e->integrator->count.steps;
   keep(e, state);
-  const double frame = (hooke_state_time(state) - e->begin) / e->every;
   if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
     hk_soundness_see(&e->soundness, state);
     e->frames_seen += e->frames_apart;
@@ -231,7 +275,8 @@ static int measure_by_reference(struct hk_estimate *e) {
     e->by = "reference";
   }
   if (is_out_of_reach(e))
-    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
+    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g%s alone", r->agreement,
+             hk_metres(e->system));
   if (r->trusted == r->frames.count) return 1;
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
@@ -241,11 +286,14 @@ static int measure_by_reference(struct hk_estimate *e) {
   return 1;
 }
 
+static int32_t came_to_its_end(const struct hk_estimate *e, const hooke_state *state) {
+  return fabs(hooke_state_time(state) - (e->begin + e->duration)) <= 1e-9 * e->duration;
+}
+
 /* Why nothing is run again; NULL: it is. */
 static const char *find_obstacle(const struct hk_estimate *e, const hooke_state *state) {
-  const double end = e->begin + e->duration;
   if (e->resumed) return "the run was continued, and how wrong it was before is not known here";
-  if (fabs(hooke_state_time(state) - end) > 1e-9 * e->duration || e->kept.recorded < e->kept.count)
+  if (!came_to_its_end(e, state) || e->kept.recorded < e->kept.count)
     return "the run did not come to its end";
   return hk_system_calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;
 }
@@ -285,7 +333,7 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
   if (e->kept.recorded == e->kept.count - 1) hk_frames_record(&e->kept, state);
   e->rise = hk_soundness_rise(&e->soundness);
   struct hk_budget budget = hk_budget_of_work(BUDGET, NULL, NULL);
-  int32_t status = hk_soundness_find_limits(&e->soundness, &budget);
+  int32_t status = came_to_its_end(e, state) ? hk_soundness_find_limits(&e->soundness, &budget) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   if (isnan(e->first)) e->first = e->work;
   const char *obstacle = find_obstacle(e, state);
@@ -313,13 +361,21 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   if (e->options == NULL)
     return hk_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
-  return measure(e, state);
+  hk_watched_run_end(&e->course, hooke_state_time(state), hooke_state_position(state),
+                     hooke_state_velocity(state));
+  return e->is_asked ? measure(e, state) : HOOKE_OK;
 }
 
 /* ---- refining ---- */
 
 int32_t hk_estimate_knows_all(const struct hk_estimate *e) {
   return e->known_until >= e->begin + e->duration * (1.0 - 1e-9);
+}
+
+int32_t hk_estimate_saw_all(const struct hk_estimate *e) {
+  const double near = 1e-9 * e->duration;
+  return !e->resumed && e->course.follows && fabs(e->course.from - e->begin) <= near &&
+         fabs(e->course.until - e->begin - e->duration) <= near;
 }
 
 double hk_estimate_met(const struct hk_estimate *e) {
@@ -367,6 +423,7 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
 }
 
 const struct hk_measurement_kind hk_estimate_kind = {.name = "estimate",
+                                                     .takes_problems = 1,
                                                      .options = &options,
                                                      .tables = hk_estimate_tables,
                                                      .claim = hk_estimate_claim,

@@ -20,6 +20,9 @@ struct hk_estimate {
   double before;       /* error before refinement [m]; infinity at first */
   int32_t refined;     /* number of refinements */
 
+  struct hk_watched_list watched;
+  int32_t is_asked; /* 1: for the error, too, not for what is watched alone */
+
   /* the run */
   hooke_options *options;             /* copy of the integrator's */
   const hooke_integrator *integrator; /* valid while it runs */
@@ -29,6 +32,7 @@ struct hk_estimate {
   hooke_state *start;    /* its first state */
   struct hk_frames kept; /* recorded states of the run: frames `apart` [s], and its end */
   double apart;
+  struct hk_watched_run course; /* of what is watched */
   struct hk_soundness soundness;
   int64_t frames_apart; /* of the states that the soundness records */
   int64_t frames_seen;
@@ -54,6 +58,9 @@ void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *c
 int32_t hk_estimate_knows_all(const struct hk_estimate *estimate);
 /* 1 if the run meets the wanted error, 0 if not, NaN if that is unknown or none is wanted. */
 double hk_estimate_met(const struct hk_estimate *estimate);
+
+/* 1 if extremes of what is watched are over the whole run. */
+int32_t hk_estimate_saw_all(const struct hk_estimate *estimate);
 
 /* Step or tolerance in options of a run. */
 double hk_estimate_value(const hooke_options *options);

@@ -1,6 +1,9 @@
 /* What an estimate says of the error of a run. */
 #include "measure/estimate/estimate.h"
 
+#include "model/generalized.h"
+#include "model/particles.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -22,10 +25,12 @@ static const char *source_of(const char *by) {
 }
 
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
+  if (!e->is_asked) return;
+  const char *m = hk_metres(e->system), *what = e->system->generalized ? "number" : "particle";
   if (e->by)
     hk_claim(claims, "error", hk_estimate_knows_all(e) ? HOOKE_OF_WHOLE : HOOKE_OF_PART, e->by,
-             "the error is at most %.3g m until t = %.6g s, of any particle (root mean square %.2g m), %s",
-             e->error, e->known_until, e->rms, source_of(e->by));
+             "the error is at most %.3g%s until t = %.6g s, of any %s (root mean square %.2g%s), %s",
+             e->error, m, e->known_until, what, e->rms, m, source_of(e->by));
   else
     hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "", "the error is not known: %s", e->reason);
 }
@@ -33,14 +38,17 @@ static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
 static void tell_want(const struct hk_estimate *e, struct hk_claims *claims) {
   const double met = hk_estimate_met(e);
   const char *by = e->by ? e->by : "", *reason = e->by ? e->reason : "", *joint = reason[0] ? ": " : "";
+  const char *m = hk_metres(e->system);
   if (isnan(e->want)) return;
   if (met == 1.0)
-    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "that is within the wanted %.6g m", e->want);
+    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "that is within the wanted %.6g%s", e->want, m);
   else if (met == 0.0)
-    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "the wanted %.6g m are not met%s%s", e->want, joint, reason);
+    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "the wanted %.6g%s are not met%s%s", e->want, m, joint,
+             reason);
   else
     hk_claim(claims, "want", HOOKE_OF_UNKNOWN, by,
-             "nobody knows for all of the run whether the wanted %.6g m are met%s%s", e->want, joint, reason);
+             "nobody knows for all of the run whether the wanted %.6g%s are met%s%s", e->want, m, joint,
+             reason);
 }
 
 /* Energy that no part of the scene accounts for. */
@@ -59,6 +67,20 @@ static void tell_energy(const struct hk_estimate *e, struct hk_claims *claims) {
         100.0 * e->heat_excess);
 }
 
+/* Extremes of a run that stopped, diverged or was continued. */
+static void tell_watched(const struct hk_estimate *e, struct hk_claims *claims) {
+  if (e->course.result == NULL || hk_estimate_saw_all(e)) return;
+  if (e->course.follows && e->course.until > e->course.from)
+    hk_claim(
+        claims, "watched", HOOKE_OF_PART, "",
+        "smallest and largest values are those from t = %.6g s until t = %.6g s: of the rest of the run they "
+        "are not known",
+        e->course.from, e->course.until);
+  else
+    hk_claim(claims, "watched", HOOKE_OF_UNKNOWN, "",
+             "smallest and largest values are not known: no steps of the run were seen that are known to be good");
+}
+
 void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_estimate *e = measurement->object;
   tell_error(e, claims);
@@ -66,8 +88,9 @@ void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *c
   if (!isnan(e->last_error))
     hk_claim(
         claims, "last-piece", HOOKE_OF_PART, "half-step",
-        "%.2g m more or less at the end was made from t = %.6g s on: a part of an error that is not known",
-        e->last_error, e->last_from);
+        "%.2g%s more or less at the end was made from t = %.6g s on: a part of an error that is not known",
+        e->last_error, hk_metres(e->system), e->last_from);
   tell_energy(e, claims);
+  tell_watched(e, claims);
   if (e->reversal[0]) hk_claim(claims, "machine", HOOKE_OF_PART, "clock", "picked %s", e->reversal);
 }

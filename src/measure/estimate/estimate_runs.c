@@ -180,8 +180,8 @@ static int is_expected(const struct hk_estimate *e, double seen) {
 
 /* 1 if another step, `near`, gives another motion, as far as its size tells, where no order is seen. */
 static int is_lost(const struct hk_estimate *e, const struct level *near, const struct level *far) {
-  const double size = hk_diagonal(e->kept.recorded * e->kept.size / 3, e->kept.position);
-  return !isnan(far->factor) && isnan(far->from.most) && near->from.most > LOST * size;
+  return !isnan(far->factor) && isnan(far->from.most) &&
+         near->from.most > LOST * hk_frames_extent(&e->kept); /* a pass over all frames */
 }
 
 /* From the run `near`, at half the step, and `far`, at twice the step or unknown. */

@@ -13,6 +13,14 @@ static double memory_of(const struct hk_estimate *e) {
 HOOKE_READER(double, met, struct hk_estimate, hk_estimate_met(it))
 HOOKE_READER(double, memory_bytes, struct hk_estimate, memory_of(it))
 
+/* ---- what is watched ---- */
+
+HOOKE_COUNTER(count_watched, struct hk_estimate, it->course.result ? it->watched.count : 0)
+HOOKE_READER(const char *, quantity, struct hk_estimate, it->watched.item[row].text)
+HOOKE_READER(const char *, unit, struct hk_estimate, hk_watched_unit(&it->watched.item[row]))
+HOOKE_READER(double, from, struct hk_estimate, it->course.from)
+HOOKE_READER(double, until, struct hk_estimate, it->course.until)
+
 /* ---- the tables ---- */
 
 const struct hk_table hk_estimate_tables[] = {
@@ -58,4 +66,24 @@ const struct hk_table hk_estimate_tables[] = {
          HOOKE_COLUMN(struct hk_estimate, reversal, TEXT, "",
                       "the times on this machine of the two best picks, where they would reverse the "
                       "choice by more than 2"))},
+    {.name = "watched",
+     .doc = "what is watched",
+     .count = count_watched,
+     HOOKE_TABLE_AT(struct hk_estimate, course.result),
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY(quantity, TEXT, "", "quantity, as it was written"),
+         HOOKE_COLUMN_BY(unit, TEXT, "", "its unit"),
+         HOOKE_COLUMN(struct hk_watched_result, value, NUMBER, "of the quantity",
+                      "its value at the end; of a period that over the frames"),
+         HOOKE_COLUMN(
+             struct hk_watched_result, minimum, NUMBER, "of the quantity",
+             "its smallest value over all steps, between them that of a polynomial through five; with "
+             "cvode-bdf and cvode-adams over eight parts of every step"),
+         HOOKE_COLUMN(struct hk_watched_result, at_minimum, NUMBER, "s", "time of the smallest value"),
+         HOOKE_COLUMN(struct hk_watched_result, maximum, NUMBER, "of the quantity",
+                      "its largest value over all steps, likewise"),
+         HOOKE_COLUMN(struct hk_watched_result, at_maximum, NUMBER, "s", "time of the largest value"),
+         HOOKE_COLUMN_BY(from, NUMBER, "s", "time from which on smallest and largest values are known"),
+         HOOKE_COLUMN_BY(until, NUMBER, "s",
+                         "time until which they are known: the end of the run, or where it stopped"))},
     {.name = NULL}};

@@ -175,15 +175,16 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
                            struct hk_budget *budget) {
   const double accuracy = hooke_options_number(limit->options, "accuracy");
   const double *q = hooke_state_position((hooke_state *)state);
+  const double start = isnan(row->predicted) ? row->bound : row->predicted;
   struct hk_measured_limit m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
-  const int32_t status = nonlinear
-                             ? hk_limit_measure_nonlinear(limit->measurement->system, state, limit->run,
-                                                          row->method, row->predicted, accuracy, budget, &m)
-                             : hk_limit_measure(limit->system, q, hooke_state_velocity((hooke_state *)state),
-                                                limit->run, row->method, row->predicted,
-                                                row->has_mode ? row->mode : NULL, accuracy, budget, &m);
+  const int32_t status =
+      nonlinear
+          ? hk_limit_measure_nonlinear(limit->measurement->system, state, limit->run, row->method, start,
+                                       accuracy, budget, &m)
+          : hk_limit_measure(limit->system, q, hooke_state_velocity((hooke_state *)state), limit->run,
+                             row->method, start, row->has_mode ? row->mode : NULL, accuracy, budget, &m);
   if (status != HOOKE_OK) return status;
   row->measured = m.step;
   row->steps_run = (double)m.steps_run;
@@ -262,7 +263,7 @@ static int32_t see_steps(double done, const char *method, void *ctx) {
 /* The smallest prediction is that of the other frames. */
 static void note_unknown(struct hk_limit *limit, int64_t frames) {
   char note[96];
-  for (int32_t k = 0; k < limit->row_count && limit->system->mover_count > 0; k++) {
+  for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     if (row->unknown == 0) continue;
     snprintf(note, sizeof note, "along the run not known at %lld of %lld frames", (long long)row->unknown,

@@ -28,8 +28,10 @@ static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, do
   struct hk_prediction prediction = {.mode = mode};
   const int32_t status = hk_limit_rule(spectrum, row->method, &prediction);
   if (status != HOOKE_OK) return status;
-  /* a prediction of limited accuracy may come out below the bound, which is certain */
-  row->predicted = prediction.never_stable ? 0.0 : fmax(prediction.limit, row->bound);
+  /* a prediction of limited accuracy may come out below the bound, which is certain; NaN stays NaN */
+  row->predicted = prediction.never_stable         ? 0.0
+                   : prediction.limit < row->bound ? row->bound
+                                                   : prediction.limit;
   row->exact = prediction.exact;
   row->never_stable = prediction.never_stable;
   row->spins = prediction.spins;

@@ -187,6 +187,13 @@ static void tell_groups(const hooke_system *system, const struct hk_participatio
                         struct hk_suggestion *suggestion) {
   char *text = suggestion->sentence;
   const size_t size = sizeof suggestion->sentence;
+  const int32_t force = hk_participation_force(participation);
+  const struct hk_force_row *row = hk_force_table(force);
+  if (row && !row->members) {
+    hk_append(text, size, "%s limits the step, with %.0f %% of the limiting mode", row->title,
+              100.0 * participation->force_share[force]);
+    return;
+  }
   if (!(participation->stiffness_share > 0.0) && participation->spring_count == 0) {
     hk_append(text, size, "no spring limits the step");
     return;

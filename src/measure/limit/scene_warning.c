@@ -3,6 +3,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "model/force/curve.h"
 #include "model/part_record.h"
 #include "model/system.h"
 #include "model/vector3.h"
@@ -57,6 +58,17 @@ static void look_at_pairs(struct looking *l, int64_t first, int64_t count) {
   }
 }
 
+/* A curve of springs that only pull, cut off where it is above 0. */
+static void look_at_curve(struct looking *l, const struct hk_group *group, int64_t first, const char *shown) {
+  const double tension = group->curve ? hk_curve_law(group->curve, 0.0, 1.0).tension : 0.0;
+  if (group->pull_only && group->count > 0 && tension > 0.0)
+    tell(
+        l, "jump", first, -1,
+        "the tension of group \"%s\" jumps to 0 N where a spring is no longer than its rest length; the curve "
+        "has %.3g N there",
+        shown, tension);
+}
+
 static void look_at_groups(struct looking *l) {
   int64_t first = 0;
   char shown[HOOKE_OPTION_SHOWN];
@@ -67,10 +79,11 @@ static void look_at_groups(struct looking *l) {
     const int64_t count = springs ? group->count : 0;
     for (int64_t i = first; i < first + count; i++)
       stiff |= l->stiffness[i] > 0.0;
+    hk_option_show(group->name, (int64_t)strlen(group->name), shown);
+    look_at_curve(l, group, first, shown);
     if (group->from_part) {
       l->held[group->part] |= (uint8_t)stiff;
     } else {
-      hk_option_show(group->name, (int64_t)strlen(group->name), shown);
       if (!stiff && group->count + group->dropped > 0)
         tell(l, "no-stiffness", -1, -1, "group \"%s\" has no stiffness: it holds nothing together", shown);
       look_at_pairs(l, first, count);

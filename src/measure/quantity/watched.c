@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "measure/spectrum/naming.h"
+#include "model/force/drive.h"
 #include "model/part_record.h"
 #include "model/system.h"
 
@@ -18,6 +19,43 @@ struct reading {
   const hooke_system *system;
   const char *where, *whole;
 };
+
+/* ---- words ---- */
+
+static const struct hk_watched_word words[] = {
+    {"x", "m", HOOKE_WATCHED_PARTICLE, HOOKE_WATCHED_COORDINATE, 0},
+    {"y", "m", HOOKE_WATCHED_PARTICLE, HOOKE_WATCHED_COORDINATE, 1},
+    {"z", "m", HOOKE_WATCHED_PARTICLE, HOOKE_WATCHED_COORDINATE, 2},
+    {"reaction", "N", HOOKE_WATCHED_SUPPORT, HOOKE_WATCHED_REACTION, -1},
+    {"reaction_x", "N", HOOKE_WATCHED_SUPPORT, HOOKE_WATCHED_REACTION, 0},
+    {"reaction_y", "N", HOOKE_WATCHED_SUPPORT, HOOKE_WATCHED_REACTION, 1},
+    {"reaction_z", "N", HOOKE_WATCHED_SUPPORT, HOOKE_WATCHED_REACTION, 2},
+    {"length", "m", HOOKE_WATCHED_SPRING, HOOKE_WATCHED_LENGTH, -1},
+    {"strain", "", HOOKE_WATCHED_SPRING, HOOKE_WATCHED_STRAIN, -1},
+    {"tension", "N", HOOKE_WATCHED_SPRING, HOOKE_WATCHED_TENSION, -1},
+    {"energy", "J", HOOKE_WATCHED_SCENE, HOOKE_WATCHED_ENERGY, -1},
+    {"kinetic", "J", HOOKE_WATCHED_SCENE, HOOKE_WATCHED_KINETIC, -1},
+    {"potential", "J", HOOKE_WATCHED_SCENE, HOOKE_WATCHED_POTENTIAL, -1},
+};
+enum { WORDS = sizeof words / sizeof words[0] };
+
+/* How messages name what a word is of. */
+static const struct holder {
+  const char *before, *after;
+} holders[HOOKE_WATCHED_HOLDERS] = {
+    [HOOKE_WATCHED_PARTICLE] = {"0.", " (a particle, or its name, or part:0)"},
+    [HOOKE_WATCHED_SUPPORT] = {"0.", " (the support of a pinned or driven particle)"},
+    [HOOKE_WATCHED_SPRING] = {"group:0.", " (a spring; over the group: group:max or group:min)"},
+    [HOOKE_WATCHED_SCENE] = {"", ""},
+};
+
+/* NULL if there is none, of the scene or of anything else. */
+static const struct hk_watched_word *find_word(const char *text, int32_t of_scene) {
+  for (int k = 0; k < WORDS; k++)
+    if ((words[k].of == HOOKE_WATCHED_SCENE) == of_scene && strcmp(text, words[k].word) == 0)
+      return &words[k];
+  return NULL;
+}
 
 /* ---- names ---- */
 
@@ -87,13 +125,27 @@ static int64_t cut_index(char *text) {
 /* ---- failures ---- */
 
 static int32_t refuse(const struct reading *reading) {
+  char shown[HOOKE_OPTION_SHOWN], allowed[TEXT_SIZE] = "";
+  hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
+  for (int k = 0; k < WORDS; k++) {
+    const int first = k == 0 || words[k - 1].of != words[k].of;
+    const int last = k + 1 == WORDS || words[k + 1].of != words[k].of;
+    const struct holder *of = &holders[words[k].of];
+    const size_t used = strlen(allowed);
+    snprintf(allowed + used, sizeof allowed - used, "%s%s%s%s%s", k > 0 ? ", " : "", first ? of->before : "",
+             first || of->before[0] == '\0' ? "" : ".", words[k].word, last ? of->after : "");
+  }
+  return hk_fail(HOOKE_BAD_VALUE, reading->where,
+                 "\"%s\" is nothing to watch; allowed: %s, and period:0.y (of any of these); "
+                 "indices begin at 0",
+                 shown, allowed);
+}
+
+/* With what is wrong, and what is allowed. */
+static int32_t refuse_that(const struct reading *reading, const char *why, const char *allowed) {
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
-  return hk_fail(HOOKE_BAD_VALUE, reading->where,
-                 "\"%s\" is nothing to watch; allowed: 0.x, 0.y or 0.z (a particle, or its name), "
-                 "part:0.y, group:0.length, .strain or .tension (a spring), energy, "
-                 "kinetic, potential, and period:0.y (of any of these); indices begin at 0",
-                 shown);
+  return hk_fail(HOOKE_BAD_VALUE, reading->where, "\"%s\": %s; allowed: %s", shown, why, allowed);
 }
 
 static int32_t refuse_name(const struct reading *reading, const char *what, name_of *name) {
@@ -121,7 +173,6 @@ static int32_t read_particle(const struct reading *reading, char *text, struct h
   const hooke_system *system = reading->system;
   const char *end;
   const int64_t number = read_number(text, &end);
-  watched->kind = HOOKE_WATCHED_COORDINATE;
   watched->particle = number;
   if (number >= 0 && *end == '\0') {
     if (number < system->particle_count) return HOOKE_OK;
@@ -150,9 +201,44 @@ static int32_t refuse_gaps(const struct reading *reading, const struct hk_group 
                  shown, (long long)group->dropped, group->name);
 }
 
+static int32_t refuse_strain(const struct reading *reading) {
+  return refuse_that(reading, "a spring of rest length 0 has no strain", "length, tension");
+}
+
+static double rest_length(const hooke_system *system, int64_t spring) {
+  return hk_springs_find(system->springs, spring, HOOKE_AS_GIVEN).rest_length;
+}
+
+/* "line.stretch:max"; 1 if it ends like this, with the text truncated after the name. */
+static int cut_extreme(char *text, int32_t *smallest) {
+  char *colon = strrchr(text, ':');
+  if (colon == NULL) return 0;
+  *smallest = strcmp(colon, ":min") == 0;
+  if (!*smallest && strcmp(colon, ":max") != 0) return 0;
+  *colon = '\0';
+  return 1;
+}
+
+static int32_t check_extreme(const struct reading *reading, const char *name, struct hk_watched *watched) {
+  const hooke_system *system = reading->system;
+  int64_t count = 0, known = 0, unstrained = 0;
+  for (int64_t g = 0, first = 0; g < hk_system_groups_of(system, &hk_force_springs);
+       first += system->group[g++].count) {
+    if (name[0] == '\0' || strcmp(group_name(system, g), name) != 0) continue;
+    watched->group = system->group[g].name;
+    known = 1;
+    for (int64_t k = first; k < first + system->group[g].count; k++, count++)
+      unstrained += rest_length(system, k) == 0.0;
+  }
+  if (!known) return refuse_name(reading, "group of springs", group_name);
+  if (count == 0) return refuse_index(reading, name, "spring", 0);
+  return watched->what->kind == HOOKE_WATCHED_STRAIN && unstrained ? refuse_strain(reading) : HOOKE_OK;
+}
+
 /* "line.stretch:3"; groups that share a name are counted as one. */
 static int32_t read_spring(const struct reading *reading, char *text, struct hk_watched *watched) {
   const hooke_system *system = reading->system;
+  if (cut_extreme(text, &watched->smallest)) return check_extreme(reading, text, watched);
   int64_t index = cut_index(text), first = 0, count = 0, known = 0;
   if (index < 0) return refuse(reading);
   const int64_t asked = index;
@@ -167,38 +253,57 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
   }
   if (!known) return refuse_name(reading, "group of springs", group_name);
   if (asked >= count) return refuse_index(reading, text, "spring", count);
-  const struct hk_spring spring = hk_springs_find(system->springs, watched->spring, HOOKE_AS_GIVEN);
-  if (watched->kind != HOOKE_WATCHED_STRAIN || spring.rest_length > 0.0) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, reading->where,
-                 "%.80s:%lld.strain: a spring of rest length 0 has no strain; allowed: length, tension", text,
-                 (long long)asked);
+  const int strained =
+      watched->what->kind != HOOKE_WATCHED_STRAIN || rest_length(system, watched->spring) > 0.0;
+  return strained ? HOOKE_OK : refuse_strain(reading);
 }
 
-/* 1 if `text` is the word of one of three kinds from `first` on. */
-static int find_word(const char *text, enum hk_watched_kind first, enum hk_watched_kind *kind) {
-  static const char *const words[] = {"", "length", "strain", "tension", "energy", "kinetic", "potential"};
-  for (*kind = first; *kind < first + 3; ++*kind)
-    if (strcmp(text, words[*kind]) == 0) return 1;
-  return 0;
+static const struct hk_drive_group *find_drive(const hooke_system *system, int64_t particle) {
+  for (int64_t d = 0; d < system->drive_count; d++)
+    for (int64_t k = 0; k < system->drive[d].count; k++)
+      if (system->drive[d].particle[k] == particle) return &system->drive[d];
+  return NULL;
+}
+
+static int32_t read_support(const struct reading *reading, char *text, struct hk_watched *watched) {
+  const hooke_system *system = reading->system;
+  const int32_t status = read_particle(reading, text, watched);
+  if (status != HOOKE_OK) return status;
+  const int64_t p = watched->particle;
+  if (!system->constrained[p]) {
+    char held[NAMES_SIZE] = "none, since the scene holds none";
+    if (system->constrained_count > 0)
+      snprintf(held, sizeof held, "a pinned or driven one, such as %d", (int)system->constrained_particle[0]);
+    return refuse_that(reading, "the particle is free, and nothing supports it", held);
+  }
+  if (system->bodies->count > 0 && system->bodies->of[p] >= 0)
+    return refuse_that(reading, "the particle is part of a rigid body, whose inner forces are not known",
+                       "particles of no body");
+  const struct hk_drive_group *drive = find_drive(system, p);
+  if (drive && drive->callback && !system->overdamped)
+    return refuse_that(reading, "the particle is driven by a callback, whose acceleration is not known",
+                       "particles that are pinned, or driven by a sine or a table");
+  watched->course = drive && !system->overdamped ? &drive->course : NULL;
+  return HOOKE_OK;
 }
 
 /* `text` is modified. */
 static int32_t read_quantity(const struct reading *reading, char *text, struct hk_watched *watched) {
+  static int32_t (*const read[])(const struct reading *, char *,
+                                 struct hk_watched *) = {read_particle, read_support, read_spring};
   static const char period[] = "period:";
   if (strncmp(text, period, sizeof period - 1) == 0) {
     watched->is_period = 1;
     text += sizeof period - 1;
     if (strncmp(text, period, sizeof period - 1) == 0) return refuse(reading);
   }
-  if (find_word(text, HOOKE_WATCHED_ENERGY, &watched->kind)) return HOOKE_OK;
+  watched->what = find_word(text, 1);
+  if (watched->what) return HOOKE_OK;
   char *dot = strrchr(text, '.');
-  if (dot == NULL) return refuse(reading);
+  watched->what = dot ? find_word(dot + 1, 0) : NULL;
+  if (watched->what == NULL) return refuse(reading);
   *dot = '\0';
-  const char *what = dot + 1;
-  if (find_word(what, HOOKE_WATCHED_LENGTH, &watched->kind)) return read_spring(reading, text, watched);
-  if (what[0] < 'x' || what[0] > 'z' || what[1]) return refuse(reading);
-  watched->axis = what[0] - 'x';
-  return read_particle(reading, text, watched);
+  return read[watched->what->of](reading, text, watched);
 }
 
 /* ---- lists ---- */
@@ -250,6 +355,17 @@ int32_t hk_watched_read(struct hk_watched_list *list, const char *where, const c
   }
   while (status != HOOKE_OK && list->count > had)
     hk_free(list->item[--list->count].text);
+  return status;
+}
+
+int32_t hk_watched_read_over_time(struct hk_watched_list *list, const char *where, const char *text) {
+  const int32_t status = hk_watched_read(list, where, text);
+  for (int64_t k = 0; status == HOOKE_OK && k < list->count; k++) {
+    const char *one = list->item[k].text;
+    if (list->item[k].is_period)
+      return hk_fail(HOOKE_BAD_VALUE, where, "%.80s is one number of a whole run; over time there is %.80s",
+                     one, strchr(one, ':') + 1);
+  }
   return status;
 }
 

@@ -1,25 +1,69 @@
 /* Values of watched quantities, the period of one, and all of them over the frames of a run. */
 #include "core/memory.h"
 #include "measure/quantity/watched.h"
-#include "model/particles.h"
+#include "model/force/drive.h"
+#include "model/system.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>
 
 const char *hk_watched_unit(const struct hk_watched *watched) {
-  static const char *const unit[] = {
-      [HOOKE_WATCHED_COORDINATE] = "m", [HOOKE_WATCHED_LENGTH] = "m", [HOOKE_WATCHED_STRAIN] = "",
-      [HOOKE_WATCHED_TENSION] = "N",    [HOOKE_WATCHED_ENERGY] = "J", [HOOKE_WATCHED_KINETIC] = "J",
-      [HOOKE_WATCHED_POTENTIAL] = "J"};
-  return watched->is_period ? "s" : unit[watched->kind];
+  return watched->is_period ? "s" : watched->what->unit;
 }
 
-double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, double t,
-                        const double *q, const double *v) {
+/* ---- of springs ---- */
+
+static double value_of_spring(enum hk_watched_kind kind, const hooke_system *system, int64_t number, double t,
+                              const double *q, const double *v) {
+  const struct hk_spring spring = hk_springs_find(system->springs, number, t);
   struct hk_stretch s;
-  switch (watched->kind) {
+  hk_spring_stretch(&spring, q, v, &s);
+  if (kind == HOOKE_WATCHED_LENGTH) return s.length;
+  const double rest = spring.rest_length;
+  return kind == HOOKE_WATCHED_STRAIN ? (s.length - rest) / rest : s.tension;
+}
+
+static double value_over_group(const struct hk_watched *watched, const hooke_system *system, double t,
+                               const double *q, const double *v) {
+  const double sign = watched->smallest ? -1.0 : 1.0;
+  double most = -INFINITY;
+  for (int64_t g = 0, first = 0; g < hk_system_groups_of(system, &hk_force_springs);
+       first += system->group[g++].count) {
+    const char *name = system->group[g].name;
+    if (name == NULL || strcmp(name, watched->group) != 0) continue;
+    for (int64_t k = first; k < first + system->group[g].count; k++) {
+      const double value = sign * value_of_spring(watched->what->kind, system, k, t, q, v);
+      if (!(value <= most)) most = value;
+      if (isnan(value)) return NAN;
+    }
+  }
+  return sign * most;
+}
+
+/* ---- of supports ---- */
+
+/* `force`: of all particles, by hooke_system_force(), which is without the weight of this one. */
+static double value_of_support(const struct hk_watched *watched, const hooke_system *system, double t,
+                               const double *force) {
+  const int64_t p = watched->particle;
+  const int32_t axis = watched->what->axis;
+  double a[3] = {0.0}, reaction[3];
+  if (watched->course) hk_course_acceleration(watched->course, t, a);
+  hk_support_reaction(system, p, a, force + 3 * p, reaction);
+  return axis < 0 ? hk_length3(reaction) : reaction[axis];
+}
+
+/* ---- of all ---- */
+
+/* `force`: NULL without memory for them. */
+static double value_of(const struct hk_watched *watched, const hooke_system *system, double t,
+                       const double *q, const double *v, const double *force) {
+  switch (watched->what->kind) {
   case HOOKE_WATCHED_COORDINATE:
-    return q[3 * watched->particle + watched->axis];
+    return q[3 * watched->particle + watched->what->axis];
+  case HOOKE_WATCHED_REACTION:
+    return force ? value_of_support(watched, system, t, force) : NAN;
   case HOOKE_WATCHED_ENERGY:
     return hooke_system_energy_at(system, "total", t, q, v);
   case HOOKE_WATCHED_KINETIC:
@@ -29,11 +73,33 @@ double hk_watched_value(const struct hk_watched *watched, const hooke_system *sy
   default:
     break;
   }
-  const struct hk_spring spring = hk_springs_find(system->springs, watched->spring, t);
-  hk_spring_stretch(&spring, q, v, &s);
-  if (watched->kind == HOOKE_WATCHED_LENGTH) return s.length;
-  const double rest = spring.rest_length;
-  return watched->kind == HOOKE_WATCHED_STRAIN ? (s.length - rest) / rest : s.tension;
+  return watched->group ? value_over_group(watched, system, t, q, v)
+                        : value_of_spring(watched->what->kind, system, watched->spring, t, q, v);
+}
+
+static void values_of(int64_t count, const struct hk_watched *watched, const hooke_system *system, double t,
+                      const double *q, const double *v, double *value) {
+  double *force = NULL;
+  int32_t some = 0;
+  for (int64_t k = 0; k < count; k++)
+    some |= watched[k].what->kind == HOOKE_WATCHED_REACTION;
+  if (some) force = hk_new(3 * system->particle_count, sizeof(double));
+  const int32_t known = force && hooke_system_force(system, t, q, v, force) == HOOKE_OK;
+  for (int64_t k = 0; k < count; k++)
+    value[k] = value_of(&watched[k], system, t, q, v, known ? force : NULL);
+  hk_free(force);
+}
+
+double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, double t,
+                        const double *q, const double *v) {
+  double value;
+  values_of(1, watched, system, t, q, v, &value);
+  return value;
+}
+
+void hk_watched_values(const struct hk_watched_list *list, double t, const double *q, const double *v,
+                       double *value) {
+  values_of(list->count, list->item, list->system, t, q, v, value);
 }
 
 /* ---- periods ---- */
@@ -50,8 +116,7 @@ static double mean_of(int64_t count, const double *time, const double *value) {
   return sum / (time[count - 1] - time[0]);
 }
 
-/* Lagrange's polynomial through `points` of a series at time t. */
-static double interpolate(int points, const double *time, const double *value, double t) {
+double hk_interpolate(int points, const double *time, const double *value, double t) {
   double sum = 0.0;
   for (int i = 0; i < points; i++) {
     double weight = 1.0;
@@ -69,7 +134,7 @@ static double passage(int64_t count, const double *time, const double *value, in
   for (int k = 0; k < BISECTIONS; k++) {
     const double middle = 0.5 * (low + high);
     const int points = (int)(last - first) + 1;
-    if (interpolate(points, time + first, value + first, middle) < level)
+    if (hk_interpolate(points, time + first, value + first, middle) < level)
       low = middle;
     else
       high = middle;
@@ -111,9 +176,10 @@ int32_t hk_watched_series_create(const struct hk_watched_list *list, int64_t fra
                                  struct hk_watched_series *series) {
   *series = (struct hk_watched_series){.list = NULL};
   if (list == NULL || list->count == 0) return HOOKE_OK;
-  double *block = hk_new(list->count, ((size_t)frames + 1) * sizeof(double));
+  double *block = hk_new(list->count, ((size_t)frames + 2) * sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
-  *series = (struct hk_watched_series){list, frames, block, block + list->count * frames};
+  double *figure = block + list->count * frames;
+  *series = (struct hk_watched_series){list, frames, block, figure, figure + list->count};
   hk_watched_series_clear(series);
   return HOOKE_OK;
 }
@@ -130,9 +196,17 @@ void hk_watched_series_clear(struct hk_watched_series *series) {
 
 void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, double t, const double *q,
                             const double *v) {
+  if (series->list == NULL) return;
+  hk_watched_values(series->list, t, q, v, series->now);
   for (int64_t k = 0; k < count_of(series); k++)
-    hk_watched_series_of(series, k)[frame] =
-        hk_watched_value(&series->list->item[k], series->list->system, t, q, v);
+    hk_watched_series_of(series, k)[frame] = series->now[k];
+}
+
+double hk_watched_series_last(const struct hk_watched_series *series, int64_t quantity, int64_t frames,
+                              const double *time) {
+  const double *value = hk_watched_series_of(series, quantity);
+  if (series->list->item[quantity].is_period) return hk_watched_period(frames, time, value);
+  return frames > 0 ? value[frames - 1] : NAN;
 }
 
 /* The start alone says nothing. */

@@ -66,7 +66,7 @@ static int32_t largest_step(struct hk_pick *pick, const char *method, const doub
                             double *largest) {
   *bound = INFINITY;
   int32_t status = hooke_step_bound(pick->system, method, q, bound);
-  if (status == HOOKE_OK && isnan(*bound) && hk_step_is_bounded(method)) {
+  if (status == HOOKE_OK && isnan(*bound) && !pick->system->generalized && hk_step_is_bounded(method)) {
     struct hk_budget budget = hk_budget_of_work(LIMITS_SHARE * LEAST_WORK, NULL, NULL);
     double limit = 0.0;
     status = hk_limit_sure(pick->system, q, NULL, method, &budget, &limit);

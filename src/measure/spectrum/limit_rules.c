@@ -171,6 +171,7 @@ static int32_t predicted(struct hk_spectrum *s, struct hk_prediction *out) {
   }
   if (s->linearised->unknowns > HOOKE_SPECTRUM_DAMPED) {
     out->limit = NAN;
+    out->exact = 0;
     out->note = TOO_LARGE;
     return HOOKE_OK;
   }

@@ -63,7 +63,7 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, double t, const double *
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
   if (blocks->budget) hk_budget_spend(blocks->budget, hk_work_of_pass(system));
-  blocks->unknown = v == NULL && hk_system_is_not_linear(system);
+  blocks->unknown = system->generalized || (v == NULL && hk_system_is_not_linear(system));
   struct hk_element room;
   struct hk_elements at;
   hk_begin_elements(system, t, q, NULL, &at);

@@ -7,6 +7,8 @@
 #include "core/status.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/recommend/pick.h"
+#include "model/generalized.h"
+#include "model/particles.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
@@ -142,6 +144,7 @@ static int32_t find_change(struct hk_study *study, enum hk_study_change change, 
 static int32_t find_margin(struct hk_study *study) {
   const double work = fmax(WORK, RUNS * study->reference.work) / HOOKE_STUDY_CHANGES;
   study->under_way = "margin";
+  if (study->m->system->generalized) return HOOKE_OK; /* no limit, stiffness or direction is known of it */
   int32_t status = find_limit_share(study, &study->recommendation);
   for (int k = 0; k < HOOKE_STUDY_CHANGES && status == HOOKE_OK; k++)
     status = find_change(study, (enum hk_study_change)k, work);
@@ -219,6 +222,7 @@ static void keep_closest_row(struct hk_study *study) {
 static void explain(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
   const int picked = r->method >= 0;
+  const char *m = hk_metres(study->m->system);
   if (!picked) keep_closest_row(study);
   if (study->budget_spent && (r->method < 0 || (!picked && study->late))) {
     hk_print(r->note, sizeof r->note, "the budget of %g s ended before a run was found; give a larger one",
@@ -227,15 +231,15 @@ static void explain(struct hk_study *study) {
     explain_no_rows(study);
   } else if (r->want <= study->reference.agreement) {
     hk_print(r->note, sizeof r->note,
-             "%.3g m is below %.3g m, to which the reference itself is known; want more than that", r->want,
-             study->reference.agreement);
+             "%.3g%s is below %.3g%s, to which the reference itself is known; want more than that", r->want,
+             m, study->reference.agreement, m);
   } else if (!picked) {
     hk_print(r->note, sizeof r->note,
-             "no run of these methods is clear of its stability limit; the closest row is %.3g m off",
-             r->error);
+             "no run of these methods is clear of its stability limit; the closest row is %.3g%s off",
+             r->error, m);
   } else {
-    hk_print(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
-             r->error,
+    hk_print(r->note, sizeof r->note, "no run comes within %.3g%s; the closest is %.3g%s off; %s", r->want, m,
+             r->error, m,
              study->budget_spent ? "a larger budget would try finer steps"
                                  : "finer steps or tighter tolerances, or other methods, might");
   }
@@ -328,7 +332,7 @@ int32_t hooke_study_recommend(hooke_measurement *m, double want) {
   if (study->reference.frames.count == 0)
     return hk_fail(HOOKE_BAD_CALL, NULL,
                    "the study has not been run yet; call hooke_measurement_run() first");
-  if (!(want > 0.0)) return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
+  if (!(want > 0.0)) return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 is", want);
   /* the budget starts anew */
   study->begun = hk_clock_seconds();
   study->deadline = study->begun + study->budget;

@@ -7,6 +7,7 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "model/generalized.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -36,11 +37,9 @@ static const struct hk_option_row study_rows[] = {
         "error that one can live with, the largest distance of any free particle, for a recommendation"),
     HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
                  "time that the study may take; no limit if not given"),
-    HOOKE_OPTION(
-        "watch", .type = HOOKE_OPTION_TEXT, NULL,
-        "quantities whose error is told too: 57.y or tip.y (a particle), part:0.y, group:3.length, .strain "
-        "or .tension (a spring), energy, kinetic, potential, or period:57.y, separated by commas",
-        .example = "0.y,energy"),
+    HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
+                 "quantities whose values and errors are told too: " HOOKE_WATCHED_FORMS,
+                 .example = "0.y,energy"),
     HOOKE_OPTION("ensemble", HOOKE_OPTION_WHOLE(0.0, 1e6), "0",
                  "displaced starts of which each method's means and spreads are told where the motion is too "
                  "chaotic to be judged; 0: none"),
@@ -69,6 +68,12 @@ static int32_t read_times(struct hk_study *study) {
 
 static int32_t read_watch(struct hk_study *study) {
   const char *text = hooke_options_text(study->m->options, "watch");
+  const char *const of_scenes[] = {"watch", "ensemble"};
+  for (int k = 0; k < 2; k++) {
+    if (!hooke_options_is_set(study->m->options, of_scenes[k])) continue;
+    const int32_t status = hk_system_require_scene(study->m->system, of_scenes[k], "");
+    if (status != HOOKE_OK) return status;
+  }
   study->watched.system = study->m->system;
   if (hooke_options_number(study->m->options, "ensemble") == 1.0) {
     return hk_fail(HOOKE_BAD_VALUE, "ensemble",
@@ -168,6 +173,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 
 const struct hk_measurement_kind hk_study_kind = {
     .name = "study",
+    .takes_problems = 1,
     .options = &study_table,
     .needs_run = 1,
     .tables = hk_study_tables,

@@ -3,6 +3,9 @@
 
 #include "core/print.h"
 
+#include "model/generalized.h"
+#include "model/particles.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -18,6 +21,8 @@ struct teller {
   int32_t all;         /* 1: that is the whole run */
   enum hk_claim_of of; /* what claims of the recommendation are true of, else of errors */
   char where[48];      /* " up to 9 s" where that is a part */
+  const char *m;       /* after a length */
+  const char *forces;  /* that are evaluated */
 };
 
 #define say(teller, key, of, by, ...) hk_claim((teller)->claims, key, of, by, __VA_ARGS__)
@@ -52,12 +57,12 @@ static void tell_closest(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
   char run[SETTING_SIZE];
   say(t, "recommendation", isnan(r->error) ? HOOKE_OF_UNKNOWN : t->of, "reference",
-      "no run is recommended for an error of at most %.6g m%s: %s", r->want, t->where, r->note);
+      "no run is recommended for an error of at most %.6g%s%s: %s", r->want, t->m, t->where, r->note);
   if (r->method < 0) return;
   say(t, "closest", t->of, "reference",
-      "the closest is %s: its error%s is %.3g m%s, with %.0f evaluations of the forces",
-      name_run(t->study, run), t->where, r->error,
-      r->error <= r->want ? ", but nothing is known of its margin" : "", r->force_evaluations);
+      "the closest is %s: its error%s is %.3g%s%s, with %.0f evaluations of the %s", name_run(t->study, run),
+      t->where, r->error, t->m, r->error <= r->want ? ", but nothing is known of its margin" : "",
+      r->force_evaluations, t->forces);
   tell_time(t);
 }
 
@@ -72,16 +77,17 @@ static void tell_change(const struct teller *t, const char *key, const char *cha
     say(t, key, HOOKE_OF_UNKNOWN, "reference",
         "%s: no longer, a run did not come to its end or was not judged", change);
   else
-    say(t, key, t->of, "reference", "%s: %s, its error%s is %.3g m then", change,
-        held == 1.0 ? "still at most that" : "no longer", t->where, error);
+    say(t, key, t->of, "reference", "%s: %s, its error%s is %.3g%s then", change,
+        held == 1.0 ? "still at most that" : "no longer", t->where, error, t->m);
 }
 
 static void tell_margin(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
   const double fraction = r->margin.limit_share;
   say(t, "margin", t->of, "reference",
-      "that error%s lies between %.3g and %.3g m, by what the reference is known to", t->where,
-      hk_study_least_error(t->study), r->error + t->study->reference.agreement);
+      "that error%s lies between %.3g and %.3g%s, by what the reference is known to", t->where,
+      hk_study_least_error(t->study), r->error + t->study->reference.agreement, t->m);
+  if (t->study->m->system->generalized) return;
   if (fraction > 0.0 && !isinf(fraction))
     say(t, "stability", HOOKE_OF_PART, "limit", "its step is %.2g of the largest stable one at the start",
         fraction);
@@ -102,10 +108,10 @@ static void tell_recommendation(const struct teller *errors) {
     return;
   }
   say(t, "recommendation", t->of, "reference",
-      "the cheapest run found whose error is at most %.6g m%s is %s: its error is %.3g m, with %.0f evaluations of "
-      "the forces%s",
-      r->want, t->all ? " over the whole run" : t->where, name_run(t->study, run), r->error,
-      r->force_evaluations, t->all ? "" : "; of what comes later nothing is known");
+      "the cheapest run found whose error is at most %.6g%s%s is %s: its error is %.3g%s, with %.0f evaluations of "
+      "the %s%s",
+      r->want, t->m, t->all ? " over the whole run" : t->where, name_run(t->study, run), r->error, t->m,
+      r->force_evaluations, t->forces, t->all ? "" : "; of what comes later nothing is known");
   tell_time(t);
   if (r->note[0]) say(t, "machine", HOOKE_OF_WHOLE, "clock", "%s", r->note);
   tell_margin(t);
@@ -123,8 +129,7 @@ static const char *why_not_all(const struct hk_study *study) {
     return "its two runs part after that, even in the shortest steps that it takes";
   if (r->growth_seen > CHAOTIC)
     return "this motion is chaotic: small differences grow so much that its two runs part after that even "
-           "where rounding alone sets them apart, and where the particles are later cannot be computed to the "
-           "wanted digits";
+           "where rounding alone sets them apart, and what comes later cannot be computed to the wanted digits";
   return "its two runs part after that, although differences do not grow much: rounding keeps them "
          "from the wanted digits even at their tightest tolerances";
 }
@@ -148,16 +153,17 @@ static void tell_growth(const struct teller *t) {
 static void tell_floor(const struct teller *t) {
   const struct hk_reference *r = &t->study->reference;
   const double step = 2.0 * hk_reference_setting(r, r->method, r->rtol);
-  char check[160];
+  char check[160], energy[64] = "";
   if (hk_reference_is_halved(r))
     hk_print(check, sizeof check,
              "itself in steps of %.6g s, twice as long: an error that both make alike is not seen", step);
   else
-    hk_print(check, sizeof check, "%s, which shares nothing with it but the forces", r->check);
+    hk_print(check, sizeof check, "%s, which shares nothing with it but the %s", r->check, t->forces);
+  if (!isnan(r->energy_agreement))
+    hk_print(energy, sizeof energy, ", and no energy drift below %.3g J", r->energy_agreement);
   say(t, "floor", t->of, "reference",
-      "no error below %.3g m means anything%s, and no energy drift below %.3g J: to that the reference, by %s, "
-      "agrees with %s",
-      r->agreement, t->where, r->energy_agreement, r->method, check);
+      "no error below %.3g%s means anything%s%s: to that the reference, by %s, agrees with %s", r->agreement,
+      t->m, t->where, energy, r->method, check);
 }
 
 static void tell_reference(const struct teller *t) {
@@ -177,9 +183,9 @@ static void tell_reference(const struct teller *t) {
     say(t, "reference", HOOKE_OF_WHOLE, "reference", "errors are known over the whole run, %.6g s",
         study->duration);
   else
-    say(t, "reference", HOOKE_OF_PART, "reference",
-        "errors and energy drift are known up to %.6g s of %.6g s: %s", t->until, study->duration,
-        why_not_all(study));
+    say(t, "reference", HOOKE_OF_PART, "reference", "%s known up to %.6g s of %.6g s: %s",
+        study->m->system->generalized ? "errors are" : "errors and energy drift are", t->until,
+        study->duration, why_not_all(study));
   if (!isnan(r->agreement)) tell_floor(t);
   tell_growth(t);
   if (r->frames.zero_passages[0])
@@ -208,7 +214,11 @@ static void tell_ensemble(const struct teller *t) {
 
 void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_study *study = measurement->object;
-  struct teller t = {.study = study, .claims = claims};
+  const hooke_system *system = measurement->system;
+  struct teller t = {.study = study,
+                     .claims = claims,
+                     .m = hk_metres(system),
+                     .forces = hk_is_first_order(system) ? "rate" : "forces"};
   stand_until(&t, hk_study_trusted_until(study));
   tell_recommendation(&t);
   tell_reference(&t);

@@ -95,6 +95,9 @@ HOOKE_READER(double, error_high, struct hk_study, it->recommendation.error + it-
 
 HOOKE_COUNTER(count_watched, struct hk_study, it->reference.frames.watched.list ? it->watched.count : 0)
 HOOKE_READER(const char *, watched_unit, struct hk_study, hk_watched_unit(&it->watched.item[row]))
+HOOKE_READER(double, reference_end, struct hk_study,
+             hk_watched_series_last(&it->reference.frames.watched, row, it->reference.trusted,
+                                    it->reference.frames.time))
 HOOKE_READER(double, agreement, struct hk_study, it->reference.frames.watched.figure[row])
 HOOKE_READER(const double *, watched_value, struct hk_study,
              hk_watched_series_of(&it->reference.frames.watched, row))
@@ -110,6 +113,9 @@ HOOKE_READER(double, row_number, struct hk_study, (double)(row / count_watched(i
 HOOKE_READER(const char *, error_quantity, struct hk_study, it->watched.item[row % count_watched(it)].text)
 HOOKE_READER(const char *, error_unit, struct hk_study,
              hk_watched_unit(&it->watched.item[row % count_watched(it)]))
+HOOKE_READER(double, row_end, struct hk_study,
+             hk_watched_series_last(series_of(it, row), row % count_watched(it), it->reference.trusted,
+                                    it->reference.frames.time))
 HOOKE_READER(double, error, struct hk_study, series_of(it, row)->figure[row % count_watched(it)])
 HOOKE_READER(const double *, error_value, struct hk_study,
              hk_watched_series_of(series_of(it, row), row % count_watched(it)))
@@ -350,6 +356,8 @@ const struct hk_table hk_study_tables[] = {
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
          HOOKE_COLUMN_BY_AS(watched_unit, unit, TEXT, "", "its unit"),
+         HOOKE_COLUMN_BY(reference_end, NUMBER, "of the quantity",
+                         "the reference's value at the last trusted frame; of a period that until then"),
          HOOKE_COLUMN_BY(agreement, NUMBER, "of the quantity",
                          "twice the largest difference in it between the two runs of the "
                          "reference, the floor of its errors"),
@@ -368,6 +376,8 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN_ALONG(OUTER, row_number, row, COUNT, "", "row of the table \"rows\""),
          HOOKE_COLUMN_ALONG(INNER, error_unit, unit, TEXT, "", "unit of the quantity"),
          HOOKE_COLUMN_ALONG(INNER, error_quantity, quantity, TEXT, "", "watched quantity"),
+         HOOKE_COLUMN_BY_AS(row_end, at_end, NUMBER, "of the quantity",
+                            "its value at the last trusted frame; of a period that until then"),
          HOOKE_COLUMN_BY(error, NUMBER, "of the quantity",
                          "the largest difference from the reference over the frames that are trusted; of "
                          "a period that of the two periods over these, NaN with fewer than two passages "

@@ -59,14 +59,16 @@ void hk_reference_release(struct hk_reference *reference) {
   memset(reference, 0, sizeof *reference);
 }
 
-/* Before any run: the start alone, and 1 m for a scene without size. */
+/* Before any run: the start alone, of a problem its largest coordinate; 1 m for a scene without size. */
 static void find_extent(struct hk_reference *r, const hooke_state *state) {
   const double *q = hooke_state_position(state);
-  r->extent = hk_diagonal(hooke_state_size(state) / 3, q);
-  if (!(r->extent > 0.0)) r->extent = 1.0;
-  r->farthest = r->extent;
+  const hooke_system *system = r->frames.system;
+  double most = 0.0;
   for (int64_t k = 0; k < hooke_state_size(state); k++)
-    r->farthest = fmax(r->farthest, fabs(q[k]));
+    most = fmax(most, fabs(q[k]));
+  r->extent = system->generalized ? most : hk_diagonal(hooke_state_size(state) / 3, q);
+  if (!(r->extent > 0.0)) r->extent = 1.0;
+  r->farthest = fmax(most, r->extent);
 }
 
 /* ---- agreement ---- */
@@ -81,7 +83,8 @@ static void trust(struct hk_reference *r, const struct hk_trial *check, double d
     r->agreement = fmax(r->agreement, apart);
     r->energy_agreement = fmax(r->energy_agreement, SAFETY * fabs(check->drift_at[r->trusted]));
   }
-  if (r->trusted < 2) r->agreement = r->energy_agreement = NAN;
+  if (r->trusted < 2) r->agreement = NAN;
+  if (r->trusted < 2 || r->frames.system->generalized) r->energy_agreement = NAN;
 }
 
 /* If the wanted digits are out of reach from the first frame on, as many as possible. */
@@ -260,9 +263,9 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
                              .coarse = 1};
   int32_t status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) status = choose_method(system, hooke_state_position(state), &r->method);
+  if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK) find_extent(r, state);
   hooke_state_destroy(state);
-  if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK)
     status = hk_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
   if (status == HOOKE_OK && hk_reference_is_halved(r))

@@ -43,11 +43,11 @@ struct displacement {
 static void displace(hooke_state *state, void *ctx) {
   struct displacement *d = ((struct hk_reference_watch *)ctx)->displacement;
   const struct hk_frames *frames = &d->base->frames;
-  const int64_t size = 3 * frames->free_count;
+  const int64_t w = frames->width, size = w * frames->free_count;
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   d->square = 0.0;
   for (int64_t k = 0; k < size; k++) {
-    const int64_t i = 3 * frames->free_particle[k / 3] + k % 3;
+    const int64_t i = w * frames->free_place[k / w] + k % w;
     const int all = d->coordinate < 0;
     const double x = all ? hk_random_normal(&d->random) : (double)(k == d->coordinate);
     const double y = all ? hk_random_normal(&d->random) : (double)(k + size == d->coordinate);
@@ -61,11 +61,11 @@ static void displace(hooke_state *state, void *ctx) {
 static int32_t keep_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
   const struct displacement *d = ((struct hk_reference_watch *)ctx)->displacement;
   const struct hk_frames *frames = &d->base->frames;
-  const int64_t size = 3 * frames->free_count;
+  const int64_t w = frames->width, size = w * frames->free_count;
   (void)step;
   if (d->kept == NULL || frame >= frames->recorded) return 0;
   for (int64_t k = 0; k < size; k++) {
-    const int64_t i = 3 * frames->free_particle[k / 3] + k % 3;
+    const int64_t i = w * frames->free_place[k / w] + k % w;
     d->kept[frame * size + k] =
         (hooke_state_position(state)[i] - frames->position[frame * frames->size + i]) / d->length;
   }
@@ -143,7 +143,8 @@ static double singular_value(int64_t rows, int64_t columns, int64_t stride, cons
 }
 
 static double largest_singular_value(const struct hk_frames *frames, const double *kept) {
-  const int64_t rows = 3 * frames->free_count, columns = 2 * rows, stride = frames->recorded * rows;
+  const int64_t rows = frames->width * frames->free_count, columns = 2 * rows,
+                stride = frames->recorded * rows;
   uint64_t random = SEED;
   double largest = 0.0;
   for (int64_t f = 0; f < frames->recorded; f++) {
@@ -158,7 +159,7 @@ static double largest_singular_value(const struct hk_frames *frames, const doubl
 static int32_t displace_all(struct hk_reference_watch *watch, struct hk_reference *r, struct displacement *d,
                             double deadline, struct hk_trial *trial) {
   const struct hk_frames *frames = &d->base->frames;
-  const int64_t columns = 6 * frames->free_count, stride = frames->recorded * columns / 2;
+  const int64_t columns = 2 * frames->width * frames->free_count, stride = frames->recorded * columns / 2;
   double *kept = hk_new(columns * stride, sizeof *kept);
   int32_t status = kept ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (d->coordinate = 0; d->coordinate < columns && status == HOOKE_OK; d->coordinate++) {
@@ -180,7 +181,7 @@ static int32_t displace_all(struct hk_reference_watch *watch, struct hk_referenc
 
 static int takes_all(const struct hk_reference_watch *watch, const struct hk_reference *base,
                      double deadline) {
-  const int64_t columns = 6 * base->frames.free_count;
+  const int64_t columns = 2 * base->frames.width * base->frames.free_count;
   if (columns > MOST_COORDINATES || columns * columns / 2 * base->frames.recorded > ROOM) return 0;
   const double left = deadline - hk_reference_now(watch), work = (double)columns * base->run_work;
   return work <= fmin(0.5 * left, fmax(COORDINATES_WORK, COORDINATES_SHARE * watch->work));

@@ -105,7 +105,7 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
   r->run_extent = r->extent;
   r->run_work = cost->work;
   if (watch->unit == 0.0) watch->unit = hk_clock_seconds() - watch->run_begun;
-  const double size = hk_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
+  const double size = hk_frames_extent(&r->frames);
   if (size > 0.0) r->extent = size;
   return HOOKE_OK;
 }
@@ -202,6 +202,7 @@ int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_re
   r->check = by_explicit <= by_implicit ? "rk8pd" : "arkode-esdirk";
   /* of order 2 alone, but it comes to an end */
   if (status != HOOKE_OK || !isinf(by_explicit) || !isinf(by_implicit)) return status;
+  if (!hk_method_suits("tr-bdf2", r->frames.system)) return HOOKE_OK;
   r->check = "tr-bdf2";
   return hk_reference_find_longest(watch, r, r->check);
 }

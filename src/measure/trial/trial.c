@@ -6,6 +6,8 @@
 #include "integrate/loop/run_loop.h"
 #include "measure/counted_work/work.h"
 #include "model/coordinates/coordinates.h"
+#include "model/generalized.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -16,11 +18,12 @@
 
 int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  *frames = (struct hk_frames){.system = system, .count = count, .size = size};
+  const int32_t width = system->generalized ? 1 : 3;
+  *frames = (struct hk_frames){.system = system, .count = count, .size = size, .width = width};
   double *block = hk_new(count, (size_t)(size + 3) * sizeof(double));
   frames->time = block;
-  frames->free_particle = hk_new(hooke_system_count(system, "free"), sizeof(int64_t));
-  if (block == NULL || frames->free_particle == NULL) {
+  frames->free_place = hk_new(hooke_system_count(system, "free") * (3 / width), sizeof(int64_t));
+  if (block == NULL || frames->free_place == NULL) {
     hk_frames_release(frames);
     return HOOKE_NO_MEMORY;
   }
@@ -28,16 +31,21 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
   frames->energy = hk_part(&block, count);
   frames->rounding = hk_part(&block, count);
   frames->position = block;
-  for (int64_t p = 0; p < system->particle_count; p++)
-    if (system->inverse_mass[p] > 0.0) frames->free_particle[frames->free_count++] = p;
+  for (int64_t p = 0; p < hk_system_numbers(system) / width; p++)
+    if (system->generalized || system->inverse_mass[p] > 0.0) frames->free_place[frames->free_count++] = p;
   return HOOKE_OK;
 }
 
 void hk_frames_release(struct hk_frames *frames) {
   hk_free(frames->time);
-  hk_free(frames->free_particle);
+  hk_free(frames->free_place);
   hk_watched_series_release(&frames->watched);
   memset(frames, 0, sizeof *frames);
+}
+
+static double energy_of(const hooke_system *system, const hooke_state *state) {
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  return system->generalized ? NAN : hooke_system_energy_at(system, "total", hooke_state_time(state), q, v);
 }
 
 void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
@@ -45,18 +53,19 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
   const int64_t f = frames->recorded++;
   const double *q = hooke_state_position(state);
   frames->time[f] = hooke_state_time(state);
-  frames->energy[f] =
-      hooke_system_energy_at(frames->system, "total", frames->time[f], q, hooke_state_velocity(state));
+  frames->energy[f] = energy_of(frames->system, state);
   hk_watched_series_keep(&frames->watched, f, frames->time[f], q, hooke_state_velocity(state));
   if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
 }
 
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest) {
   const double *reference = frames->position + f * frames->size;
+  const int32_t wide = frames->width == 3;
   double sum = 0.0, most = 0.0;
   for (int64_t k = 0; k < frames->free_count; k++) {
-    const int64_t i = 3 * frames->free_particle[k];
-    const double dx = q[i] - reference[i], dy = q[i + 1] - reference[i + 1], dz = q[i + 2] - reference[i + 2];
+    const int64_t i = frames->width * frames->free_place[k];
+    const double dx = q[i] - reference[i], dy = wide ? q[i + 1] - reference[i + 1] : 0.0,
+                 dz = wide ? q[i + 2] - reference[i + 2] : 0.0;
     const double square = (dx * dx + dy * dy) + dz * dz;
     sum += square;
     most = fmax(most, square);
@@ -65,10 +74,25 @@ double hk_frames_distance(const struct hk_frames *frames, int64_t f, const doubl
   return frames->free_count > 0 ? sqrt(sum / (double)frames->free_count) : 0.0;
 }
 
+double hk_frames_extent(const struct hk_frames *frames) {
+  const int64_t size = frames->size, all = frames->recorded * size;
+  double most = 0.0;
+  if (frames->width == 3) return hk_diagonal(all / 3, frames->position);
+  for (int64_t i = 0; i < size && frames->recorded > 0; i++) {
+    double low = frames->position[i], high = low;
+    for (int64_t k = i; k < all; k += size) {
+      low = fmin(low, frames->position[k]);
+      high = fmax(high, frames->position[k]);
+    }
+    most = fmax(most, high - low);
+  }
+  return most;
+}
+
 double hk_frames_resolution(const struct hk_frames *frames, const double *q) {
   double most = 0.0;
   for (int64_t k = 0; k < frames->free_count; k++)
-    for (const double *x = q + 3 * frames->free_particle[k], *end = x + 3; x < end; x++)
+    for (const double *x = q + frames->width * frames->free_place[k], *end = x + frames->width; x < end; x++)
       most = fmax(most, fabs(*x));
   return 0.5 * (nextafter(most, INFINITY) - most);
 }
@@ -151,9 +175,7 @@ static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   trial->rounding = rounding;
   trial->error_at[f] = fmax(rounding, hk_frames_distance(run->reference, f, q, &largest));
   trial->error_max_at[f] = fmax(rounding, largest);
-  trial->drift_at[f] = hooke_system_energy_at(run->reference->system, "total", hooke_state_time(state), q,
-                                              hooke_state_velocity(state)) -
-                       run->reference->energy[f];
+  trial->drift_at[f] = energy_of(run->reference->system, state) - run->reference->energy[f];
   hk_watched_series_keep(&trial->watched, f, hooke_state_time(state), q, hooke_state_velocity(state));
   trial->error = fmax(trial->error, trial->error_at[f]);
   trial->error_max = fmax(trial->error_max, trial->error_max_at[f]);
@@ -250,6 +272,7 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
                   : status == HOOKE_DIVERGED ? "diverged"
                   : status == HOOKE_STOPPED  ? "stopped"
                                              : "failed";
+  if (reference->system->generalized) trial->energy_drift = NAN;
   if (status == HOOKE_OK)
     hk_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
   return too_long || hk_trial_gave_up(status) ? HOOKE_OK : status;

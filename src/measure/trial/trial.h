@@ -12,12 +12,13 @@
 struct hk_frames {
   const hooke_system *system;
   int64_t count, size; /* frames, and numbers in a position (3n) */
+  int32_t width;       /* numbers of a place whose distance is judged: 3, or 1 of a problem of coordinates */
   int64_t recorded;    /* frames recorded so far */
   double *time;        /* count [s] */
-  double *energy;      /* count [J] */
+  double *energy;      /* count [J]; NaN of a problem of coordinates */
   double *position;    /* count x size [m] */
   double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
-  int64_t *free_particle, free_count;      /* errors are measured over these */
+  int64_t *free_place, free_count;         /* particles, or coordinates: errors are measured over these */
   struct hk_watched_series watched;        /* empty unless created */
   char zero_passages[HOOKE_PASSAGES_TOLD]; /* of their run: see hooke_integrator_text() */
 };
@@ -32,6 +33,10 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
 /* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance
  * too. */
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
+
+/* How large the motion is that was recorded: the diagonal of the box that holds all positions [m], or the
+ * largest range of a coordinate; 0 without a motion. */
+double hk_frames_extent(const struct hk_frames *frames);
 
 /* What the positions q can hold [m]: half a unit in the last place of the largest coordinate of a free
  * particle. */

@@ -438,7 +438,7 @@ static int32_t judge_divergence(struct hk_inquiry *inquiry) {
   return HOOKE_OK;
 }
 
-/* Adds to the sentence that springs had coincident ends at the start. */
+/* Adds to the sentence that springs had coincident ends at the start, or particles were at a centre. */
 static void tell_coincident(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   char *text = inquiry->why->sentence;
@@ -448,7 +448,7 @@ static void tell_coincident(struct hk_inquiry *inquiry) {
   const int64_t count = q ? hooke_system_coincident_springs(inquiry->system, q) : 0;
   if (count > 0)
     hk_append(text, sizeof inquiry->why->sentence,
-              "; %lld springs began with both ends at one place, without a direction", (long long)count);
+              "; %lld springs or contacts began at one place, without a direction", (long long)count);
 }
 
 static void tell_falling(struct hk_inquiry *inquiry) {

@@ -158,7 +158,7 @@ static const double VELOCITY_ROUNDING = 1e-9;
 static void find_nearest(const hooke_system *system, const struct hk_body *body, double *q, double *v) {
   double own[HOOKE_BODY_NUMBERS];
   if (body->moves) {
-    hk_body_read_rows(body, system->position, system->velocity, own);
+    hk_body_read_rows(body, hk_start_position(system), system->velocity, own);
     hk_body_fit(system, body, own);
   }
   for (int64_t k = 0; k < body->count; k++)

@@ -5,6 +5,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "model/particles.h"
+#include "model/start.h"
 #include "model/vector3.h"
 
 #include <math.h>
@@ -287,11 +288,12 @@ void hk_body_pin_if_still(hooke_system *system, const struct hk_body *body) {
 
 void hk_body_fit(const hooke_system *system, const struct hk_body *body, double *own) {
   struct hk_sum momentum[3] = {{0.0, 0.0}}, spin[3] = {{0.0, 0.0}};
+  const double *q = hk_start_position(system);
   for (int64_t k = 0; k < body->count; k++) {
     if (!is_free(system, body, k)) continue;
     const double *v = system->velocity + 3 * (int64_t)body->particle[k], m = system->mass[body->particle[k]];
     double d[3], turning[3];
-    subtract(row(system, body, k), own + HOOKE_BODY_POINT, d);
+    subtract(q + 3 * (int64_t)body->particle[k], own + HOOKE_BODY_POINT, d);
     hk_cross3(d, v, turning);
     for (int a = 0; a < 3; a++) {
       hk_sum_add(&momentum[a], m * v[a]);

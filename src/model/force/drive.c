@@ -4,6 +4,7 @@
 #include "core/status.h"
 #include "model/system.h"
 
+#include <math.h>
 #include <string.h>
 
 void hk_drive_release(struct hk_drive_group *drive) {
@@ -106,4 +107,45 @@ int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const i
   if (status != HOOKE_OK) return status;
   struct hk_drive_group drive = {.count = count, .callback = callback, .ctx = ctx};
   return append_drive(system, drive, particles);
+}
+
+/* ---- supports ---- */
+
+void hk_support_reaction(const hooke_system *system, int64_t p, const double a[3], const double f[3],
+                         double reaction[3]) {
+  const int32_t inert = !system->overdamped || system->has_gravity;
+  const double factor = system->gravity_factor ? system->gravity_factor[p] : 1.0;
+  for (int k = 0; k < 3; k++)
+    reaction[k] = (inert ? system->mass[p] * (a[k] - factor * system->gravity[k]) : 0.0) - f[k];
+}
+
+/* In place of the forces. */
+static void add_driven(const hooke_system *system, const struct hk_drive_group *drive, double t,
+                       double *reaction) {
+  double a[3] = {0.0};
+  if (drive->callback && !system->overdamped)
+    a[0] = a[1] = a[2] = NAN;
+  else if (!system->overdamped)
+    hk_course_acceleration(&drive->course, t, a);
+  for (int64_t k = 0; k < drive->count; k++) {
+    double *at = reaction + 3 * (int64_t)drive->particle[k];
+    hk_support_reaction(system, drive->particle[k], a, at, at);
+  }
+}
+
+int32_t hooke_system_reaction(const hooke_system *system, double t, const double *q, const double *v,
+                              double *reaction) {
+  static const double rest[3];
+  const int32_t status = hooke_system_force(system, t, q, v, reaction);
+  if (status != HOOKE_OK) return status;
+  for (int64_t d = 0; d < system->drive_count; d++)
+    add_driven(system, &system->drive[d], t, reaction);
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    double *at = reaction + 3 * p;
+    const int32_t in_body = system->bodies->count > 0 && system->bodies->of[p] >= 0;
+    if (system->constrained[p] == HOOKE_IS_PINNED) hk_support_reaction(system, p, rest, at, at);
+    for (int k = 0; k < 3; k++)
+      at[k] = !system->constrained[p] ? 0.0 : in_body ? (double)NAN : at[k];
+  }
+  return HOOKE_OK;
 }

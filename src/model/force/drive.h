@@ -18,6 +18,11 @@ struct hk_drive_group {
  * callback. */
 int32_t hk_drive_evaluate(const struct hk_drive_group *drive, double t, double *q, double *v);
 
+/* Reaction of the support of a particle with the acceleration a, on which the forces f of
+ * hooke_system_force() act, which are without its own weight. `reaction` may be f. */
+void hk_support_reaction(const hooke_system *system, int64_t particle, const double a[3], const double f[3],
+                         double reaction[3]);
+
 void hk_drive_release(struct hk_drive_group *drive);
 
 #endif

@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-/* An overdamped system has no inertia. */
+/* An overdamped system has no inertia; v may be NULL, at rest. */
 static double kinetic_energy(const hooke_system *system, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
-  if (system->overdamped) return 0.0;
+  if (system->overdamped || v == NULL) return 0.0;
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
     const double square = (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2];

@@ -344,6 +344,15 @@ int64_t hk_obstacles_untouched(const hooke_system *system, double t, const doubl
   return -1;
 }
 
+int64_t hk_obstacles_without_direction(const hooke_system *system, double t, const double *q) {
+  struct walk walk = {.system = system, .t = t};
+  struct contact c;
+  int64_t count = 0;
+  for (int64_t p; (p = next(&walk)) >= 0;)
+    count += find_depth(&walk.at, q + 3 * p, &c) < 0;
+  return count;
+}
+
 /* ---- derivatives ---- */
 
 /* Change of the normal as a particle moves by dq. */

@@ -8,6 +8,7 @@
 #include "model/check_value.h"
 #include "model/force/force.h"
 #include "model/sum/tiled.h"
+#include "model/system.h"
 #include "model/vector3.h"
 
 #include <math.h>
@@ -478,3 +479,15 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .elements = elements,
                                               .stored_elements = stored_elements,
                                               .add_stiffness = add_stiffness};
+
+int32_t hooke_system_tension(const hooke_system *system, double t, const double *q, const double *v,
+                             double *tension) {
+  const int32_t status = hk_system_require_committed(system);
+  for (int64_t k = 0; status == HOOKE_OK && k < system->springs->count; k++) {
+    const struct hk_spring spring = hk_springs_find(system->springs, k, t);
+    struct hk_stretch s;
+    hk_spring_stretch(&spring, q, v, &s);
+    tension[k] = s.tension;
+  }
+  return status;
+}

@@ -28,6 +28,9 @@ struct hk_obstacles {
  * -1 if there is none. `number` becomes that of the obstacle. */
 int64_t hk_obstacles_untouched(const struct hooke_system *system, double t, const double *q, int64_t *number);
 
+/* Free particles at the centre or on the axis of an obstacle at time t, where there is no direction. */
+int64_t hk_obstacles_without_direction(const struct hooke_system *system, double t, const double *q);
+
 void hk_obstacles_release(struct hk_obstacles *obstacles);
 
 #endif

@@ -252,6 +252,7 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) maker.made->rest->memory_limit = from->rest->memory_limit;
   if (status == HOOKE_OK) maker.made->overdamped = from->overdamped;
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
+  if (status == HOOKE_OK) status = hk_start_copy(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);
   if (status == HOOKE_OK) status = copy_names(&maker);

@@ -1,5 +1,6 @@
 /* Particles of a variant: parts from their options, with changes, and the others one by one. */
 #include "model/group.h"
+#include "model/start.h"
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -124,6 +125,7 @@ static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
 /* Adds those from `first` to before `end`, which belong to no part. */
 static int32_t add_alone(struct hk_variant_maker *maker, int64_t first, int64_t end) {
   const hooke_system *from = maker->from;
+  const double *given = hk_undeformed_position(from);
   int32_t status = HOOKE_OK;
   while (first < end && status == HOOKE_OK) {
     int64_t stop = first;
@@ -131,7 +133,7 @@ static int32_t add_alone(struct hk_variant_maker *maker, int64_t first, int64_t 
       stop++;
     int64_t added = 0;
     if (stop > first) {
-      status = hooke_system_add_particles(maker->made, stop - first, from->position + 3 * first,
+      status = hooke_system_add_particles(maker->made, stop - first, given + 3 * first,
                                           from->velocity ? from->velocity + 3 * first : NULL, stop - first,
                                           from->mass + first, &added);
     }

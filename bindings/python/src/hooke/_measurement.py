@@ -124,6 +124,10 @@ class Measurement:
         """A text; empty if there is none."""
         return text(lib.hooke_measurement_text(self.handle, table.encode(), row, column.encode()))
 
+    def unit(self, table: str, column: str) -> str:
+        """That of a column; empty if it has none here."""
+        return text(lib.hooke_measurement_unit(self.handle, table.encode(), column.encode()))
+
     def series(self, table: str, row: int, column: str) -> FloatArray | None:
         """A series as an array of its own; None if there is none."""
         count = ctypes.c_int64()

@@ -215,6 +215,16 @@ class Queries(Problem):
         """Acceleration of every particle (n, 3) [m/s^2], zero where pinned or driven."""
         return self._filled(lib.hooke_system_acceleration, None, t, q=q, v=v)
 
+    def tension(self, q: Any, v: Any, t: float = 0.0) -> FloatArray:
+        """Tension of every spring (m,) [N], with damping: positive where it pulls its ends together, 0 where a spring that
+        only pulls is slack."""
+        return self._filled(lib.hooke_system_tension, self.spring_count, t, q=q, v=v)
+
+    def reaction(self, q: Any, v: Any, t: float = 0.0) -> FloatArray:
+        """Force of the support of every particle (n, 3) [N]: m a - f where it is pinned or driven, with its own weight in f,
+        and 0 where it is free. NaN in a rigid body, and of a drive by a callback."""
+        return self._filled(lib.hooke_system_reaction, None, t, q=q, v=v)
+
     def derivative_product(self, q: Any, v: Any, dq: Any, dv: Any, t: float = 0.0) -> FloatArray:
         """(df/dq) dq + (df/dv) dv of the force, (n, 3)."""
         return self._filled(lib.hooke_system_derivative_product, None, t, q=q, v=v, dq=dq, dv=dv)
@@ -235,8 +245,8 @@ class Queries(Problem):
         return blocks
 
     def coincident_springs(self, q: Any) -> int:
-        """Number of springs whose ends coincide although their rest length is not zero: they have no direction and no
-        force."""
+        """Number of springs whose ends coincide although their rest length is not zero, and of particles at the centre or on
+        the axis of an obstacle, as it is at time 0: they have no direction and no force."""
         return int(lib.hooke_system_coincident_springs(self._committed(), self._argument(q, "q")))
 
     # energies

@@ -3,7 +3,9 @@ reproduce from their scenes."""
 
 from __future__ import annotations
 
+import csv
 import ctypes
+import importlib
 import os
 import pathlib
 import warnings
@@ -17,7 +19,7 @@ from ._look import WorkProgress
 from ._measurement import Claim, Measurement, Record, said
 from ._memory import Handle, double_pointer
 from ._status import BadValue
-from ._types import FloatArray, Path
+from ._types import FloatArray, Path, Table
 from .options import Options
 from .scene import limits_of
 
@@ -39,6 +41,23 @@ def numbers(record: Handle, what: str) -> FloatArray:
     found = np.empty((rows.value, columns.value))
     lib.hooke_record_numbers(record, name, double_pointer(found))
     return found[:, 0] if columns.value == 1 else found
+
+
+def read_probes(path: Path) -> Table:
+    """A structured array of what a file of probes holds."""
+    if not os.fsdecode(path).endswith(".csv"):
+        try:
+            h5py: Any = importlib.import_module("h5py")
+        except ImportError:
+            raise ImportError("probes in HDF5 are read by h5py, which is not installed: pip install h5py") from None
+        with h5py.File(path) as file:
+            return np.asarray(file["probes"][:])
+    with open(path, encoding="utf-8", newline="") as lines:
+        names, *rows = csv.reader(lines)
+    found = np.empty(len(rows), [(name, float) for name in names])
+    for name, column in zip(names, zip(*rows)):
+        found[name] = [float(value or "nan") for value in column]
+    return found
 
 
 class Written(Protocol):

@@ -31,6 +31,7 @@ class Problem(Owner):
     """A problem that `hooke.run` takes."""
 
     _what: str  #: what it is, for messages
+    _shown: dict[str, Any]  #: how `State` shows its states, where it has no particles
     #: hooke.run, which is above all problems and so sets this itself.
     _run_by: Callable[..., Result]
 
@@ -61,6 +62,7 @@ class FirstOrder(Problem):
         shape = self._x0.shape
         self._rate = _callback.on_arrays(RATE, phi, 1, lambda _: shape, self._x0.dtype)
         self._callbacks = [self._rate]
+        self._shown = {"dtype": self._x0.dtype, "in_rows": False, "moves": False}
 
     def state(self) -> State:
         """The initial state: t = 0, x = x0."""
@@ -69,6 +71,9 @@ class FirstOrder(Problem):
     def _integrator(self, options: Options) -> Handle:
         given = self._size, self._rate, None, options._handle
         return Handle.made(None, lib.hooke_integrator_create_first_order, *given)
+
+    def _posed(self) -> Handle:
+        return Handle.made(None, lib.hooke_system_create_first_order, self._rate, None, self.state()._handle)
 
     def __repr__(self) -> str:
         return f"FirstOrder({self._x0.size} unknowns)"
@@ -90,6 +95,7 @@ class SecondOrder(Problem):
     """
 
     _what = "a second-order problem"
+    _shown = {"in_rows": False}
 
     def __init__(
         self,
@@ -119,6 +125,11 @@ class SecondOrder(Problem):
         masses = self._inverse_mass.size, double_pointer(self._inverse_mass)
         given = self._size, self._force, self._derivative, None, *masses, options._handle
         return Handle.made(None, lib.hooke_integrator_create_second_order, *given)
+
+    def _posed(self) -> Handle:
+        masses = self._inverse_mass.size, double_pointer(self._inverse_mass)
+        given = self._force, self._derivative, None, *masses, self.state()._handle
+        return Handle.made(None, lib.hooke_system_create_second_order, *given)
 
     def __repr__(self) -> str:
         return f"SecondOrder({self._size} coordinates)"

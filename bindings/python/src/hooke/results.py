@@ -18,7 +18,7 @@ import ctypes
 import itertools
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
 
@@ -28,17 +28,17 @@ from ._callback import stop_value
 from ._library import lib
 from ._look import WorkProgress, draw, shown
 from ._measurement import Claim, Measurement, Record, said
-from ._prototypes import TRAJECTORY
+from ._prototypes import PROBES, TRAJECTORY
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
-from .files import numbers, opened, run_options, view, write_companion
+from .files import numbers, opened, read_probes, run_options, view, write_companion
 from .integrator import BLOWN_UP, Integrator, Observer
 from .options import Options
 from .problems import FirstOrder, SecondOrder
 from .problems import Problem as Base
 from .scene import Scene
 from .state import State
-from .system import Force, System, system_of
+from .system import Force, System, posed, system_of
 from .why import Why
 
 #: Problems that are no scene: a system, or a first- or second-order problem.
@@ -72,9 +72,11 @@ class Result:
 
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
     the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
-    returned by the callback that stopped the run, `output` the file that was written. `integrator` is kept if the run
-    blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and `claims` what is
-    said of it, which ``print(result)`` shows.
+    returned by the callback that stopped the run, `output` the file that was written, `probes_file` that of probes.
+    `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and
+    `claims` what is said of it, which ``print(result)`` shows. `watched` is a table of what was watched, a row a quantity,
+    with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
+    `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early.
     """
 
     status: str
@@ -91,12 +93,26 @@ class Result:
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
     error: RunError | None = None
     claims: tuple[Claim, ...] = ()
+    probes_file: Path | None = None
+    watched: Table | None = None
 
     @property
     def diagnosis(self) -> str:
         """The cause of an early end of the run, with place and time, in a sentence or two; "" if it did not end
         early. ``hooke.why(result)`` has the rest."""
         return "" if self.integrator is None else self.integrator.diagnosis
+
+    @property
+    def probes(self) -> Table:
+        """What was probed, from the file that was written: a structured array with the field "time" [s] and one for each
+        quantity, a row a time. An HDF5 file needs h5py."""
+        if self.probes_file is None:
+            raise BadValue('probes: nothing was probed; run with probe="energy", probes="energy.csv"')
+        return read_probes(self.probes_file)
+
+    def to_pandas(self) -> Any:
+        """The probes as a pandas data frame; pandas has to be installed."""
+        return draw("notebook.data_frame", self.probes)
 
     @property
     def system(self) -> System:
@@ -132,6 +148,10 @@ def run(
     on_step: tuple[int, Observer] | None = None,
     want: Length | None = None,
     estimate: bool = False,
+    watch: str | None = None,
+    probe: str | None = None,
+    probe_every: float | str | None = None,
+    probes: Path | None = None,
     **options: Any,
 ) -> Result:
     """Runs a scene (or the path of one), a system, or a first- or second-order problem, and returns the `Result`.
@@ -147,14 +167,30 @@ def run(
     ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance such that no frame has a larger error,
     runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice.
     ``estimate=True`` estimates the error of the run after it. The result's `error` holds it.
+
+    ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the largest
+    over all steps, in the result's `watched`.
+
+    ``probe="57.y,energy"`` writes these quantities, in the grammar of `watch`, into the file `probes` (.csv or .h5) while
+    the run goes: a line every `probe_every` [s], which is that of frames if None. The result's `probes` reads them.
     """
     scene, problem, wanted = resolve(problem, force, options)
-    once = _Once(problem, scene, output, frames, progress, on_frame, on_step)
-    if want is None and not estimate:
-        return once.run(wanted, problem.state() if state is None else state)
-    if state is not None:
+    once = _Once(problem, scene, output, frames, progress, on_frame, on_step, probe, probe_every, probes)
+    start = problem.state() if state is None else state
+    asked = want is not None or estimate
+    if not asked and watch is None:
+        return once.run(wanted, start)
+    if asked and state is not None:
         raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
-    return _run_to_want(once, system_of(problem, "want"), wanted, options, want)
+    if output is not None:
+        system_of(problem, "output")
+    system = posed(problem) if watch is None else system_of(problem, "watch")
+    wish = want.strip() if isinstance(want, str) else want
+    chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=asked)
+    measurement = Measurement.create("estimate", system, None, chosen)
+    if not asked:
+        return once.run(wanted, start, measurement, judged=False)
+    return _run_to_want(once, measurement, system, wanted, options, want)
 
 
 @dataclass(frozen=True)
@@ -168,8 +204,11 @@ class _Once:
     progress: Progress | bool | None
     on_frame: Observer | None
     on_step: tuple[int, Observer] | None
+    probe: str | None
+    probe_every: float | str | None
+    probes: Path | None
 
-    def run(self, options: Options, state: State, estimate: Measurement | None = None) -> Result:
+    def run(self, options: Options, state: State, estimate: Measurement | None = None, judged: bool = True) -> Result:
         integrator = Integrator(self.problem, options)
         integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
@@ -178,20 +217,43 @@ class _Once:
             watchers.append(recorder)
         if estimate is not None:
             lib.hooke_estimate_begin(estimate.handle, integrator._handle, state._handle)
+            lib.hooke_estimate_follow(estimate.handle, integrator._handle)
             seen = estimate.handle
             watchers.append(lambda step, state: lib.hooke_estimate_see(step, state._handle, seen))
         with shown(self.progress, fills=False) as tell:  # a run may end early
             if tell is not None:
                 last, numbers = max(integrator.frame_count - 1, 1), itertools.count()
                 watchers.append(lambda step, state: tell(next(numbers) / last, state))
-            status = self._integrate(integrator, state, watchers)
-        result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None)
+            with self._probing(integrator):
+                status = self._integrate(integrator, state, watchers)
+        result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None, self.probes)
         if estimate is None:
             return result
+        lib.hooke_estimate_follow(None, integrator._handle)
         estimate.run(None, state)
+        watched = estimate.rows("watched") if estimate.count("watched") > 0 else None
+        result = replace(result, watched=watched, claims=tuple(estimate.each(Claim, "claims")))
+        if not judged:
+            return result
         if self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
-        return replace(result, error=estimate.one(RunError, "estimate"), claims=tuple(estimate.each(Claim, "claims")))
+        return replace(result, error=estimate.one(RunError, "estimate"))
+
+    @contextlib.contextmanager
+    def _probing(self, integrator: Integrator) -> Iterator[None]:
+        """Writes probes meanwhile; why that failed precedes what came of it."""
+        if self.probe is None and self.probe_every is None and self.probes is None:
+            yield
+            return
+        if self.probe is None or self.probes is None:
+            raise BadValue("probe: names quantities, and probes the file that they go into; give both")
+        options, file = Options._of("probes").set(probe=self.probe, probe_every=self.probe_every), PROBES()
+        path = os.fsencode(self.probes)
+        lib.hooke_probes_create(integrator._handle, options._handle, path, ctypes.byref(file))
+        try:
+            yield
+        finally:
+            lib.hooke_probes_close(file)
 
     def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
         if self.output is None:
@@ -203,12 +265,10 @@ class _Once:
 
 
 def _run_to_want(
-    once: _Once, system: System, options: Options, given: dict[str, Any], want: Length | None
+    once: _Once, estimate: Measurement, system: System, options: Options, given: dict[str, Any], want: Length | None
 ) -> Result:
     """Runs; with a wanted error, picks a method and its step or tolerance, keeping a method that is among those `given`,
     and repeats until the error is met or nothing finer is known to help."""
-    chosen = Options._of("estimate").set(want=want.strip() if isinstance(want, str) else want, callbacks=True)
-    estimate = Measurement.create("estimate", system, None, chosen)
     if want is not None:
         named = [name for name in _CHOSEN if given.get(name) is not None]
         if named:
@@ -216,8 +276,11 @@ def _run_to_want(
         method = given.get("method")
         with estimate.listening(None):
             lib.hooke_estimate_pick(estimate.handle, None if method is None else method.encode(), options._handle)
+    watched = replace(once, problem=system)
     while True:
-        result = once.run(options, system.state(), estimate)
+        result = watched.run(options, system.state(), estimate)
+        if system is not once.problem:  # its states are those of the problem, too
+            result = replace(result, problem=once.problem, state=result.state.copy())
         met = result.error is None or result.error.met
         if want is None or result.status != "finished" or met:
             return result
@@ -294,7 +357,12 @@ def why(
 
 
 def _result(
-    status: str, integrator: Integrator, state: State, output: Path | None, frames: Frames | None
+    status: str,
+    integrator: Integrator,
+    state: State,
+    output: Path | None,
+    frames: Frames | None,
+    probes: Path | None = None,
 ) -> Result:
     names = ("message", "options", "counts", "wall_seconds", "diverged_at", "stop_value")
     return Result(
@@ -303,6 +371,7 @@ def _result(
         problem=integrator._problem,
         frames=frames,
         output=output,
+        probes_file=probes,
         integrator=integrator if integrator.outcome in BLOWN_UP else None,
         **{name: getattr(integrator, name) for name in names},
     )
@@ -331,7 +400,7 @@ def measured(
     chosen = Options._of(kind)
     chosen.set(**{name: given.pop(name) for name in list(given) if name in chosen})
     scene, found, options = resolve(problem, force, given)
-    system, threads = system_of(found, kind), options["threads"]
+    system, threads = posed(found) if kind == "study" else system_of(found, kind), options["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
     made = Measurement.create(kind, system, options, chosen)

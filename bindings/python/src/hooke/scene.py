@@ -37,7 +37,8 @@ class Scene(Parts, Problem):
 
     `gravity` (3,) [m/s^2]; `drag` [N s/m], ``f = -c (v - u)``, and `quadratic_drag` [kg/m],
     ``f = -c |v - u| (v - u)``, one number or one a particle; `wind` u (3,) [m/s], or a dict of `time` (samples,) [s] and
-    `velocity` (samples, 3); `dynamics` is "inertial" or "overdamped" (see `System.dynamics`); `run` are defaults for
+    `velocity` (samples, 3); `start`, a dict of `position` (n, 3) [m] and, unless at rest, `velocity` (n, 3) [m/s]: where
+    all particles start, if not undeformed; `dynamics` is "inertial" or "overdamped" (see `System.dynamics`); `run` are defaults for
     runs of the scene, see `run_defaults`.
     """
 
@@ -49,6 +50,7 @@ class Scene(Parts, Problem):
         drag: Numbers | None = None,
         quadratic_drag: Numbers | None = None,
         wind: Numbers | Mapping[str, Numbers] | None = None,
+        start: Mapping[str, Numbers] | None = None,
         dynamics: str | None = None,
         run: Mapping[str, Any] | None = None,
     ):
@@ -58,12 +60,14 @@ class Scene(Parts, Problem):
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] = {"hooke": 1}
         own = Options.for_scene().set(
-            title=title or None, dynamics=dynamics, drag=drag, gravity=gravity, quadratic_drag=quadratic_drag, wind=wind
+            title=title or None, dynamics=dynamics, drag=drag, gravity=gravity, quadratic_drag=quadratic_drag, wind=wind,
+            start=start,
         )
         lib.hooke_scene_options_apply(own._handle, self._system._handle)
         self._document.update((name, own[name]) for name in own if own.is_set(name) and "." not in name)
-        if isinstance(wind, Mapping):
-            self._document["wind"] = {key: np.array(value) for key, value in wind.items()}
+        for name, given in (("wind", wind), ("start", start)):
+            if isinstance(given, Mapping):
+                self._document[name] = {key: np.array(value) for key, value in given.items()}
         if run:
             self.run_defaults(**run)
 

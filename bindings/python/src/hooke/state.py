@@ -22,7 +22,7 @@ class State:
 
     __slots__ = ("__weakref__", "_handle", "_q", "_v", "_x")
 
-    def __init__(self, handle: Handle, dtype: Any = float, in_rows: bool = True):
+    def __init__(self, handle: Handle, dtype: Any = float, in_rows: bool = True, moves: bool = True):
         self._handle = handle
         size = lib.hooke_state_size(handle)
         velocity = lib.hooke_state_velocity(handle)
@@ -30,7 +30,7 @@ class State:
         self._x = view(address_of(lib.hooke_state_position(handle)), (numbers,), handle, dtype=dtype)
         self._q: FloatArray | None = None
         self._v: FloatArray | None = None
-        if velocity or not size:
+        if moves and (velocity or not size):
             shape = (size // 3, 3) if in_rows else (size,)
             self._q = self._x.reshape(shape)
             self._v = view(address_of(velocity), shape, handle)
@@ -87,6 +87,8 @@ class State:
 
     def copy(self) -> State:
         """A copy with the same values."""
+        if self._v is None or self._v.ndim == 1:
+            return restored(self.t, self._x, self._v)
         other = _alike(self._x, self._v, self._handle._parent)
         other.assign(self)
         return other

@@ -66,16 +66,18 @@ class Study(Paged, Closing, kind="study"):
     `outcome` is "finished", or "stopped" if the progress function asked for it. `orders` has an `Order` for each
     fixed-step method.
 
-    `watched` has for each watched quantity an array of its errors, one a row, in its unit; `agreement` is the
-    accuracy of the reference in it. `statistics`, empty unless an ensemble was requested and the reference is not
+    `watched` has for each watched quantity an array of its errors, one a row, in its unit, `at_end` of its values at the
+    last frame that the reference is trusted at; `agreement` is the accuracy of the reference in it. `statistics`, empty unless an ensemble was requested and the reference is not
     trusted to the end, has for each quantity ("kinetic", "potential", "energy" and the watched ones) a `Statistic`
     for "reference" and for each method.
     """
 
     _progress: Any = None
+    unit: str  #: that of its errors: "m", or "" where they are in the units of a problem's numbers
 
     def _read(self, found: Measurement) -> None:
         vars(self).update((name, self.rows[name]) for name in self.rows.dtype.names or ())
+        self.unit = found.unit("rows", "error")
         self.reference = found.each(Reference, "reference")[0]
         self.orders = {
             order.method: order
@@ -83,9 +85,10 @@ class Study(Paged, Closing, kind="study"):
             if order.method in self.method and not lib.hooke_method_is_adaptive(order.method.encode())
         }
         watched, errors = found.rows("watched"), found.rows("watched_errors")
-        self.watched: dict[str, FloatArray] = {
-            str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]
-        }
+        self.watched, self.at_end = (
+            {str(name): errors[what][errors["quantity"] == name] for name in watched["quantity"]}
+            for what in ("error", "at_end")
+        )
         self.agreement: dict[str, float] = dict(watched[["quantity", "agreement"]].tolist())
         self.statistics: dict[str, dict[str, Statistic]] = {}
         for statistic in found.each(Statistic, "statistics"):
@@ -142,7 +145,8 @@ def study(
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Study:
-    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None) over a
+    """Runs a scene (or the path of one), a system or a first- or second-order problem by each of `methods` (all that this
+    build has, if None) over a
     ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the `Study`.
 
     The keywords `options` are those of ``hooke.describe("study")``: ladders of your own (`steps` [s], `tolerances`, from

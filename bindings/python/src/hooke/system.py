@@ -150,6 +150,15 @@ class System(Queries):
         count = self.particle_count - first if count is None else count
         lib.hooke_system_set_gravity_factor(self._handle, first, count, factor.size, double_pointer(factor))
 
+    def start_at(self, position: Any, velocity: Any = None) -> None:
+        """Where the motion starts, if not where the particles were given: `position` [m] and `velocity` [m/s] of all of
+        them (n, 3); velocities None: those given. Rest lengths, bodies, clamps and anchors stay those of the given
+        positions. Pinned particles keep their places, driven ones start where their motion says."""
+        places = particle_keys(position, velocity, ())
+        count, v = np.size(places["position"]) // 3, places.get("velocity")
+        rows = double_pointer(places["position"]), None if v is None else double_pointer(v)
+        lib.hooke_system_start_at(self._handle, count, *rows)
+
     def limit_memory(self, size: float) -> None:
         """Sets the maximum memory of the system [bytes]; 0: the machine's memory. From here on, additions that would
         need more are refused (NoMemory)."""
@@ -235,6 +244,17 @@ class System(Queries):
         return f"System({self.particle_count} particles, {self.spring_count} springs)"
 
 
+class Posed(System):
+    """A first- or second-order problem as a system, for measurements and the runs that they watch."""
+
+    def __init__(self, problem: Problem):
+        self._adopt(problem._posed(), lambda: None, problem._callbacks)
+        self.problem = problem
+
+    def state(self) -> State:
+        return State._made(self._handle, lib.hooke_state_create, self._committed(), **self.problem._shown)
+
+
 def part_options(kind: str, file: Path | None, values: dict[str, Any]) -> Options:
     """The options of a part, those of a mesh with what an OBJ file has."""
     part = Options.for_part(kind).set(**values)
@@ -259,6 +279,11 @@ def particle_keys(position: Any, velocity: Any, mass: Any, gravity_factor: Any =
         if each.size:
             keys[key] = each.copy() if each.size != 1 else float(each[0])
     return keys
+
+
+def posed(problem: Problem) -> System:
+    """The problem as a system, for what takes first- and second-order problems, too."""
+    return problem if isinstance(problem, System) else Posed(problem)
 
 
 def system_of(problem: Problem, what: str) -> System:

@@ -209,6 +209,19 @@ class Trajectory(Closing):
             strain: FloatArray = length / rest - 1
         return strain
 
+    def tension(self, frame: int = -1) -> FloatArray:
+        """Tension of every spring at a frame (m,) [N], see `System.tension`. Needs the scene."""
+        state = self.state(frame)
+        return self.system.tension(state.q, state.v, state.t)
+
+    def reaction(self, frame: int = -1) -> FloatArray:
+        """Force of the support of every particle at a frame (n, 3) [N], see `System.reaction`. Needs the scene. BadValue
+        for a run with a callback for a force, which no file holds."""
+        if "force" in self.callbacks:
+            raise BadValue(f"{self.path}: the forces of its callback are not known; take `System.reaction` of its system")
+        state = self.state(frame)
+        return self.system.reaction(state.q, state.v, state.t)
+
     # pictures
 
     def plot(self, ax: Any = None, *, frame: int = -1, **options: Any) -> Any:

@@ -60,8 +60,9 @@ function writeWatched() {
   if (!reveal("watched-section", watched.length > 0)) return;
   const other = (say, before) => (row) => (row === agreement ? before : say(row));
   writeTable("watched", [agreement, ...study.rows], [["method", "", other(METHOD[2], agreement.method), "word"],
-    ["step [s]", "or rtol", other(settingOf, "")], ...watched.map((item, q) => [item.quantity, inUnit(item),
-      other((row) => errorCell(row.watched[q].error, item.agreement), words(item.agreement, 4))])],
+    ["step [s]", "or rtol", other(settingOf, "")], ...watched.flatMap((item, q) => [
+      [item.quantity, inUnit(item), other((row) => words(row.watched[q].at_end, 7), words(item.reference_end, 7))],
+      ["error", inUnit(item), other((row) => errorCell(row.watched[q].error, item.agreement), words(item.agreement, 4))]])],
   (row, before) => (before === agreement ? row.status : classOf(row, before)));
 }
 

@@ -20,6 +20,10 @@ static const struct hk_option_row rows[] = {
                  "size of the page at most, which frames are left out for"),
     HOOKE_OPTION("beyond", HOOKE_OPTION_WHOLE(0, 1e9), "30",
                  "frames after the run diverged that are shown at most; of a scene, so many are run"),
+    HOOKE_OPTION(
+        "watch", .type = HOOKE_OPTION_TEXT, NULL,
+        "quantities to draw over the frames below the picture, such as 57.y,line.stretch:0.tension,energy",
+        .example = "57.y"),
 };
 static const struct hk_option_table view_options = {"view", HOOKE_OPTION_ROWS(rows)};
 
@@ -131,12 +135,13 @@ static int64_t frames_open(const struct hk_view *view) {
 
 /* All frames, or as few as the option says and the size allows: every k-th and the last. */
 static int32_t choose_frames(struct hk_view *view) {
-  enum { NUMBERS_OF_FRAME = 300 }; /* bytes, as text */
+  enum { NUMBERS_OF_FRAME = 300, NUMBER = 25 }; /* bytes, as text */
   double fixed;
   const int32_t status = measure_page(view, &fixed);
   if (status != HOOKE_OK) return status;
   const double size = 1e6 * hooke_options_number(view->options, "size");
-  const double each = (double)hk_base64_length(hk_view_frame_bytes(view)) + NUMBERS_OF_FRAME;
+  const double each =
+      (double)(hk_base64_length(hk_view_frame_bytes(view)) + NUMBERS_OF_FRAME + NUMBER * view->watched.count);
   const int64_t open = frames_open(view), gaps = open - 1, least = open < 2 ? 1 : 2;
   double most = floor((size - fixed) / each);
   if (most < (double)least) {
@@ -227,8 +232,10 @@ static int32_t create(hooke_measurement *m) {
   view->options = m->options;
   view->bytes = NAN;
   int32_t status = check_record(view);
+  if (status == HOOKE_OK) status = hk_view_watch(view);
   if (status == HOOKE_OK) status = choose(view);
   if (status == HOOKE_OK) status = hk_view_find_strain(view);
+  if (status == HOOKE_OK) status = hk_view_find_watched(view);
   m->has_run = status == HOOKE_OK;
   return status;
 }
@@ -246,6 +253,9 @@ static void destroy(void *object) {
   hk_free(view->mark);
   hk_free(view->frame);
   hk_free(view->box);
+  hk_watched_series_release(&view->course);
+  hk_watched_release(&view->watched);
+  hooke_scene_destroy(view->scene);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     hk_free(view->energy[k]);
   hk_free(view);

@@ -3,13 +3,16 @@
  *   view.c           selection
  *   view_frames.c    a frame as bytes, and as text
  *   view_page.c      the page, and several as one
- *   view_bodies.c    what its scene tells it */
+ *   view_bodies.c    what its scene tells it
+ *   view_watched.c   quantities that are asked for */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
+#include "hooke/scene.h"
 #include "hooke/trajectory.h"
 #include "io/file/text.h"
 #include "measure/measurement.h"
+#include "measure/quantity/watched.h"
 
 enum { HOOKE_VIEW_ENERGIES = 3, HOOKE_VIEW_MOST_BESIDE = 7 };
 extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... */
@@ -43,6 +46,9 @@ struct hk_view {
   double *energy[HOOKE_VIEW_ENERGIES]; /* [frames there] */
   double strain;                       /* the largest that has a colour of its own */
   double strain_low, strain_high;      /* that were met */
+  struct hk_watched_list watched;      /* of the system of `scene`; none */
+  struct hk_watched_series course;     /* their values, [frames] */
+  hooke_scene *scene;                  /* NULL without them */
   double bytes;                        /* of the page, once it is written; NaN */
   const hooke_measurement *beside[HOOKE_VIEW_MOST_BESIDE];
   int32_t beside_count;
@@ -52,6 +58,13 @@ struct hk_view {
  * if that is negative, and then set; the caller frees it. */
 int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t *rows,
                      int64_t columns, double **values);
+
+/* Reads the option "watch" by the scene of the file, and finds its quantities at the frames shown.
+ * HOOKE_BAD_VALUE for another quantity or without a scene. */
+int32_t hk_view_watch(struct hk_view *view);
+int32_t hk_view_find_watched(struct hk_view *view);
+/* Adds "watched": of each its name, unit and values. */
+void hk_view_add_watched(struct hk_text *data, const struct hk_view *view);
 
 /* ---- frames as bytes ---- */
 

@@ -4,7 +4,6 @@
 #include "core/memory.h"
 #include "core/os/os_file.h"
 #include "core/status.h"
-#include "hooke/scene.h"
 #include "io/file/atomic_file.h"
 #include "io/file/inputs.h"
 #include "io/page/form.h"
@@ -110,6 +109,7 @@ static int32_t add_data(struct hk_text *data, const hooke_measurement *m) {
   add_column(data, view, "time", view->record->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     add_column(data, view, hk_view_energy[k], view->energy[k]);
+  hk_view_add_watched(data, view);
   add_boxes(data, view);
   hk_report_add_facts(data);
   hk_text_close(data, '}');

@@ -58,7 +58,10 @@ def page(path: Path, title: str, rows: Table, lines: str) -> None:
 
 def data_frame(rows: Table) -> Any:
     """A data frame of pandas."""
-    import pandas
+    try:
+        import pandas
+    except ImportError:
+        raise ImportError("to_pandas() gives a data frame of pandas, which is not installed: pip install pandas") from None
 
     return pandas.DataFrame.from_records(rows)
 

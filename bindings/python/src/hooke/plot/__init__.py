@@ -102,7 +102,7 @@ def study(
     for ax in (costs, steps):
         ax.set_xscale("log")
         ax.set_yscale("log")
-        ax.set_ylabel("error [m]")
+        ax.set_ylabel("error [m]" if getattr(source, "unit", "m") else "error")
         if table.agreement > 0:
             ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
             ax.set_ylim(bottom=table.agreement)

@@ -83,7 +83,7 @@ function drawAxes() {
 
 /* ---- frames ---- */
 
-const energies = new Diagram(at("energies")), course = new Diagram(at("course"));
+const energies = new Diagram(at("energies")), course = new Diagram(at("course")), watched = watchedDiagrams();
 let picture = null, shown = 0, playing = false, wanted = false, turned = false, time = data.time[0], before = 0, drawn = [];
 
 /* Draws at the next occasion, once. */
@@ -115,6 +115,7 @@ function show(k, now = false) {
   if (!playing) time = data.time[shown];
   energies.moveCursor();
   course.moveCursor();
+  for (const [, drawn_] of watched) drawn_.moveCursor();
   if (now) drawNow();
   else draw();
   tell("time", data.time[shown]);
@@ -310,6 +311,7 @@ function dress() {
   colourRuns();
   writeLegend(picture ? picture.paint() : PALETTE[isDark() ? "dark" : "light"]);
   drawEnergies();
+  drawWatched();
   drawCourse();
   draw();
 }

@@ -69,3 +69,23 @@ function drawEnergies() {
     : { borderColor: COLOURS[key] || ink, borderDash: key === "total" ? [6, 4] : [] })),
   `${log ? "size of " : ""}${runs.length > 1 ? "total " : ""}energy [J]`, log ? logarithmic(all) : rangeOf(all));
 }
+
+/* A diagram for each unit of what is watched. */
+function watchedDiagrams() {
+  return [...new Set(data.watched.map(({ unit }) => unit))].map((unit) => {
+    const box = element("div", "", { className: "diagram" });
+    box.append(element("canvas"), element("div", "", { className: "cursor" }));
+    at("watched").append(box);
+    return [unit, new Diagram(box)];
+  });
+}
+
+function drawWatched() {
+  const colours = RUN_COLOURS[isDark() ? "dark" : "light"];
+  for (const [unit, drawn_] of watched) {
+    const some = runs.flatMap((one) => one.data.watched.filter((each) => each.unit === unit).map((each) => [one, each]));
+    const lines = some.map(([one, { name, values }], k) => lineOf(runs.length > 1 ? `${name}, ${nameOf(one)}` : name, one, (frame) => values[frame],
+      { borderColor: colours[k % colours.length] }));
+    drawn_.draw(lines, `${lines.length > 1 ? "" : `${some[0][1].name} `}${unit && `[${unit}]`}`, rangeOf(lines));
+  }
+}

@@ -82,7 +82,7 @@ function colourBytes(values) {
 }
 
 /* The frame that is shown, in metres from the middle of the scene, which `extras` has: springs as lines, surfaces shaded, strain
- * as the colour of corners. */
+ * as the colour of corners, obstacles as they are drawn. */
 function modelOf() {
   const buffer = new Buffer(), { place, ends, unit: { radius, centre, target = [0, 0, 0] }, triangles } = picture, meshes = [];
   const position = place.map((value, k) => (value - target[k % 3]) * radius);
@@ -97,6 +97,14 @@ function modelOf() {
     for (let k = 0; k < normal.length; k += 3) if (!normal[k] && !normal[k + 1] && !normal[k + 2]) normal[k + 2] = 1;
     meshes.push({ name: "surface", primitives: [{ attributes: { ...corners, NORMAL: buffer.add(normal, "VEC3", 3, PLAIN) },
       indices: buffer.add(triangles, "SCALAR", 1, INDEX), mode: 4, material: 1 }] });
+  }
+  for (const obstacle of picture.obstacles) {
+    obstacle.updateMatrix();
+    const solid = new THREE.BufferGeometry().fromGeometry(obstacle.geometry).applyMatrix(obstacle.matrix);
+    solid.normalizeNormals();
+    const { position, normal } = solid.attributes, corner = position.array.map((value, k) => (value - target[k % 3]) * radius);
+    meshes.push({ name: "obstacle", primitives: [{ attributes: { POSITION: buffer.add(corner, "VEC3", 3, PLAIN, true),
+      NORMAL: buffer.add(normal.array, "VEC3", 3, PLAIN) }, mode: 4, material: meshes.length }] });
   }
   const material = (name) => ({ name, doubleSided: true, pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 0.8 } });
   return { asset: { version: "2.0", generator: `hooke ${data.versions.hooke}` }, scene: 0, scenes: [{ nodes: meshes.map((_, k) => k) }],

@@ -1,0 +1,95 @@
+#include "measure/rest/rest.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "measure/rest/rest_minimum.h"
+#include "model/state.h"
+#include "model/system.h"
+
+#include <math.h>
+#include <string.h>
+
+static const struct hk_option_row rest_rows[] = {
+    HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, "",
+                 "quantities to tell at rest, separated by commas, such as 57.y, line.stretch:3.tension or "
+                 "potential"),
+    HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
+                 "time that the search may take; no limit if not given"),
+};
+
+static const struct hk_option_table rest_table = {"rest", HOOKE_OPTION_ROWS(rest_rows)};
+
+/* ---- creating ---- */
+
+static void forget(struct hk_resting *r) {
+  hk_free(r->position);
+  r->position = NULL;
+  r->rest = (struct hk_rest){.residual = NAN, .allowed = NAN, .largest_force = NAN, .worst = -1};
+  r->minimum = -1;
+  r->zero_modes = -1;
+  r->softest = NAN;
+}
+
+static int32_t create(hooke_measurement *m) {
+  struct hk_resting *r = m->object = hk_new(1, sizeof *r);
+  if (r == NULL) return HOOKE_NO_MEMORY;
+  r->m = m;
+  r->watched.system = m->system;
+  const struct hk_obstacles *obstacles = &m->system->rest->obstacles;
+  for (int64_t k = 0; k < obstacles->count; k++)
+    r->had_friction |= obstacles->obstacle[k].friction > 0.0;
+  forget(r);
+  const char *text = hooke_options_text(m->options, "watch");
+  const int32_t status = text[0] ? hk_watched_read(&r->watched, "watch", text) : HOOKE_OK;
+  if (status != HOOKE_OK) return status;
+  r->value = hk_new(r->watched.count, sizeof *r->value);
+  return r->value ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+static void destroy(void *object) {
+  struct hk_resting *r = object;
+  if (r == NULL) return;
+  hk_watched_release(&r->watched);
+  hk_free(r->value);
+  hk_free(r->position);
+  hk_free(r);
+}
+
+/* ---- running ---- */
+
+static void see_watched(struct hk_resting *r, double t, const double *zeros) {
+  for (int64_t k = 0; k < r->watched.count; k++) {
+    const struct hk_watched *watched = &r->watched.item[k];
+    r->value[k] = (struct hk_rest_watched){watched->text, hk_watched_unit(watched), NAN};
+    if (!watched->is_period)
+      r->value[k].value = hk_watched_value(watched, r->m->system, t, r->position, zeros);
+  }
+}
+
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_resting *r = m->object;
+  const int64_t numbers = 3 * m->system->particle_count;
+  const double seconds = hooke_options_number(m->options, "budget"), t = hooke_state_time(state);
+  struct hk_budget budget = hk_budget_of(isnan(seconds) ? INFINITY : seconds, m->progress, m->progress_ctx);
+  forget(r);
+  double *zeros = hk_new(numbers, sizeof(double));
+  r->position = hk_new(numbers, sizeof(double));
+  int32_t status = zeros && r->position ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) {
+    memcpy(r->position, hooke_state_position(state), (size_t)numbers * sizeof(double));
+    status = hk_rest_find(m->system, t, r->position, &budget, &r->rest);
+  }
+  if (status == HOOKE_OK) see_watched(r, t, zeros);
+  if (status == HOOKE_OK && r->rest.lack == HOOKE_RESTS) status = hk_rest_see_minimum(r, t, zeros);
+  hk_free(zeros);
+  return status;
+}
+
+const struct hk_measurement_kind hk_rest_kind = {.name = "rest",
+                                                 .options = &rest_table,
+                                                 .takes_state = 1,
+                                                 .tables = hk_rest_tables,
+                                                 .claim = hk_rest_claim,
+                                                 .create = create,
+                                                 .run = run,
+                                                 .destroy = destroy};

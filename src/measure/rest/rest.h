@@ -1,0 +1,32 @@
+/* A rest: where the forces of a scene are in equilibrium, whether its energy is least there, and what one
+ * watches. */
+#ifndef HOOKE_MEASURE_REST_REST_H
+#define HOOKE_MEASURE_REST_REST_H
+
+#include "measure/measurement.h"
+#include "measure/quantity/watched.h"
+#include "measure/rest/rest_find.h"
+
+struct hk_rest_watched {
+  const char *quantity, *unit;
+  double value;
+};
+
+struct hk_resting {
+  const hooke_measurement *m;
+  struct hk_watched_list watched;
+  struct hk_rest_watched *value; /* by quantity */
+  struct hk_rest rest;
+  double *position;   /* 3n, of the last run; NULL before */
+  int32_t minimum;    /* -1: not known */
+  int64_t zero_modes; /* -1: not known */
+  double softest;     /* the lowest eigenvalue of stiffness over mass [1/s^2]; NaN: not known */
+  int32_t had_friction;
+};
+
+void hk_rest_claim(const hooke_measurement *measurement, struct hk_claims *claims);
+
+extern const struct hk_table hk_rest_tables[];
+extern const struct hk_measurement_kind hk_rest_kind;
+
+#endif
