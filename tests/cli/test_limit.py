@@ -1,6 +1,7 @@
 """hooke limit: its predictions and measurements, its state, and its words."""
 
 import copy
+import math
 import os
 from pathlib import Path
 

@@ -53,7 +53,7 @@ def test_written_and_copied(tmp_path):
 
 
 def test_what_is_refused():
-    q, v = moved()
+    q, _ = moved()
     with pytest.raises(hooke.BadValue, match=r"start.position: 7 places for 8 particles"):
         scene(position=q[:7]).system.state()
     q[3, 1] = 1e-9

@@ -100,8 +100,8 @@ static void move_own(const struct hk_mover *m, const struct hk_move *move, const
   }
 }
 
-/* Stages between have quaternions of other lengths. Inlined, it would slow moves without movers down. */
-static __attribute__((noinline)) void move_with_movers(hooke_integrator *it, struct hk_move *move) {
+/* Stages between have quaternions of other lengths. */
+static void move_with_movers(hooke_integrator *it, struct hk_move *move) {
   const hooke_system *system = it->system;
   const struct hk_numbers *own = &it->numbers;
   const int32_t kind = move->kind;

@@ -101,7 +101,6 @@ class SecondOrder(Problem):
     """
 
     _what = "a second-order problem"
-    _shown = {"in_rows": False}
 
     def __init__(
         self,
@@ -122,6 +121,7 @@ class SecondOrder(Problem):
         self._force = _callback.on_arrays(FORCE, f, 2, lambda n: (n,))
         self._derivative = _callback.on_arrays(FORCE_PRODUCT, derivative, 4, lambda n: (n,))
         self._callbacks = [self._force, self._derivative]
+        self._shown = {"in_rows": False}
 
     def state(self) -> State:
         """The initial state: t = 0, q and v (size,) as given."""

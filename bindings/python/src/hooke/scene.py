@@ -38,8 +38,8 @@ class Scene(Parts, Problem):
     `gravity` (3,) [m/s^2]; `drag` [N s/m], ``f = -c (v - u)``, and `quadratic_drag` [kg/m],
     ``f = -c |v - u| (v - u)``, one number or one a particle; `wind` u (3,) [m/s], or a dict of `time` (samples,) [s] and
     `velocity` (samples, 3); `start`, a dict of `position` (n, 3) [m] and, unless at rest, `velocity` (n, 3) [m/s]: where
-    all particles start, if not undeformed; `dynamics` is "inertial" or "overdamped" (see `System.dynamics`); `run` are defaults for
-    runs of the scene, see `run_defaults`.
+    all particles start, if not undeformed; `dynamics` is "inertial" or "overdamped" (see `System.dynamics`); `run` are
+    defaults for runs of the scene, see `run_defaults`.
     """
 
     def __init__(

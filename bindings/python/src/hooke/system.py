@@ -252,6 +252,7 @@ class Posed(System):
         self.problem = problem
 
     def state(self) -> State:
+        """The start, with the numbers of the problem."""
         return State._made(self._handle, lib.hooke_state_create, self._committed(), **self.problem._shown)
 
 
