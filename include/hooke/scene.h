@@ -64,7 +64,7 @@ HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *
                                         hooke_scene **scene);
 
 /* The same for the scene that starts at a state of the system (`start` in the format), such as one at rest;
- * NULL: where it starts. */
+ * NULL: where it starts. `title`, `name` and `folder` may be NULL as there. */
 HOOKE_API int32_t hooke_scene_of_state(const hooke_system *system, const hooke_state *state,
                                        const char *title, const hooke_options *run, const char *name,
                                        const char *folder, hooke_scene **scene);

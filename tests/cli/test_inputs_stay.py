@@ -25,6 +25,7 @@ OUTPUTS = {
     "study --report": ("study scene.json --methods verlet --report", ""),
     "limit": ("limit scene.json --methods verlet --report", ""),
     "modes": ("modes scene.json --report", ""),
+    "rest": ("rest scene.json -o", ".json"),
     "needs": ("needs scene.json --want 1m -o", ""),
     "needs --report": ("needs scene.json --want 1m --report", ""),
     "why": ("why scene.json --report", ""),
@@ -62,7 +63,7 @@ def test_what_a_scene_reads(hooke, scene, output, file):
     before = contents(scene)
     for name in names if output == "run" else names[-2:]:
         answer = hooke(*words.split(), name)
-        said = "its name has to end in .h5" if output == "run" and name.endswith(".json") else "is read, too"
+        said = "in .h5" if output == "run" and name.endswith((".json", ".obj")) else "is read, too"
         assert answer.code == 2 and said in answer.err, answer.err
     assert contents(scene) == before
 

@@ -1,7 +1,9 @@
 """hooke rest: words, JSON, exit codes."""
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import SIX_PARTICLES
 
@@ -14,7 +16,7 @@ HANGING = {
     "run": {"method": "verlet", "step": 1e-3, "duration": 1},
 }
 KEYS = ["scene", "status", "residual", "largest_force", "minimum", "zero_modes", "moved", "steps", "iterations"]
-KEYS += ["force_evaluations", "watched", "claims"]
+KEYS += ["force_evaluations", "watched", "modes", "claims"]
 
 
 def test_a_weight_hangs(hooke, write):
@@ -51,3 +53,17 @@ def test_what_is_not_found_is_said_so(hooke):
 def test_nothing_to_watch(hooke, write):
     answer = hooke("rest", write(HANGING), "--watch", "7.y")
     assert answer.code == 3 and "particles 0 to 1" in answer.err
+
+
+def test_a_scene_that_starts_at_rest(hooke, write, tmp_path):
+    """Its parts are kept, nothing moves, and --from-rest is the same to the bit; what falls starts nowhere."""
+    scene, out = SCENES / "cantilever.json", tmp_path / "rest.json"
+    assert hooke("rest", scene, "-o", out).code == 0
+    written = json.loads(out.read_text())
+    assert written["parts"] and len(written["start"]["position"]) == 17 and "velocity" not in written["start"]
+    runs = [hooke("run", *words, "--duration", "0.1", "--final", "--json").json for words in ((out,), (scene, "--from-rest"))]
+    assert runs[0]["final"] == runs[1]["final"] and runs[0]["energy"] == runs[1]["energy"]
+    moved = np.abs(np.array(runs[0]["final"]["position"]) - written["start"]["position"]).max()
+    assert moved < 1e-9  # 9 mm from the undeformed start
+    falls = hooke("run", write({**HANGING, "springs": []}), "--from-rest")
+    assert falls.code == 7 and "falls" in falls.err

@@ -23,7 +23,7 @@ LOADABLE = LIBRARY and b"__asan_init" not in pathlib.Path(LIBRARY).read_bytes()
 BEYOND_A_SCHEMA = {
     "bending-of-no-length", "between-range", "between-real", "between-same", "curve-falls",
     "curve-of-the-other-law", "curve-order", "curve-rows", "damping-of-group-count", "damping-of-group-huge",
-    "density-of-no-length", "driven-pinned", "driven-range", "driven-twice", "file-missing", "file-not-hdf5", "lattice-flat",
+    "density-of-no-length", "driven-pinned", "driven-range", "driven-twice", "factors-of-part", "file-missing", "file-not-hdf5", "lattice-flat",
     "lattice-huge", "lattice-of-no-length", "lattice-pinned-range", "mass-count", "mesh-corners", "mesh-crowded",
     "mesh-file-missing", "mesh-file-scene", "mesh-flat", "mesh-range", "mesh-twice", "mesh-unused", "mesh-welded",
     "name-of-group", "name-of-nothing", "name-of-part", "name-unknown", "part-index", "part-names", "part-pinned-range",

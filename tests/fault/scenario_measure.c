@@ -131,7 +131,8 @@ SCENARIO(estimate) {
   struct made m = {.system = make_oscillator(a)};
   const char *words = with;
   m.run = make_options(a, "run", "%s", words);
-  m.measurement = make_measurement(a, "estimate", m.system, NULL, "want=1e-7 watch=1.x,0.reaction,period:1.x");
+  m.measurement =
+      make_measurement(a, "estimate", m.system, NULL, "want=1e-7 watch=1.x,0.reaction,period:1.x");
   if (m.measurement == NULL) goto end;
   if (strstr(words, "step") == NULL) {
     fault_pause();

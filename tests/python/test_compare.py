@@ -201,5 +201,5 @@ def test_what_a_comparison_refuses():
         hooke.compare(build_oscillator(), ["magic"], **RUN)
     with pytest.raises(hooke.BadValue, match="steps: is not for `once`"):
         hooke.compare(build_oscillator(), EULERS, steps=1e-3, **RUN)
-    with pytest.raises(hooke.BadValue):
+    with pytest.raises(hooke.Unsuited, match="symplectic-euler steps positions and velocities apart"):
         hooke.compare(hooke.FirstOrder(lambda t, x, rate: None, [1.0]), EULERS, **RUN)

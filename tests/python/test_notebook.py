@@ -106,7 +106,7 @@ def test_others_show_their_rows(scene, tmp_path):
 
 def test_every_kind_of_result_is_tried():
     shown = {name for name, kind in vars(hooke).items() if isinstance(kind, type) and hasattr(kind, "_repr_html_")}
-    assert shown == {"Study", "Limit", "Needs", "Why", "Result", "Trajectory", "Cost", "Check"}
+    assert shown == {"Study", "Limit", "Needs", "Why", "Result", "Trajectory", "Cost", "Check", "Rest", "Modes"}
 
 
 def test_rows_become_a_data_frame(scene):

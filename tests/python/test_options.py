@@ -81,7 +81,7 @@ def test_a_row_says_all_that_the_library_knows():
     assert row("run", "step").above_low and row("run", "newton").words == ["converged", "one-iteration"]
     assert row("springs", "law").low is None
     assert {row.name for row in hooke.options_of("scene").rows} == {
-        "title", "gravity", "drag", "quadratic_drag", "wind", "wind.time", "wind.velocity", "dynamics"}
+        "title", "gravity", "drag", "quadratic_drag", "wind", "wind.time", "wind.velocity", "dynamics", "start", "start.position", "start.velocity"}
     assert row("particles", "position").required and row("driven", "frequency").unit == "Hz"
     for kind in hooke.part_kinds():
         assert hooke.part_kind_summary(kind)

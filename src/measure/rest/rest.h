@@ -19,8 +19,8 @@ struct hk_resting {
   struct hk_watched_list watched;
   struct hk_rest_watched *value; /* by quantity */
   struct hk_rest rest;
-  double *position;   /* 3n, of the last run; NULL before */
-  int32_t minimum;    /* -1: not known */
+  double *position; /* 3n, of the last run; NULL before */
+  int32_t minimum;  /* -1: not known */
   int32_t had_friction;
 };
 
