@@ -12,7 +12,7 @@ static const struct hk_option_row rest_rows[] = {
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, "",
                  "quantities to tell at rest, separated by commas, such as 57.y, line.stretch:3.tension or "
                  "potential"),
-    HOOKE_OPTION("count", HOOKE_OPTION_WHOLE(0, 1e6), "6",
+    HOOKE_OPTION("count", HOOKE_OPTION_WHOLE(1, 1e6), "6",
                  "modes at rest, the lowest ones, beside those without stiffness"),
     HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
                  "time that the search may take; no limit if not given"),
