@@ -174,7 +174,7 @@ $(PRESETS:%=tests-%): tests-%: build/venv/done build/test/packages
 # The preset asan takes SUNDIALS 7, of the wheel's source where that can be had, so that more than one version is tested.
 tests-asan: private OPTIONS = -DCMAKE_PREFIX_PATH=$(CURDIR)/build/sundials/installed
 tests-asan: build/sundials/done
-build/sundials/done: bindings/python/wheel/CMakeLists.txt | build/packages
+build/sundials/done: bindings/python/wheel/CMakeLists.txt | build/wheel/packages
 	cmake -S bindings/python/wheel -B build/sundials -G Ninja -DHOOKE_SHARED=ON >build/sundials.log
 	cmake --build build/sundials --target sundials >>build/sundials.log || echo "SUNDIALS 7 is not to be had: build/sundials.log"
 	@touch $@
