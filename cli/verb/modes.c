@@ -106,7 +106,7 @@ const struct cli_verb cli_verb_modes = {
         "there: compressed springs push aside, slack ones do nothing, gravity and tensions turn bodies. "
         "Modes that grow come first. Motions without stiffness are counted and named, not listed. The "
         "state should be at rest; a message says what force is left.",
-    .example = "hooke modes beam.json --count 4",
+    .example = "hooke modes cloth.json --count 4",
     HOOKE_VERB_ROWS(own_rows),
     .options = "modes",
     .without = "checkpoint",

@@ -4,6 +4,7 @@
 #include "report.h"
 #include "results.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { INDENT = 12 };
@@ -17,9 +18,10 @@ static int make_ready(struct cli_results *r) {
 
 static void print_watched(const hooke_measurement *found) {
   for (int64_t row = 0; row < hooke_measurement_row_count(found, "watched"); row++)
-    cli_say("%-24s%.6g %s\n", hooke_measurement_text(found, "watched", row, "quantity"),
-            hooke_measurement_number(found, "watched", row, "value"),
-            hooke_measurement_text(found, "watched", row, "unit"));
+    if (!isnan(hooke_measurement_number(found, "watched", row, "value")))
+      cli_say("%-24s%.6g %s\n", hooke_measurement_text(found, "watched", row, "quantity"),
+              hooke_measurement_number(found, "watched", row, "value"),
+              hooke_measurement_text(found, "watched", row, "unit"));
 }
 
 static void print_words(const struct cli_results *r) {

@@ -100,7 +100,7 @@ def imports(module, known):
     return found, inside
 
 
-UP = {"problems": {"results"}}  # the type of what a problem's run() returns, which is above all problems
+UP = {"problems": {"results", "rest"}}  # the types of what a problem's run() and rest() return, which are above all problems
 
 
 def circle(modules):

@@ -63,9 +63,13 @@ static void see_watched(struct hk_resting *r, double t, const double *zeros) {
   for (int64_t k = 0; k < r->watched.count; k++) {
     const struct hk_watched *watched = &r->watched.item[k];
     r->value[k] = (struct hk_rest_watched){watched->text, hk_watched_unit(watched), NAN};
-    if (!watched->is_period)
+    if (!watched->is_period && r->rest.lack == HOOKE_RESTS)
       r->value[k].value = hk_watched_value(watched, r->m->system, t, r->position, zeros);
   }
+}
+
+int32_t hk_rest_is_large(const struct hk_resting *r) {
+  return r->m->system->particle_count - r->m->system->constrained_count > HOOKE_REST_PARTICLES;
 }
 
 /* Without the libraries for it, or where they give up, nothing is known. */
@@ -95,8 +99,9 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
     memcpy(r->position, hooke_state_position(state), (size_t)numbers * sizeof(double));
     status = hk_rest_find(m->system, t, r->position, &budget, &r->rest);
   }
-  if (status == HOOKE_OK) see_watched(r, t, zeros);
-  if (status == HOOKE_OK && r->rest.lack == HOOKE_RESTS) status = find_modes(r, t, zeros, &budget);
+  if (status == HOOKE_OK || status == HOOKE_STOPPED) see_watched(r, t, zeros);
+  if (status == HOOKE_OK && r->rest.lack == HOOKE_RESTS && !hk_rest_is_large(r))
+    status = find_modes(r, t, zeros, &budget);
   hk_free(zeros);
   return status;
 }

@@ -8,6 +8,9 @@
 #include "measure/quantity/watched.h"
 #include "measure/rest/rest_find.h"
 
+/* Larger scenes have no modes here: finding them may take many times as long as the rest. */
+enum { HOOKE_REST_PARTICLES = 4000 };
+
 struct hk_rest_watched {
   const char *quantity, *unit;
   double value;
@@ -23,6 +26,9 @@ struct hk_resting {
   int32_t minimum;  /* -1: not known */
   int32_t had_friction;
 };
+
+/* 1 if it has more free particles than that. */
+int32_t hk_rest_is_large(const struct hk_resting *resting);
 
 void hk_rest_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 

@@ -43,7 +43,9 @@ static void tell_minimum(const struct hk_resting *r, struct hk_claims *claims) {
   else
     hk_claim(claims, "minimum", HOOKE_OF_UNKNOWN, "eigenvalues",
              "whether the energy is least here is not known%s",
-             r->rest.has_energy ? "" : ": some force has no energy");
+             !r->rest.has_energy   ? ": some force has no energy"
+             : hk_rest_is_large(r) ? ": modes of scenes of this size are not looked for"
+                                   : "");
   if (r->modes.zero_modes > 0)
     hk_claim(claims, "zero-modes", HOOKE_OF_WHOLE, "eigenvalues",
              "%lld free %s no stiffness: along %s any place is as good", (long long)r->modes.zero_modes,

@@ -310,6 +310,7 @@ int32_t hk_rest_find(const hooke_system *system, double t, double *q, struct hk_
       status = hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
     else if (status == HOOKE_STOPPED && budget && budget->spent)
       status = HOOKE_OK, found->lack = HOOKE_REST_SPENT;
+    if (status != HOOKE_OK) found->lack = HOOKE_REST_SPENT;
     (void)find_scale(&s);
     hk_motion_store(s.it->motion, q, zeros);
     found->iterations = s.it->count.nonlinear_iterations;

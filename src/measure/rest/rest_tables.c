@@ -42,8 +42,8 @@ const struct hk_table hk_rest_tables[] = {
     {.name = "watched",
      .doc = "the watched quantities at rest",
      HOOKE_TABLE_ROWS(struct hk_resting, value, watched.count),
-     HOOKE_TABLE_COLUMNS(
-         HOOKE_COLUMN(struct hk_rest_watched, quantity, TEXT, "", "as it was asked for"),
-         HOOKE_COLUMN(struct hk_rest_watched, unit, TEXT, "", "its unit"),
-         HOOKE_COLUMN(struct hk_rest_watched, value, NUMBER, "", "in that unit; NaN of a period"))},
+     HOOKE_TABLE_COLUMNS(HOOKE_COLUMN(struct hk_rest_watched, quantity, TEXT, "", "as it was asked for"),
+                         HOOKE_COLUMN(struct hk_rest_watched, unit, TEXT, "", "its unit"),
+                         HOOKE_COLUMN(struct hk_rest_watched, value, NUMBER, "",
+                                      "in that unit; NaN of a period, and where there is no rest"))},
     {.name = NULL}};

@@ -37,6 +37,10 @@ class Problem(Owner):
     _run_by: Callable[..., Result]
     _rest_by: Callable[..., Rest]  #: hooke.rest, likewise
 
+    def _posed(self) -> tuple[Handle, list[Any]]:
+        """It as a system of the library, and the callbacks of that (see `Posed`)."""
+        raise NotImplementedError
+
     def run(self, **options: Any) -> Result:
         """Runs it; see `hooke.run`."""
         return Problem._run_by(self, **options)
@@ -78,8 +82,9 @@ class FirstOrder(Problem):
         given = self._size, self._rate, None, options._handle
         return Handle.made(None, lib.hooke_integrator_create_first_order, *given)
 
-    def _posed(self) -> Handle:
-        return Handle.made(None, lib.hooke_system_create_first_order, self._rate, None, self.state()._handle)
+    def _posed(self) -> tuple[Handle, list[Any]]:
+        given = self._rate, None, self.state()._handle
+        return Handle.made(None, lib.hooke_system_create_first_order, *given), self._callbacks
 
     def __repr__(self) -> str:
         return f"FirstOrder({self._x0.size} unknowns)"
@@ -132,10 +137,10 @@ class SecondOrder(Problem):
         given = self._size, self._force, self._derivative, None, *masses, options._handle
         return Handle.made(None, lib.hooke_integrator_create_second_order, *given)
 
-    def _posed(self) -> Handle:
+    def _posed(self) -> tuple[Handle, list[Any]]:
         masses = self._inverse_mass.size, double_pointer(self._inverse_mass)
         given = self._force, self._derivative, None, *masses, self.state()._handle
-        return Handle.made(None, lib.hooke_system_create_second_order, *given)
+        return Handle.made(None, lib.hooke_system_create_second_order, *given), self._callbacks
 
     def __repr__(self) -> str:
         return f"SecondOrder({self._size} coordinates)"

@@ -248,7 +248,8 @@ class Posed(System):
     """A first- or second-order problem as a system, for measurements and the runs that they watch."""
 
     def __init__(self, problem: Problem):
-        self._adopt(problem._posed(), lambda: None, problem._callbacks)
+        handle, callbacks = problem._posed()
+        self._adopt(handle, lambda: None, callbacks)
         self.problem = problem
 
     def state(self) -> State:
