@@ -33,7 +33,8 @@ def test_a_weight_hangs(hooke, write):
 
 def test_words(hooke, write):
     words = hooke("rest", write(HANGING), "--watch", "1.y", "--final").out
-    assert "forces are in equilibrium to" in words and "each raises it" in words
+    assert "forces are in equilibrium to" in words
+    assert ("each raises it" in words) != ("is least here is not known" in words)  # without LAPACK
     assert "1.y" in words and "particle x y z [m]" in words
     assert len(hooke("rest", write(SIX_PARTICLES), "-q").out.splitlines()) <= 3
 

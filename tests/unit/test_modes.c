@@ -29,6 +29,14 @@ static hooke_system *make_net(int n, double rest, int held) {
   return system;
 }
 
+/* In a build without one of its libraries. */
+static int32_t is_built(const hooke_system *system) {
+  struct hk_modes modes;
+  const int32_t status = hk_modes_find(system, 0.0, system->position, (double[3 * 64]){0.0}, 1, NULL, &modes);
+  hk_modes_release(&modes);
+  return status != HOOKE_NOT_BUILT && hk_cholmod;
+}
+
 static void compare(const hooke_system *system, int64_t count, int64_t zeros) {
   struct hk_stiffness s;
   struct hk_lowest dense, sparse;
@@ -65,6 +73,10 @@ TEST(test_sparse_and_dense_agree) {
   } nets[] = {{0.9, 1, 12, 0}, {0.9, 0, 7, 3}, {1.1, 1, 9, 0}, {1.0, 1, 5, 72}};
   for (size_t k = 0; k < sizeof nets / sizeof nets[0]; k++) {
     hooke_system *system = make_net(8, nets[k].rest, nets[k].held);
+    if (!is_built(system)) {
+      hooke_system_destroy(system);
+      skip();
+    }
     compare(system, nets[k].count, nets[k].zeros);
     hooke_system_destroy(system);
   }
@@ -75,6 +87,10 @@ TEST(test_a_budget_ends_the_search) {
   struct hk_budget budget = hk_budget_of(0.0, NULL, NULL);
   struct hk_modes modes;
   const double *q = system->position, v[48] = {0.0};
+  if (!is_built(system)) {
+    hooke_system_destroy(system);
+    skip();
+  }
   assert_int_equal(hk_modes_find(system, 0.0, q, v, 3, &budget, &modes), HOOKE_STOPPED);
   hk_modes_release(&modes);
   check_ok(hk_modes_find(system, 0.0, q, v, 3, NULL, &modes));
