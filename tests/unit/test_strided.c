@@ -333,3 +333,44 @@ TEST(test_rounded_lengths) {
   }
   free(ends);
 }
+
+/* One run of more than a block among many particles, whose springs differ: the tensions of its neighbours are
+ * what pulls at a particle. */
+TEST(test_each_spring_of_a_run_has_its_own_numbers) {
+  enum { SPRINGS = 300, LAST = SPRINGS - 1, EACH = 4000 };
+  owned_doubles *q = new_doubles(3 * EACH), *v = new_doubles(3 * EACH), *f = new_doubles(3 * EACH);
+  owned_doubles *number = new_doubles(3 * SPRINGS), *tension = new_doubles(SPRINGS + 1);
+  int64_t ends[2 * SPRINGS];
+  for (int64_t p = 0; p < EACH; p++)
+    q[3 * p] = 1.5 * (double)p, v[3 * p] = 0.25 * (double)p;
+  for (int64_t k = 0; k < SPRINGS; k++) {
+    ends[2 * k] = k < LAST ? k : EACH - 2, ends[2 * k + 1] = ends[2 * k] + 1; /* the last is far away */
+    const double *n = number + 3 * k;
+    number[3 * k] = 1.0 + (double)k, number[3 * k + 1] = 0.5 + (double)(k % 7),
+               number[3 * k + 2] = 1.0 + 0.001 * (double)k;
+    tension[k] = n[0] * (1.5 - n[2]) + n[1] * 0.25;
+  }
+  for (int32_t set = 0; use_loops(set); set++) {
+    hooke_options *options;
+    owned_system *system = small_system(EACH, q, NULL, 1.0, 0);
+    check_ok(hooke_options_create("springs", &options));
+    check_ok(hooke_options_set_text(options, "law", "length"));
+    static const char *const names[] = {"stiffness", "damping", "rest_length"};
+    for (int k = 0; k < 3; k++) {
+      double column[SPRINGS];
+      for (int64_t s = 0; s < SPRINGS; s++)
+        column[s] = number[3 * s + k];
+      check_ok(hooke_options_set_numbers(options, names[k], SPRINGS, column));
+    }
+    check_ok(hooke_system_add_springs(system, "chain", SPRINGS, ends, options));
+    hooke_options_destroy(options);
+    check_ok(hooke_system_commit(system));
+    assert_int_equal(system->strided->count, 0);
+    assert_int_equal(system->springs->run_count, 2);
+    check_ok(hooke_system_force(system, 0.0, q, v, f));
+    for (int64_t p = 0; p <= LAST; p++) {
+      const double pull = (p < LAST ? tension[p] : 0.0) - (p > 0 ? tension[p - 1] : 0.0);
+      assert_true(fabs(f[3 * p] - pull) <= 1e-11 * SPRINGS);
+    }
+  }
+}
