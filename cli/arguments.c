@@ -92,7 +92,7 @@ int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct 
     add_own(arguments, &verb->rows[i]);
   for (int32_t i = 0; i < SHARED_COUNT; i++)
     add_own(arguments, &shared_rows[i]);
-  if (!verb->input) add_table(arguments, arguments->run, verb->without);
+  if (!verb->input && !verb->takes_no_run) add_table(arguments, arguments->run, verb->without);
   add_table(arguments, arguments->limits, NULL);
   return HOOKE_EXIT_DONE;
 }

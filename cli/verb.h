@@ -41,11 +41,17 @@ struct cli_verb {
   const char *hidden;    /* those of that table that it does not take, separated by blanks; NULL: none */
   int takes_kind;        /* 1: takes a kind of part instead of a scene, and its options */
   const char *for_scene; /* its option that replaces the scene; NULL: none */
+  int takes_no_run;      /* 1: none of the options of a run */
   const char *without;   /* options of a run that it does not take, separated by blanks; NULL: none */
   int (*function)(const struct cli_arguments *arguments);
 };
 
-/* Of verbs that may begin at rest (setup.h). */
+/* Of verbs that look at a state (cli_results_at()), and of those that may begin at rest (setup.h). */
+#define HOOKE_AT                                                                                             \
+  {                                                                                                          \
+    "at", 0, "FILE:FRAME",                                                                                   \
+        "at a frame of a trajectory, the last one if FRAME is left out; else at the start"                   \
+  }
 #define HOOKE_FROM_REST                                                                                      \
   {                                                                                                          \
     "from-rest", 0, NULL,                                                                                    \

@@ -101,6 +101,19 @@ void cli_rows_print_cell(int32_t width, double value) {
   cli_rows_print_as(width, value, "%.4g", NULL, NULL);
 }
 
+static int32_t is_known(const hooke_measurement *measurement, const char *column) {
+  for (int64_t row = 0; row < hooke_measurement_row_count(measurement, "rows"); row++)
+    if (!isnan(hooke_measurement_number(measurement, "rows", row, column))) return 1;
+  return 0;
+}
+
+void cli_rows_known(const hooke_measurement *measurement, const struct cli_column *columns,
+                    struct cli_column *known) {
+  for (; columns->what; columns++)
+    if (is_known(measurement, columns->what)) *known++ = *columns;
+  known->what = NULL;
+}
+
 static void print_head(const struct cli_rows *rows, int32_t method_width, int32_t second) {
   printf("%-*s", method_width, second ? "" : "method");
   for (const struct cli_column *column = rows->columns; column->what; column++) {

@@ -62,6 +62,10 @@ enum { HOOKE_HEAD_SIZE = 128 };
 const char *cli_quantity(const hooke_measurement *measurement, const char *table, int64_t row,
                          char head[HOOKE_HEAD_SIZE]);
 
+/* The columns, which end with a `what` of NULL, in which some row has a number; `known` has room for all. */
+void cli_rows_known(const hooke_measurement *measurement, const struct cli_column *columns,
+                    struct cli_column *known);
+
 /* A table of all rows. */
 void cli_rows_print(const struct cli_rows *rows, int32_t method_width);
 

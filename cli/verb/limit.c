@@ -32,20 +32,15 @@ static const struct cli_column columns[] = {
     {"ratio", "measured /", "predicted", 10, "%.6g", "none", "no step", 0},
     {"steps_run", "steps", "run", 10, "%.0f", "none", NULL, 0},
     {"smallest", "smallest", "met [s]", 12, "%.6g", "none", "no step", 0},
-    {"smallest_time", "at time", "[s]", 10, "%.6g", "none", NULL, 0}};
+    {"smallest_time", "at time", "[s]", 10, "%.6g", "none", NULL, 0},
+    {.what = NULL}};
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
 /* The columns in which anything is known. */
 static void print_table(const hooke_measurement *limit) {
-  struct cli_column shown[COLUMN_COUNT + 1] = {{.what = NULL}};
+  struct cli_column shown[COLUMN_COUNT];
   const struct cli_rows rows = {.source = limit, .columns = shown};
-  int32_t count = 0;
-  for (int k = 0; k < COLUMN_COUNT; k++) {
-    int32_t known = 0;
-    for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
-      known |= !isnan(hooke_measurement_number(limit, "rows", row, columns[k].what));
-    if (known) shown[count++] = columns[k];
-  }
+  cli_rows_known(limit, columns, shown);
   cli_rows_print(&rows, cli_rows_width(limit, "rows", "method", HOOKE_METHOD_WIDTH));
 }
 
@@ -85,8 +80,7 @@ static int do_limit(const struct cli_arguments *arguments) {
 }
 
 static const struct cli_verb_row own_rows[] = {
-    {"at", 0, "FILE:FRAME",
-     "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
+    HOOKE_AT,
     HOOKE_FROM_REST,
     {"report", 0, "FILE.html",
      "writes regions of stability, limiting mode, table and "

@@ -15,7 +15,8 @@ static const struct cli_column columns[] = {{"omega", "omega", "[rad/s]", 12, "%
                                             {"damping_ratio", "damping", "ratio", 11, "%.4g", NULL, NULL, 0},
                                             {"mass_x", "mass along x", "[kg]", 14, "%.4g", NULL, NULL, 0},
                                             {"mass_y", "y", "[kg]", 11, "%.4g", NULL, NULL, 0},
-                                            {"mass_z", "z", "[kg]", 11, "%.4g", NULL, NULL, 0}};
+                                            {"mass_z", "z", "[kg]", 11, "%.4g", NULL, NULL, 0},
+                                            {.what = NULL}};
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
 static double size_of(const hooke_measurement *m, int64_t row) {
@@ -38,29 +39,22 @@ static void print_groups(const hooke_measurement *m, int64_t mode, int64_t group
   }
 }
 
-static int is_known(const hooke_measurement *m, const char *column) {
-  int known = 0;
-  for (int64_t row = 0; row < hooke_measurement_row_count(m, "rows"); row++)
-    known |= !isnan(hooke_measurement_number(m, "rows", row, column));
-  return known;
-}
-
 static void print_table(const hooke_measurement *m) {
   const int64_t count = hooke_measurement_row_count(m, "rows");
   const int64_t groups = count > 0 ? hooke_measurement_row_count(m, "groups") / count : 0;
+  struct cli_column shown[COLUMNS];
+  cli_rows_known(m, columns, shown);
   for (int line = 0; line < 2; line++) {
     printf(line == 0 ? "\nmode" : "\n    ");
-    for (int k = 0; k < COLUMNS; k++)
-      if (is_known(m, columns[k].what))
-        printf("%*s", columns[k].width, line == 0 ? columns[k].head : columns[k].unit);
+    for (const struct cli_column *column = shown; column->what; column++)
+      printf("%*s", column->width, line == 0 ? column->head : column->unit);
     printf(line == 0 ? "   stiffness" : "");
   }
   for (int64_t row = 0; row < count; row++) {
     printf("\n%4lld", (long long)row);
-    for (int k = 0; k < COLUMNS; k++)
-      if (is_known(m, columns[k].what))
-        cli_rows_print_as(columns[k].width, hooke_measurement_number(m, "rows", row, columns[k].what),
-                          columns[k].format, NULL, NULL);
+    for (const struct cli_column *column = shown; column->what; column++)
+      cli_rows_print_as(column->width, hooke_measurement_number(m, "rows", row, column->what), column->format,
+                        NULL, NULL);
     print_groups(m, row, groups);
   }
   printf("\n");
@@ -91,8 +85,7 @@ static int do_modes(const struct cli_arguments *arguments) {
 }
 
 static const struct cli_verb_row own_rows[] = {
-    {"at", 0, "FILE:FRAME",
-     "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
+    HOOKE_AT,
     HOOKE_FROM_REST,
     {"report", 0, "FILE.html",
      "writes the modes as one page to read offline, on which they play, replacing it"},

@@ -97,7 +97,6 @@ const struct cli_verb cli_verb_rest = {
     .example = "hooke rest cloth.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = "rest",
-    .without =
-        "method step duration every checkpoint newton newton_tolerance verlet_damping rtol atol atol_velocity max_order linear_solver max_steps past_divergence frames_after threads",
+    .takes_no_run = 1,
     .function = do_rest,
 };

@@ -37,6 +37,11 @@ int32_t hk_file_resolve(const char *path, char **resolved) {
   return *resolved ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
+int hk_file_ends_in(const char *path, const char *ending) {
+  const size_t length = strlen(path), end = strlen(ending);
+  return length > end && strcmp(path + length - end, ending) == 0;
+}
+
 int32_t hk_file_beside(const char *path, const char *ending, char **beside) {
   const char *slash = hk_os_last_slash(path), *name = slash ? slash + 1 : path;
   const size_t length = strlen(name), more = strlen(ending), capacity = strlen(path) + more + 16;

@@ -61,6 +61,9 @@ void hk_atomic_file_release(struct hk_atomic_file *file);
 /* HOOKE_BAD_CALL in a process that was forked from the one that made it. */
 int32_t hk_atomic_file_require_own(const struct hk_atomic_file *file);
 
+/* 1 if the name ends so, and has more before it. */
+int hk_file_ends_in(const char *path, const char *ending);
+
 /* A path with `ending` appended, which the caller frees; a name that would be too long is truncated and ends
  * with a check value of the whole name before the ending. HOOKE_NO_MEMORY. */
 int32_t hk_file_beside(const char *path, const char *ending, char **beside);

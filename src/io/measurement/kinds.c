@@ -1,5 +1,6 @@
 /* The kinds of measurements by name, their tables, and the formats of their files. */
 #include "core/status.h"
+#include "io/file/atomic_file.h"
 #include "io/file/inputs.h"
 #include "io/measurement/measurement_file.h"
 #include "io/page/view/view.h"
@@ -83,11 +84,6 @@ static const struct format {
                {".h5", "an HDF5 file ", hk_measurement_write_h5},
                {".html", "a page ", hk_measurement_write_page}};
 
-static int ends_in(const char *path, const char *ending) {
-  const size_t length = strlen(path), end = strlen(ending);
-  return length > end && strcmp(path + length - end, ending) == 0;
-}
-
 int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path) {
   if (!measurement->has_run)
     return hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to write before hooke_measurement_run()");
@@ -96,7 +92,7 @@ int32_t hooke_measurement_write(const hooke_measurement *measurement, const char
   if (measurement->kind->write) return measurement->kind->write(measurement, path);
   for (size_t k = 0; k < sizeof formats / sizeof formats[0]; k++) {
     const struct format *format = &formats[k];
-    if (!ends_in(path, format->ending)) continue;
+    if (!hk_file_ends_in(path, format->ending)) continue;
     const int32_t refused = measurement->system && format->of_scene
                                 ? hk_system_require_scene(measurement->system, "path", format->of_scene)
                                 : HOOKE_OK;

@@ -92,14 +92,9 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
 
 /* ---- making ---- */
 
-static int ends_in(const char *path, const char *ending) {
-  const size_t length = strlen(path), end = strlen(ending);
-  return length > end && strcmp(path + length - end, ending) == 0;
-}
-
 static int32_t read_format(const char *path, hooke_probes *probes) {
-  probes->is_table = ends_in(path, ".h5") || ends_in(path, ".hdf5");
-  if (probes->is_table || ends_in(path, ".csv")) return HOOKE_OK;
+  probes->is_table = hk_file_ends_in(path, ".h5") || hk_file_ends_in(path, ".hdf5");
+  if (probes->is_table || hk_file_ends_in(path, ".csv")) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, "probes", "%s: allowed are names that end in .csv, .h5 or .hdf5", path);
 }
 

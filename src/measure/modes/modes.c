@@ -46,16 +46,9 @@ static const double AT_REST = 1e-6, STRETCHED = 1e-12;
 
 static void judge_rest(struct hk_modes *modes, const struct hk_stiffness *s, const double *q) {
   const hooke_system *system = modes->system;
-  double weight = 0.0, strength = 0.0;
+  double weight = 0.0, strength;
   modes->residual = residual_of(s);
-  modes->largest_force = 0.0;
-  for (int64_t k = 0; k < system->springs->count; k++) {
-    const struct hk_spring spring = hk_springs_find(system->springs, k, system->moment);
-    struct hk_stretch stretch;
-    hk_spring_stretch(&spring, q, NULL, &stretch);
-    modes->largest_force = fmax(modes->largest_force, fabs(stretch.tension));
-    strength = fmax(strength, fabs(stretch.slope) * stretch.length);
-  }
+  hk_springs_largest(system->springs, system->moment, q, &modes->largest_force, &strength);
   for (int64_t p = 0; p < system->particle_count && system->has_gravity; p++)
     weight = fmax(weight, system->constrained[p] ? 0.0 : system->mass[p] * hk_length3(system->gravity));
   modes->at_rest = modes->residual <= AT_REST * fmax(weight, modes->largest_force) + STRETCHED * strength;

@@ -25,7 +25,7 @@ static const struct hk_option_table rest_table = {"rest", HOOKE_OPTION_ROWS(rest
 static void forget(struct hk_resting *r) {
   hk_free(r->position);
   r->position = NULL;
-  r->rest = (struct hk_rest){.residual = NAN, .allowed = NAN, .largest_force = NAN, .worst = -1};
+  r->rest = (struct hk_rest){.residual = NAN, .largest_force = NAN};
   r->minimum = -1;
   hk_modes_release(&r->modes);
   r->modes = (struct hk_modes){.system = r->m->system, .zero_modes = -1};
@@ -44,7 +44,8 @@ static int32_t create(hooke_measurement *m) {
   const int32_t status = text[0] ? hk_watched_read(&r->watched, "watch", text) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   r->value = hk_new(r->watched.count, sizeof *r->value);
-  return r->value ? HOOKE_OK : HOOKE_NO_MEMORY;
+  r->number = hk_new(r->watched.count, sizeof *r->number);
+  return r->value && r->number ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 static void destroy(void *object) {
@@ -52,6 +53,7 @@ static void destroy(void *object) {
   if (r == NULL) return;
   hk_watched_release(&r->watched);
   hk_free(r->value);
+  hk_free(r->number);
   hk_free(r->position);
   hk_modes_release(&r->modes);
   hk_free(r);
@@ -60,11 +62,12 @@ static void destroy(void *object) {
 /* ---- running ---- */
 
 static void see_watched(struct hk_resting *r, double t, const double *zeros) {
+  const int32_t rests = r->rest.lack == HOOKE_RESTS;
+  if (rests) hk_watched_values(&r->watched, t, r->position, zeros, r->number);
   for (int64_t k = 0; k < r->watched.count; k++) {
     const struct hk_watched *watched = &r->watched.item[k];
-    r->value[k] = (struct hk_rest_watched){watched->text, hk_watched_unit(watched), NAN};
-    if (!watched->is_period && r->rest.lack == HOOKE_RESTS)
-      r->value[k].value = hk_watched_value(watched, r->m->system, t, r->position, zeros);
+    const double value = rests && !watched->is_period ? r->number[k] : NAN;
+    r->value[k] = (struct hk_rest_watched){watched->text, hk_watched_unit(watched), value};
   }
 }
 

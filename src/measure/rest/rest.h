@@ -21,6 +21,7 @@ struct hk_resting {
   const hooke_measurement *m;
   struct hk_watched_list watched;
   struct hk_rest_watched *value; /* by quantity */
+  double *number;                /* the same, as they are computed */
   struct hk_rest rest;
   double *position; /* 3n, of the last run; NULL before */
   int32_t minimum;  /* -1: not known */

@@ -119,12 +119,6 @@ static void stop_motion(struct search *s) {
   hk_movers_read(s->system, s->it->motion, s->stage->body.own);
 }
 
-static void see(struct hk_rest *found, double force, int64_t particle) {
-  if (force <= found->residual) return;
-  found->residual = force;
-  found->worst = particle;
-}
-
 /* The residual at the motion, at rest. */
 static int32_t find_residual(struct search *s) {
   const hooke_system *system = s->system;
@@ -132,14 +126,13 @@ static int32_t find_residual(struct search *s) {
   struct hk_rest *found = s->found;
   double sum[3] = {0.0};
   const int32_t status = hk_integrator_forces(s->it, s->t);
-  found->residual = 0.0;
-  found->worst = -1;
+  double most = 0.0;
   for (int64_t p = 0; p < m->n; p++) {
     if (system->constrained[p] || hk_is_carried(system, p)) continue;
     double f[3];
     for (int a = 0; a < 3; a++)
       f[a] = m->f[a][p] + system->inertia[p] * hk_fall(system, p, a), sum[a] += f[a];
-    see(found, hk_length3(f), p);
+    most = fmax(most, hk_length3(f));
   }
   hk_movers_push(system, m, s->stage->body.own, s->push);
   for (int64_t k = 0; k < system->mover_count; k++) {
@@ -149,10 +142,11 @@ static int32_t find_residual(struct search *s) {
     for (int64_t j = 0; j < body->count; j++)
       reach = fmax(reach, hk_length3(body->place + 3 * j));
     hk_add3(body->mass, push, sum);
-    see(found, body->mass * hk_length3(push), -1);
-    if (reach > 0.0) see(found, hk_length3(push + 3) / reach, -1);
+    most = fmax(most, body->mass * hk_length3(push));
+    if (reach > 0.0) most = fmax(most, hk_length3(push + 3) / reach);
   }
   const double length = hk_length3(sum);
+  found->residual = most;
   for (int a = 0; a < 3; a++)
     found->fall[a] = length > 0.0 ? sum[a] / length : 0.0;
   return status;
@@ -182,19 +176,10 @@ static double find_rounding(const struct search *s) {
 /* The largest force along a spring, and that or the largest weight. */
 static double find_scale(struct search *s) {
   const hooke_system *system = s->system;
-  double *q = s->stage->moved, most = 0.0, scale = 0.0;
+  double *q = s->stage->moved, strength;
   hk_rows_from_components(system->particle_count, s->it->motion->q, q);
-  struct hk_scaler scaler = {.t = s->t};
-  for (int64_t r = 0; r < system->springs->run_count; r++) {
-    const struct hk_run *run = &system->springs->run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring_at(run, k, &scaler);
-      struct hk_stretch stretch;
-      hk_spring_stretch(&spring, q, NULL, &stretch);
-      most = fmax(most, fabs(stretch.tension));
-    }
-  }
-  s->found->largest_force = scale = most;
+  hk_springs_largest(system->springs, s->t, q, &s->found->largest_force, &strength);
+  double scale = s->found->largest_force;
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
     const double g[3] = {hk_fall(system, p, 0), hk_fall(system, p, 1), hk_fall(system, p, 2)};
@@ -249,10 +234,10 @@ static int32_t step(struct search *s, double h, int *ok) {
 /* 1 if the search is over, with its result. */
 static int is_over(struct search *s, double before, int *stalled) {
   struct hk_rest *found = s->found;
-  const double floor = find_rounding(s), scale = find_scale(s);
-  found->allowed = fmax(AT_REST * (scale > 0.0 ? scale : s->begun), floor);
+  const double scale = find_scale(s),
+               allowed = fmax(AT_REST * (scale > 0.0 ? scale : s->begun), find_rounding(s));
   *stalled = found->residual < FALLEN * before ? 0 : *stalled + 1;
-  if (found->residual <= LEAST * scale || (found->residual <= found->allowed && *stalled >= 1)) return 1;
+  if (found->residual <= LEAST * scale || (found->residual <= allowed && *stalled >= 1)) return 1;
   if (found->moved > FAR * s->extent && found->residual > STAYS * before) found->lack = HOOKE_FALLS;
   return found->lack != HOOKE_RESTS;
 }
@@ -293,7 +278,7 @@ static int32_t search(struct search *s) {
 int32_t hk_rest_find(const hooke_system *system, double t, double *q, struct hk_budget *budget,
                      struct hk_rest *found) {
   struct search s = {.system = system, .from = q, .t = t, .budget = budget, .found = found};
-  *found = (struct hk_rest){.worst = -1};
+  *found = (struct hk_rest){.lack = HOOKE_RESTS};
   int32_t status = hold_obstacles(&s);
   if (status == HOOKE_OK) status = place_driven(&s, q);
   s.push = hk_new(HOOKE_PUSH * system->mover_count, sizeof(double));

@@ -20,12 +20,11 @@ enum hk_rest_lack {
 
 struct hk_rest {
   enum hk_rest_lack lack;
-  double residual, allowed; /* the largest force on a free particle or a body, and what counts as none [N] */
-  double largest_force;     /* the largest force along a spring, in absolute value [N] */
-  int64_t worst;            /* the particle of the residual, -1: a body's, or none */
-  double fall[3];           /* direction of the force that remains; its length is 1 */
-  double moved;             /* how far the farthest particle has come [m] */
-  int32_t has_energy;       /* 1: the steps descended */
+  double residual;      /* the largest force on a free particle or a body [N] */
+  double largest_force; /* the largest force along a spring, in absolute value [N] */
+  double fall[3];       /* direction of the force that remains; its length is 1 */
+  double moved;         /* how far the farthest particle has come [m] */
+  int32_t has_energy;   /* 1: the steps descended */
   int64_t steps, failures, iterations, force_evaluations;
 };
 

@@ -480,6 +480,21 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .stored_elements = stored_elements,
                                               .add_stiffness = add_stiffness};
 
+void hk_springs_largest(const struct hk_springs *springs, double t, const double *q, double *tension,
+                        double *strength) {
+  struct hk_scaler scaler = {.t = t};
+  *tension = *strength = 0.0;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    for (int64_t k = 0; k < springs->run[r].count; k++) {
+      const struct hk_spring spring = hk_run_spring_at(&springs->run[r], k, &scaler);
+      struct hk_stretch s;
+      hk_spring_stretch(&spring, q, NULL, &s);
+      *tension = fmax(*tension, fabs(s.tension));
+      *strength = fmax(*strength, fabs(s.slope) * s.length);
+    }
+  }
+}
+
 int32_t hooke_system_tension(const hooke_system *system, double t, const double *q, const double *v,
                              double *tension) {
   const int32_t status = hk_system_require_committed(system);

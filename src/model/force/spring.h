@@ -138,6 +138,11 @@ struct hk_curved {
 };
 struct hk_curved hk_springs_curved(const struct hk_springs *springs, double t, const double *q);
 
+/* The largest tension of all at positions q and time t, in absolute value [N], and the largest slope times
+ * length [N]. */
+void hk_springs_largest(const struct hk_springs *springs, double t, const double *q, double *tension,
+                        double *strength);
+
 /* A spring as an element. */
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
                        struct hk_element *out);
