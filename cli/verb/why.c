@@ -30,9 +30,18 @@ static int32_t see_run(double done, const char *method, void *watch) {
   return cli_watch_progress(done, "running it", watch);
 }
 
-static int32_t find_bound(struct why *why, const hooke_state *state) {
-  return hooke_step_bound(why->setup.system, hooke_options_text(why->setup.options, "method"),
-                          hooke_state_position(state), &why->bound);
+/* By the state with its velocities, on which the damping of friction depends. */
+static int32_t find_bound(struct why *why, hooke_state *state) {
+  hooke_measurement *check = NULL;
+  int32_t status = hooke_measurement_create("check", why->setup.system, NULL, NULL, &check);
+  if (status == HOOKE_OK) status = hooke_measurement_run(check, state);
+  if (status == HOOKE_OK) {
+    const int64_t row = hooke_measurement_find(check, "step_limit", "method",
+                                               hooke_options_text(why->setup.options, "method"));
+    why->bound = hooke_measurement_number(check, "step_limit", row, "seconds");
+  }
+  hooke_measurement_destroy(check);
+  return status;
 }
 
 /* Runs the scene and finds why it ended early. */
