@@ -180,8 +180,10 @@ static int is_expected(const struct hk_estimate *e, double seen) {
 
 /* 1 if another step, `near`, gives another motion, as far as its size tells, where no order is seen. */
 static int is_lost(const struct hk_estimate *e, const struct level *near, const struct level *far) {
-  return !isnan(far->factor) && isnan(far->from.most) &&
-         near->from.most > LOST * hk_frames_extent(&e->kept); /* a pass over all frames */
+  if (isnan(far->factor) || !isnan(far->from.most)) return 0;
+  /* the motion is at least as large as its first frame, which mostly tells without a pass over all */
+  return near->from.most > LOST * hk_frames_extent(&e->kept, 1) &&
+         near->from.most > LOST * hk_frames_extent(&e->kept, e->kept.recorded);
 }
 
 /* From the run `near`, at half the step, and `far`, at twice the step or unknown. */

@@ -105,7 +105,7 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
   r->run_extent = r->extent;
   r->run_work = cost->work;
   if (watch->unit == 0.0) watch->unit = hk_clock_seconds() - watch->run_begun;
-  const double size = hk_frames_extent(&r->frames);
+  const double size = hk_frames_extent(&r->frames, r->frames.recorded);
   if (size > 0.0) r->extent = size;
   return HOOKE_OK;
 }

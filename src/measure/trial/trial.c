@@ -74,11 +74,11 @@ double hk_frames_distance(const struct hk_frames *frames, int64_t f, const doubl
   return frames->free_count > 0 ? sqrt(sum / (double)frames->free_count) : 0.0;
 }
 
-double hk_frames_extent(const struct hk_frames *frames) {
-  const int64_t size = frames->size, all = frames->recorded * size;
+double hk_frames_extent(const struct hk_frames *frames, int64_t count) {
+  const int64_t size = frames->size, all = count * size;
   double most = 0.0;
   if (frames->width == 3) return hk_diagonal(all / 3, frames->position);
-  for (int64_t i = 0; i < size && frames->recorded > 0; i++) {
+  for (int64_t i = 0; i < size && count > 0; i++) {
     double low = frames->position[i], high = low;
     for (int64_t k = i; k < all; k += size) {
       low = fmin(low, frames->position[k]);

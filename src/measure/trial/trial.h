@@ -34,9 +34,9 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
  * too. */
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
 
-/* How large the motion is that was recorded: the diagonal of the box that holds all positions [m], or the
- * largest range of a coordinate; 0 without a motion. */
-double hk_frames_extent(const struct hk_frames *frames);
+/* How large the motion is in the first `count` frames: the diagonal of the box that holds all positions [m],
+ * or the largest range of a coordinate; 0 without a motion. */
+double hk_frames_extent(const struct hk_frames *frames, int64_t count);
 
 /* What the positions q can hold [m]: half a unit in the last place of the largest coordinate of a free
  * particle. */
