@@ -95,6 +95,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   const double seconds = hooke_options_number(m->options, "budget"), t = hooke_state_time(state);
   struct hk_budget budget = hk_budget_of(isnan(seconds) ? INFINITY : seconds, m->progress, m->progress_ctx);
   forget(r);
+  r->time = t;
   double *zeros = hk_new(numbers, sizeof(double));
   r->position = hk_new(numbers, sizeof(double));
   int32_t status = zeros && r->position ? HOOKE_OK : HOOKE_NO_MEMORY;

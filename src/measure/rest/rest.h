@@ -23,6 +23,7 @@ struct hk_resting {
   struct hk_rest_watched *value; /* by quantity */
   double *number;                /* the same, as they are computed */
   struct hk_rest rest;
+  double time;      /* of the start [s] */
   double *position; /* 3n, of the last run; NULL before */
   int32_t minimum;  /* -1: not known */
   int32_t had_friction;

@@ -23,6 +23,12 @@ static void tell_lack(const struct hk_resting *r, struct hk_claims *claims) {
         claims, "rest", HOOKE_OF_WHOLE, "forces",
         "there is no rest: the scene falls along %.3g %.3g %.3g, where a force of %.6g N remains after %.3g m",
         rest->fall[0], rest->fall[1], rest->fall[2], rest->residual, rest->moved);
+  else if (rest->lack == HOOKE_TOO_LONG)
+    hk_claim(claims, "rest", HOOKE_OF_UNKNOWN, "forces",
+             "no rest was found, and there may be one: after %lld steps, %lld that failed, and %lld "
+             "evaluations of all forces a force of %.6g N is left, along %.3g %.3g %.3g",
+             (long long)rest->steps, (long long)rest->failures, (long long)rest->force_evaluations,
+             rest->residual, rest->fall[0], rest->fall[1], rest->fall[2]);
   else
     hk_claim(
         claims, "rest", HOOKE_OF_UNKNOWN, "forces",
