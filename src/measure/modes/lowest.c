@@ -106,6 +106,28 @@ static int32_t factorise(struct search *s) {
   return found == 1 ? HOOKE_OK : hk_fail(HOOKE_SOLVER_FAILED, NULL, "the stiffness has no factor");
 }
 
+/* Multiplications of a factor at most, some ten seconds. */
+static const double MOST_PRODUCTS = 2e10;
+
+int32_t hk_lowest_sign(const struct hk_columns *matrix, double bound, struct hk_budget *budget,
+                       int32_t *sign) {
+  struct hk_cholmod *factor = hk_cholmod ? hk_cholmod->create(matrix, 1) : NULL;
+  double products = 0.0;
+  *sign = 0;
+  if (hk_cholmod == NULL) return HOOKE_OK;
+  if (factor == NULL) return HOOKE_NO_MEMORY;
+  for (int32_t k = 0; k < matrix->size; k++)
+    products += 0.5 * hk_cholmod->counts(factor)[k] * hk_cholmod->counts(factor)[k];
+  int32_t status = hk_budget_ends(budget, "factor") ? HOOKE_STOPPED : HOOKE_OK;
+  if (status == HOOKE_OK && products <= MOST_PRODUCTS) {
+    const int32_t found = hk_cholmod->compute(factor, matrix, HOOKE_MODES_ZERO * bound);
+    *sign = found == 1 ? 1 : -1;
+    if (found == HOOKE_NO_MEMORY) status = found;
+  }
+  hk_cholmod->destroy(factor);
+  return status;
+}
+
 /* Makes vector k of the basis orthogonal to those before; one of nothing becomes a random one. */
 static void orthonormalise(struct search *s, int64_t k) {
   double *q = s->basis + k * s->n;

@@ -8,7 +8,8 @@
 #include "measure/quantity/watched.h"
 #include "measure/rest/rest_find.h"
 
-/* Larger scenes have no modes here: finding them may take many times as long as the rest. */
+/* Larger scenes have no modes here, but for the sign of the lowest: finding them may take many times as long
+ * as the rest. */
 enum { HOOKE_REST_PARTICLES = 4000 };
 
 struct hk_rest_watched {

@@ -260,7 +260,8 @@ static int32_t search(struct search *s) {
     const int64_t counted = s->it->count.nonlinear_iterations;
     int ok;
     found->lack = hk_budget_ends(s->budget, "rest") ? HOOKE_REST_SPENT : found->lack;
-    if (found->steps + found->failures >= MOST_STEPS || hk_work_of(s->it) > most) found->lack = HOOKE_TOO_LONG;
+    if (found->steps + found->failures >= MOST_STEPS || hk_work_of(s->it) > most)
+      found->lack = HOOKE_TOO_LONG;
     if (found->lack != HOOKE_RESTS) break;
     status = step(s, h, &ok);
     if (status != HOOKE_OK) break;
