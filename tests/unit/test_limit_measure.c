@@ -119,7 +119,7 @@ TEST(far_from_the_origin) {
 /* ---- a mode that was not predicted ---- */
 
 TEST(hidden_mode_is_found) {
-  const double stiffness[2] = {49.0, 64.0}, damping[2] = {0.3, 0.3};
+  const double stiffness[2] = {49.0, 64.0}, damping[2] = {0.0, 0.0};
   owned_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
   mode[3] = 1.0;
