@@ -113,7 +113,7 @@ static int32_t renumber(const struct hk_variant_maker *maker, const struct hk_gr
     const int64_t to = maker->map->to[group->particle[e][k]];
     if (to < 0 || (group->force->on_free && maker->made->constrained[to])) return 0;
     group->particle[e][k] = (int32_t)to;
-    for (int other = 0; other < e; other++)
+    for (int other = 0; other < e && !group->force->is_drag; other++) /* a segment repeats its end */
       if (group->particle[other][k] == (int32_t)to) return 0;
   }
   return 1;
@@ -192,9 +192,9 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
     const struct hk_group *group = &from->group[g];
     if (group->force != force) first = 0;
     force = group->force;
-    if (maker->variant->group[g] ||
-        (group->from_part && !hk_variant_breaks_up(maker, group, first) && !keeps_clamps(maker, group)))
-      continue;
+    const int by_part = group->from_part && !maker->variant->loose &&
+                        !hk_variant_breaks_up(maker, group, first) && !keeps_clamps(maker, group);
+    if (maker->variant->group[g] || by_part) continue;
     status = keep_group(maker, group, first);
   }
   return status;
@@ -251,6 +251,8 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   int32_t status = hooke_system_create(&maker.made);
   if (status == HOOKE_OK) maker.made->rest->memory_limit = from->rest->memory_limit;
   if (status == HOOKE_OK) maker.made->overdamped = from->overdamped;
+  if (status == HOOKE_OK)
+    maker.made->rest->linear.of_velocities = variant->loose && hk_system_is_not_linear(from);
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_start_copy(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);

@@ -66,6 +66,13 @@ class System(Queries):
         handle = Handle.made(self._handle, lib.hooke_system_with_force, *given)
         return System._committed_by(handle, [*self._callbacks, callback])
 
+    def take(self, particles: Any) -> System:
+        """The committed system of these particles, in ascending order, and of the members of forces all of whose particles
+        are among them: the force on a particle has the same bits if all that acts on it was taken. Unsuited with rigid
+        bodies and callbacks."""
+        handle = Handle.made(None, lib.hooke_system_take, self._committed(), *_numbered(particles))
+        return System._committed_by(handle, [])
+
     # building
 
     def add_particles(self, position: Any, velocity: Any = None, *, mass: Any = ()) -> range:
