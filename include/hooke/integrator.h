@@ -138,8 +138,8 @@ HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_stat
 
 /* Begins a motion at `state`, as the one after `step` >= 0 steps of a motion that began at time t0: the times
  * of its steps are those of that motion, t0 + k h, to the bit, and so has to be that of `state`. If the
- * integrator has an earlier step of a motion that began at t0, this is the same one: divergence is then judged
- * by its energies, here as well. HOOKE_DIVERGED; HOOKE_BAD_VALUE, also for a state of another time;
+ * integrator has an earlier step of a motion that began at t0, this is the same one: divergence is then
+ * judged by its energies, here as well. HOOKE_DIVERGED; HOOKE_BAD_VALUE, also for a state of another time;
  * HOOKE_UNSUITED for an error-controlled method. */
 HOOKE_API int32_t hooke_integrator_begin(hooke_integrator *integrator, hooke_state *state, double t0,
                                          int64_t step);

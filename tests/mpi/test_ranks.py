@@ -57,18 +57,16 @@ def trials(folder, seeds, steps):
 
 
 def test_bits(tmp_path):
-    """1, 2, 3 and 5 ranks, by bisection and at random, with all forces, by five methods, and three of them overdamped."""
-    assert over(5, "trial", *trials(tmp_path, [1], 3)).splitlines()[-1] == "64 of 64 equal"
-
-
-def test_a_ghost_for_another(tmp_path):
-    assert over(5, "trial", "--fault", *trials(tmp_path, [1], 2)[:2]).splitlines()[-1] == "0 of 20 equal"
+    """1, 2, 3 and 5 ranks, by bisection and at random, with all forces, by five methods, and three of them overdamped; a
+    list of ghosts that is off by one has other bits."""
+    told = over(5, "trial", *trials(tmp_path, [1], 2))
+    assert told.splitlines()[-2:] == ["64 of 64 equal", "with a fault: 0 of 8 equal"]
 
 
 @pytest.mark.check
 def test_bits_of_many_scenes(tmp_path):
     told = over(5, "trial", *trials(tmp_path, range(2, 10), 20))
-    assert told.splitlines()[-1] == f"{8 * 40 + 24} of {8 * 40 + 24} equal"
+    assert told.splitlines()[-2] == f"{8 * 40 + 24} of {8 * 40 + 24} equal"
 
 
 def test_file(tmp_path):
@@ -117,7 +115,7 @@ def killed(path, ranks, *arguments, after):
     limit = time.monotonic() + LONG
     while process.poll() is None and time.monotonic() < limit:
         try:
-            there = sum(np.isfinite(hooke.open(path).read("time").ravel())) if path.exists() else 0
+            there = len(hooke.open(path)) if path.exists() else 0
         except (hooke.Error, OSError):
             there = 0
         if there >= after and ranks_of(process):

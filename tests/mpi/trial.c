@@ -1,6 +1,7 @@
 /* Scenes over 1, 2, 3 and 5 ranks of one launch, split by bisection and at random, by every method that runs
- * over ranks, against one process: trial [--fault] STEPS SCENE... With --fault every rank takes each ghost
- * for the next one. It prints how many runs there were, and how many had the same bits. */
+ * over ranks, against one process: trial STEPS SCENE... The first scene is then run with a planted fault:
+ * every rank takes each ghost for the next one. It prints how many runs there were, and how many had the same
+ * bits. */
 #include "split.h"
 
 #include <stdio.h>
@@ -87,25 +88,35 @@ static void try_method(const hooke_system *whole, hooke_options *options, const 
   hooke_integrator_destroy(serial);
 }
 
-int main(int argc, char **argv) {
+static void try_scene(const char *path) {
   static const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet", "heun", "rk4"};
+  hooke_scene *scene;
+  check(hooke_scene_load(path, NULL, &scene));
+  check(hooke_scene_commit(scene));
+  const hooke_system *whole = hooke_scene_system(scene);
+  const int overdamped = strcmp(hooke_system_dynamics(whole), "overdamped") == 0;
+  for (size_t m = 0; m < (fault ? 2 : sizeof methods / sizeof *methods); m++)
+    if (hooke_method_is_suited(methods[m], overdamped ? "overdamped" : "second-order"))
+      try_method(whole, hooke_scene_run_options(scene), methods[m]);
+  hooke_scene_destroy(scene);
+}
+
+static void tell(int rank, const char *what) {
+  if (rank == 0) printf("%s%d of %d equal\n", what, equal, runs);
+  equal = runs = 0;
+}
+
+int main(int argc, char **argv) {
   int rank;
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  fault = strcmp(argv[1], "--fault") == 0;
-  steps = atoi(argv[1 + fault]);
-  for (int k = 2 + fault; k < argc; k++) {
-    hooke_scene *scene;
-    check(hooke_scene_load(argv[k], NULL, &scene));
-    check(hooke_scene_commit(scene));
-    const hooke_system *whole = hooke_scene_system(scene);
-    const int overdamped = strcmp(hooke_system_dynamics(whole), "overdamped") == 0;
-    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
-      if (hooke_method_is_suited(methods[m], overdamped ? "overdamped" : "second-order"))
-        try_method(whole, hooke_scene_run_options(scene), methods[m]);
-    hooke_scene_destroy(scene);
-  }
-  if (rank == 0) printf("%d of %d equal\n", equal, runs);
+  steps = atoi(argv[1]);
+  for (int k = 2; k < argc; k++)
+    try_scene(argv[k]);
+  tell(rank, "");
+  fault = 1;
+  try_scene(argv[2]);
+  tell(rank, "with a fault: ");
   MPI_Finalize();
   return 0;
 }

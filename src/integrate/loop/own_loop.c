@@ -71,7 +71,6 @@ static int32_t check_begin(const hooke_integrator *it, const hooke_state *state,
                  *state->t, (long long)step, t0, t);
 }
 
-/* A later state of the motion that there is has to have risen no more than its start allows. */
 int32_t hooke_integrator_begin(hooke_integrator *it, hooke_state *state, double t0, int64_t step) {
   const struct hk_standing before = it->standing;
   const int goes_on = it->phase != HOOKE_NOT_BEGUN && before.t0 == t0 && before.k < step;
@@ -80,16 +79,11 @@ int32_t hooke_integrator_begin(hooke_integrator *it, hooke_state *state, double 
   if (status != HOOKE_OK) return status;
   status = hk_run_begin_later(it, state);
   hk_recent_set_first(&it->recent, NULL);
+  if (goes_on) it->standing = before;
   it->t0 = t0;
-  it->k = step;
-  it->recent.step[it->recent.newest] = step;
-  if (goes_on && status == HOOKE_OK) {
-    it->energy0 = before.energy0;
-    it->scale0 = before.scale0;
-    it->gravity0 = before.gravity0;
-    it->gravity_swing = before.gravity_swing;
-    status = hk_divergence_check(it, state, 1);
-  }
+  it->t = *state->t;
+  it->k = it->recent.step[it->recent.newest] = step;
+  if (goes_on && status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
   return hk_run_end(it, state, status);
 }
 

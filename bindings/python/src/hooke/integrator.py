@@ -152,9 +152,8 @@ class Integrator(Closing):
         return self._take(steps, lib.hooke_integrator_step, state._handle, steps)
 
     def begin(self, state: State, t0: float, step: int) -> str:
-        """Begins a motion at `state` as the one after `step` steps of a motion that began at time `t0` [s], with the times
-        of that motion, to the bit; for methods with a fixed step. Returns "finished", or "diverged" where the energy has
-        risen too far since an earlier step of the same motion."""
+        """Begins a motion at `state` as the one after `step` fixed steps of a motion that began at time `t0` [s], with its
+        times to the bit. Returns an outcome as `run` does, by the energy of earlier steps of the same motion."""
         return self._take(1, lib.hooke_integrator_begin, state._handle, t0, step)
 
     def advance(self, steps: int = 1) -> str:

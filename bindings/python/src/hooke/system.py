@@ -67,9 +67,8 @@ class System(Queries):
         return System._committed_by(handle, [*self._callbacks, callback])
 
     def take(self, particles: Any) -> System:
-        """The committed system of these particles, in ascending order, and of the members of forces all of whose particles
-        are among them: the force on a particle has the same bits if all that acts on it was taken. Unsuited with rigid
-        bodies and callbacks."""
+        """The committed system of these particles, ascending, and of the members of forces all of whose particles are among
+        them, with the same bits of forces where all that acts was taken. Unsuited with rigid bodies and callbacks."""
         handle = Handle.made(None, lib.hooke_system_take, self._committed(), *_numbered(particles))
         return System._committed_by(handle, [])
 
