@@ -17,7 +17,7 @@ program test_take
   call system%take_particles([(k, k=1, 15)], part)
   call system%force(0.0_hooke_real, q, v, whole)
   call part%force(0.0_hooke_real, q(:, :15), v(:, :15), forces)
-  call expect(all([(same(forces(1 + mod(k, 3), 1 + k/3), whole(1 + mod(k, 3), 1 + k/3)), k=0, 29)]), "two inner rows")
+  call expect(same_count(reshape(forces(:, :10), [30]), reshape(whole(:, :10), [30])) == 30, "two inner rows")
   call expect(any(abs(forces(:, 11:) - whole(:, 11:15)) > 0.01_hooke_real), "the third row lacks the fourth")
   call system%take_particles([2, 1], part, status)
   call expect(status == hooke_bad_value, "not ascending")

@@ -5,7 +5,7 @@ import numpy as np
 import hooke
 
 
-def network(seed, count=150, dynamics="inertial"):
+def network(seed, count=100, dynamics="inertial"):
     draw = np.random.default_rng(seed)
     inertial = dynamics == "inertial"
     damped = {"damping": 0.01} if inertial else {}
@@ -15,7 +15,7 @@ def network(seed, count=150, dynamics="inertial"):
     held = np.isin(np.arange(count), [0, 5, 6, 7, 9, 11])[:, None]
     moving = {"velocity": np.where(held, 0, draw.uniform(-1, 1, (count, 3)))} if inertial else {}
     scene.particles(q, mass=draw.uniform(0.01, 0.03, count), pinned=[0, 7, 11], **moving)
-    near = np.argwhere(np.triu(np.linalg.norm(q[:, None] - q[None], axis=2) < 0.3, 1))
+    near = np.argwhere(np.triu(np.linalg.norm(q[:, None] - q[None], axis=2) < 0.35, 1))
     draw.shuffle(near)
     one, two, three = np.array_split(near, 3)
     each = {"damping": draw.uniform(0, 0.05, len(one))} if inertial else {}

@@ -307,8 +307,6 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   return status == HOOKE_OK ? make(from, variant, made, map) : status;
 }
 
-/* ---- some particles ---- */
-
 static int32_t check_taken(const hooke_system *system, int64_t count, const int64_t *particles) {
   const int32_t called = hk_system_calls_back(system) | system->rest->called;
   int32_t status = hk_system_require_committed(system);
