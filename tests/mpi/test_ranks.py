@@ -118,8 +118,9 @@ def killed(path, ranks, *arguments, after):
             there = len(hooke.open(path)) if path.exists() else 0
         except (hooke.Error, OSError):
             there = 0
-        if there >= after and ranks_of(process):
-            os.kill(ranks_of(process)[-1], signal.SIGKILL)
+        found = ranks_of(process) if there >= after else []
+        if found:
+            os.kill(found[-1], signal.SIGKILL)
             break
         time.sleep(0.01)
     process.communicate(timeout=LONG)
