@@ -16,6 +16,7 @@ struct hk_variant {
   uint8_t *part;       /* by part */
   uint8_t *rigid;      /* by part: 1: it is one rigid body, and what is inside it drops out */
   double *scale;       /* by part: factor on the cells along each axis */
+  int32_t loose;       /* 1: parts become plain particles and groups, of which any may be left out */
   double stiffness;    /* factor on all stiffness, initially 1; ignored by hk_variant_join() */
   double velocity[3];  /* added to the initial velocity of every free particle [m/s]; ignored there, too */
 };
