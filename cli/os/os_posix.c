@@ -11,6 +11,10 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+#if __has_include(<dlfcn.h>) && !defined(__EMSCRIPTEN__)
+#include <dlfcn.h>
+#define HOOKE_HAS_LOADER
+#endif
 
 extern char **environ;
 
@@ -57,6 +61,39 @@ void cli_os_give_back_memory(void) {
   malloc_trim(0);
 #endif
 }
+
+/* ---- shared libraries ---- */
+
+#ifdef HOOKE_HAS_LOADER
+void *cli_os_load(const char *path, const char **why) {
+  void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  if (!library) *why = dlerror();
+  return library;
+}
+
+void cli_os_unload(void *library) {
+  dlclose(library);
+}
+
+void *cli_os_symbol(void *library, const char *name) {
+  return dlsym(library, name);
+}
+#else
+void *cli_os_load(const char *path, const char **why) {
+  (void)path;
+  *why = NULL;
+  return NULL;
+}
+
+void cli_os_unload(void *library) {
+  (void)library;
+}
+
+void *cli_os_symbol(void *library, const char *name) {
+  (void)library, (void)name;
+  return NULL;
+}
+#endif
 
 /* ---- files ---- */
 

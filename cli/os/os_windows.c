@@ -56,6 +56,22 @@ void cli_os_memory(int64_t *now, int64_t *most) {
 void cli_os_give_back_memory(void) {
 }
 
+/* ---- shared libraries ---- */
+
+void *cli_os_load(const char *path, const char **why) {
+  void *library = LoadLibraryA(path);
+  if (!library) *why = "the system refuses it";
+  return library;
+}
+
+void cli_os_unload(void *library) {
+  FreeLibrary(library);
+}
+
+void *cli_os_symbol(void *library, const char *name) {
+  return (void *)(uintptr_t)GetProcAddress(library, name);
+}
+
 /* ---- files ---- */
 
 const char *cli_os_last_slash(const char *path) {
