@@ -1,4 +1,5 @@
-#include "digest.h"
+/* SHA-256 (FIPS 180-4). */
+#include "force.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,23 +7,24 @@
 
 enum { BLOCK = 64, ROUNDS = 64, WORDS = 8, LENGTH = 8 };
 
-/* The first 32 bits of the fraction of a root of the prime number `k`, from 0: its square root, else the cube
- * root. */
-static uint32_t root_bits(int k, int square) {
-  int prime = 2;
-  for (int number = 3, left = k; left > 0; number += 2) {
-    int is_prime = 1;
-    for (int by = 3; by * by <= number; by += 2)
-      is_prime &= number % by != 0;
-    left -= is_prime;
-    prime = is_prime ? number : prime;
-  }
-  const double root = square ? sqrt(prime) : cbrt(prime);
+static uint32_t turn(uint32_t x, int by) {
+  return x >> by | x << (32 - by);
+}
+
+static uint32_t fraction(double root) {
   return (uint32_t)((root - floor(root)) * 4294967296.0);
 }
 
-static uint32_t turn(uint32_t x, int by) {
-  return x >> by | x << (32 - by);
+/* The constants are 32 bits of square and cube roots of the first prime numbers. */
+static void find_constants(uint32_t hash[WORDS], uint32_t key[ROUNDS]) {
+  for (int number = 2, k = 0; k < ROUNDS; number++) {
+    int divisor = 2;
+    while (number % divisor != 0)
+      divisor++;
+    if (divisor < number) continue;
+    if (k < WORDS) hash[k] = fraction(sqrt(number));
+    key[k++] = fraction(cbrt(number));
+  }
 }
 
 static void add_block(uint32_t hash[WORDS], const uint32_t key[ROUNDS], const unsigned char *block) {
@@ -47,15 +49,12 @@ static void add_block(uint32_t hash[WORDS], const uint32_t key[ROUNDS], const un
     hash[k] += s[k];
 }
 
-int32_t cli_digest_file(const char *path, char digest[65]) {
+int32_t cli_digest_file(const char *path, char digest[HOOKE_DIGEST_SIZE]) {
   unsigned char block[BLOCK];
   uint32_t hash[WORDS], key[ROUNDS];
   uint64_t bytes = 0;
   FILE *file = fopen(path, "rb");
-  for (int k = 0; k < ROUNDS; k++)
-    key[k] = root_bits(k, 0);
-  for (int k = 0; k < WORDS; k++)
-    hash[k] = root_bits(k, 1);
+  find_constants(hash, key);
   for (int open = file != NULL, ended = 0; open;) { /* the last block ends with the length in bits */
     size_t got = fread(block, 1, BLOCK, file);
     bytes += got;

@@ -1,5 +1,4 @@
 #include "report.h"
-#include "force.h"
 #include "print.h"
 #include "words.h"
 
@@ -15,6 +14,20 @@
 
 enum { MESSAGE_SIZE = 4096, WORD_SIZE = 48, LIST_SIZE = 512 };
 enum { WIDTH = 90, LEFT = 60, LONGEST_CHARACTER = 4 }; /* of an excerpt */
+
+static char failure[512]; /* of the force of this program, which has one at most */
+
+void cli_force_fail(const char *file, int32_t value) {
+  snprintf(failure, sizeof failure, "the force of %s returned %d", file, (int)value);
+}
+
+int32_t cli_force_failed(void) {
+  return failure[0] != '\0';
+}
+
+const char *cli_force_stop(void) {
+  return failure[0] ? failure : "interrupted";
+}
 
 /* Others are bad input: a value, a scene too large for the memory, or a force that ends the work. */
 int cli_exit_code(int32_t status) {

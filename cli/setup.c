@@ -124,7 +124,7 @@ void cli_setup_destroy(struct cli_setup *setup) {
   hooke_state_destroy(setup->state);
   if (setup->scene != setup->read) hooke_scene_destroy(setup->scene);
   hooke_scene_destroy(setup->read);
-  cli_force_close(&setup->force);
+  free(setup->force.file);
 }
 
 const char *cli_setup_title(const struct cli_arguments *arguments, const struct cli_setup *setup) {

@@ -61,8 +61,8 @@ struct cli_verb {
 /* Of verbs that may take a force of the user's own (force.h). */
 #define HOOKE_FORCE                                                                                          \
   {                                                                                                          \
-    "force", 0, "FILE[:NAME]",                                                                               \
-        "adds the force of a shared library: its function NAME, or hooke_own_force, beside "                 \
+    "force", 0, "FILE:NAME",                                                                                 \
+        "adds the force of a shared library: its function NAME, hooke_own_force if left out, beside "        \
         "hooke_own_force_abi"                                                                                \
   }
 

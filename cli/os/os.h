@@ -22,14 +22,9 @@ void cli_os_memory(int64_t *now, int64_t *most);
 /* Returns free memory to the system. */
 void cli_os_give_back_memory(void);
 
-/* ---- shared libraries ---- */
-
-/* Loads a library; NULL if that fails, and `why`, which stays until the next call: NULL where there is no
- * loader. */
-void *cli_os_load(const char *path, const char **why);
-void cli_os_unload(void *library);
-/* The address of a symbol; NULL if there is none. */
-void *cli_os_symbol(void *library, const char *name);
+/* Loads a shared library, which stays, and finds two symbols (NULL: it has none). Returns NULL or what is
+ * wrong: "" where there is no loader. */
+const char *cli_os_load(const char *path, const char *const name[2], void *symbol[2]);
 
 /* ---- files ---- */
 

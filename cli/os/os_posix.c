@@ -62,38 +62,17 @@ void cli_os_give_back_memory(void) {
 #endif
 }
 
-/* ---- shared libraries ---- */
-
+const char *cli_os_load(const char *path, const char *const name[2], void *symbol[2]) {
 #ifdef HOOKE_HAS_LOADER
-void *cli_os_load(const char *path, const char **why) {
   void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-  if (!library) *why = dlerror();
-  return library;
-}
-
-void cli_os_unload(void *library) {
-  dlclose(library);
-}
-
-void *cli_os_symbol(void *library, const char *name) {
-  return dlsym(library, name);
-}
+  for (int k = 0; library && k < 2; k++)
+    symbol[k] = dlsym(library, name[k]);
+  return library ? NULL : dlerror();
 #else
-void *cli_os_load(const char *path, const char **why) {
-  (void)path;
-  *why = NULL;
-  return NULL;
-}
-
-void cli_os_unload(void *library) {
-  (void)library;
-}
-
-void *cli_os_symbol(void *library, const char *name) {
-  (void)library, (void)name;
-  return NULL;
-}
+  (void)path, (void)name, (void)symbol;
+  return "";
 #endif
+}
 
 /* ---- files ---- */
 

@@ -56,20 +56,11 @@ void cli_os_memory(int64_t *now, int64_t *most) {
 void cli_os_give_back_memory(void) {
 }
 
-/* ---- shared libraries ---- */
-
-void *cli_os_load(const char *path, const char **why) {
-  void *library = LoadLibraryA(path);
-  if (!library) *why = "the system refuses it";
-  return library;
-}
-
-void cli_os_unload(void *library) {
-  FreeLibrary(library);
-}
-
-void *cli_os_symbol(void *library, const char *name) {
-  return (void *)(uintptr_t)GetProcAddress(library, name);
+const char *cli_os_load(const char *path, const char *const name[2], void *symbol[2]) {
+  HMODULE library = LoadLibraryA(path);
+  for (int k = 0; library && k < 2; k++)
+    symbol[k] = (void *)(uintptr_t)GetProcAddress(library, name[k]);
+  return library ? NULL : "the system refuses it";
 }
 
 /* ---- files ---- */

@@ -278,7 +278,7 @@ static void print_json(const struct cli_run *run) {
                  run->energy_after, momentum[0], momentum[1], momentum[2]);
   if (cli_run_goes_beyond(run)) cli_print_json("'frames_beyond': %" PRId64 ", ", run->frames_beyond);
   if (run->probes_file) cli_print_json("'probes': %s, ", run->probes_file);
-  if (run->setup.force.library)
+  if (run->setup.force.function)
     cli_print_json("'force_file': %s, 'force_name': %s, 'force_sha256': %s, ", run->setup.force.file,
                    run->setup.force.name, run->setup.force.digest);
   cli_print_json("'output': %s, 'diagnosis': %s, ", run->output,

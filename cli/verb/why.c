@@ -176,7 +176,7 @@ static int find_out(struct why *why) {
   int32_t status = hooke_record_open(arguments->scene, &why->record);
   if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
   if (status == HOOKE_OK) why->status = hooke_record_text(why->record, "status");
-  const int32_t added = why->record && why->setup.force.library &&
+  const int32_t added = why->record && why->setup.force.function &&
                         strcmp(hooke_record_text(why->record, "callbacks"), "none") == 0;
   if (why->record && !cli_arguments_has_run(arguments) && !added) {
     status = read_output(why);

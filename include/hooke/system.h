@@ -191,8 +191,7 @@ HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *forc
 /* Says where that force is from: the function `name` of a shared library with this path and SHA-256, after
  * hooke_system_set_force(), which forgets it. Messages, results and trajectories name it, a run goes on with
  * the same digest and name alone (HOOKE_UNSUITED), and what it returns depends on its arguments alone.
- * HOOKE_BAD_VALUE for an empty text, HOOKE_BAD_CALL without a force or after commit,
- * HOOKE_NO_MEMORY. */
+ * The texts stay the caller's, and outlive the system. HOOKE_BAD_CALL without a force or after commit. */
 HOOKE_API int32_t hooke_system_name_force(hooke_system *system, const char *file, const char *name,
                                           const char *digest);
 

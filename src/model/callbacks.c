@@ -1,6 +1,5 @@
 #include "model/callbacks.h"
 
-#include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "model/force/drive.h"
@@ -46,33 +45,15 @@ const char *hk_force_called(const hooke_system *system, char *name, size_t size)
   return name;
 }
 
-void hk_force_texts_release(char **copy) {
-  for (int k = 0; k < HOOKE_FORCE_TEXTS; k++) {
-    hk_free(copy[k]);
-    copy[k] = NULL;
-  }
-}
-
-int32_t hk_force_texts_copy(char *const *from, char **copy) {
-  hk_force_texts_release(copy);
-  for (int k = 0; from && k < HOOKE_FORCE_TEXTS; k++)
-    if ((copy[k] = hk_copy_text(from[k])) == NULL) return HOOKE_NO_MEMORY;
-  return HOOKE_OK;
-}
-
 int32_t hooke_system_name_force(hooke_system *system, const char *file, const char *name,
                                 const char *digest) {
-  const char *const given[HOOKE_FORCE_TEXTS] = {file, name, digest};
-  int32_t status = hk_system_require_open(system);
-  if (status == HOOKE_OK && system->force == NULL)
-    status = hk_fail(HOOKE_BAD_CALL, NULL, "the system has no force to name; hooke_system_set_force() first");
-  for (int k = 0; status == HOOKE_OK && k < HOOKE_FORCE_TEXTS; k++)
-    if (given[k][0] == '\0')
-      status = hk_fail(HOOKE_BAD_VALUE, hk_force_texts[k], "no text is not allowed; any other is");
-  if (status == HOOKE_OK)
-    status = hk_force_texts_copy((char *const *)(uintptr_t)given, system->rest->named_from);
-  if (status == HOOKE_OK) system->rest->named = system->force;
-  return status;
+  const int32_t status = hk_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+  if (system->force == NULL)
+    return hk_fail(HOOKE_BAD_CALL, NULL, "there is no force to name; call hooke_system_set_force() first");
+  memcpy(system->rest->named_from, ((const char *[]){file, name, digest}), sizeof system->rest->named_from);
+  system->rest->named = system->force;
+  return HOOKE_OK;
 }
 
 static int32_t is_said(char *const *from, int k) {

@@ -18,13 +18,10 @@ int32_t hk_system_calls_back(const hooke_system *system);
 const char *hk_callbacks_text(int32_t calls);
 int32_t hk_callbacks_find(const char *text);
 
-/* Where the force callback is from: HOOKE_FORCE_TEXTS texts that the system owns; NULL if
- * nobody has said. And by which name messages call it. */
+/* Where the force callback is from: HOOKE_FORCE_TEXTS texts; NULL if nobody has said. And by which name
+ * messages call it. */
 char *const *hk_force_from(const hooke_system *system);
 const char *hk_force_called(const hooke_system *system, char *name, size_t size);
-/* Copies such texts (NULL: none) in place of older ones. HOOKE_NO_MEMORY */
-int32_t hk_force_texts_copy(char *const *from, char **copy);
-void hk_force_texts_release(char **copy);
 /* HOOKE_UNSUITED if the system's force is known to be another one than that of a run, by its texts. */
 int32_t hk_force_check(char *const *had, const hooke_system *system);
 

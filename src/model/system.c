@@ -52,8 +52,8 @@ static void release_model(hooke_system *system) {
                          system->drive,    system->rest->input};
   for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
     hk_free(block[k]);
-  hk_force_texts_release(system->rest->called_from);
-  hk_force_texts_release(system->rest->named_from);
+  for (int k = 0; k < HOOKE_FORCE_TEXTS; k++)
+    hk_free(system->rest->called_from[k]);
 }
 
 void hooke_system_destroy(hooke_system *system) {

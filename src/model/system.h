@@ -62,7 +62,7 @@ struct hk_system_rest {
 
   int32_t called; /* callbacks of the run whose file the system is from (model/callbacks.h) */
   char *called_from[HOOKE_FORCE_TEXTS]; /* its force, NULL or "" if it does not say */
-  char *named_from[HOOKE_FORCE_TEXTS];  /* the force callback `named` (hooke_system_name_force()) */
+  char *named_from[HOOKE_FORCE_TEXTS];  /* the force callback `named`, by texts of its owner */
   hooke_force *named;                   /* NULL: none */
 };
 

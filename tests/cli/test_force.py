@@ -80,7 +80,7 @@ def test_the_examples_are_an_anchor_to_the_bit(hooke, write, build, tmp_path, la
         assert own["final"] == hooke("run", tethered, *words).json["final"]
         assert own["final"] != hooke("run", plain, *words).json["final"]
         digest = hashlib.sha256((tmp_path / library).read_bytes()).hexdigest()
-        assert [own[f"force_{what}"] for what in ("file", "name", "sha256")] == [library, "hooke_own_force", digest]
+        assert [own[f"force_{what}"] for what in ("file", "name", "sha256")] == [f"./{library}", "hooke_own_force", digest]
 
 
 @pytest.mark.parametrize("size", [0, 55, 56, 63])
@@ -97,7 +97,7 @@ def test_a_file_names_its_force_and_takes_no_other(hooke, write, wave, tmp_path)
     (tmp_path / other).write_bytes((tmp_path / wave).read_bytes() + b"0")
     assert hooke("run", scene, "--force", wave, "-o", "whole.h5").code == 0
     stopped = hooke("run", scene, "--force", wave, "-o", "out.h5", env={**os.environ, "STOP": "1"})
-    assert stopped.code == 3 and "the force of wave.so returned 3" in stopped.err and "6 frames in out.h5" in stopped.err
+    assert stopped.code == 3 and "the force of ./wave.so returned 3" in stopped.err and "6 frames in out.h5" in stopped.err
     digests = [hashlib.sha256((tmp_path / name).read_bytes()).hexdigest() for name in (wave, other)]
     for words in [("run", "--resume", "out.h5"), ("verify", "whole.h5"), ("why", "whole.h5")]:
         without, foreign = hooke(*words), hooke(*words, "--force", other)
@@ -118,9 +118,9 @@ def test_a_file_names_its_force_and_takes_no_other(hooke, write, wave, tmp_path)
     (["-DABI=1", "-DNAME=gust"], "f.so", "has no symbol 'hooke_own_force'"),
     (["-DABI=1", "-DNAME=gust"], "f.so:gale", "has no symbol 'gale'"),
     (["-DABI=0", "-DNAME=hooke_own_force"], "f.so", "is for the ABI 0, by its hooke_own_force_abi, and this hooke has 1"),
-    (["-DABI=1", "-DNAME=gust"], "none.so:gust", "--force none.so: cannot be read"),
-    (["-DABI=1", "-DNAME=gust"], "scene.json", "is no library that can be loaded"),
-    (["-DABI=1", "-DNAME=gust"], ".", "cannot be read"),
+    (["-DABI=1", "-DNAME=gust"], "none.so:gust", "--force ./none.so: is no library to load: it cannot be read"),
+    (["-DABI=1", "-DNAME=gust"], "scene.json", "is no library to load"),
+    (["-DABI=1", "-DNAME=gust"], ".", "it cannot be read"),
 ])
 def test_what_is_no_force_is_refused(hooke, write, build, words, given, message):
     build("f.so", *words)
@@ -131,7 +131,7 @@ def test_what_is_no_force_is_refused(hooke, write, build, words, given, message)
 def test_a_force_that_is_not_finite_is_named(hooke, write, build):
     library = build("f.so", "-DABI=1", "-DNAME=gust")
     answer = hooke("run", write(ROPE), "--force", f"{library}:gust", env={**os.environ, "WILD": "1"})
-    assert answer.code == 4 and "the force of f.so gives particle 8 a force that is not finite" in answer.err
+    assert answer.code == 4 and "the force of ./f.so gives particle 8 a force that is not finite" in answer.err
     assert "--force f.so:gust --duration" in answer.err
 
 
@@ -149,9 +149,9 @@ def test_the_verbs_take_it(hooke, write, wave):
     for words in [["limit", scene, "--predict"], ["check", scene], ["needs", scene, "--want", "1cm"],
                   ["compare", scene, "--methods", "rk4,verlet"], ["study", scene, "--want", "1cm", "--methods", "rk4"]]:
         found = hooke(*words, "--force", wave, "--json").json
-        assert found["force_file"] == wave and len(found["force_sha256"]) == 64, words
+        assert found["force_file"] == f"./{wave}" and len(found["force_sha256"]) == 64, words
         left_out = [claim["text"] for claim in found["claims"] if claim["key"] == "callback"]
-        assert left_out == ["the stiffness and damping of the force of wave.so are left out"] * (words[0] in ("limit", "check"))
+        assert left_out == ["the stiffness and damping of the force of ./wave.so are left out"] * (words[0] in ("limit", "check"))
     for words in [["needs", scene, "--want", "1cm", "-o", "lean.json"], ["study", scene, "--from-rest"]]:
         assert hooke(*words, "--force", wave).code == 2
     assert hooke("rest", scene, "--force", wave).code == 2

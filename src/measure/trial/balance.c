@@ -19,19 +19,6 @@ static double largest_energy(const hooke_system *system, double t, const double 
   return sum;
 }
 
-/* Adds the power of the force callback. */
-static int32_t add_callback(const struct hk_balance *balance, double t, const double *q, const double *v,
-                            double *in) {
-  const hooke_system *system = balance->system;
-  const int64_t size = 3 * system->particle_count;
-  memset(balance->force, 0, (size_t)size * sizeof(double));
-  if (system->force(system->particle_count, t, q, v, balance->force, system->force_ctx) != 0)
-    return HOOKE_STOPPED;
-  for (int64_t k = 0; k < size; k++)
-    *in += balance->force[k] * v[k];
-  return HOOKE_OK;
-}
-
 /* Power of drives and of what else does work from outside, and dissipated power, at a state. */
 static int32_t find_powers(const struct hk_balance *balance, const hooke_state *state, double *in,
                            double *out) {
@@ -40,8 +27,14 @@ static int32_t find_powers(const struct hk_balance *balance, const hooke_state *
   *out = balance->dissipated_power(system, hooke_state_time(state), q, v);
   *in = hk_forces_power(system, hooke_state_time(state), q, v);
   if (balance->force == NULL) return HOOKE_OK;
-  int32_t status = system->force ? add_callback(balance, hooke_state_time(state), q, v, in) : HOOKE_OK;
-  if (status == HOOKE_OK) status = hooke_system_force(system, hooke_state_time(state), q, v, balance->force);
+  const int64_t size = 3 * system->particle_count;
+  memset(balance->force, 0, (size_t)size * sizeof(double));
+  if (system->force && system->force(system->particle_count, hooke_state_time(state), q, v, balance->force,
+                                     system->force_ctx) != 0)
+    return HOOKE_STOPPED;
+  for (int64_t k = 0; k < size; k++)
+    *in += balance->force[k] * v[k];
+  const int32_t status = hooke_system_force(system, hooke_state_time(state), q, v, balance->force);
   for (int64_t p = 0; status == HOOKE_OK && p < system->particle_count; p++) {
     if (system->constrained[p] != HOOKE_IS_DRIVEN) continue;
     for (int a = 0; a < 3; a++)
