@@ -155,6 +155,7 @@ int32_t hooke_verify_create(const char *path, const hooke_options *options, cons
 
 int32_t hooke_verify_create_with(const char *path, const hooke_system *system, const hooke_options *options,
                                  hooke_measurement **measurement) {
+  *measurement = NULL;
   const int32_t status = hk_system_require_committed(system);
   return status == HOOKE_OK ? make(path, system, options, NULL, measurement) : status;
 }
