@@ -34,7 +34,7 @@ static int32_t try_variant(struct hk_needs *needs, struct hk_needs_lean *candida
   double displaced = 0.0;
   status = hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
   if (status == HOOKE_OK && !isnan(candidate->error))
-    status = hk_needs_displace(needs, &trial, &candidate->cost, &displaced);
+    status = hk_needs_compare(needs, &trial, &candidate->cost, 1, &displaced);
   if (!(displaced <= needs->want)) candidate->error = NAN;
   return status;
 }
@@ -267,7 +267,12 @@ void hk_needs_forget(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);
   needs->row_count = 0;
-  hk_needs_path_release(&needs->displaced);
+  for (int k = 0; k < 2; k++)
+    hk_needs_path_release(&needs->by_step[k]);
+  hk_free(needs->degree);
+  needs->degree = NULL;
+  needs->degree_count = 0;
+  needs->trial_work = 0.0;
   release(&needs->lean);
   hooke_options_destroy(needs->lean_run);
   needs->lean_run = NULL;
@@ -281,6 +286,7 @@ int32_t hk_needs_find(struct hk_needs *needs) {
   needs->pieces += 2 * needs->row_count + 2;
   if (status == HOOKE_OK) status = hk_needs_run_full(needs);
   if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
+  if (status == HOOKE_OK) status = hk_needs_run_degrees(needs);
   if (status == HOOKE_OK) status = find_lean(needs);
   if (status < 0) hk_needs_forget(needs);
   return status;

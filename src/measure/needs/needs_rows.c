@@ -83,7 +83,8 @@ int32_t hk_needs_run_full(struct hk_needs *needs) {
     say_how_it_moves(needs);
   } else {
     hk_needs_path_release(&needs->path);
-    hk_needs_path_release(&needs->displaced);
+    for (int k = 0; k < 2; k++)
+      hk_needs_path_release(&needs->by_step[k]);
     needs->judged = needs->frame_count;
   }
   return status;
@@ -113,7 +114,7 @@ static int32_t judge_displaced(struct hk_needs *needs, const struct hk_needs_tri
                                struct hk_needs_row *row) {
   double error;
   if (row->needed != 0.0) return HOOKE_OK;
-  const int32_t status = hk_needs_displace(needs, trial, &row->cost, &error);
+  const int32_t status = hk_needs_compare(needs, trial, &row->cost, 1, &error);
   if (status != HOOKE_OK || error <= needs->want) return status;
   row->needed = 1;
   if (isfinite(error)) row->error = error;
