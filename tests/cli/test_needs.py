@@ -92,7 +92,7 @@ def test_keys(found):
     assert next(claim["key"] for claim in answer["claims"]) == "lean" and {claim["of"] for claim in answer["claims"]} == {"whole"}
     assert all(set(row) == COST | {"without", "kind", "error", "needed", "left_out", "note"} for row in answer["rows"])
     assert set(answer["lean"]) == COST | {"scene", "without", "error", "full", "times_less", "other_method", "other_seconds",
-                                           "note", "command"}
+                                           "changed", "note", "command"}
     assert set(answer["lean"]["full"]) == COST | {"error"}
     assert (answer["lean"]["scene"], answer["lean"]["command"]) == ("lean.json", "hooke run lean.json")
     names = [row["without"] for row in answer["rows"]]

@@ -96,7 +96,8 @@ struct hk_needs {
 
   int64_t degree_count;
   struct hk_needs_degree *degree;
-  double trial_work; /* counted, of comparisons by the step of the full system [s] */
+  struct hk_variant unchanged; /* of the lean system before numbers are changed */
+  double trial_work;           /* counted, of comparisons by the step of the full system [s] */
 
   struct hk_needs_lean lean;
   hooke_options *lean_run;
@@ -192,6 +193,23 @@ int32_t hk_needs_try(struct hk_needs *needs, const struct hk_variant *variant, i
 void hk_needs_scale(const struct hk_needs *needs, const struct hk_needs_degree *degree, double factor,
                     struct hk_variant *variant);
 double hk_needs_rung(int32_t k); /* 1, 2, 5, 10, 20, ... */
+
+/* Number of the next degree, from this one on, that the lean system has changed; the count if there is none.
+ */
+int64_t hk_needs_next_changed(const struct hk_needs *needs, int64_t k);
+
+/* ---- needs_lean.c, needs_soften.c ---- */
+
+/* The recommended run of a candidate's variant; its error is NaN if it has none. */
+int32_t hk_needs_try_lean(struct hk_needs *needs, struct hk_needs_lean *candidate);
+/* Makes it the lean system. */
+int32_t hk_needs_take(struct hk_needs *needs, struct hk_needs_lean *candidate);
+void hk_needs_release(struct hk_needs_lean *candidate);
+/* In evaluations of springs and particles: unlike time, this is reproducible. */
+double hk_needs_work(const struct hk_needs_cost *cost);
+/* Softens, makes heavier and damps less what limits the step of the lean system, as far as that saves work.
+ */
+int32_t hk_needs_soften(struct hk_needs *needs);
 
 /* ---- needs.c, needs_rows.c, needs_lean.c, needs_refine.c ---- */
 

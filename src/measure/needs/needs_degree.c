@@ -256,3 +256,9 @@ int32_t hk_needs_run_degrees(struct hk_needs *needs) {
   }
   return status;
 }
+
+int64_t hk_needs_next_changed(const struct hk_needs *needs, int64_t k) {
+  while (k < needs->degree_count && needs->degree[k].lean_factor == 1.0)
+    k++;
+  return k;
+}
