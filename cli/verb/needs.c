@@ -65,7 +65,7 @@ static void print_degrees(const hooke_measurement *needs) {
   const int64_t rows = hooke_measurement_row_count(needs, "degrees");
   if (rows == 0) return;
   printf("\n%-*s %10s %10s %10s %10s\n", width, "by degree", "factor", "change", "largest", "work");
-  printf("%-*s %10s %10s %10s %10s\n", width, "", "", "[m]", "step [s]", "");
+  printf("%-*s %10s %10s %10s\n", width, "", "", "[m]", "step [s]");
   for (int64_t row = 0; row < rows; row++) {
     const double beyond = number(needs, "degrees", row, "beyond");
     cli_print_padded(stdout, width, hooke_measurement_text(needs, "degrees", row, "quantity"));
@@ -78,8 +78,9 @@ static void print_degrees(const hooke_measurement *needs) {
     cli_rows_print_as(10, number(needs, "degrees", row, "step_limit"), "%.4g", "none", NULL);
     cli_rows_print_cell(10, number(needs, "degrees", row, "work"));
     if (!isnan(beyond)) {
-      printf("  by %.4g it is ", beyond);
-      cli_rows_print_as(0, number(needs, "degrees", row, "error_beyond"), "%.3g m", "", "no run to the end");
+      printf("  by %.4g: ", beyond);
+      cli_rows_print_as(0, number(needs, "degrees", row, "error_beyond"), "%.3g m", "none",
+                        "no run to the end");
     }
     printf("\n");
   }

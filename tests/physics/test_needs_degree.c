@@ -27,10 +27,11 @@ static hooke_system *chain(void) {
   return small_falling(system);
 }
 
-static hooke_measurement *needs_of(const hooke_system *system) {
+static hooke_measurement *needs_of(const hooke_system *system, const char *keep) {
   owned_options *options = options_with("needs", "want=%.17g", WANT),
                 *run = run_options((struct run){.method = "verlet", .duration = 5.0, .every = 0.05});
   hooke_measurement *needs;
+  if (keep) check_ok(hooke_options_set_text(options, "keep", keep));
   check_ok(hooke_measurement_create("needs", system, run, options, &needs));
   check_ok(hooke_measurement_run(needs, NULL));
   return needs;
@@ -54,7 +55,7 @@ static double change_at(double times) {
 
 TEST(a_stiff_spring_may_be_as_soft_as_an_independent_run_says_and_the_lean_scene_is_softened) {
   owned_system *system = chain();
-  owned_measurement *needs = needs_of(system);
+  owned_measurement *needs = needs_of(system, NULL);
   const int64_t row = degree_of(needs, "stiff.stiffness");
   const double times = 1.0 / hooke_measurement_number(needs, "degrees", row, "factor"),
                beyond = 1.0 / hooke_measurement_number(needs, "degrees", row, "beyond"),
@@ -76,4 +77,23 @@ TEST(a_stiff_spring_may_be_as_soft_as_an_independent_run_says_and_the_lean_scene
   check_between(hooke_measurement_number(needs, "lean", 0, "error"), 1e-4, WANT);
   check_between(hooke_measurement_number(needs, "lean", 0, "steps"), 100.0,
                 0.3 * hooke_measurement_number(needs, "cheapest", 0, "steps"));
+}
+
+TEST(what_is_kept_is_neither_left_out_nor_changed) {
+  owned_system *system = chain();
+  owned_measurement *needs = needs_of(system, "stiff");
+  assert_int_equal(hooke_measurement_row_count(needs, "changed"), 0);
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
+    const char *without = hooke_measurement_text(needs, "rows", row, "without");
+    assert_true(strcmp(without, "soft") == 0 || strcmp(without, "gravity") == 0);
+  }
+  assert_string_equal(hooke_measurement_text(needs, "degrees", 0, "quantity"), "soft.stiffness");
+  assert_int_equal(degree_of(needs, "stiff.stiffness"), hooke_measurement_row_count(needs, "degrees"));
+
+  owned_options *options = options_with("needs", "want=%.17g", WANT),
+                *run = run_options((struct run){.method = "verlet", .duration = 5.0, .every = 0.05});
+  hooke_measurement *other = NULL;
+  check_ok(hooke_options_set_text(options, "keep", "soft,stiffer"));
+  check_status(hooke_measurement_create("needs", system, run, options, &other), HOOKE_BAD_VALUE);
+  assert_non_null(strstr(hooke_last_error(), "\"stiffer\" is no group"));
 }

@@ -80,6 +80,7 @@ struct hk_needs {
   double want, duration, every, unit; /* unit: largest step that frames allow [s] */
   int32_t method_picked;
   int64_t watch_count, *watch; /* particles */
+  uint8_t *kept;               /* by group: 1: neither left out nor changed */
   int64_t frame_count, judged; /* frames; those up to which differences due to the step stay small */
 
   struct hk_needs_cost full;
@@ -119,8 +120,11 @@ struct hk_needs {
 
 /* ---- needs_ingredients.c ---- */
 
-/* Adds a row for every ingredient of the system. */
+/* Adds a row for every ingredient of the system that need not be kept. */
 int32_t hk_needs_list(struct hk_needs *needs);
+/* 1 if a variant leaves out the group, or makes a body of its part. */
+int32_t hk_needs_drops(const struct hk_needs *needs, const struct hk_variant *variant, int64_t group);
+void hk_needs_drop_row(struct hk_needs *needs, int64_t row);
 
 /* ---- needs_run.c, needs_step.c ---- */
 

@@ -43,17 +43,12 @@ static int32_t add(struct hk_needs *needs, enum hk_needs_property property, int6
   return HOOKE_OK;
 }
 
-static int32_t drops(const struct hk_needs *needs, const struct hk_variant *variant, int64_t g) {
-  const struct hk_group *group = &needs->m->system->group[g];
-  return variant->group[g] ||
-         (group->from_part && (variant->part[group->part] || variant->rigid[group->part]));
-}
-
 /* 1 if a row leaves out the whole ingredient, and nobody needs it. */
 static int32_t is_unneeded(const struct hk_needs *needs, const char *kind, int64_t group) {
   for (int64_t k = 0; k < needs->row_count; k++) {
     const struct hk_needs_row *row = &needs->row[k];
-    if (row->needed == 0.0 && (group < 0 ? strcmp(row->kind, kind) == 0 : drops(needs, &row->variant, group)))
+    if (row->needed == 0.0 &&
+        (group < 0 ? strcmp(row->kind, kind) == 0 : hk_needs_drops(needs, &row->variant, group)))
       return 1;
   }
   return 0;
@@ -122,7 +117,8 @@ static int32_t list(struct hk_needs *needs) {
   if (!system->overdamped) status = add_masses(needs);
   for (int64_t k = 0; k < 2 * system->group_count && status == HOOKE_OK; k++) {
     const int64_t g = k % system->group_count;
-    if (is_scalable(&system->group[g]) && is_first(system, g) && !is_unneeded(needs, "", g))
+    if (!needs->kept[g] && is_scalable(&system->group[g]) && is_first(system, g) &&
+        !is_unneeded(needs, "", g))
       status = add_group(needs, g, k >= system->group_count);
   }
   const int32_t brakes = system->medium->drag.most > 0.0 && !system->overdamped;
