@@ -78,9 +78,8 @@ static void print_degrees(const hooke_measurement *needs) {
     cli_rows_print_as(10, number(needs, "degrees", row, "step_limit"), "%.4g", "none", NULL);
     cli_rows_print_cell(10, number(needs, "degrees", row, "work"));
     if (!isnan(beyond)) {
-      printf("  by %.4g: ", beyond);
-      cli_rows_print_as(0, number(needs, "degrees", row, "error_beyond"), "%.3g m", "none",
-                        "no run to the end");
+      printf("  by %.4g:", beyond);
+      cli_rows_print_as(0, number(needs, "degrees", row, "error_beyond"), "%.3g m", "none", NULL);
     }
     printf("\n");
   }
