@@ -12,7 +12,7 @@
 #   make calibration  holds the error that hooke run prints against the truth, on 1000 random runs; make calibration
 #                   RUNS=100 on fewer, without writing the figures into the pages
 #   make mutants  plants small faults one at a time, and tells which ones the quick tests notice; N=20 PATHS=src/measure
-#   make tidy   runs clang-tidy over the sources in C
+#   make tidy   runs clang-tidy and clang-format over the sources in C, and ruff over those in Python
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-windows  makes the wheel for Windows
 #   make wheel-test  installs that wheel into an empty environment and uses it
@@ -92,9 +92,11 @@ build/mutants/tools/done: | $(PACKAGES)
 	touch $@
 
 # Nothing is compiled; bench needs the header that says what commit it is of.
-tidy: build/tidy/packages
+tidy: build/tidy/packages build/venv/done
 	cmake --preset release -B build/tidy -DHOOKE_BENCH=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >build/tidy/configure.log
 	cmake --build build/tidy --target hooke_bench_commit >>build/tidy/configure.log
+	git ls-files '*.[ch]' | xargs clang-format-14 --dry-run -Werror
+	$(VENV) -m ruff check --no-cache
 	$(PYTHON) cmake/tidy.py build/tidy
 
 # The wheel is built from the sources that are handed on, and the libraries inside it once, all by zig's C compiler, which
@@ -196,7 +198,7 @@ build/test/packages: cmake/packages.py cmake/packages.txt | $(PACKAGES)
 	@$(PYTHON) cmake/packages.py --all build small use test
 	@touch $@
 
-build/tidy/packages: private NAMES = clang-tidy-14
+build/tidy/packages: private NAMES = clang-tidy-14 clang-format-14
 build/dist/packages: private NAMES = debhelper dpkg-dev
 build/fuzz/packages: private NAMES = clang libclang-rt-dev
 build/playground/packages: private NAMES = emscripten f2c

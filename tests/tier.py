@@ -1,12 +1,14 @@
 """Runs the tests of a tier and adds up what they take of the processors: python tests/tier.py test | check
 
-With CI set, more than the budget of the tier is a failure, and so is a quick test that takes longer than one may. The
-last lines are the summaries, then a line that names everything that failed."""
+With CI set, more than the budget of the tier is a failure, and so is a quick test that takes longer than one may.
+Machines differ by more than twice, so all times are given as on a processor of one speed, which a fixed loop measures
+before and after. The last lines are the summaries, then a line that names everything that failed."""
 
 from __future__ import annotations
 
 import os
 import re
+import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +16,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 # Presets of CTest, and the budget [s of processor].
 TIERS = {"test": (("release",), 300), "check": (("check", "minimal", "asan"), 1500)}
+# A loop of the interpreter, and what it takes on a processor of that speed [s].
+LOOP, LOOP_SECONDS = "found = {}\nfor i in range(2_000_000): found[i % 997] = found.get(i % 991, 0) + i", 0.28
 # A quick test takes at most so long [s of processor] on an idle machine, and beside other work up to a third more, of
 # caches and cores that it shares.
 QUICK, BUSY = 3.0, 4 / 3
@@ -23,6 +27,13 @@ def seconds(times: Path) -> float:
     """User and system time of the children, the second line that `times` of the shell prints."""
     parts = re.findall(r"(\d+)m([\d.]+)s", times.read_text().splitlines()[1])
     return sum(60 * int(minutes) + float(rest) for minutes, rest in parts)
+
+
+def slowness() -> float:
+    """How many times longer than on a processor of that speed a computation takes here and now."""
+    begun = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    subprocess.run([sys.executable, "-c", LOOP], check=True)
+    return (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - begun) / LOOP_SECONDS
 
 
 def run(preset: str) -> tuple[list[str], list[str], dict[str, float]]:
@@ -61,12 +72,15 @@ def told_time(tier: str, taken: dict[str, float]) -> str:
 
 
 def main(tier: str) -> int:
-    failures, told, taken = [], [], {}
+    failures, told, taken, before = [], [], {}, slowness()
     for preset in TIERS[tier][0]:
         failed, lines, times = run(preset)
+        after = slowness()
+        factor, before = (before + after) / 2, after
+        print(f"== {preset}: a processor here takes {factor:.2f} times as long as one of the speed of the budget", flush=True)
         failures += [f"{preset}: {name}" for name in failed]
         told += ["", f"== {preset}", *lines]
-        taken |= {name if preset == "release" else f"{preset} {name}": spent for name, spent in times.items()}
+        taken |= {name if preset == "release" else f"{preset} {name}": spent / factor for name, spent in times.items()}
     if tier == "check":
         failed, lines = fuzzed()
         failures += [f"fuzz: {name}" for name in failed]

@@ -12,6 +12,7 @@ import headers
 NAMES = {
     "checkpoint_read": "integrator_read_checkpoint", "checkpoint_write": "integrator_write_checkpoint",
     "io_own_process": "own_process", "mesh_read": "options_read_mesh", "mesh_set": "options_set_mesh",
+    "system_take": "system_take_particles",
     "needs_lean": "measurement_lean", "needs_lean_particle": "measurement_lean_particle",
     "needs_lean_position": "measurement_lean_position", "needs_lean_run": "measurement_lean_run",
     "options_copy": "options_copy_to", "scene_options_apply": "system_apply", "scene_write": "system_write_scene",

@@ -102,6 +102,6 @@ const struct cli_verb cli_verb_modes = {
     .example = "hooke modes cloth.json --count 4",
     HOOKE_VERB_ROWS(own_rows),
     .options = "modes",
-    .without = "checkpoint",
+    .takes_no_run = 1,
     .function = do_modes,
 };

@@ -69,7 +69,7 @@ static int tell(struct cli_results *r) {
   cli_print_flush();
   if (r->outcome == HOOKE_STOPPED) return cli_report(r->arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
   if (code == HOOKE_EXIT_DONE && !is_at_rest(r)) code = HOOKE_EXIT_NOT_MET;
-  return code;
+  return cli_setup_write_report(r->arguments, &r->setup, r->found, code);
 }
 
 static int check(const struct cli_arguments *arguments) {
@@ -83,6 +83,8 @@ static int do_rest(const struct cli_arguments *arguments) {
 
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "REST.json", "writes the scene, its parts kept, that starts at rest, replacing it"},
+    {"report", 0, "FILE.html",
+     "writes the scene at rest, with its tensions and modes, as one page to read offline, replacing it"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at rest, too"},
 };
 

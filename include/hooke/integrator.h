@@ -136,6 +136,14 @@ HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_st
  * hooke_integrator_run(), except that numbers are tested for being finite after every call. */
 HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
 
+/* Begins a motion at `state`, as the one after `step` >= 0 steps of a motion that began at time t0: the times
+ * of its steps are those of that motion, t0 + k h, to the bit, and so has to be that of `state`. If the
+ * integrator has an earlier step of a motion that began at t0, this is the same one: divergence is then
+ * judged by its energies, here as well. HOOKE_DIVERGED; HOOKE_BAD_VALUE, also for a state of another time;
+ * HOOKE_UNSUITED for an error-controlled method. */
+HOOKE_API int32_t hooke_integrator_begin(hooke_integrator *integrator, hooke_state *state, double t0,
+                                         int64_t step);
+
 /* Takes `steps` steps of the integrator's own motion, continuing from where the last call left it;
  * hooke_integrator_step() with 0 steps begins a motion at a state. It gives the same bits at the cost of a
  * step of a run, since it neither reads nor writes a state: the caller's state is stale until

@@ -194,6 +194,14 @@ HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *forc
 HOOKE_API int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force,
                                           hooke_force_product *product, void *ctx, hooke_system **with);
 
+/* Creates and commits the system of `count` particles of a committed one, in ascending order, and of the
+ * members of forces all of whose particles are among them, in their order; pins, drives and all that acts on
+ * single particles are those of `system`, but parts are plain particles and groups. The force on a particle
+ * has the same bits if all that acts on it was taken. HOOKE_UNSUITED with rigid bodies and callbacks;
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_take(const hooke_system *system, int64_t count, const int64_t *particles,
+                                    hooke_system **taken);
+
 /* Prescribe the motion of particles (inverse mass 0) about their initial positions:
  *   harmonic  q = q0 + amplitude sin(2 pi frequency t + phase), amplitude 3 numbers [m], frequency [Hz],
  *             phase [rad]

@@ -33,6 +33,7 @@ def test_words_of_a_state_that_is_not_at_rest(hooke, write):
     assert [mode["omega"] for mode in first["modes"]] == [mode["omega"] for mode in start["modes"]]
     assert [mode["omega"] for mode in last["modes"]] != [mode["omega"] for mode in start["modes"]]
     assert "velocities" in [claim["key"] for claim in last["claims"]]
+    assert hooke("modes", scene, "--step", "1e-3").code == 2  # no option of a run
     assert hooke("modes", scene, "--count", 0).code == 2 == hooke("modes", scene, "--at", "out.h5:x").code
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import SIX_PARTICLES
+from pages import browse, data_of, needs_browser, needs_page
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 HANGING = {
@@ -68,3 +69,31 @@ def test_a_scene_that_starts_at_rest(hooke, write, tmp_path):
     assert moved < 1e-9  # 9 mm from the undeformed start
     falls = hooke("run", write({**HANGING, "springs": []}), "--from-rest")
     assert falls.code == 7 and "falls" in falls.err
+
+
+@pytest.mark.check
+def test_a_search_without_end_ends_after_counted_work(hooke):
+    """A flag in the wind: nothing tells how far it is from rest. The work is counted, so that both end at the same place."""
+    answers = [hooke("rest", SCENES / "flag.json", "--json") for _ in range(2)]
+    assert answers[0].out == answers[1].out and answers[0].code == 7
+    value = answers[0].json
+    assert f"{value['steps']} steps" in value["claims"][0]["text"] and f"{value['residual']:.6g} N is left" in value["claims"][0]["text"]
+
+
+@needs_page
+@needs_browser
+def test_the_page_shows_tensions_and_modes(hooke, write, tmp_path):
+    hanging = {**HANGING, "particles": {"position": [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "mass": 2, "pinned": [0]},
+               "springs": [{**HANGING["springs"][0], "between": [[0, 1], [1, 2]]}]}
+    hooke("rest", write(hanging), "--watch", "1.y", "--report", tmp_path / "rest.html")
+    page = (tmp_path / "rest.html").read_text()
+    assert data_of(page)["picture"]["tension"] == pytest.approx([40, 20], rel=1e-9)
+    seen = browse(tmp_path, page, """const colours = () => { const { data, options } = Chart.getChart("picture");
+        const { segment } = data.datasets.find(({ role }) => role === "state");
+        return [0, 3].map((p0DataIndex) => segment.borderColor({ p0DataIndex })).join(" ") + data.datasets.some(({ role }) => role === "mode"); };
+        const still = colours();
+        document.querySelector('#mode [data-key="0"]').click();
+        document.getElementById("picture").dataset.said = `${still} ${colours()}`;""")
+    pulls = "rgb(176 0 32) rgb(172 88 108)"
+    assert seen.drawn("picture")["said"] == f"{pulls}false {pulls}true" and not seen.console
+    assert "1 and 2" in seen.text["tensions"] and "-1.4 m" in seen.text["about"]

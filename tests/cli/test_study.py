@@ -29,7 +29,7 @@ def begins_with(value, keys):
 
 def test_json_has_the_keys(hooke, write):
     scene = write(SIX_PARTICLES)
-    answer = hooke("study", scene, "--duration", 1, "--json", "--want", "1mm")
+    answer = hooke("study", scene, "--duration", 1, "--points", 6, "--json", "--want", "1mm")
     assert (answer.code, answer.err) == (0, "")
     value = answer.json
     assert begins_with(value, TOP)

@@ -288,6 +288,28 @@ TEST(slack_scene_takes_any_step) {
   }
 }
 
+/* Just above its limit 2 zeta/omega, forward Euler multiplies the amplitude by 1 + 2 zeta^2 e in a step that
+ * is a fraction e too large. Where a run cannot show that, nothing is run, or less accurately. */
+TEST(growth_that_a_run_cannot_show) {
+  static const struct { double zeta, apart; } table[] = {{0.1, 1e-3}, {0.02, 0.05}, {1e-3, NAN}};
+  const double position[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, omega = 7.0;
+  const int64_t ends[2] = {0, 1};
+  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
+    owned_system *system = small_system(2, position, NULL, 1.0, 1);
+    small_springs(system, 1, ends,
+                  (struct springs){"length", omega * omega, 2.0 * table[k].zeta * omega, 1.0, 0});
+    check_ok(hooke_system_commit(system));
+    owned_measurement *limit = find_limit(system, "forward-euler", 1e-3, 0, NULL);
+    const double measured = hooke_measurement_number(limit, "rows", 0, "measured");
+    const char *note = hooke_measurement_text(limit, "rows", 0, "note");
+    check_close(hooke_measurement_number(limit, "rows", 0, "predicted"), 2.0 * table[k].zeta / omega, 1e-9);
+    assert_int_equal(strstr(note, "too slow for a run to show it") != NULL, k > 0);
+    if (k < 2) check_close(measured, 2.0 * table[k].zeta / omega, table[k].apart);
+    if (k == 2)
+      assert_true(isnan(measured) && hooke_measurement_number(limit, "rows", 0, "steps_run") == 0.0);
+  }
+}
+
 static int32_t stop_at_once(double done, const char *what, void *ctx) {
   (void)what;
   check_between(done, 0.0, 1.0);

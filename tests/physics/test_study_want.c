@@ -63,7 +63,7 @@ static hooke_measurement *made_study(const hooke_system *system, const char *met
                                      double every, double want) {
   hooke_measurement *study = NULL;
   owned_options *run = run_options((struct run){.duration = duration, .every = every}), *options;
-  options = options_with("study", "methods=%s", methods);
+  options = options_with("study", "methods=%s points=6", methods);
   if (want > 0.0) check_ok(hooke_options_set_number(options, "want", want));
   const int32_t status = hooke_measurement_create("study", system, run, options, &study);
   if (status == HOOKE_NOT_BUILT) skip();

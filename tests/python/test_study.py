@@ -22,7 +22,20 @@ COLUMNS = (
 
 @pytest.fixture(scope="module")
 def study():
-    return hooke.study(build_oscillator(), METHODS, want=1e-4, **RUN)
+    return hooke.study(build_oscillator(), METHODS, want=1e-4, points=6, **RUN)
+
+
+def test_rows_that_cannot_win_are_left_out(study):
+    """They follow one of five times the counted work of the cheapest that meets the want."""
+    cut = hooke.study(build_oscillator(), METHODS, want=1e-4, **RUN)
+    said = next(claim.text for claim in cut.claims if claim.key == "cut")
+    meets = cut.rows[cut.error_max <= 1e-4]["force_evaluations"].min()
+    for method in METHODS:
+        rows, all_rows = cut.rows[cut.method == method], study.rows[study.method == method]
+        assert (rows["error"] == all_rows["error"][:len(rows)])[~np.isnan(rows["error"])].all()
+        assert (len(rows) < len(all_rows)) == (method in said)
+        assert method == "cvode-adams" or rows["force_evaluations"][-2] < 5 * meets
+    assert cut.recommendation.step == study.recommendation.step and "rk4" in said
 
 
 def shape_of(value):

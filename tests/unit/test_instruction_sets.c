@@ -7,10 +7,12 @@
 #include "random_scene.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include "kernel/spring/spring_loops.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 
 static const struct scene {
@@ -111,6 +113,36 @@ TEST(test_plain_loops) {
         if (!is_implicit(expected[m].method))
           check_lockstep(&scene, expected[m].method, 1, scene.driven_count ? 0.0 : 0.003, step, 3);
       }
+    }
+  }
+}
+
+/* Springs that only pull, apart from each other, of lengths about that at rest: one that is slack has no
+ * derivative. */
+TEST(test_slack_springs_have_no_derivative) {
+  enum { SPRINGS = 80 };
+  owned_doubles *q = new_doubles(6 * SPRINGS), *v = new_doubles(6 * SPRINGS),
+                *moved = new_doubles(6 * SPRINGS);
+  owned_doubles *product = new_doubles(6 * SPRINGS);
+  int64_t ends[2 * SPRINGS];
+  for (int64_t k = 0; k < SPRINGS; k++) {
+    ends[2 * k] = 2 * k, ends[2 * k + 1] = 2 * k + 1;
+    q[6 * k + 3] = 0.61 + 0.01 * (double)k;
+    q[6 * k + 1] = q[6 * k + 4] = (double)k;
+    v[6 * k + 3] = 10.0; /* the damper alone would pull */
+    moved[6 * k + 3] = 1.0;
+  }
+  for (int32_t set = 0; use_loops(set); set++) {
+    owned_system *system = small_system(2 * SPRINGS, q, NULL, 1.0, 0);
+    small_group(system, "springs", NULL, SPRINGS, ends,
+                "law=length stiffness=20 damping=3 rest_length=1.005 compression=false");
+    check_ok(hooke_system_commit(system));
+    check_ok(hooke_system_derivative_product(system, 0.0, q, v, moved, moved, product));
+    for (int64_t k = 0; k < SPRINGS; k++) {
+      const double found = product[6 * k + 3], due = q[6 * k + 3] > 1.005 ? -23.0 : 0.0;
+      if (fabs(found - due) > 1e-12)
+        check_failed("loops for %s, length %g: %.17g, expected %g", hk_spring_set(0)->name, q[6 * k + 3],
+                     found, due);
     }
   }
 }

@@ -44,6 +44,9 @@ static void compare(const hooke_system *system, int64_t count, int64_t zeros) {
   check_ok(hk_stiffness_create(system, q, &s));
   check_ok(hk_lowest_dense(&s.matrix, s.bound, count, &dense));
   check_ok(hk_lowest_sparse(&s.matrix, s.bound, count, NULL, &sparse));
+  int32_t sign = 0;
+  check_ok(hk_lowest_sign(&s.matrix, s.bound, NULL, &sign));
+  assert_int_equal(sign, dense.value[0] < 0.0 ? -1 : 1);
   assert_int_equal(dense.count, count);
   assert_int_equal(sparse.count, count);
   assert_true(dense.complete && dense.zero_count == zeros);

@@ -58,6 +58,35 @@ int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t 
   return status == HOOKE_OK ? take_steps(it, state, steps, 1) : status;
 }
 
+static int32_t check_begin(const hooke_integrator *it, const hooke_state *state, double t0, int64_t step) {
+  const double t = t0 + (double)step * it->schedule.step;
+  if (it->method->adaptive)
+    return hk_fail(HOOKE_UNSUITED, "method", "%s chooses its steps; allowed: methods with a fixed step",
+                   it->method->name);
+  if (step < 0 || step > HOOKE_MOST_STEPS)
+    return hk_fail(HOOKE_BAD_VALUE, "step", "%lld is not allowed; 0 to %lld are", (long long)step,
+                   (long long)HOOKE_MOST_STEPS);
+  if (memcmp(&t, state->t, sizeof t) == 0) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "state", "is at %.17g s; after %lld steps from %.17g s it is %.17g s",
+                 *state->t, (long long)step, t0, t);
+}
+
+int32_t hooke_integrator_begin(hooke_integrator *it, hooke_state *state, double t0, int64_t step) {
+  const struct hk_standing before = it->standing;
+  const int goes_on = it->phase != HOOKE_NOT_BEGUN && before.t0 == t0 && before.k < step;
+  int32_t status = hk_run_check_state(it, state);
+  if (status == HOOKE_OK) status = check_begin(it, state, t0, step);
+  if (status != HOOKE_OK) return status;
+  status = hk_run_begin_later(it, state);
+  hk_recent_set_first(&it->recent, NULL);
+  if (goes_on) it->standing = before;
+  it->t0 = t0;
+  it->t = *state->t;
+  it->k = it->recent.step[it->recent.newest] = step;
+  if (goes_on && status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
+  return hk_run_end(it, state, status);
+}
+
 static int32_t require_motion(const hooke_integrator *it) {
   if (goes_on(it)) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_CALL, NULL, "%s; hooke_integrator_step() with 0 steps begins one at a state",

@@ -182,7 +182,7 @@ static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_
   if (fine) fine = make_matrix(x, &blocks);
   hk_free(blocks.start);
   hk_free(blocks.row);
-  if (fine) fine = (x->cholmod = hk_cholmod->create(&x->matrix)) != NULL;
+  if (fine) fine = (x->cholmod = hk_cholmod->create(&x->matrix, 0)) != NULL;
   if (!fine) return 0;
   x->bytes += hk_cholmod->memory(x->cholmod);
   count_numbers(x);
@@ -380,7 +380,7 @@ int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const str
   add_diagonal(x, diagonal);
   add_springs(x, parts->tangent);
   add_others(x, parts);
-  const int32_t positive = hk_cholmod->compute(x->cholmod, &x->matrix);
+  const int32_t positive = hk_cholmod->compute(x->cholmod, &x->matrix, 0.0);
   return positive == 1 ? fill_triangle(x) : positive;
 }
 

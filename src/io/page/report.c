@@ -1,5 +1,5 @@
 /* Pages: a frame filled with the style, the drawing library, the data, the body and the scripts. The files of
- * a kind in share/hooke are <kind>.html, <kind>.js and <kind>_tables.js. */
+ * a page in share/hooke are <name>.html, <name>.js and <name>_tables.js. */
 #include "io/page/report.h"
 
 #include "core/os/os.h"
@@ -54,13 +54,17 @@ void hk_report_add_facts(struct hk_text *text) {
 
 static const struct page {
   const char *kind;
+  const char *name; /* of its files */
   const char *more; /* a file of scripts that it shares with another; NULL: none */
   const char *own;  /* the table that it adds by itself; NULL: none */
   int32_t (*add)(struct hk_text *data, const hooke_measurement *measurement);
 } pages[] = {
-    {"study", NULL, NULL, hk_study_page_add}, {"limit", "mode.js", "rows", hk_limit_page_add},
-    {"needs", NULL, NULL, hk_needs_page_add}, {"why", "mode.js", NULL, hk_why_page_add},
-    {"modes", NULL, NULL, hk_modes_page_add},
+    {"study", "study", NULL, NULL, hk_study_page_add},
+    {"limit", "limit", "mode.js", "rows", hk_limit_page_add},
+    {"needs", "needs", NULL, NULL, hk_needs_page_add},
+    {"why", "why", "mode.js", NULL, hk_why_page_add},
+    {"modes", "modes", NULL, NULL, hk_modes_page_add},
+    {"rest", "modes", NULL, NULL, hk_rest_page_add},
 };
 
 static const struct page *find(const hooke_measurement *m) {
@@ -80,10 +84,10 @@ static int32_t add_data(struct hk_text *data, const hooke_measurement *m) {
   return status;
 }
 
-/* A file with the name of the kind, and `ending`. */
+/* A file with the name of the page, and `ending`. */
 static int32_t add_own(struct hk_text *page, const hooke_measurement *m, const char *ending) {
   char name[64];
-  snprintf(name, sizeof name, "%s%s", m->kind->name, ending);
+  snprintf(name, sizeof name, "%s%s", find(m)->name, ending);
   return hk_data_folder_read(name, page);
 }
 

@@ -9,6 +9,7 @@ int32_t hk_needs_page_add(struct hk_text *data, const hooke_measurement *measure
 int32_t hk_study_page_add(struct hk_text *data, const hooke_measurement *measurement);
 int32_t hk_limit_page_add(struct hk_text *data, const hooke_measurement *measurement);
 int32_t hk_modes_page_add(struct hk_text *data, const hooke_measurement *measurement);
+int32_t hk_rest_page_add(struct hk_text *data, const hooke_measurement *measurement);
 int32_t hk_why_page_add(struct hk_text *data, const hooke_measurement *measurement);
 /* Adds "reach": the edge of what is stable by h times frequency and h times decay, as x, y in turn, where a
  * method has one. */

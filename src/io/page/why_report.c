@@ -128,7 +128,7 @@ static int32_t find_mode(const struct frames *f, const struct hk_limit *limit, c
   status = hk_growing_create(f->system, row->mode, NULL, &g);
   if (status != HOOKE_OK) return status;
   const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0) + geometric);
-  *found = (struct mode){0.0, stiffness, hk_relaxation_growth(stability, f->h, stiffness)};
+  *found = (struct mode){0.0, stiffness, hk_eigenvalue_growth(stability, f->h, -stiffness, 0.0)};
   if (!f->system->overdamped) {
     found->frequency = sqrt(stiffness);
     found->decay = 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0);

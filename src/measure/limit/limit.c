@@ -179,12 +179,9 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
   struct hk_measured_limit m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
-  const int32_t status =
-      nonlinear
-          ? hk_limit_measure_nonlinear(limit->measurement->system, state, limit->run, row->method, start,
-                                       accuracy, budget, &m)
-          : hk_limit_measure(limit->system, q, hooke_state_velocity((hooke_state *)state), limit->run,
-                             row->method, start, row->has_mode ? row->mode : NULL, accuracy, budget, &m);
+  const int32_t status = nonlinear ? hk_limit_measure_nonlinear(limit->measurement->system, state, limit->run,
+                                                                row->method, start, accuracy, budget, &m)
+                                   : hk_limit_measure(limit, row, q, state->v, start, accuracy, budget, &m);
   if (status != HOOKE_OK) return status;
   row->measured = m.step;
   row->steps_run = (double)m.steps_run;

@@ -5,15 +5,16 @@
 #include "integrate/method.h"
 #include "measure/trial/bracket.h"
 #include "measure/limit/growth.h"
+#include "measure/spectrum/mode_growth.h"
 
 #include <math.h>
 #include <stddef.h>
 
 static const char OUT_OF_TIME[] = "the budget ended before the limit was found";
 static const char WITHIN[] = "the budget ended early: the limit measured is certain to 5 % only";
-static const char TOO_SLOW[] = "growth near the limit is too slow to be seen within the budget";
-static const char TOO_SLOW_WITHIN[] = "growth near the limit is too slow to be seen within the budget: the "
-                                      "limit measured is certain to 5 % only";
+static const char TOO_SLOW[] = "growth near the limit is too slow for a run to show it";
+static const char TOO_SLOW_WITHIN[] = "growth near the limit is too slow for a run to show it: the limit "
+                                      "measured is certain to 5 % only";
 static const char UNSOLVED[] = "the method did not solve its step while the limit was measured";
 static const char DIFFERS[] = "a mode that the prediction did not name limits the step";
 
@@ -23,18 +24,42 @@ static const char DIFFERS[] = "a mode that the prediction did not name limits th
 enum { STEPS_OF_VIOLENCE = 20 };
 
 struct trial {
+  const struct hk_limit *limit;
   struct hk_growth *growth;
   int64_t most_steps;
+  double predicted; /* [s] */
   const struct hk_stability *stability;
   int32_t slow;   /* needs damping: steadiness means that growth is too slow to be seen */
   int32_t degree; /* if slow, growth is that of (omega h)^(2 degree) */
+  int32_t coarse; /* the accuracy is less than was asked for */
   const char *note;
 };
 
+/* Certainty that a search which ended early needs for its result to be reported. */
+static const double CERTAIN = 0.05;
+
+/* The rise of the log of an amplitude that a run shows for certain; where it never falls, much less does. */
+static const double CERTAIN_RISE = 10.0, CERTAIN_IF_CONVEX = 0.1;
+
+/* 1 if a run at `step`, or at one as far above the limit, grows by so much in its steps, as eigenvalues have
+ * it. Without them it may. */
+static int is_seen(const struct trial *trial, double step) {
+  const double mirrored = trial->predicted * trial->predicted / step, h = fmax(step, mirrored);
+  double growth = trial->limit->mode_count > 0 ? 0.0 : INFINITY;
+  for (int64_t k = 0; k < trial->limit->mode_count; k++) {
+    const struct hk_limit_mode *mode = &trial->limit->mode[k];
+    growth = fmax(growth, log(hk_eigenvalue_growth(trial->stability, h, mode->real, mode->imaginary)));
+  }
+  const double least = trial->growth->is_convex ? CERTAIN_IF_CONVEX : CERTAIN_RISE;
+  return growth * (double)trial->most_steps > least;
+}
+
 static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
   struct trial *trial = ctx;
-  enum hk_verdict verdict;
-  const int32_t status = hk_growth_see(trial->growth, step, 0, trial->most_steps, &verdict);
+  enum hk_verdict verdict = HOOKE_STEADY;
+  int32_t status = HOOKE_OK;
+  if (!trial->slow || is_seen(trial, step))
+    status = hk_growth_see(trial->growth, step, 0, trial->most_steps, &verdict);
   if (status != HOOKE_OK) return status;
   *end = verdict == HOOKE_GROWS ? HOOKE_TRIAL_FAILS : HOOKE_TRIAL_HOLDS;
   if (verdict == HOOKE_OUT_OF_TIME) trial->note = OUT_OF_TIME;
@@ -50,9 +75,9 @@ static int is_symplectic(const struct trial *trial) {
 }
 
 /* A fraction e above the limit, undamped motion grows by 1 + sqrt(8 e) a step of a symplectic method, and by
- * 1 + 7 e of rk4; damped motion by 1 + 2 e or somewhat less, and forward Euler by 1 + 2 zeta^2 e: told apart
- * to a quarter of the accuracy. Undamped motion then has 24 powers of e to grow by, of which a rise above all
- * swings takes 7, and as much where only the random share grows (growth.c). */
+ * 1 + 7 e of rk4; damped motion by 1 + 2 e or somewhat less, and by 1 + 2 zeta^2 e of forward Euler, which a
+ * run may not show: told apart to a quarter of the accuracy. Undamped motion then has 24 powers of e to grow
+ * by, of which a rise above all swings takes 7, and as much where only the random share grows (growth.c). */
 static int64_t steps_for(const struct trial *trial) {
   const double accuracy = trial->growth->accuracy;
   if (trial->slow) return 1000 + (int64_t)fmin(4000.0 / accuracy, 1e15);
@@ -64,6 +89,7 @@ static int64_t steps_for(const struct trial *trial) {
 /* A mode whose limit lies lower by the accuracy has 16 powers of e, or more, to rise from random motion. */
 static int64_t steps_to_confirm(const struct trial *trial) {
   const double accuracy = trial->growth->accuracy;
+  if (trial->coarse) return trial->most_steps;
   if (trial->growth->twin->lin.damped || trial->slow) return 1000 + (int64_t)fmin(8.0 / accuracy, 1e15);
   if (is_symplectic(trial)) return steps_for(trial);
   return 1000 + (int64_t)fmin(2.3 / accuracy, 1e15);
@@ -91,9 +117,6 @@ static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
   }
   return HOOKE_OK;
 }
-
-/* Certainty that a search which ended early needs for its result to be reported. */
-static const double CERTAIN = 0.05;
 
 static void read_bracket(const struct hk_bracket *bracket, struct hk_measured_limit *out) {
   const int both = bracket->holds > 0.0 && isfinite(bracket->fails);
@@ -163,32 +186,49 @@ static int32_t measure(struct trial *trial, double predicted, struct hk_measured
   return status;
 }
 
-int32_t hk_limit_measure(const hooke_system *system, const double *q, const double *v,
-                         const hooke_options *run, const char *method, double predicted, const double *mode,
-                         double accuracy, struct hk_budget *budget, struct hk_measured_limit *out) {
+/* Less accuracy where growth at what was asked for is too slow. */
+static void choose_accuracy(struct trial *trial) {
+  const double nearest = 0.25 * trial->growth->accuracy;
+  const int is_limit = trial->predicted > 0.0 && isfinite(trial->predicted);
+  if (!trial->slow || !is_limit || is_seen(trial, trial->predicted * (1.0 + nearest))) return;
+  trial->growth->accuracy = fmax(trial->growth->accuracy, CERTAIN);
+  trial->coarse = 1;
+}
+
+static void find_note(const struct trial *trial, struct hk_measured_limit *out) {
+  const int known = !isnan(out->step);
+  if (trial->note) out->note = trial->note;
+  if (known && trial->note == OUT_OF_TIME) out->note = WITHIN;
+  if (known && (trial->note == TOO_SLOW || (trial->coarse && !trial->note))) out->note = TOO_SLOW_WITHIN;
+}
+
+int32_t hk_limit_measure(const struct hk_limit *limit, const struct hk_limit_row *row, const double *q,
+                         const double *v, double predicted, double accuracy, struct hk_budget *budget,
+                         struct hk_measured_limit *out) {
   struct hk_twin twin;
   struct hk_growth growth;
   *out = (struct hk_measured_limit){.step = NAN, .note = ""};
-  int32_t status = hk_twin_create(system, q, v, &twin);
+  int32_t status = hk_twin_create(limit->system, q, v, &twin);
   if (status != HOOKE_OK) return status;
-  status = hk_growth_create(&twin, run, method, mode, accuracy, budget, &growth);
+  status = hk_growth_create(&twin, limit->run, row->method, row->has_mode ? row->mode : NULL, accuracy,
+                            budget, &growth);
   if (status == HOOKE_OK) {
-    const struct hk_stability *stability = hk_method_stability_in(method, system);
-    const int slow = hk_method_needs_damping(method) && !system->overdamped;
+    const struct hk_stability *stability = hk_method_stability_in(row->method, limit->system);
+    const int slow = hk_method_needs_damping(row->method) && !limit->system->overdamped;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
     growth.turns_at_rest = stability->kind == HOOKE_STABLE_BY_K;
     growth.is_convex = !twin.lin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;
-    struct trial trial = {
-        .growth = &growth, .stability = stability, .slow = slow, .degree = slow ? stability->degree : 1};
+    struct trial trial = {.limit = limit,
+                          .growth = &growth,
+                          .predicted = predicted,
+                          .stability = stability,
+                          .slow = slow,
+                          .degree = slow ? stability->degree : 1};
     trial.most_steps = steps_for(&trial);
+    choose_accuracy(&trial);
     status = measure(&trial, predicted, out);
     out->steps_run = growth.steps_run;
-    if (trial.note == OUT_OF_TIME && !isnan(out->step))
-      out->note = WITHIN;
-    else if (trial.note == TOO_SLOW && !isnan(out->step))
-      out->note = TOO_SLOW_WITHIN;
-    else if (trial.note)
-      out->note = trial.note;
+    find_note(&trial, out);
     hk_growth_release(&growth);
   }
   hk_twin_release(&twin);

@@ -2,7 +2,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 
-#include "measure/trial/budget.h"
+#include "measure/limit/limit.h"
 
 struct hk_measured_limit {
   /* the limit [s]: 0 if no step is stable, infinity if nothing limits it, NaN if not found */
@@ -12,15 +12,15 @@ struct hk_measured_limit {
   const char *note;     /* remark, "" if none */
 };
 
-/* The limit of `method` on the linear twin of the system at q (linear_twin.h), to the relative `accuracy`,
- * within the budget. The search starts at `predicted` (NaN: unknown; 0 and infinity are tested), with runs
- * that start in `mode` (3n displacements, or NULL) and some random motion. The result is confirmed by a run
- * just below it that starts from random motion alone. `run` (options of a run) may be NULL. The note says if
- * the budget ended too early. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the caller, HOOKE_NO_MEMORY.
- */
-int32_t hk_limit_measure(const hooke_system *system, const double *q, const double *v,
-                         const hooke_options *run, const char *method, double predicted, const double *mode,
-                         double accuracy, struct hk_budget *budget, struct hk_measured_limit *out);
+/* The limit of a row's method on the linear twin of the system at q (linear_twin.h), to the relative
+ * `accuracy`, within the budget. The search starts at `predicted` (NaN: unknown; 0 and infinity are tested),
+ * with runs that start in the mode of the row and some random motion. The result is confirmed by a run just
+ * below it that starts from random motion alone. Where the eigenvalues tell that growth at that accuracy is
+ * too slow for a run to show, the accuracy is 5 %, or nothing is run. The note says so, and if the budget
+ * ended too early. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the caller, HOOKE_NO_MEMORY. */
+int32_t hk_limit_measure(const struct hk_limit *limit, const struct hk_limit_row *row, const double *q,
+                         const double *v, double predicted, double accuracy, struct hk_budget *budget,
+                         struct hk_measured_limit *out);
 
 /* The largest step at which the scene itself runs from `start` through the `duration` of `run` without
  * divergence. With callbacks and drives only non-finite numbers count. HOOKE_BAD_VALUE without a duration;

@@ -27,6 +27,10 @@ int32_t hk_lowest_dense(const struct hk_columns *matrix, double bound, int64_t c
                         struct hk_lowest *lowest);
 int32_t hk_lowest_sparse(const struct hk_columns *matrix, double bound, int64_t count,
                          struct hk_budget *budget, struct hk_lowest *lowest);
+/* `sign` becomes -1 if an eigenvalue is below 0, and 1 if none is, by one factor; 0 where that has too many
+ * numbers, or the build has no CHOLMOD. HOOKE_NO_MEMORY, HOOKE_STOPPED. */
+int32_t hk_lowest_sign(const struct hk_columns *matrix, double bound, struct hk_budget *budget,
+                       int32_t *sign);
 void hk_lowest_release(struct hk_lowest *lowest);
 
 #endif

@@ -38,7 +38,7 @@ static void merge(int64_t count, const struct hk_entry *entry, struct hk_columns
     if (matrix->start[k + 1] == 0) matrix->start[k + 1] = matrix->start[k];
 }
 
-int32_t hk_columns_make(int64_t size, int64_t count, const struct hk_entry *entry, const int32_t *number,
+int32_t hk_columns_make(int64_t size, int64_t count, const struct hk_entry *entry,
                         struct hk_columns *matrix) {
   if (count > INT32_MAX)
     return hk_fail(HOOKE_NO_MEMORY, NULL, "a matrix with %lld entries is too large for modes",
@@ -49,8 +49,7 @@ int32_t hk_columns_make(int64_t size, int64_t count, const struct hk_entry *entr
                                 hk_new(count, sizeof(int32_t)), hk_new(count, sizeof(double))};
   const int fine = own && place && matrix->start && matrix->row && matrix->number;
   for (int64_t k = 0; k < count && fine; k++) {
-    const int32_t i = number ? number[entry[k].row] : entry[k].row,
-                  j = number ? number[entry[k].column] : entry[k].column;
+    const int32_t i = entry[k].row, j = entry[k].column;
     own[k] = (struct hk_entry){i < j ? i : j, i < j ? j : i, entry[k].value};
   }
   if (fine) {
@@ -267,7 +266,7 @@ static int32_t assemble(struct hk_stiffness *s) {
   to.entry = hk_new(to.count, sizeof *to.entry);
   int32_t status = sum && to.entry ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) push_all(s, &to);
-  if (status == HOOKE_OK) status = hk_columns_make(s->count, to.count, to.entry, NULL, &s->matrix);
+  if (status == HOOKE_OK) status = hk_columns_make(s->count, to.count, to.entry, &s->matrix);
   if (status == HOOKE_OK) s->bound = bound_of(&s->matrix, sum);
   hk_free(to.entry);
   hk_free(sum);

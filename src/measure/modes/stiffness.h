@@ -40,14 +40,13 @@ double hk_stiffness_of_turning(const struct hk_stiffness *stiffness, const doubl
 /* out = K y */
 void hk_columns_multiply(const struct hk_columns *matrix, const double *y, double *out);
 
-/* The upper triangle of the symmetric matrix of these entries, of which several may be at one place, with
- * rows and columns numbered anew by `number` (NULL: as they are). HOOKE_NO_MEMORY. */
+/* The upper triangle of the symmetric matrix of these entries, of which several may be at one place.
+ * HOOKE_NO_MEMORY. */
 struct hk_entry {
   int32_t row, column;
   double value;
 };
-int32_t hk_columns_make(int64_t size, int64_t count, const struct hk_entry *entry, const int32_t *number,
-                        struct hk_columns *matrix);
+int32_t hk_columns_make(int64_t size, int64_t count, const struct hk_entry *entry, struct hk_columns *matrix);
 void hk_columns_release(struct hk_columns *matrix);
 
 /* Of `count` motions without stiffness (rows of unknowns, orthonormal), how many are translations of a

@@ -2,6 +2,8 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "measure/modes/lowest.h"
+#include "measure/modes/stiffness.h"
 #include "model/state.h"
 #include "model/system.h"
 
@@ -89,12 +91,25 @@ static int32_t find_modes(struct hk_resting *r, double t, const double *zeros, s
   return status;
 }
 
+/* Of a large scene. */
+static int32_t find_sign(struct hk_resting *r, double t, struct hk_budget *budget) {
+  const hooke_system at = hk_system_at(r->m->system, t);
+  struct hk_stiffness stiffness;
+  int32_t sign = 0, status = hk_stiffness_create(&at, r->position, &stiffness);
+  if (status != HOOKE_OK) return status;
+  status = hk_lowest_sign(&stiffness.matrix, stiffness.bound, budget, &sign);
+  if (r->rest.has_energy && sign != 0) r->minimum = sign > 0;
+  hk_stiffness_release(&stiffness);
+  return status;
+}
+
 static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_resting *r = m->object;
   const int64_t numbers = 3 * m->system->particle_count;
   const double seconds = hooke_options_number(m->options, "budget"), t = hooke_state_time(state);
   struct hk_budget budget = hk_budget_of(isnan(seconds) ? INFINITY : seconds, m->progress, m->progress_ctx);
   forget(r);
+  r->time = t;
   double *zeros = hk_new(numbers, sizeof(double));
   r->position = hk_new(numbers, sizeof(double));
   int32_t status = zeros && r->position ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -103,8 +118,8 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
     status = hk_rest_find(m->system, t, r->position, &budget, &r->rest);
   }
   if (status == HOOKE_OK || status == HOOKE_STOPPED) see_watched(r, t, zeros);
-  if (status == HOOKE_OK && r->rest.lack == HOOKE_RESTS && !hk_rest_is_large(r))
-    status = find_modes(r, t, zeros, &budget);
+  if (status == HOOKE_OK && r->rest.lack == HOOKE_RESTS)
+    status = hk_rest_is_large(r) ? find_sign(r, t, &budget) : find_modes(r, t, zeros, &budget);
   hk_free(zeros);
   return status;
 }

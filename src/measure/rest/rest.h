@@ -8,7 +8,8 @@
 #include "measure/quantity/watched.h"
 #include "measure/rest/rest_find.h"
 
-/* Larger scenes have no modes here: finding them may take many times as long as the rest. */
+/* Larger scenes have no modes here, but for the sign of the lowest: finding them may take many times as long
+ * as the rest. */
 enum { HOOKE_REST_PARTICLES = 4000 };
 
 struct hk_rest_watched {
@@ -23,6 +24,7 @@ struct hk_resting {
   struct hk_rest_watched *value; /* by quantity */
   double *number;                /* the same, as they are computed */
   struct hk_rest rest;
+  double time;      /* of the start [s] */
   double *position; /* 3n, of the last run; NULL before */
   int32_t minimum;  /* -1: not known */
   int32_t had_friction;

@@ -23,6 +23,12 @@ static void tell_lack(const struct hk_resting *r, struct hk_claims *claims) {
         claims, "rest", HOOKE_OF_WHOLE, "forces",
         "there is no rest: the scene falls along %.3g %.3g %.3g, where a force of %.6g N remains after %.3g m",
         rest->fall[0], rest->fall[1], rest->fall[2], rest->residual, rest->moved);
+  else if (rest->lack == HOOKE_TOO_LONG)
+    hk_claim(claims, "rest", HOOKE_OF_UNKNOWN, "forces",
+             "no rest was found, and there may be one: after %lld steps, %lld that failed, and %lld "
+             "evaluations of all forces a force of %.6g N is left, along %.3g %.3g %.3g",
+             (long long)rest->steps, (long long)rest->failures, (long long)rest->force_evaluations,
+             rest->residual, rest->fall[0], rest->fall[1], rest->fall[2]);
   else
     hk_claim(
         claims, "rest", HOOKE_OF_UNKNOWN, "forces",
@@ -33,19 +39,22 @@ static void tell_lack(const struct hk_resting *r, struct hk_claims *claims) {
 }
 
 static void tell_minimum(const struct hk_resting *r, struct hk_claims *claims) {
+  char growth[48] = "";
+  if (r->modes.unstable > 0)
+    hk_append(growth, sizeof growth, ", and grows at %.6g 1/s", r->modes.mode[0].growth);
   if (r->minimum == 1)
     hk_claim(claims, "minimum", HOOKE_OF_WHOLE, "eigenvalues", "no small displacement lowers the energy%s",
-             r->modes.zero_modes > 0 ? "" : ", and each raises it");
+             r->modes.zero_modes == 0 ? ", and each raises it" : "");
   else if (r->minimum == 0)
     hk_claim(claims, "minimum", HOOKE_OF_WHOLE, "eigenvalues",
-             "the rest is not stable: a small displacement lowers the energy, and grows at %.6g 1/s",
-             r->modes.mode[0].growth);
+             "the rest is not stable: a small displacement lowers the energy%s", growth);
   else
-    hk_claim(claims, "minimum", HOOKE_OF_UNKNOWN, "eigenvalues",
-             "whether the energy is least here is not known%s",
-             !r->rest.has_energy   ? ": some force has no energy"
-             : hk_rest_is_large(r) ? ": modes of scenes of this size are not looked for"
-                                   : "");
+    hk_claim(
+        claims, "minimum", HOOKE_OF_UNKNOWN, "eigenvalues", "whether the energy is least here is not known%s",
+        !r->rest.has_energy ? ": some force has no energy"
+        : hk_rest_is_large(r)
+            ? ": modes of scenes of this size are not looked for, and a factor of its stiffness has too many numbers"
+            : "");
   if (r->modes.zero_modes > 0)
     hk_claim(claims, "zero-modes", HOOKE_OF_WHOLE, "eigenvalues",
              "%lld free %s no stiffness: along %s any place is as good", (long long)r->modes.zero_modes,

@@ -5,6 +5,7 @@
 #include "integrate/solve/descent.h"
 #include "integrate/solve/stage.h"
 #include "kernel/vector_loops.h"
+#include "measure/counted_work/work.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/force/drive.h"
 #include "model/system.h"
@@ -23,9 +24,11 @@ static const double WITHOUT_STIFFNESS = 1e-3;
 /* Residuals over the largest force: that of rest, and where one that no longer falls is as small as it gets.
  */
 static const double AT_REST = 1e-8, ROUNDINGS = 16.0 * DBL_EPSILON, LEAST = 1e-12;
-/* A scene that has come this many times its extent under a force that stays, falls. */
+/* The counted work of a search at most [s], and in evaluations of all forces of a large scene. */
+static const double MOST_WORK = 20.0, MOST_EVALUATIONS = 1e5;
 /* Of the change over a step, how exactly its equations are solved. */
 static const double NEWTON = 0.1;
+/* A scene that has come this many times its extent under a force that stays, falls. */
 static const double FAR = 1e6, STAYS = 0.9, FALLEN = 0.5;
 enum { MOST_STEPS = 400, MOST_NUMBERS = 100, FEW = 3 };
 
@@ -245,6 +248,7 @@ static int is_over(struct search *s, double before, int *stalled) {
 static int32_t search(struct search *s) {
   struct hk_rest *found = s->found;
   double bound = NAN;
+  const double most = fmax(MOST_WORK, MOST_EVALUATIONS * hk_work_of_evaluation(s->system));
   int stalled = 0;
   int32_t status =
       hk_step_bound_at(s->system, s->system->overdamped ? "heun" : "verlet", s->from, NULL, &bound);
@@ -255,10 +259,10 @@ static int32_t search(struct search *s) {
     const double before = found->residual;
     const int64_t counted = s->it->count.nonlinear_iterations;
     int ok;
-    if (hk_budget_ends(s->budget, "rest") || found->steps + found->failures >= MOST_STEPS) {
-      found->lack = HOOKE_REST_SPENT;
-      break;
-    }
+    found->lack = hk_budget_ends(s->budget, "rest") ? HOOKE_REST_SPENT : found->lack;
+    if (found->steps + found->failures >= MOST_STEPS || hk_work_of(s->it) > most)
+      found->lack = HOOKE_TOO_LONG;
+    if (found->lack != HOOKE_RESTS) break;
     status = step(s, h, &ok);
     if (status != HOOKE_OK) break;
     found->steps += ok;

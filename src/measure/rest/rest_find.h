@@ -15,7 +15,8 @@ enum hk_rest_lack {
   HOOKE_RESTS,
   HOOKE_FALLS,     /* a force remains, however far the scene moves */
   HOOKE_NO_WAY_ON, /* no step leads closer */
-  HOOKE_REST_SPENT /* the budget or the steps are used up */
+  HOOKE_TOO_LONG,  /* so much counted work, or so many steps, and none */
+  HOOKE_REST_SPENT /* the budget is used up */
 };
 
 struct hk_rest {

@@ -42,7 +42,8 @@ double hk_mode_growth(const struct hk_stability *stability, double h, double fre
               polynomial(stability->degree, h * (-root - decay)));
 }
 
-double hk_relaxation_growth(const struct hk_stability *stability, double h, double rate) {
-  return stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? polynomial(stability->degree, -h * rate)
-                                                       : (double)NAN;
+double hk_eigenvalue_growth(const struct hk_stability *stability, double h, double real, double imaginary) {
+  return stability->kind == HOOKE_STABLE_BY_POLYNOMIAL
+             ? polynomial(stability->degree, h * (real + I * imaginary))
+             : (double)NAN;
 }

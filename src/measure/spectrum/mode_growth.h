@@ -8,7 +8,8 @@
  * x' + frequency^2 x = 0: above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md,
  * "Stability". */
 double hk_mode_growth(const struct hk_stability *stability, double h, double frequency, double decay);
-/* The same of a motion of an overdamped system that decays at `rate` [1/s]. */
-double hk_relaxation_growth(const struct hk_stability *stability, double h, double rate);
+/* The same of a motion exp(lambda t), lambda = real + i imaginary [1/s], for methods whose step is a
+ * polynomial of h lambda; NaN for others. */
+double hk_eigenvalue_growth(const struct hk_stability *stability, double h, double real, double imaginary);
 
 #endif

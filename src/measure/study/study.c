@@ -24,7 +24,8 @@ static const double ENSEMBLE_SHARE = 0.3;
 static const struct hk_option_row study_rows[] = {
     HOOKE_OPTION("methods", .type = HOOKE_OPTION_TEXT, NULL,
                  "methods, separated by commas; all if not given"),
-    HOOKE_OPTION("points", HOOKE_OPTION_WHOLE(6, 40), "6", "steps or tolerances for each method"),
+    HOOKE_OPTION("points", HOOKE_OPTION_WHOLE(6, 40), "6",
+                 "steps or tolerances for each method; if not given, fewer where they cannot win"),
     HOOKE_OPTION(
         "steps", HOOKE_OPTION_EACH_POSITIVE("s"), NULL,
         "steps of the fixed-step methods, coarse to fine; from the safe step down by halves if not given"),
@@ -144,6 +145,7 @@ static void forget(struct hk_study *study) {
   study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
   study->late = study->budget_spent = 0;
   memset(study->given_up, 0, sizeof study->given_up);
+  memset(study->cut, 0, sizeof study->cut);
 }
 
 static int32_t run(hooke_measurement *m, hooke_state *state) {

@@ -99,6 +99,7 @@ struct hk_study {
   double deadline;                       /* clock at which rows end [s] */
   double row_deadline;                   /* and the current one */
   int32_t given_up[HOOKE_STUDY_METHODS]; /* 1: its first row took too long for the budget */
+  int32_t cut[HOOKE_STUDY_METHODS];      /* 1: its next row cannot be what the study recommends */
   int32_t late;                          /* a row met its deadline */
   int32_t budget_spent;
 };

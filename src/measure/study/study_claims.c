@@ -212,6 +212,16 @@ static void tell_ensemble(const struct teller *t) {
         "no statistics are needed: errors are known over the whole run");
 }
 
+static void tell_cut(const struct teller *t) {
+  char list[256] = "";
+  for (int32_t m = 0; m < t->study->method_count; m++)
+    if (t->study->cut[m]) hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", t->study->method[m]);
+  if (list[0])
+    say(t, "cut", HOOKE_OF_WHOLE, "count",
+        "finer rows are left out where they would take five times the work of one that meets the want: %s",
+        list);
+}
+
 void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_study *study = measurement->object;
   const hooke_system *system = measurement->system;
@@ -224,5 +234,6 @@ void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *clai
   tell_reference(&t);
   if (study->budget_spent)
     say(&t, "budget", HOOKE_OF_PART, "clock", "the budget is spent: what it left no time for is missing");
+  tell_cut(&t);
   tell_ensemble(&t);
 }

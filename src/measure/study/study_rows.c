@@ -26,6 +26,10 @@ static const double REPEAT_SECONDS = 0.1, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 
+/* A ladder ends where its next row has so many times the counted work of the cheapest one that meets the
+ * want. */
+static const double WINS_NO_MORE = 5.0;
+
 /* Fraction of the remaining time for a first row, whose time is unknown: others must have their turn. */
 static const double UNKNOWN_SHARE = 0.1;
 
@@ -116,27 +120,46 @@ int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, s
 
 /* ---- times of rows ---- */
 
-/* Predicted time of the next row of a method [s]: that of its last finished row, scaled by the steps; NaN
- * before the first. */
-static double predict_seconds(const struct hk_study *study, int32_t method, double value) {
+/* Time and counted work of the next row of a method [s]: those of its last finished row, scaled by the steps;
+ * NaN before the first. */
+struct cost {
+  double seconds, work;
+};
+
+static struct cost predict(const struct hk_study *study, int32_t method, double value) {
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
     const struct hk_study_row *row = &study->row[k];
     if (row->method != method || strcmp(row->trial.status, "finished") != 0) continue;
     const double growth = hk_study_is_adaptive(study, method) ? 1.6 : row->value / value;
-    return row->trial.wall_seconds * growth;
+    return (struct cost){row->trial.wall_seconds * growth, row->trial.work * growth};
   }
-  return NAN;
+  return (struct cost){NAN, NAN};
+}
+
+/* The least counted work of a row that meets the want [s]; infinity without one, or where the caller has
+ * chosen the rows. */
+static double least_work(const struct hk_study *study) {
+  static const char *const chosen[] = {"points", "steps", "tolerances"};
+  const double want = hooke_options_number(study->m->options, "want");
+  double least = INFINITY;
+  for (size_t k = 0; k < sizeof chosen / sizeof chosen[0]; k++)
+    if (hooke_options_is_set(study->m->options, chosen[k])) return INFINITY;
+  for (int64_t k = 0; k < study->row_count; k++) {
+    const struct hk_trial *trial = &study->row[k].trial;
+    if (trial->error_max <= want && strcmp(trial->status, "finished") == 0) least = fmin(least, trial->work);
+  }
+  return least;
 }
 
 static double expect_seconds(const struct hk_study *study, int32_t method, double value) {
-  const double predicted = predict_seconds(study, method, value);
+  const double predicted = predict(study, method, value).seconds;
   return isnan(predicted) ? hk_study_guess(study, method, value) : predicted;
 }
 
 static double seconds_ahead(const struct hk_study *study, int32_t level) {
   double sum = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
-    for (int32_t k = level; !isnan(hk_study_ladder(study, m, k)); k++) {
+    for (int32_t k = level; !study->cut[m] && !isnan(hk_study_ladder(study, m, k)); k++) {
       const double once = expect_seconds(study, m, hk_study_ladder(study, m, k));
       sum += once + fmin(REPEATS * once, REPEAT_SECONDS);
     }
@@ -271,12 +294,16 @@ static int compare_jobs(const void *a, const void *b) {
 /* Runs the rows of a level that the budget still allows, the quickest first, so that a slow row does not keep
  * the others from running. */
 static void plan_level(struct hk_study *study, int32_t number, struct level *level) {
+  const double most = WINS_NO_MORE * least_work(study);
   double ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
     const double value = hk_study_ladder(study, m, number);
     if (isnan(value) || study->given_up[m]) continue;
+    const struct cost cost = predict(study, m, value);
+    study->cut[m] |= cost.work >= most;
+    if (study->cut[m]) continue;
     /* the time of a first row is unknown: it is begun, and ends when its share of time is over */
-    const double predicted = predict_seconds(study, m, value), next = fmax(0.0, predicted);
+    const double predicted = cost.seconds, next = fmax(0.0, predicted);
     if (hk_clock_seconds() + ahead + next > study->deadline) {
       study->budget_spent = 1;
       continue;

@@ -2,7 +2,9 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/callbacks.h"
 #include "model/check_value.h"
+#include "model/generalized.h"
 #include "model/system.h"
 
 #include <string.h>
@@ -122,7 +124,7 @@ static int32_t renumber(const struct hk_variant_maker *maker, const struct hk_gr
     const int64_t to = maker->map->to[group->particle[e][k]];
     if (to < 0 || (group->force->on_free && maker->made->constrained[to])) return 0;
     group->particle[e][k] = (int32_t)to;
-    for (int other = 0; other < e; other++)
+    for (int other = 0; other < e && !group->force->is_drag; other++) /* a segment repeats its end */
       if (group->particle[other][k] == (int32_t)to) return 0;
   }
   return 1;
@@ -208,9 +210,9 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
     const struct hk_group *group = &from->group[g];
     if (group->force != force) first = 0;
     force = group->force;
-    if (maker->variant->group[g] ||
-        (group->from_part && !hk_variant_breaks_up(maker, group, first) && !keeps_clamps(maker, group)))
-      continue;
+    const int by_part = group->from_part && !maker->variant->loose &&
+                        !hk_variant_breaks_up(maker, group, first) && !keeps_clamps(maker, group);
+    if (maker->variant->group[g] || by_part) continue;
     status = keep_group(maker, group, first);
   }
   return status;
@@ -257,6 +259,8 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   int32_t status = hooke_system_create(&maker.made);
   if (status == HOOKE_OK) maker.made->rest->memory_limit = from->rest->memory_limit;
   if (status == HOOKE_OK) maker.made->overdamped = from->overdamped;
+  if (status == HOOKE_OK)
+    maker.made->rest->linear.of_velocities = variant->loose && hk_system_is_not_linear(from);
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_start_copy(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
@@ -306,4 +310,40 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   int32_t status = hk_system_require_committed(from);
   if (status == HOOKE_OK && !from->rest->is_copied_whole) status = require_whole(from);
   return status == HOOKE_OK ? make(from, variant, made, map) : status;
+}
+
+static int32_t check_taken(const hooke_system *system, int64_t count, const int64_t *particles) {
+  const int32_t called = hk_system_calls_back(system) | system->rest->called;
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_system_require_scene(system, "system", "");
+  if (status != HOOKE_OK) return status;
+  if (system->bodies->count > 0)
+    return hk_fail(HOOKE_UNSUITED, "system", "has the rigid body \"%.40s\"; a part of it takes none",
+                   system->bodies->body[0].name);
+  if (called)
+    return hk_fail(HOOKE_UNSUITED, "system", "has callbacks (%s); a part of it takes none",
+                   hk_callbacks_text(called));
+  status = hk_system_check_particles(system, "particles", count, particles, 0);
+  for (int64_t k = 1; k < count && status == HOOKE_OK; k++)
+    if (particles[k] <= particles[k - 1])
+      status = hk_fail(HOOKE_BAD_VALUE, "particles", "%lld after %lld; allowed: ascending numbers",
+                       (long long)particles[k], (long long)particles[k - 1]);
+  return status;
+}
+
+int32_t hooke_system_take(const hooke_system *system, int64_t count, const int64_t *particles,
+                          hooke_system **taken) {
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  int32_t status = check_taken(system, count, particles);
+  if (status == HOOKE_OK) status = hk_variant_create(system, &variant);
+  if (status != HOOKE_OK) return status;
+  variant.loose = 1;
+  memset(variant.particle, 1, (size_t)system->particle_count);
+  for (int64_t k = 0; k < count; k++)
+    variant.particle[particles[k]] = 0;
+  status = hk_variant_make(system, &variant, taken, &map);
+  if (status == HOOKE_OK) hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+  return status;
 }

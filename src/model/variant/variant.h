@@ -16,13 +16,13 @@ struct hk_variant {
   uint8_t *particle;   /* by particle; particles of parts are left out only with their part */
   uint8_t *part;       /* by part */
   uint8_t *rigid;      /* by part: 1: it is one rigid body, and what is inside it drops out */
+  int32_t loose;       /* 1: parts become plain particles and groups, of which any may be left out */
   /* factors, initially 1, which hk_variant_join() multiplies */
-  double *scale; /* by part: on the cells along each axis */
-  double
-      *factor[2]; /* by group: on the stiffness (HOOKE_KAPPA) and the damping (HOOKE_GAMMA) of its members */
-  double *mass;   /* by particle, of those of no part */
-  double drag;    /* on the linear drag */
-  double velocity[3]; /* added to the initial velocity of every free particle [m/s]; ignored there, too */
+  double *scale;      /* by part: on the cells along each axis */
+  double *factor[2];  /* by group: on stiffness (HOOKE_KAPPA) and damping (HOOKE_GAMMA) of its members */
+  double *mass;       /* by particle, of those of no part */
+  double drag;        /* on the linear drag */
+  double velocity[3]; /* added to the initial velocity of every free particle [m/s]; not joined */
 };
 
 /* Creates a variant of a committed system without changes. HOOKE_NO_MEMORY. */

@@ -193,7 +193,7 @@ int32_t hk_variant_add_particles(struct hk_variant_maker *maker) {
   if (!maker->map->to || !maker->map->part) return HOOKE_NO_MEMORY;
   int64_t next = 0;
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < from->part_count && status == HOOKE_OK; k++) {
+  for (int64_t k = 0; k < from->part_count && status == HOOKE_OK && !maker->variant->loose; k++) {
     const struct hk_part_record *record = &from->part[k];
     status = add_alone(maker, next, record->first);
     next = record->first + record->count;

@@ -22,6 +22,7 @@ ABI = 1
 OUTCOMES = frozenset(
     (
         "hooke_integrator_advance",
+        "hooke_integrator_begin",
         "hooke_integrator_resume",
         "hooke_integrator_run",
         "hooke_integrator_step",

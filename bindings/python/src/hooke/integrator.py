@@ -151,6 +151,11 @@ class Integrator(Closing):
         does."""
         return self._take(steps, lib.hooke_integrator_step, state._handle, steps)
 
+    def begin(self, state: State, t0: float, step: int) -> str:
+        """Begins a motion at `state` as the one after `step` fixed steps of a motion that began at time `t0` [s], with its
+        times to the bit. Returns an outcome as `run` does, by the energy of earlier steps of the same motion."""
+        return self._take(1, lib.hooke_integrator_begin, state._handle, t0, step)
+
     def advance(self, steps: int = 1) -> str:
         """Takes `steps` steps of the integrator's own motion, continuing from where the last call left it;
         ``step(state, 0)`` begins one at a state. It gives the same bits as `step` in less time: no state is read or

@@ -5,16 +5,18 @@ from __future__ import annotations
 from typing import Any
 
 from ._look import WorkProgress
-from ._measurement import Found, Measurement
+from ._measurement import Measurement, Paged
 from ._types import FloatArray
 from .limit import Place, state_at
 from .problems import Problem
 from .results import Runnable, measured
 
 
-class Rest(Found, kind="rest", rows="watched"):
+class Rest(Paged, kind="rest", rows="watched"):
     """The position of rest of a scene: `position` (n, 3) [m] is there, or where the search ended; `status` says which.
     `rows` is a structured array with one row a watched quantity, and `watched` has their values by name."""
+
+    _untitled = "rest"
 
     def _read(self, found: Measurement) -> None:
         position = found.series("rest", 0, "position")

@@ -66,6 +66,12 @@ class System(Queries):
         handle = Handle.made(self._handle, lib.hooke_system_with_force, *given)
         return System._committed_by(handle, [*self._callbacks, callback])
 
+    def take(self, particles: Any) -> System:
+        """The committed system of these particles, ascending, and of the members of forces all of whose particles are among
+        them, with the same bits of forces where all that acts was taken. Unsuited with rigid bodies and callbacks."""
+        handle = Handle.made(None, lib.hooke_system_take, self._committed(), *_numbered(particles))
+        return System._committed_by(handle, [])
+
     # building
 
     def add_particles(self, position: Any, velocity: Any = None, *, mass: Any = ()) -> range:
