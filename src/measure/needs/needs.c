@@ -88,7 +88,8 @@ static int32_t keep(struct hk_needs *needs, const char *name) {
     if (strcmp(group->name, name) != 0 &&
         !(group->from_part && strcmp(system->part[group->part].name, name) == 0))
       continue;
-    needs->kept[g] = found = 1;
+    needs->kept[g] = 1;
+    found = 1;
   }
   return found;
 }
