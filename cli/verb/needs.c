@@ -123,6 +123,9 @@ static int check(const struct cli_arguments *arguments) {
         arguments, HOOKE_EXIT_USAGE,
         "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
   }
+  if (output && cli_arguments_text(arguments, "force"))
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "no scene holds the force of --force; leave out -o %s",
+                      output);
   return output ? cli_setup_check_ending(arguments, "-o", output) : HOOKE_EXIT_DONE;
 }
 
@@ -161,8 +164,8 @@ static int tell(struct cli_results *results) {
   cli_print_flush();
   code = cli_setup_write_report(results->arguments, &results->setup, results->found, code);
   if (results->outcome != HOOKE_STOPPED) return code;
-  cli_report_words(results->arguments, "interrupted; kept: what is known so far");
-  return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;
+  cli_report_words(results->arguments, "%s; kept: what is known so far", cli_force_stop());
+  return code == HOOKE_EXIT_DONE ? cli_exit_code(HOOKE_STOPPED) : code;
 }
 
 static int do_needs(const struct cli_arguments *arguments) {
@@ -173,6 +176,7 @@ static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "LEAN.json", "writes the lean scene, replacing it"},
     {"report", 0, "FILE.html", "writes table and pictures as one page to read offline, replacing it"},
     HOOKE_FROM_REST,
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_needs = {
