@@ -15,7 +15,21 @@
 enum { MESSAGE_SIZE = 4096, WORD_SIZE = 48, LIST_SIZE = 512 };
 enum { WIDTH = 90, LEFT = 60, LONGEST_CHARACTER = 4 }; /* of an excerpt */
 
-/* Others are bad input: a value, or a scene too large for the memory. */
+static char failure[512]; /* of the force of this program, which has one at most */
+
+void cli_force_fail(const char *file, int32_t value) {
+  snprintf(failure, sizeof failure, "the force of %s returned %d", file, (int)value);
+}
+
+int32_t cli_force_failed(void) {
+  return failure[0] != '\0';
+}
+
+const char *cli_force_stop(void) {
+  return failure[0] ? failure : "interrupted";
+}
+
+/* Others are bad input: a value, a scene too large for the memory, or a force that ends the work. */
 int cli_exit_code(int32_t status) {
   static const int32_t codes[][2] = {
       {HOOKE_OK, HOOKE_EXIT_DONE},           {HOOKE_STOPPED, HOOKE_EXIT_INTERRUPTED},
@@ -24,7 +38,7 @@ int cli_exit_code(int32_t status) {
       {HOOKE_INTERNAL, HOOKE_EXIT_INTERNAL}, {HOOKE_NOT_BUILT, HOOKE_EXIT_NOT_BUILT},
   };
   for (size_t k = 0; k < sizeof codes / sizeof codes[0]; k++)
-    if (codes[k][0] == status) return codes[k][1];
+    if (codes[k][0] == status && !(status == HOOKE_STOPPED && cli_force_failed())) return codes[k][1];
   return HOOKE_EXIT_BAD_INPUT;
 }
 

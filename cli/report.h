@@ -42,4 +42,10 @@ void cli_report_methods(char *list, size_t size);
 int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,
                               size_t length);
 
+/* Keeps that the force of a library has ended some work; 1 if one has; and what has, if work was stopped:
+ * that, or "interrupted". */
+void cli_force_fail(const char *file, int32_t value);
+int32_t cli_force_failed(void);
+const char *cli_force_stop(void);
+
 #endif

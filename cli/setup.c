@@ -104,10 +104,12 @@ int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setu
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   setup->scene = setup->read;
   setup->options = hooke_scene_run_options(setup->scene);
+  int code = cli_force_open(arguments, hooke_scene_system(setup->scene), &setup->force);
+  if (code != HOOKE_EXIT_DONE) return code;
   status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  int code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, "output"));
+  code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, "output"));
   if (code == HOOKE_EXIT_DONE)
     code = cli_setup_check_read(arguments, setup, cli_arguments_text(arguments, "report"));
   if (code != HOOKE_EXIT_DONE) return code;
@@ -122,6 +124,7 @@ void cli_setup_destroy(struct cli_setup *setup) {
   hooke_state_destroy(setup->state);
   if (setup->scene != setup->read) hooke_scene_destroy(setup->scene);
   hooke_scene_destroy(setup->read);
+  free(setup->force.file);
 }
 
 const char *cli_setup_title(const struct cli_arguments *arguments, const struct cli_setup *setup) {

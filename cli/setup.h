@@ -5,12 +5,14 @@
 
 #include "arguments.h"
 #include "describe.h"
+#include "force.h"
 
 struct cli_setup {
   hooke_scene *read, *scene;  /* the scene as read, and as it is run, which --from-rest makes another one */
   const hooke_system *system; /* the scene's */
   hooke_options *options;     /* the scene's, with the options of the command line */
   hooke_state *state;
+  struct cli_force force; /* of the system */
 };
 
 /* 1 for a text that begins like a scene, and for standard input; the message of another file tells of itself.

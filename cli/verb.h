@@ -58,6 +58,14 @@ struct cli_verb {
         "starts the scene at its position of rest, as 'hooke rest' finds it, and not moving"                 \
   }
 
+/* Of verbs that may take a force of the user's own (force.h). */
+#define HOOKE_FORCE                                                                                          \
+  {                                                                                                          \
+    "force", 0, "FILE:NAME",                                                                                 \
+        "adds the force of a shared library: its function NAME, hooke_own_force if left out, beside "        \
+        "hooke_own_force_abi"                                                                                \
+  }
+
 #define HOOKE_VERB_ROWS(list) .rows = (list), .row_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
 
 extern const struct cli_verb cli_verb_run;

@@ -17,7 +17,8 @@ NAMES = {
     "needs_lean_position": "measurement_lean_position", "needs_lean_run": "measurement_lean_run",
     "options_copy": "options_copy_to", "scene_options_apply": "system_apply", "scene_write": "system_write_scene",
     "state_copy": "state_copy_to", "step_bound": "system_step_bound", "study_recommend": "measurement_recommend",
-    "verify_create": "measurement_create_verify", "why_advice_apply": "measurement_advice_apply",
+    "verify_create": "measurement_create_verify",
+    "verify_create_with": "measurement_create_verify_with", "why_advice_apply": "measurement_advice_apply",
     "why_create": "measurement_create_why", "why_create_kept": "measurement_create_why_kept",
 }
 # Further procedures of a function of C, and what they give it.
@@ -65,7 +66,8 @@ OUTPUTS = {
     "system_members.damping": [MEMBERS], "system_members.stiffness": [MEMBERS],
     "system_members.particles": ["int(c_member_particles(to_c(force)))", MEMBERS],
     "system_members.rest_length": [f'merge(7, 1, force == "altitude")*{MEMBERS}'],
-    "system_step_bounds.bound": ["c_method_count()"], "system_tension.tension": ['self%count("springs")'],
+    "system_step_bounds.bound": ["c_method_count()"], "system_compression.compression": ['self%count("springs")'],
+    "system_tension.tension": ['self%count("springs")'],
 }
 WIDTHS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
 # The forms of arrays by their names; others are lists.

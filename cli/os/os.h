@@ -22,6 +22,10 @@ void cli_os_memory(int64_t *now, int64_t *most);
 /* Returns free memory to the system. */
 void cli_os_give_back_memory(void);
 
+/* Loads a shared library, which stays, and finds two symbols (NULL: it has none). Returns NULL or what is
+ * wrong: "" where there is no loader. */
+const char *cli_os_load(const char *path, const char *const name[2], void *symbol[2]);
+
 /* ---- files ---- */
 
 /* The last slash of a path; NULL if it has none. */

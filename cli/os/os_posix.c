@@ -11,6 +11,10 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+#if __has_include(<dlfcn.h>) && !defined(__EMSCRIPTEN__)
+#include <dlfcn.h>
+#define HOOKE_HAS_LOADER
+#endif
 
 extern char **environ;
 
@@ -55,6 +59,18 @@ void cli_os_memory(int64_t *now, int64_t *most) {
 void cli_os_give_back_memory(void) {
 #ifdef __GLIBC__
   malloc_trim(0);
+#endif
+}
+
+const char *cli_os_load(const char *path, const char *const name[2], void *symbol[2]) {
+#ifdef HOOKE_HAS_LOADER
+  void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  for (int k = 0; library && k < 2; k++)
+    symbol[k] = dlsym(library, name[k]);
+  return library ? NULL : dlerror();
+#else
+  (void)path, (void)name, (void)symbol;
+  return "";
 #endif
 }
 

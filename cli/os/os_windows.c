@@ -56,6 +56,13 @@ void cli_os_memory(int64_t *now, int64_t *most) {
 void cli_os_give_back_memory(void) {
 }
 
+const char *cli_os_load(const char *path, const char *const name[2], void *symbol[2]) {
+  HMODULE library = LoadLibraryA(path);
+  for (int k = 0; library && k < 2; k++)
+    symbol[k] = (void *)(uintptr_t)GetProcAddress(library, name[k]);
+  return library ? NULL : "the system refuses it";
+}
+
 /* ---- files ---- */
 
 const char *cli_os_last_slash(const char *path) {

@@ -25,7 +25,8 @@ void cli_command_add(struct cli_string *text, const struct cli_arguments *argume
     const struct cli_argument *argument = &arguments->all[i];
     if (!argument->text || cli_is_among(SHOW_DIVERGENCE, argument->name)) continue;
     if (changes && hooke_options_is_set(changes, argument->name)) continue;
-    if (!same && argument->table != arguments->run && strcmp(argument->name, "from-rest") != 0) continue;
+    if (!same && argument->table != arguments->run && !cli_is_among("from-rest force", argument->name))
+      continue;
     /* the options that --want would choose are given */
     if (strcmp(argument->name, "want") == 0 && changes && hooke_options_is_set(changes, "method")) continue;
     const char *instead = arguments->verb->for_scene;

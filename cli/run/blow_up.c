@@ -64,6 +64,9 @@ void cli_blow_up_add_why(struct cli_string *text, const struct cli_run *run) {
   } else {
     cli_string_add(text, "hooke why ");
     cli_string_quote(text, run->output);
+    const char *force = cli_arguments_text(run->arguments, "force");
+    if (force) cli_string_add(text, " --force ");
+    if (force) cli_string_quote(text, force);
   }
   if (hooke_build_fact("chartjs")[0]) cli_string_add(text, " --report why.html");
 }

@@ -132,8 +132,8 @@ int cli_want_pick(struct cli_run *run) {
       hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
   cli_watch_end(&run->watch);
   if (status == HOOKE_STOPPED)
-    return cli_report(arguments, HOOKE_EXIT_INTERRUPTED,
-                      "interrupted while a method was picked; nothing was run");
+    return cli_report(arguments, cli_exit_code(status), "%s while a method was picked; nothing was run",
+                      cli_force_stop());
   if (status == HOOKE_UNSUITED) return cli_report(arguments, HOOKE_EXIT_NOT_MET, "%s", hooke_last_error());
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   tell_choice(run, "picked for an error of", text);
@@ -278,6 +278,9 @@ static void print_json(const struct cli_run *run) {
                  run->energy_after, momentum[0], momentum[1], momentum[2]);
   if (cli_run_goes_beyond(run)) cli_print_json("'frames_beyond': %" PRId64 ", ", run->frames_beyond);
   if (run->probes_file) cli_print_json("'probes': %s, ", run->probes_file);
+  if (run->setup.force.function)
+    cli_print_json("'force_file': %s, 'force_name': %s, 'force_sha256': %s, ", run->setup.force.file,
+                   run->setup.force.name, run->setup.force.digest);
   cli_print_json("'output': %s, 'diagnosis': %s, ", run->output,
                  cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
   print_json_want(run);

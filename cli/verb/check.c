@@ -118,8 +118,8 @@ static int find_cost(struct check *check) {
   const int code =
       cli_watch_measure(check->arguments, "cost", &check->setup, check->setup.state, &check->cost, &outcome);
   if (outcome != HOOKE_STOPPED) return code;
-  cli_report_words(check->arguments, "interrupted; kept: what was found so far");
-  return HOOKE_EXIT_INTERRUPTED;
+  cli_report_words(check->arguments, "%s; kept: what was found so far", cli_force_stop());
+  return cli_exit_code(HOOKE_STOPPED);
 }
 
 /* A time below the resolution is printed as such. */
@@ -223,7 +223,7 @@ static int check_and_tell(struct check *check) {
   if (status != HOOKE_OK) return cli_report_status(check->arguments, status);
   int code = HOOKE_EXIT_DONE;
   if (cli_arguments_text(check->arguments, "cost")) code = find_cost(check);
-  if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
+  if (code != HOOKE_EXIT_DONE && code != cli_exit_code(HOOKE_STOPPED)) return code;
   status = check->arguments->json ? print_json(check) : print_words(check);
   return status == HOOKE_OK ? code : cli_report(check->arguments, cli_exit_code(status), "out of memory");
 }
@@ -242,6 +242,7 @@ static int do_check(const struct cli_arguments *arguments) {
 
 static const struct cli_verb_row rows[] = {
     {"cost", 0, NULL, "what each ingredient costs, too: time, memory, and the largest step without it"},
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_check = {

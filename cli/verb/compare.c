@@ -11,6 +11,7 @@ static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "FILE",
      "writes the rows to FILE.csv, or tables and, in runs made again, all motions to FILE.h5, replacing it"},
     {"report", 0, "FILE.html", "writes diagrams and table as one page to read offline, replacing it"},
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_compare = {

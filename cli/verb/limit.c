@@ -64,8 +64,8 @@ static int tell(struct cli_results *l) {
     code = cli_report_missing_words(l->arguments);
   cli_print_flush();
   if (l->outcome == HOOKE_STOPPED) {
-    cli_report_words(l->arguments, "interrupted; kept: what was found so far");
-    code = HOOKE_EXIT_INTERRUPTED;
+    cli_report_words(l->arguments, "%s; kept: what was found so far", cli_force_stop());
+    code = cli_exit_code(HOOKE_STOPPED);
   } else if (l->outcome != HOOKE_OK) {
     cli_report_words(l->arguments, "the run ended early, at t = %g s: %s", hooke_state_time(l->setup.state),
                      hooke_last_error());
@@ -85,6 +85,7 @@ static const struct cli_verb_row own_rows[] = {
     {"report", 0, "FILE.html",
      "writes regions of stability, limiting mode, table and "
      "suggestion as one page to read offline, replacing it"},
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_limit = {

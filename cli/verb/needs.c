@@ -58,6 +58,33 @@ static void print_table(const hooke_measurement *needs) {
     print_row(needs, row, width);
 }
 
+/* ---- by degree ---- */
+
+static void print_degrees(const hooke_measurement *needs) {
+  const int32_t width = cli_rows_width(needs, "degrees", "quantity", strlen("by degree"));
+  const int64_t rows = hooke_measurement_row_count(needs, "degrees");
+  if (rows == 0) return;
+  printf("\n%-*s %10s %10s %10s %10s\n", width, "by degree", "factor", "change", "largest", "work");
+  printf("%-*s %10s %10s %10s\n", width, "", "", "[m]", "step [s]");
+  for (int64_t row = 0; row < rows; row++) {
+    const double beyond = number(needs, "degrees", row, "beyond");
+    cli_print_padded(stdout, width, hooke_measurement_text(needs, "degrees", row, "quantity"));
+    if (number(needs, "degrees", row, "tried") == 0.0) {
+      printf("  not tried\n");
+      continue;
+    }
+    cli_rows_print_cell(10, number(needs, "degrees", row, "factor"));
+    cli_rows_print_cell(10, number(needs, "degrees", row, "error"));
+    cli_rows_print_as(10, number(needs, "degrees", row, "step_limit"), "%.4g", "none", NULL);
+    cli_rows_print_cell(10, number(needs, "degrees", row, "work"));
+    if (!isnan(beyond)) {
+      printf("  by %.4g:", beyond);
+      cli_rows_print_as(0, number(needs, "degrees", row, "error_beyond"), "%.3g m", "none", NULL);
+    }
+    printf("\n");
+  }
+}
+
 /* ---- resolutions ---- */
 
 static void print_cells(const hooke_measurement *needs, int64_t part, const char *const numbers[3]) {
@@ -104,6 +131,7 @@ static void print_words(const struct cli_results *results) {
     return;
   }
   print_table(needs);
+  print_degrees(needs);
   printf("\nchange: the largest distance of a watched position at any time; wall time: the least of equal "
          "runs, which take up to\n%.0f %% longer\n",
          100.0 * (spread - 1.0));
@@ -123,6 +151,9 @@ static int check(const struct cli_arguments *arguments) {
         arguments, HOOKE_EXIT_USAGE,
         "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
   }
+  if (output && cli_arguments_text(arguments, "force"))
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "no scene holds the force of --force; leave out -o %s",
+                      output);
   return output ? cli_setup_check_ending(arguments, "-o", output) : HOOKE_EXIT_DONE;
 }
 
@@ -161,8 +192,8 @@ static int tell(struct cli_results *results) {
   cli_print_flush();
   code = cli_setup_write_report(results->arguments, &results->setup, results->found, code);
   if (results->outcome != HOOKE_STOPPED) return code;
-  cli_report_words(results->arguments, "interrupted; kept: what is known so far");
-  return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;
+  cli_report_words(results->arguments, "%s; kept: what is known so far", cli_force_stop());
+  return code == HOOKE_EXIT_DONE ? cli_exit_code(HOOKE_STOPPED) : code;
 }
 
 static int do_needs(const struct cli_arguments *arguments) {
@@ -173,6 +204,7 @@ static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "LEAN.json", "writes the lean scene, replacing it"},
     {"report", 0, "FILE.html", "writes table and pictures as one page to read offline, replacing it"},
     HOOKE_FROM_REST,
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_needs = {

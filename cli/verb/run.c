@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 static const double MOST_STEPS = 9007199254740992.0; /* 2^53, up to which doubles hold every integer */
-static const char MAY_BE_GIVEN[] = "resume threads final watch no-why json quiet help";
+static const char MAY_BE_GIVEN[] = "resume threads final watch force no-why json quiet help";
 
 /* Of the state; the scale becomes the largest sum of its kinds without their signs. */
 static double state_energy(struct cli_run *run) {
@@ -151,7 +151,8 @@ static void find_why(struct cli_run *run) {
   if (status == HOOKE_NO_MEMORY)
     cli_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
   if (status == HOOKE_STOPPED)
-    cli_report_words(run->arguments, "interrupted: why the run ended early is not looked into further");
+    cli_report_words(run->arguments, "%s: why the run ended early is not looked into further",
+                     cli_force_stop());
 }
 
 /* Number of the step after which the last of `frames` was written; -1 if the file does not say. */
@@ -254,6 +255,9 @@ static void tell_how(const struct cli_run *run) {
         "this method goes on from checkpoints alone, and --checkpoint DT was not given: it begins again");
   fputs("to go on:\n  hooke run --resume ", stderr);
   cli_print_quoted(stderr, run->output);
+  const char *force = cli_arguments_text(run->arguments, "force");
+  if (force) fputs(" --force ", stderr);
+  if (force) cli_print_quoted(stderr, force);
   fputc('\n', stderr);
 }
 
@@ -268,9 +272,9 @@ static void tell_interrupted(const struct cli_run *run) {
   if (run->probes_file)
     snprintf(lines, sizeof lines, ", and %" PRId64 " line%s in %s", run->lines, run->lines == 1 ? "" : "s",
              run->probes_file);
-  cli_report_words(arguments, "interrupted at t = %.6g s; kept: the state then%s%s",
+  cli_report_words(arguments, "%s at t = %.6g s; kept: the state then%s%s", cli_force_stop(),
                    hooke_state_time(run->setup.state), kept, lines);
-  if (run->output) tell_how(run);
+  if (run->output && !cli_force_failed()) tell_how(run);
 }
 
 static void tell_coincident(const struct cli_run *run) {
@@ -324,7 +328,7 @@ static void estimate(struct cli_run *run) {
   const int wanted = cli_arguments_text(run->arguments, "want") != NULL;
   const int32_t status = wanted ? HOOKE_OK : cli_want_measure(run);
   if (status == HOOKE_STOPPED)
-    cli_report_words(run->arguments, "interrupted: how wrong the run is is not looked into");
+    cli_report_words(run->arguments, "%s: how wrong the run is is not looked into", cli_force_stop());
   if (status == HOOKE_NO_MEMORY)
     cli_report_words(run->arguments, "out of memory: how wrong the run is is not looked into");
 }
@@ -459,7 +463,7 @@ static const struct cli_verb_row rows[] = {
      "reads it, replacing them"},
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
-     "it had never stopped; only --threads, --final, --watch, --no-why, --json and --quiet may be "
+     "it had never stopped; only --threads, --final, --watch, --force, --no-why, --json and --quiet may be "
      "given with it"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
@@ -479,6 +483,7 @@ static const struct cli_verb_row rows[] = {
      "no whole multiple of it, rather than choosing or moving them"},
     {"no-estimate", 0, NULL, "leaves out estimating how wrong the run is"},
     {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_run = {

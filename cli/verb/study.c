@@ -336,7 +336,7 @@ static int32_t write_output(const struct cli_results *results, const char *outpu
 static int finish(const struct cli_results *results, int32_t written, int32_t found) {
   if (written != HOOKE_OK) return cli_exit_code(written);
   if (found != HOOKE_OK) return cli_report_missing_words(results->arguments);
-  if (results->outcome == HOOKE_STOPPED) return HOOKE_EXIT_INTERRUPTED;
+  if (results->outcome == HOOKE_STOPPED) return cli_exit_code(HOOKE_STOPPED);
   const int32_t made = cli_text(results->found, "recommendation", "note") != NULL;
   const int32_t met =
       cli_number(results->found, "recommendation", "met") == 1.0 && trusts_all(results->found);
@@ -362,7 +362,7 @@ static int tell(struct cli_results *results) {
     cli_report_words(arguments, "%s",
                      written == HOOKE_STOPPED ? "interrupted; nothing is written" : hooke_last_error());
   if (results->outcome == HOOKE_STOPPED) {
-    cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s", rows,
+    cli_report_words(arguments, "%s; kept: the %" PRId64 " rows done so far%s%s", cli_force_stop(), rows,
                      output && written == HOOKE_OK ? ", in " : "",
                      output && written == HOOKE_OK ? output : "");
   }
@@ -388,6 +388,7 @@ static const struct cli_verb_row own_rows[] = {
     {"report", 0, "FILE.html",
      "writes diagrams, table and recommendation as one page to read offline, replacing it"},
     HOOKE_FROM_REST,
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_study = {

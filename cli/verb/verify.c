@@ -68,12 +68,10 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
 
 /* ---- the verb ---- */
 
-static int do_verify(const struct cli_arguments *arguments) {
+static int verify_with(const struct cli_arguments *arguments, const hooke_system *system) {
   hooke_measurement *verify = NULL;
-  if (cli_setup_is_scene(arguments->scene))
-    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
-                      "%s is a scene; verify takes the output of 'hooke run -o'", arguments->scene);
-  int32_t status = hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
+  int32_t status = system ? hooke_verify_create_with(arguments->scene, system, arguments->more, &verify)
+                          : hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   status = cli_watch_run(arguments, verify, NULL);
   const char *verdict = hooke_measurement_text(verify, "verify", 0, "verdict");
@@ -89,6 +87,21 @@ static int do_verify(const struct cli_arguments *arguments) {
   return code;
 }
 
+static int do_verify(const struct cli_arguments *arguments) {
+  if (cli_setup_is_scene(arguments->scene))
+    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
+                      "%s is a scene; verify takes the output of 'hooke run -o'", arguments->scene);
+  struct cli_setup setup = {.scene = NULL};
+  int code = cli_arguments_text(arguments, "force") ? cli_setup_load(arguments, &setup) : HOOKE_EXIT_DONE;
+  if (code == HOOKE_EXIT_DONE) code = verify_with(arguments, setup.system);
+  cli_setup_destroy(&setup);
+  return code;
+}
+
+static const struct cli_verb_row rows[] = {
+    HOOKE_FORCE,
+};
+
 const struct cli_verb cli_verb_verify = {
     .name = "verify",
     .input = "OUT.h5",
@@ -100,6 +113,7 @@ const struct cli_verb cli_verb_verify = {
         "half the step for an estimate of the error, and prints a certificate. An error-controlled method is "
         "run from the start. Exit code 3 says that the file is not what its scene gives.",
     .example = "hooke verify cloth.h5",
+    HOOKE_VERB_ROWS(rows),
     .options = "verify",
     .function = do_verify,
 };

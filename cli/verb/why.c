@@ -176,7 +176,9 @@ static int find_out(struct why *why) {
   int32_t status = hooke_record_open(arguments->scene, &why->record);
   if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
   if (status == HOOKE_OK) why->status = hooke_record_text(why->record, "status");
-  if (why->record && !cli_arguments_has_run(arguments)) {
+  const int32_t added = why->record && why->setup.force.function &&
+                        strcmp(hooke_record_text(why->record, "callbacks"), "none") == 0;
+  if (why->record && !cli_arguments_has_run(arguments) && !added) {
     status = read_output(why);
   } else {
     int code = cli_fit_run(arguments, &why->setup, 0);
@@ -186,7 +188,7 @@ static int find_out(struct why *why) {
     status = run_again(why);
   }
   if (why->code != HOOKE_EXIT_DONE) return why->code;
-  if (status == HOOKE_STOPPED) return cli_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
+  if (status == HOOKE_STOPPED) return cli_report(arguments, cli_exit_code(status), "%s", cli_force_stop());
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   status = tell(why);
   cli_print_flush();
@@ -208,6 +210,7 @@ static const struct cli_verb_row rows[] = {
     {"report", 0, "FILE.html",
      "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
      "slowly, beside the advised run"},
+    HOOKE_FORCE,
 };
 
 const struct cli_verb cli_verb_why = {

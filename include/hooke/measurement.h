@@ -254,6 +254,12 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, i
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
 
+/* The same of a run with callbacks: `system` is the committed one of hooke_scene_load() from that file, to
+ * which the caller has given them again; it outlives the measurement. HOOKE_UNSUITED for another force than
+ * that of the run, where both are named; HOOKE_BAD_CALL before commit. */
+HOOKE_API int32_t hooke_verify_create_with(const char *path, const hooke_system *system,
+                                           const hooke_options *options, hooke_measurement **verify);
+
 /* ---- bounds on the step, from one pass over the springs ---- */
 
 /* Step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from one

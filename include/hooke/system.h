@@ -188,6 +188,13 @@ HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
                                          hooke_force_product *product, void *ctx);
 
+/* Says where that force is from: the function `name` of a shared library with this path and SHA-256, after
+ * hooke_system_set_force(), which forgets it. Messages, results and trajectories name it, a run goes on with
+ * the same digest and name alone (HOOKE_UNSUITED), and what it returns depends on its arguments alone.
+ * The texts stay the caller's, and outlive the system. HOOKE_BAD_CALL without a force or after commit. */
+HOOKE_API int32_t hooke_system_name_force(hooke_system *system, const char *file, const char *name,
+                                          const char *digest);
+
 /* A committed system with another such force, or with none (NULL), to run as often as it exists: it shares
  * the rest with `system`, which must outlive it and stays as it is. HOOKE_BAD_CALL before commit,
  * HOOKE_NO_MEMORY. */
@@ -289,6 +296,8 @@ HOOKE_API int64_t hooke_member_particles(const char *force);
  */
 HOOKE_API int32_t hooke_system_members(const hooke_system *system, const char *force, int64_t *particles,
                                        double *stiffness, double *damping, double *rest_length);
+/* 1 for every spring that resists compression, 0 for one that only pulls. HOOKE_BAD_CALL before commit. */
+HOOKE_API int32_t hooke_system_compression(const hooke_system *system, double *compression);
 /* Copies the point of every anchor [m] (3 each). HOOKE_BAD_CALL before commit. */
 HOOKE_API int32_t hooke_system_anchor_points(const hooke_system *system, double *points);
 /* Altitude of every tetrahedron that acts at q [m], negative where it is inverted; 0 where none acts. */

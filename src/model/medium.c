@@ -99,14 +99,16 @@ int32_t hk_medium_check(const hooke_system *system) {
 /* ---- copying ---- */
 
 static int32_t copy_each(const struct hk_variant_maker *maker, const char *what, const struct hk_each *each,
+                         double factor,
                          int32_t (*set)(hooke_system *system, int64_t count, const double *value)) {
   const int64_t n = maker->made->particle_count;
-  if (each->value == NULL) return set(maker->made, 1, &each->most);
+  const double most = factor * each->most;
+  if (each->value == NULL) return set(maker->made, 1, &most);
   double *value = hk_new(n, sizeof *value);
   int32_t status = value ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < each->count && status == HOOKE_OK; p++) {
     if (maker->map->to[p] < 0) continue;
-    value[maker->map->to[p]] = each->value[p];
+    value[maker->map->to[p]] = factor * each->value[p];
     if (!hk_variant_is_same(maker->map, p))
       status = hk_fail(HOOKE_UNSUITED, NULL, "%s of each particle says nothing of those between", what);
   }
@@ -116,11 +118,11 @@ static int32_t copy_each(const struct hk_variant_maker *maker, const char *what,
 }
 
 int32_t hk_medium_copy_drag(const struct hk_variant_maker *maker) {
-  return copy_each(maker, "drag", &maker->from->medium->drag, hk_medium_set_drag);
+  return copy_each(maker, "drag", &maker->from->medium->drag, maker->variant->drag, hk_medium_set_drag);
 }
 
 int32_t hk_medium_copy_quadratic_drag(const struct hk_variant_maker *maker) {
-  return copy_each(maker, "quadratic drag", &maker->from->medium->quadratic_drag,
+  return copy_each(maker, "quadratic drag", &maker->from->medium->quadratic_drag, 1.0,
                    hk_medium_set_quadratic_drag);
 }
 

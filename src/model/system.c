@@ -4,6 +4,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/callbacks.h"
 #include "model/derived.h"
 #include "model/force/drive.h"
 #include "model/generalized.h"
@@ -51,6 +52,8 @@ static void release_model(hooke_system *system) {
                          system->drive,    system->rest->input};
   for (size_t k = 0; k < sizeof block / sizeof block[0]; k++)
     hk_free(block[k]);
+  for (int k = 0; k < HOOKE_FORCE_TEXTS; k++)
+    hk_free(system->rest->called_from[k]);
 }
 
 void hooke_system_destroy(hooke_system *system) {
@@ -200,6 +203,7 @@ int32_t hooke_system_set_force(hooke_system *system, hooke_force *force, hooke_f
   system->force = force;
   system->force_product = product;
   system->force_ctx = ctx;
+  system->rest->named = NULL;
   return HOOKE_OK;
 }
 

@@ -2,6 +2,7 @@
 #ifndef HOOKE_MODEL_SYSTEM_H
 #define HOOKE_MODEL_SYSTEM_H
 
+#include "model/callbacks.h"
 #include "model/coordinates/body.h"
 #include "model/force/altitude.h"
 #include "model/force/bending.h"
@@ -58,7 +59,11 @@ struct hk_system_rest {
   int64_t input_count;
   int32_t has_scene;   /* 1: the last of them is its scene */
   double memory_limit; /* [bytes] maximum memory; 0: the machine's */
-  int32_t called;      /* callbacks of the run whose file the system is from (model/callbacks.h) */
+
+  int32_t called; /* callbacks of the run whose file the system is from (model/callbacks.h) */
+  char *called_from[HOOKE_FORCE_TEXTS]; /* its force, NULL or "" if it does not say */
+  char *named_from[HOOKE_FORCE_TEXTS];  /* the force callback `named`, by texts of its owner */
+  hooke_force *named;                   /* NULL: none */
 };
 
 /* For commit: checks what an overdamped system may have, and what another one must; sets what motions divide

@@ -50,7 +50,7 @@ WORDS = {"own_loop": r"nine tenths of 0\.625 J are gone after \d\.\d\d s", "own_
 def test_examples(prefix, tmp_path):
     text = configure(EXAMPLES, tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}")
     run(CMAKE, "--build", tmp_path, "-j2")
-    assert {p.stem for p in EXAMPLES.glob("*.f90")} == {*WORDS, "threads"}, "every example is run"
+    assert {p.stem for p in EXAMPLES.glob("*.f90")} == {*WORDS, "threads", "tether"}, "every example is run"
     for name, words in WORDS.items():
         assert re.search(words, run(tmp_path / name)), name
     if "Found OpenMP_Fortran" in text:

@@ -115,7 +115,7 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
     if (!is_named(other->inside, table->name)) continue;
     if (is_named(other->key, "quantities"))
       add_quantities(text, m, other);
-    else if (other->record || hk_measured_rows(m, other) > 0)
+    else if (other->record || hk_measured_rows(m, other) > 0 || is_named(other->name, "changed"))
       add_table(text, m, key_of(other), other, row);
   }
 }
@@ -198,7 +198,10 @@ void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, co
 
 void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *m, const char *except) {
   const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
+  char *const *from = calls ? hk_force_from(m->system) : NULL;
   if (calls) hk_text_word(text, "callbacks", hk_callbacks_text(calls));
+  for (int k = 0; from && k < HOOKE_FORCE_TEXTS; k++)
+    hk_text_word(text, hk_force_texts[k], from[k]);
   const struct hk_table *table;
   for (int64_t k = 0; (table = hk_measurement_table_at(m->kind, k)) != NULL; k++) {
     if (is_named(table->name, m->kind->name))

@@ -78,6 +78,10 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
   if (status == HOOKE_OK) {
     const int32_t called = hk_callbacks_find(hooke_record_text(record, "callbacks"));
     (*scene)->system->rest->called = called > 0 ? called : 0;
+    for (int k = 0; k < HOOKE_FORCE_TEXTS; k++) { /* given over */
+      (*scene)->system->rest->called_from[k] = record->text[HOOKE_RECORD_FORCE + k];
+      record->text[HOOKE_RECORD_FORCE + k] = NULL;
+    }
     hooke_options_destroy((*scene)->run);
     status = hooke_options_copy(hooke_record_options(record), &(*scene)->run);
   }

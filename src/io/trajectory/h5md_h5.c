@@ -71,6 +71,9 @@ herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *meth
     result = hk_h5_text_attribute(group, hk_record_texts[k], hooke_build_fact(hk_record_texts[k]));
   if (result >= 0 && system)
     result = hk_h5_text_attribute(group, "callbacks", hk_callbacks_text(hk_system_calls_back(system)));
+  char *const *from = system ? hk_force_from(system) : NULL;
+  for (int k = 0; from && k < HOOKE_FORCE_TEXTS && result >= 0; k++)
+    result = hk_h5_text_attribute(group, hk_force_texts[k], from[k]);
   if (result >= 0 && method) result = hk_h5_text_attribute(group, "method", method);
   if (result >= 0 && options) result = hk_h5md_write_options(group, options);
   if (result >= 0 && scene_text) result = write_text(group, "scene", (int64_t)strlen(scene_text), scene_text);

@@ -5,6 +5,7 @@
 #include "hooke/trajectory.h"
 #include "io/trajectory/frame_file.h"
 #include "io/trajectory/outcome.h"
+#include "model/callbacks.h"
 
 /* Texts of the group /hooke: arrays, then attributes. */
 enum { HOOKE_RECORD_SCENE, HOOKE_RECORD_STATUS, HOOKE_RECORD_BY, HOOKE_RECORD_REASON, HOOKE_RECORD_ARRAYS };
@@ -12,7 +13,8 @@ enum {
   HOOKE_RECORD_RUN = HOOKE_RECORD_ARRAYS,
   HOOKE_RECORD_FACT = HOOKE_RECORD_RUN + 2, /* of the build, after its version */
   HOOKE_RECORD_CALLBACKS = 10,
-  HOOKE_RECORD_TEXTS
+  HOOKE_RECORD_FORCE, /* where it is from */
+  HOOKE_RECORD_TEXTS = HOOKE_RECORD_FORCE + HOOKE_FORCE_TEXTS
 };
 extern const char *const hk_record_texts[HOOKE_RECORD_TEXTS];
 

@@ -167,6 +167,7 @@ static int32_t check_fit(const struct going *going) {
     return refuse(going, "options; only threads may be changed");
   int32_t status = hk_callbacks_check(hk_callbacks_find(hooke_record_text(going->record, "callbacks")),
                                       hk_system_calls_back(going->system));
+  if (status == HOOKE_OK) status = hk_force_check(going->record->text + HOOKE_RECORD_FORCE, going->system);
   if (status != HOOKE_OK) return hk_fail_before(status, "%s: ", going->path);
   status = check_array(going, "mass", "/particles/all/mass", going->system->particle_count,
                        hooke_system_mass(going->system));

@@ -9,6 +9,7 @@
 #include "measure/limit/limit_predict.h"
 #include "model/callbacks.h"
 #include "model/particles.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,13 +81,15 @@ static int32_t open(struct hk_verify *verify) {
   if (status == HOOKE_OK && hooke_record_count(verify->record, "frames") == 0)
     status =
         hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames; allowed: a trajectory of one run", verify->path);
-  if (status == HOOKE_OK) status = hooke_scene_load(verify->path, verify->limits, &verify->scene);
-  if (status == HOOKE_OK) status = hooke_scene_commit(verify->scene);
+  if (status == HOOKE_OK && verify->system == NULL)
+    status = hooke_scene_load(verify->path, verify->limits, &verify->scene);
+  if (status == HOOKE_OK && verify->scene) status = hooke_scene_commit(verify->scene);
   if (status != HOOKE_OK) return status;
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
   const char *text = hooke_record_text(verify->record, "scene");
-  verify->system = hooke_scene_system(verify->scene);
+  if (verify->scene) verify->system = hooke_scene_system(verify->scene);
   status = hk_callbacks_require(verify->system);
+  if (status == HOOKE_OK) status = hk_force_check(verify->record->text + HOOKE_RECORD_FORCE, verify->system);
   if (status != HOOKE_OK) return hk_fail_before(status, "%s: ", verify->path);
   verify->fixed = hooke_method_is_adaptive(method) == 0;
   verify->check_scene = (double)hk_crc32(0, text, (int64_t)strlen(text));
@@ -132,16 +135,29 @@ static void destroy(void *object) {
   hk_free(verify);
 }
 
-int32_t hooke_verify_create(const char *path, const hooke_options *options, const hooke_options *limits,
-                            hooke_measurement **measurement) {
+static int32_t make(const char *path, const hooke_system *system, const hooke_options *options,
+                    const hooke_options *limits, hooke_measurement **measurement) {
   *measurement = NULL;
   struct hk_verify *verify = hk_new(1, sizeof *verify);
   if (verify == NULL) return HOOKE_NO_MEMORY;
   verify->limits = limits;
+  verify->system = system;
   verify->path = hk_copy_text(path);
   if (verify->path) return hk_measurement_create(&hk_verify_kind, verify, NULL, NULL, options, measurement);
   destroy(verify);
   return HOOKE_NO_MEMORY;
+}
+
+int32_t hooke_verify_create(const char *path, const hooke_options *options, const hooke_options *limits,
+                            hooke_measurement **measurement) {
+  return make(path, NULL, options, limits, measurement);
+}
+
+int32_t hooke_verify_create_with(const char *path, const hooke_system *system, const hooke_options *options,
+                                 hooke_measurement **measurement) {
+  *measurement = NULL;
+  const int32_t status = hk_system_require_committed(system);
+  return status == HOOKE_OK ? make(path, system, options, NULL, measurement) : status;
 }
 
 /* ---- running ---- */

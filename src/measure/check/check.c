@@ -133,6 +133,7 @@ static int32_t warn(struct hk_check *check, const double *q) {
   warn_of_lacks(check, method, bound);
   warn_of_method(check, method, bound);
   warn_of_coincident_springs(check, q);
+  hk_claim_callback(&check->warnings, check->m->system);
   hk_claim_contacts(&check->warnings, check->m->system, 0.0, q);
   int32_t status = warn_of_loose_particles(check);
   if (status == HOOKE_OK) status = hooke_system_warnings(check->m->system, hear, &check->warnings);

@@ -297,7 +297,9 @@ static const char *find_obstacle(const struct hk_estimate *e, const hooke_state 
   if (e->resumed) return "the run was continued, and how wrong it was before is not known here";
   if (!came_to_its_end(e, state) || e->kept.recorded < e->kept.count)
     return "the run did not come to its end";
-  return hk_system_calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;
+  const int32_t calls = hk_system_calls_back(e->system);
+  const int32_t unknown = hk_force_from(e->system) ? calls & HOOKE_CALLS_DRIVE : calls;
+  return unknown && !e->callbacks ? "a callback takes part" : NULL;
 }
 
 static int32_t measure_again(struct hk_estimate *e) {

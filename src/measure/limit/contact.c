@@ -1,6 +1,7 @@
 #include "measure/limit/contact.h"
 
 #include "core/print.h"
+#include "model/callbacks.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -20,6 +21,13 @@ static void claim(struct hk_claims *claims, const hooke_system *system, double t
       "at t = %.6g s nothing touches obstacle %lld, and no bound on the step knows of it: with particle %lld, the "
       "lightest, contact is a motion of %.6g rad/s%s%s",
       t, (long long)number, (long long)particle, sqrt(o->stiffness * w), braked, slides);
+}
+
+void hk_claim_callback(struct hk_claims *claims, const hooke_system *system) {
+  char name[512];
+  if (system->force)
+    hk_claim(claims, "callback", HOOKE_OF_PART, "stiffness", "the stiffness and damping of %s are left out",
+             hk_force_called(system, name, sizeof name));
 }
 
 void hk_claim_contacts(struct hk_claims *claims, const hooke_system *system, double t, const double *q) {

@@ -108,6 +108,7 @@ void hk_limit_claim(const hooke_measurement *measurement, struct hk_claims *clai
     tell_none(&t);
   if (limit->suggestion.sentence[0]) say(&t, "changes", HOOKE_OF_PART, "%s", limit->suggestion.sentence);
   tell_left_out(&t);
+  hk_claim_callback(claims, limit->system);
   hk_claim_contacts(claims, limit->system, limit->time, limit->q);
   for (int32_t k = 0; k < limit->row_count; k++) {
     int32_t first = 0;

@@ -171,7 +171,8 @@ static void tell(const struct hk_participation *participation, const struct set 
     hk_append(text, size, "softening %s by %s", one ? "it" : "them", factor);
   else
     hk_append(text, size, "making %s %s times heavier", one ? "it" : "them", factor);
-  hk_append(text, size, " allows a step %s times larger", gain);
+  hk_append(text, size, " allows a step %s times larger; its error is not known before needs has measured it",
+            gain);
 }
 
 /* "group 2", or "group 0 of triples" */

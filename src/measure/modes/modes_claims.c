@@ -1,8 +1,8 @@
 /* What modes say of their results. */
 #include "core/print.h"
+#include "measure/limit/contact.h"
 #include "measure/modes/lowest.h"
 #include "measure/modes/modes.h"
-#include "model/callbacks.h"
 
 #include <math.h>
 #include <string.h>
@@ -86,7 +86,5 @@ void hk_modes_claim(const hooke_measurement *measurement, struct hk_claims *clai
              "the stiffness is not that of an energy: it differs from its transpose by %.3g of its largest "
              "entry, and the modes are those of its symmetric part, which may miss a flutter",
              modes->skew);
-  if (hk_system_calls_back(modes->system) & (HOOKE_CALLS_FORCE | HOOKE_CALLS_DERIVATIVE))
-    hk_claim(claims, "callback", HOOKE_OF_PART, "stiffness",
-             "the stiffness and damping of the caller's own force are left out");
+  hk_claim_callback(claims, modes->system);
 }

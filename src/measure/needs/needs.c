@@ -17,6 +17,8 @@ static const struct hk_option_row needs_rows[] = {
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
                  "what is looked at: a part, a group, or particle "
                  "numbers or names such as 0,7-9,tip; all free particles if not given"),
+    HOOKE_OPTION("keep", .type = HOOKE_OPTION_TEXT, NULL,
+                 "names of groups and parts, separated by commas, that are neither left out nor changed"),
     HOOKE_OPTION("refine", .type = HOOKE_OPTION_FLAG, "false",
                  "the reverse question: each part at once, twice and "
                  "four times its resolution, and what the want asks for"),
@@ -77,6 +79,41 @@ static int32_t read_watch(struct hk_needs *needs) {
   return status;
 }
 
+/* Marks the groups of that name, and those of the part of that name; 0 if there are none. */
+static int32_t keep(struct hk_needs *needs, const char *name) {
+  const hooke_system *system = needs->m->system;
+  int32_t found = 0;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    if (strcmp(group->name, name) != 0 &&
+        !(group->from_part && strcmp(system->part[group->part].name, name) == 0))
+      continue;
+    needs->kept[g] = 1;
+    found = 1;
+  }
+  return found;
+}
+
+/* Fills `kept` from the option. HOOKE_BAD_VALUE. */
+static int32_t read_keep(struct hk_needs *needs) {
+  const char *at = hooke_options_text(needs->m->options, "keep");
+  char name[HOOKE_NEEDS_NAME];
+  needs->kept = hk_new(needs->m->system->group_count, sizeof *needs->kept);
+  if (needs->kept == NULL) return HOOKE_NO_MEMORY;
+  while (*at) {
+    const size_t length = strcspn(at, ",");
+    snprintf(name, sizeof name, "%.*s", (int)length, at);
+    if (!keep(needs, name)) {
+      char shown[HOOKE_OPTION_SHOWN];
+      hk_option_show(name, (int64_t)strlen(name), shown);
+      return hk_fail(HOOKE_BAD_VALUE, "keep", "\"%s\" is no group of the scene and no part with groups",
+                     shown);
+    }
+    at += length + (at[length] == ',');
+  }
+  return HOOKE_OK;
+}
+
 static int32_t prepare(struct hk_needs *needs) {
   int32_t status = hk_options_check_required(needs->m->options);
   if (status != HOOKE_OK) return status;
@@ -84,6 +121,7 @@ static int32_t prepare(struct hk_needs *needs) {
   status = read_times(needs);
   if (status == HOOKE_OK) status = read_method(needs);
   if (status == HOOKE_OK) status = read_watch(needs);
+  if (status == HOOKE_OK) status = read_keep(needs);
   if (status != HOOKE_OK) return status;
   needs->largest_force = hk_new(needs->m->system->springs->count, sizeof *needs->largest_force);
   return needs->largest_force ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -105,6 +143,7 @@ static void destroy(void *object) {
   hk_free(needs->row);
   hk_free(needs->part);
   hk_free(needs->watch);
+  hk_free(needs->kept);
   hk_free(needs->largest_force);
   hk_free(needs);
 }

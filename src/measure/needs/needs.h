@@ -38,6 +38,26 @@ struct hk_needs_row {
   struct hk_needs_cost cost;
 };
 
+enum hk_needs_property {
+  HOOKE_NEEDS_STIFFNESS, /* of a group */
+  HOOKE_NEEDS_DAMPING,   /* of a group */
+  HOOKE_NEEDS_MASS,      /* of a particle */
+  HOOKE_NEEDS_DRAG
+};
+
+/* How far one number may be changed. */
+struct hk_needs_degree {
+  char name[HOOKE_NEEDS_NAME], quantity[HOOKE_NEEDS_NAME + 16]; /* "cloth.shear", "cloth.shear.stiffness" */
+  enum hk_needs_property property;
+  int64_t number;              /* of the group or the particle */
+  int32_t up, tried;           /* 1: larger is asked for; 0: not tried, within the work allowed */
+  int32_t displaced;           /* 1: by runs from a displaced start */
+  double factor, error;        /* the farthest that holds; 1: none that was tried does [m] */
+  double beyond, error_beyond; /* the next one, which does not; NaN: none, or its run does not end */
+  double step_limit, work;     /* [s]; steps for the same time, of those of the full system */
+  double lean_factor;          /* in the lean system */
+};
+
 struct hk_needs_part {
   const char *name;
   int64_t cells[3]; /* -1: no such axis */
@@ -60,18 +80,25 @@ struct hk_needs {
   double want, duration, every, unit; /* unit: largest step that frames allow [s] */
   int32_t method_picked;
   int64_t watch_count, *watch; /* particles */
+  uint8_t *kept;               /* by group: 1: neither left out nor changed */
   int64_t frame_count, judged; /* frames; those up to which differences due to the step stay small */
 
   struct hk_needs_cost full;
-  struct hk_needs_path path;      /* of the full system */
-  struct hk_needs_path displaced; /* of the full system, from a displaced start; made when it is needed */
-  double own_error;               /* error of `path` itself [m] */
-  double moved;                   /* largest distance from the start along `path` [m] */
+  struct hk_needs_path path; /* of the full system */
+  struct hk_needs_path
+      by_step[2];   /* of the full system by its step, made when needed; [1]: from a displaced start */
+  double own_error; /* error of `path` itself [m] */
+  double moved;     /* largest distance from the start along `path` [m] */
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
   int64_t row_count, row_capacity;
   struct hk_needs_row *row;
+
+  int64_t degree_count;
+  struct hk_needs_degree *degree;
+  struct hk_variant unchanged; /* of the lean system before numbers are changed */
+  double trial_work;           /* counted, of comparisons by the step of the full system [s] */
 
   struct hk_needs_lean lean;
   hooke_options *lean_run;
@@ -93,8 +120,11 @@ struct hk_needs {
 
 /* ---- needs_ingredients.c ---- */
 
-/* Adds a row for every ingredient of the system. */
+/* Adds a row for every ingredient of the system that need not be kept. */
 int32_t hk_needs_list(struct hk_needs *needs);
+/* 1 if a variant leaves out the group, or makes a body of its part. */
+int32_t hk_needs_drops(const struct hk_needs *needs, const struct hk_variant *variant, int64_t group);
+void hk_needs_drop_row(struct hk_needs *needs, int64_t row);
 
 /* ---- needs_run.c, needs_step.c ---- */
 
@@ -146,12 +176,44 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
  * no path, if every such step is much smaller than that of the full system. */
 int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                      struct hk_needs_path *path, double *error);
-/* Distance of a variant from the full system, both from a start that is displaced at random by a hundredth of
- * the wanted error, at the steps of their costs; infinity if it does not finish. */
-int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *trial,
-                          const struct hk_needs_cost *cost, double *error);
+/* Distance of a variant from the full system at the steps of their costs; both may start displaced at random
+ * by a hundredth of the wanted error. Infinity if it does not finish. */
+int32_t hk_needs_compare(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                         const struct hk_needs_cost *cost, int32_t displaced, double *error);
+/* The largest stable step of a system, or a bound of it; NaN if neither is known [s]. */
+double hk_needs_step_limit(struct hk_needs *needs, const hooke_system *system);
 /* Sets the step or tolerances of a cost in options of a run. */
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
+
+/* ---- needs_degree.c ---- */
+
+/* Finds how far every number may be changed. */
+int32_t hk_needs_run_degrees(struct hk_needs *needs);
+/* Error of a variant by the step of the full system, or one that is stable where `limit` is asked for, which
+ * may be NULL and receives its step limit: infinity if it does not finish, NaN where it would take many more
+ * steps. */
+int32_t hk_needs_try(struct hk_needs *needs, const struct hk_variant *variant, int32_t displaced,
+                     double *error, double *limit);
+void hk_needs_scale(const struct hk_needs *needs, const struct hk_needs_degree *degree, double factor,
+                    struct hk_variant *variant);
+double hk_needs_rung(int32_t k); /* 1, 2, 5, 10, 20, ... */
+
+/* Number of the next degree, from this one on, that the lean system has changed; the count if there is none.
+ */
+int64_t hk_needs_next_changed(const struct hk_needs *needs, int64_t k);
+
+/* ---- needs_lean.c, needs_soften.c ---- */
+
+/* The recommended run of a candidate's variant; its error is NaN if it has none. */
+int32_t hk_needs_try_lean(struct hk_needs *needs, struct hk_needs_lean *candidate);
+/* Makes it the lean system. */
+int32_t hk_needs_take(struct hk_needs *needs, struct hk_needs_lean *candidate);
+void hk_needs_release(struct hk_needs_lean *candidate);
+/* In evaluations of springs and particles: unlike time, this is reproducible. */
+double hk_needs_work(const struct hk_needs_cost *cost);
+/* Softens, makes heavier and damps less what limits the step of the lean system, as far as that saves work.
+ */
+int32_t hk_needs_soften(struct hk_needs *needs);
 
 /* ---- needs.c, needs_rows.c, needs_lean.c, needs_refine.c ---- */
 

@@ -45,6 +45,23 @@ static int32_t has_unknown(const struct hk_needs *needs) {
   return 0;
 }
 
+static const double LEAST_GAIN = 1.1; /* in step: less is in the table alone */
+
+/* "soft 200 times softer" */
+static void print_degree(const struct hk_needs_degree *degree, double factor, char *text, size_t size) {
+  static const char *const words[][2] = {[HOOKE_NEEDS_STIFFNESS] = {"softer", "stiffer"},
+                                         [HOOKE_NEEDS_DAMPING] = {"less damped", "more damped"},
+                                         [HOOKE_NEEDS_MASS] = {"lighter", "heavier"},
+                                         [HOOKE_NEEDS_DRAG] = {"weaker", "stronger"}};
+  const char *before = degree->property == HOOKE_NEEDS_MASS ? "particle " : "";
+  if (factor == 0.0)
+    hk_append(text, size, "%s%s", degree->property == HOOKE_NEEDS_DRAG ? "" : degree->name,
+              degree->property == HOOKE_NEEDS_DRAG ? "drag left out" : " undamped");
+  else
+    hk_append(text, size, "%s%s %.3g times %s", before, degree->name, factor > 1.0 ? factor : 1.0 / factor,
+              words[degree->property][factor > 1.0]);
+}
+
 /* Both within the wanted error, each at its cheapest. */
 static void tell_saving(const struct hk_needs *needs, struct hk_claims *claims) {
   const double lean = needs->lean.cost.wall_seconds, full = needs->cheapest.wall_seconds;
@@ -74,18 +91,57 @@ static void tell_left_out(const struct hk_needs *needs, struct hk_claims *claims
   tell_saving(needs, claims);
 }
 
+static void tell_changes(const struct hk_needs *needs, struct hk_claims *claims, int64_t left_out) {
+  char what[640] = "";
+  const int64_t first = hk_needs_next_changed(needs, 0);
+  for (int64_t k = first; k < needs->degree_count; k = hk_needs_next_changed(needs, k + 1)) {
+    if (k > first) hk_append(what, sizeof what, ", ");
+    print_degree(&needs->degree[k], needs->degree[k].lean_factor, what, sizeof what);
+  }
+  if (first == needs->degree_count) return;
+  if (left_out > 0) {
+    hk_claim(claims, "softened", of_judged(needs), "runs", "and it has %s", what);
+    return;
+  }
+  hk_claim(claims, "lean", of_judged(needs), "runs", "with %s the scene is at most %.3g m off", what,
+           needs->lean.error);
+  tell_saving(needs, claims);
+}
+
 static void tell_lean(const struct hk_needs *needs, struct hk_claims *claims) {
   int64_t count;
   char *names = list_rows(needs, 1, claims, &count);
   if (count > 0)
     tell_left_out(needs, claims, count, names);
-  else if (!needs->lean_note[0])
+  else if (!needs->lean_note[0] && hk_needs_next_changed(needs, 0) == needs->degree_count)
     hk_claim(claims, "lean", has_unknown(needs) ? HOOKE_OF_UNKNOWN : of_judged(needs), "runs", "%s",
              has_unknown(needs) ? "nothing is left out: it cannot be told what is not needed"
                                 : "all that would save something is needed: there is nothing to leave out");
+  tell_changes(needs, claims, count);
   if (needs->lean_note[0])
     hk_claim(claims, count > 0 ? "changes" : "lean", of_judged(needs), "runs", "%s", needs->lean_note);
   hk_free(names);
+}
+
+/* ---- by degree ---- */
+
+static void tell_degrees(const struct hk_needs *needs, struct hk_claims *claims) {
+  int64_t untried = 0;
+  for (int64_t k = 0; k < needs->degree_count; k++) {
+    const struct hk_needs_degree *degree = &needs->degree[k];
+    const double gain = degree->step_limit / needs->full.step_limit;
+    char what[2 * HOOKE_NEEDS_NAME] = "", larger[48] = "nothing limits the step then";
+    untried += !degree->tried;
+    if (!degree->tried || !(gain > LEAST_GAIN)) continue;
+    print_degree(degree, degree->factor, what, sizeof what);
+    if (isfinite(gain)) hk_print(larger, sizeof larger, "a step %.3g times larger", gain);
+    hk_claim(claims, "degree", of_judged(needs), "runs", "%s: %.2g m of %.6g m (tried), %s", what,
+             degree->error, needs->want, larger);
+  }
+  if (untried > 0)
+    hk_claim(claims, "untried", HOOKE_OF_UNKNOWN, "runs",
+             "how far %lld more numbers may be changed was not tried, which would take too long",
+             (long long)untried);
 }
 
 /* Of work that was stopped. */
@@ -145,6 +201,7 @@ void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *clai
   const int ran = !isnan(needs->full.step_error),
             refine = hooke_options_number(needs->m->options, "refine") != 0.0;
   if (ran && needs->lean.system) tell_lean(needs, claims);
+  if (ran) tell_degrees(needs, claims);
   for (int64_t part = 0; part < needs->part_count; part++)
     tell_part(needs, &needs->part[part], claims);
   if (!needs->lean.system && !refine) tell_unfinished(needs, claims);

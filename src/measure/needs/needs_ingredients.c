@@ -160,6 +160,25 @@ static void list_bodies(struct list *list) {
   }
 }
 
+int32_t hk_needs_drops(const struct hk_needs *needs, const struct hk_variant *variant, int64_t group) {
+  const struct hk_group *of = &needs->m->system->group[group];
+  return variant->group[group] || (of->from_part && (variant->part[of->part] || variant->rigid[of->part]));
+}
+
+/* 1 if the variant leaves out, changes or makes anew a group that is kept. */
+static int32_t touches_kept(const struct hk_needs *needs, const struct hk_variant *variant) {
+  const hooke_system *system = needs->m->system;
+  int32_t touches = 0;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    if (!needs->kept[g]) continue;
+    touches |= hk_needs_drops(needs, variant, g) || (variant->damping && group->damped) ||
+               (variant->compression && hk_group_resists(group)) ||
+               (group->from_part && variant->scale[group->part] != 1.0);
+  }
+  return touches;
+}
+
 int32_t hk_needs_list(struct hk_needs *needs) {
   struct list list = {.needs = needs, .watched = hk_new(needs->m->system->particle_count, 1)};
   if (list.watched == NULL) return HOOKE_NO_MEMORY;
@@ -173,5 +192,7 @@ int32_t hk_needs_list(struct hk_needs *needs) {
   list_bodies(&list);
   list_resolutions(&list);
   hk_free(list.watched);
+  for (int64_t k = needs->row_count - 1; k >= 0; k--)
+    if (touches_kept(needs, &needs->row[k].variant)) hk_needs_drop_row(needs, k);
   return list.status;
 }

@@ -15,7 +15,7 @@ enum { TURNS = 20 };
 static const double TURNS_TAKE = 0.2;      /* [s]: time for repeating two runs in turns */
 static const double WORTH_SPLITTING = 0.5; /* of the work, left over if a part is written spring by spring */
 
-static void release(struct hk_needs_lean *candidate) {
+void hk_needs_release(struct hk_needs_lean *candidate) {
   hk_variant_release(&candidate->variant);
   hk_variant_map_release(&candidate->map);
   hk_needs_path_release(&candidate->path);
@@ -23,8 +23,7 @@ static void release(struct hk_needs_lean *candidate) {
   memset(candidate, 0, sizeof *candidate);
 }
 
-/* Its recommended run; NaN if it has none. */
-static int32_t try_variant(struct hk_needs *needs, struct hk_needs_lean *candidate) {
+int32_t hk_needs_try_lean(struct hk_needs *needs, struct hk_needs_lean *candidate) {
   candidate->error = NAN;
   int32_t status =
       hk_variant_make(needs->m->system, &candidate->variant, &candidate->system, &candidate->map);
@@ -34,13 +33,13 @@ static int32_t try_variant(struct hk_needs *needs, struct hk_needs_lean *candida
   double displaced = 0.0;
   status = hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
   if (status == HOOKE_OK && !isnan(candidate->error))
-    status = hk_needs_displace(needs, &trial, &candidate->cost, &displaced);
+    status = hk_needs_compare(needs, &trial, &candidate->cost, 1, &displaced);
   if (!(displaced <= needs->want)) candidate->error = NAN;
   return status;
 }
 
-static int32_t take(struct hk_needs *needs, struct hk_needs_lean *candidate) {
-  release(&needs->lean);
+int32_t hk_needs_take(struct hk_needs *needs, struct hk_needs_lean *candidate) {
+  hk_needs_release(&needs->lean);
   hooke_options_destroy(needs->lean_run);
   needs->lean = *candidate;
   needs->lean_note[0] = '\0';
@@ -49,8 +48,7 @@ static int32_t take(struct hk_needs *needs, struct hk_needs_lean *candidate) {
   return status == HOOKE_OK ? hk_needs_set_step(&needs->lean.cost, needs->lean_run) : status;
 }
 
-/* In evaluations of springs and particles: unlike time, this is reproducible. */
-static double work(const struct hk_needs_cost *cost) {
+double hk_needs_work(const struct hk_needs_cost *cost) {
   return cost->force_evaluations * (cost->springs + cost->particles);
 }
 
@@ -96,7 +94,7 @@ static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
 
 static int32_t is_worth_it(const struct hk_needs *needs, const struct hk_needs_lean *candidate) {
   const double fraction = is_split(needs, &candidate->variant) ? WORTH_SPLITTING : 1.0;
-  return work(&candidate->cost) <= fraction * work(&needs->lean.cost);
+  return hk_needs_work(&candidate->cost) <= fraction * hk_needs_work(&needs->lean.cost);
 }
 
 static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
@@ -105,24 +103,24 @@ static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
   if (status == HOOKE_OK) {
     hk_variant_join(needs->m->system, &candidate.variant, &needs->lean.variant);
     hk_variant_join(needs->m->system, &candidate.variant, &row->variant);
-    status = try_variant(needs, &candidate);
+    status = hk_needs_try_lean(needs, &candidate);
   }
   if (status == HOOKE_OK && candidate.error <= needs->want && is_worth_it(needs, &candidate)) {
     row->left_out = 1;
-    status = take(needs, &candidate);
+    status = hk_needs_take(needs, &candidate);
   }
-  release(&candidate);
+  hk_needs_release(&candidate);
   return status;
 }
 
 static int32_t begin_with_everything(struct hk_needs *needs) {
   struct hk_needs_lean candidate = {.system = NULL};
   int32_t status = hk_variant_create(needs->m->system, &candidate.variant);
-  if (status == HOOKE_OK) status = try_variant(needs, &candidate);
+  if (status == HOOKE_OK) status = hk_needs_try_lean(needs, &candidate);
   if (status == HOOKE_OK) {
     needs->cheapest = candidate.cost;
     needs->cheapest_error = candidate.error;
-    status = take(needs, &candidate);
+    status = hk_needs_take(needs, &candidate);
   }
   if (status == HOOKE_OK && isnan(needs->cheapest_error))
     hk_print(
@@ -130,7 +128,7 @@ static int32_t begin_with_everything(struct hk_needs *needs) {
         "no run of the full scene by %s is recommended: none that was tried is within the want, clear of its "
         "stability limit and without a rise of energy",
         hooke_options_text(needs->m->run, "method"));
-  release(&candidate);
+  hk_needs_release(&candidate);
   return status;
 }
 
@@ -232,8 +230,8 @@ static int32_t find_other_method(struct hk_needs *needs) {
   return status == HOOKE_STOPPED || status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
-static int32_t has_left_out(const struct hk_needs *needs) {
-  int32_t some = 0;
+static int32_t is_changed(const struct hk_needs *needs) {
+  int32_t some = hk_needs_next_changed(needs, 0) < needs->degree_count;
   for (int64_t k = 0; k < needs->row_count; k++)
     some |= needs->row[k].left_out;
   return some;
@@ -252,13 +250,14 @@ static int32_t find_lean(struct hk_needs *needs) {
   }
   hk_free(tried);
   tidy_up(needs);
+  if (status == HOOKE_OK) status = hk_needs_soften(needs);
   if (status != HOOKE_OK) return status;
   note_bodies(needs);
   note_splits(needs);
   for (int64_t k = 0; k < needs->row_count; k++)
     say_why_it_stays(needs, &needs->row[k]);
-  if (has_left_out(needs)) status = compare_times(needs);
-  if (has_left_out(needs) && status == HOOKE_OK) status = find_other_method(needs);
+  if (is_changed(needs)) status = compare_times(needs);
+  if (is_changed(needs) && status == HOOKE_OK) status = find_other_method(needs);
   needs->pieces_done++;
   return status;
 }
@@ -267,8 +266,13 @@ void hk_needs_forget(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);
   needs->row_count = 0;
-  hk_needs_path_release(&needs->displaced);
-  release(&needs->lean);
+  for (int k = 0; k < 2; k++)
+    hk_needs_path_release(&needs->by_step[k]);
+  hk_free(needs->degree);
+  needs->degree = NULL;
+  needs->degree_count = 0;
+  needs->trial_work = 0.0;
+  hk_needs_release(&needs->lean);
   hooke_options_destroy(needs->lean_run);
   needs->lean_run = NULL;
   needs->lean.error = needs->cheapest_error = needs->other_seconds = NAN;
@@ -281,6 +285,7 @@ int32_t hk_needs_find(struct hk_needs *needs) {
   needs->pieces += 2 * needs->row_count + 2;
   if (status == HOOKE_OK) status = hk_needs_run_full(needs);
   if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
+  if (status == HOOKE_OK) status = hk_needs_run_degrees(needs);
   if (status == HOOKE_OK) status = find_lean(needs);
   if (status < 0) hk_needs_forget(needs);
   return status;

@@ -83,7 +83,8 @@ int32_t hk_needs_run_full(struct hk_needs *needs) {
     say_how_it_moves(needs);
   } else {
     hk_needs_path_release(&needs->path);
-    hk_needs_path_release(&needs->displaced);
+    for (int k = 0; k < 2; k++)
+      hk_needs_path_release(&needs->by_step[k]);
     needs->judged = needs->frame_count;
   }
   return status;
@@ -113,7 +114,7 @@ static int32_t judge_displaced(struct hk_needs *needs, const struct hk_needs_tri
                                struct hk_needs_row *row) {
   double error;
   if (row->needed != 0.0) return HOOKE_OK;
-  const int32_t status = hk_needs_displace(needs, trial, &row->cost, &error);
+  const int32_t status = hk_needs_compare(needs, trial, &row->cost, 1, &error);
   if (status != HOOKE_OK || error <= needs->want) return status;
   row->needed = 1;
   if (isfinite(error)) row->error = error;
@@ -148,9 +149,11 @@ static int32_t run_row(struct hk_needs *needs, struct hk_needs_row *row) {
 
 /* Selects the springs whose force never exceeds `force` [N]; returns their number. */
 static int64_t mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row) {
-  int64_t count = 0;
-  for (int64_t s = 0; s < needs->m->system->springs->count; s++)
-    count += row->variant.spring[s] = needs->largest_force[s] <= force;
+  const hooke_system *system = needs->m->system;
+  int64_t count = 0, s = 0;
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); g++)
+    for (const int64_t end = s + system->group[g].count; s < end; s++)
+      count += row->variant.spring[s] = !needs->kept[g] && needs->largest_force[s] <= force;
   return count;
 }
 
@@ -189,7 +192,7 @@ static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   return HOOKE_OK;
 }
 
-static void drop_row(struct hk_needs *needs, int64_t row) {
+void hk_needs_drop_row(struct hk_needs *needs, int64_t row) {
   hk_variant_release(&needs->row[row].variant);
   memmove(&needs->row[row], &needs->row[row + 1], (size_t)(--needs->row_count - row) * sizeof *needs->row);
 }
@@ -201,7 +204,7 @@ int32_t hk_needs_run_rows(struct hk_needs *needs) {
     needs->under_way = row->without;
     const int32_t status = idle ? run_idle(needs, row) : run_row(needs, row);
     needs->pieces_done++;
-    if (idle && !row->measured && !row->note[0] && status == HOOKE_OK) drop_row(needs, k--);
+    if (idle && !row->measured && !row->note[0] && status == HOOKE_OK) hk_needs_drop_row(needs, k--);
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;

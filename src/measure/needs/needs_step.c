@@ -147,7 +147,7 @@ static int32_t find_step(struct search *search) {
 }
 
 /* A callback that stops here stops the run after it, too. */
-static double step_limit(struct hk_needs *needs, const hooke_system *system) {
+double hk_needs_step_limit(struct hk_needs *needs, const hooke_system *system) {
   const char *method = hooke_options_text(needs->m->run, "method");
   hooke_state *state = NULL;
   double limit = NAN;
@@ -262,7 +262,7 @@ static void fill_cost(const struct search *search, double limit, struct hk_needs
 
 int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *trial,
                          struct hk_needs_cost *cost, struct hk_needs_path *fine) {
-  const double limit = step_limit(needs, trial->system);
+  const double limit = hk_needs_step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
   if (status == HOOKE_OK) status = find_step(&search);
@@ -278,34 +278,34 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
   return status;
 }
 
-/* ---- from a displaced start ---- */
+/* ---- by a given step ---- */
 
 /* A run with the step of `cost`, and its path. */
-static int32_t run_displaced(struct hk_needs *needs, const struct hk_needs_trial *trial,
-                             const struct hk_needs_cost *cost, struct hk_needs_path *path,
-                             int32_t *finished) {
+static int32_t run_by_step(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                           const struct hk_needs_cost *cost, int32_t displaced, struct hk_needs_path *path,
+                           int32_t *finished) {
   struct search search = new_search(needs, trial);
-  struct hk_needs_cost taken;
+  struct hk_needs_cost taken = *cost;
   int32_t status = start(&search, NAN);
   search.recorder.path = &search.run[0].path;
-  search.recorder.displaced = 1;
+  search.recorder.displaced = displaced;
   if (status == HOOKE_OK) status = hk_needs_set_step(cost, search.options);
   if (status == HOOKE_OK) status = hk_needs_run_once(&search.recorder, search.options, finished, &taken);
   if (status == HOOKE_OK) hand_over(&search.run[0].path, path);
+  if (status == HOOKE_OK && !isnan(taken.work)) needs->trial_work += taken.work;
   end(&search);
   return status;
 }
 
-int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *trial,
-                          const struct hk_needs_cost *cost, double *error) {
+int32_t hk_needs_compare(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                         const struct hk_needs_cost *cost, int32_t displaced, double *error) {
   const struct hk_needs_trial full = {needs->m->system, NULL};
-  struct hk_needs_path own = {0};
+  struct hk_needs_path own = {0}, *path = &needs->by_step[displaced];
   int32_t finished = 0, status = HOOKE_OK;
-  if (needs->displaced.position == NULL)
-    status = run_displaced(needs, &full, &needs->full, &needs->displaced, &finished);
+  if (path->position == NULL) status = run_by_step(needs, &full, &needs->full, displaced, path, &finished);
   finished = 0;
-  if (status == HOOKE_OK) status = run_displaced(needs, trial, cost, &own, &finished);
-  *error = finished ? hk_needs_distance(needs, &needs->displaced, &own) : INFINITY;
+  if (status == HOOKE_OK) status = run_by_step(needs, trial, cost, displaced, &own, &finished);
+  *error = finished ? hk_needs_distance(needs, path, &own) : INFINITY;
   hk_needs_path_release(&own);
   return status;
 }
@@ -356,7 +356,7 @@ static int32_t find_coarsest(struct search *search, double *error) {
 
 int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                      struct hk_needs_path *path, double *error) {
-  const double limit = step_limit(needs, trial->system);
+  const double limit = hk_needs_step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
   *error = NAN;

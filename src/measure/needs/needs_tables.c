@@ -44,6 +44,26 @@ HOOKE_COUNTER(count_lean, struct hk_needs, it->lean.system != NULL)
 HOOKE_READER(const char *, scene, struct hk_needs, it->m->label[HOOKE_LABEL_OUTPUT])
 HOOKE_READER(const char *, command, struct hk_needs, it->m->label[HOOKE_LABEL_COMMAND])
 
+/* ---- what the lean system has changed ---- */
+
+static const struct hk_needs_degree *changed(const struct hk_needs *needs, int64_t row) {
+  int64_t k = hk_needs_next_changed(needs, 0);
+  while (row-- > 0)
+    k = hk_needs_next_changed(needs, k + 1);
+  return &needs->degree[k];
+}
+
+static int64_t count_changed(const void *any) {
+  const struct hk_needs *needs = any;
+  int64_t count = 0;
+  for (int64_t k = 0; (k = hk_needs_next_changed(needs, k)) < needs->degree_count && needs->lean.system; k++)
+    count++;
+  return count;
+}
+
+HOOKE_READER(const char *, changed_quantity, struct hk_needs, changed(it, row)->quantity)
+HOOKE_READER(double, changed_factor, struct hk_needs, changed(it, row)->lean_factor)
+
 /* ---- rows ---- */
 
 int64_t hk_needs_known_rows(const struct hk_needs *needs) {
@@ -130,6 +150,13 @@ const struct hk_table hk_needs_tables[] = {
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_AS(struct hk_needs, cheapest_error, error, NUMBER, "m", "likewise, of this run"),
          COST_COLUMNS(struct hk_needs, cheapest))},
+    {.name = "changed",
+     .inside = "lean",
+     .doc = "numbers that the lean system has changed",
+     .count = count_changed,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_BY_AS(changed_quantity, quantity, TEXT, "", "as in the table of degrees"),
+         HOOKE_COLUMN_BY_AS(changed_factor, factor, NUMBER, "", "on it"))},
     {.name = "rows",
      .doc = "the ingredients, left out one at a time",
      .count = count_rows,
@@ -150,6 +177,27 @@ const struct hk_table hk_needs_tables[] = {
          COST_COLUMNS(struct hk_needs_row, cost),
          HOOKE_COLUMN(struct hk_needs_row, note, TEXT, "",
                       "why there is no change, or why it is not left out"))},
+    {.name = "degrees",
+     .doc =
+         "how far single numbers may be changed within the wanted error, by runs with the step of the full system",
+     HOOKE_TABLE_ROWS(struct hk_needs, degree, degree_count),
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN(struct hk_needs_degree, quantity, TEXT, "",
+                      "stiffness or damping of a group, mass of a particle, or drag"),
+         HOOKE_COLUMN(struct hk_needs_degree, factor, NUMBER, "",
+                      "on it, the farthest that holds; 1 where none of those tried does"),
+         HOOKE_COLUMN(struct hk_needs_degree, error, NUMBER, "m",
+                      "largest change of position by that factor"),
+         HOOKE_COLUMN(struct hk_needs_degree, beyond, NUMBER, "",
+                      "next factor, by which the change is more than the wanted error; NaN: none was found"),
+         HOOKE_COLUMN(struct hk_needs_degree, error_beyond, NUMBER, "m",
+                      "largest change by that one; NaN: its run does not end"),
+         HOOKE_COLUMN(struct hk_needs_degree, step_limit, NUMBER, "s",
+                      "largest stable step with the factor; infinite where nothing limits it"),
+         HOOKE_COLUMN(struct hk_needs_degree, work, NUMBER, "",
+                      "steps at that limit over those of the full system at its own"),
+         HOOKE_COLUMN(struct hk_needs_degree, tried, FLAG, "",
+                      "no: it was not tried, within the work allowed"))},
     {.name = "parts",
      .doc = "the resolution of every part, with the option `refine`",
      .lists = {{"cells", "cells", "cells_second", "cells_third"},

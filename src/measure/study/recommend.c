@@ -110,7 +110,8 @@ static int32_t make_changed(const struct hk_study *study, enum hk_study_change c
   int32_t status = hk_variant_create(study->m->system, &variant);
   if (status != HOOKE_OK) return status;
   if (change == HOOKE_STUDY_STIFFNESS) {
-    variant.stiffness = 1.0 + sign * CHANGE;
+    for (int64_t g = 0; g < study->m->system->group_count; g++)
+      variant.factor[HOOKE_KAPPA][g] = 1.0 + sign * CHANGE;
   } else {
     const double speed = CHANGE * largest_speed(&study->reference.frames);
     for (int a = 0; a < 3; a++)

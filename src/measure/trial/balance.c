@@ -27,6 +27,13 @@ static int32_t find_powers(const struct hk_balance *balance, const hooke_state *
   *out = balance->dissipated_power(system, hooke_state_time(state), q, v);
   *in = hk_forces_power(system, hooke_state_time(state), q, v);
   if (balance->force == NULL) return HOOKE_OK;
+  const int64_t size = 3 * system->particle_count;
+  memset(balance->force, 0, (size_t)size * sizeof(double));
+  if (system->force && system->force(system->particle_count, hooke_state_time(state), q, v, balance->force,
+                                     system->force_ctx) != 0)
+    return HOOKE_STOPPED;
+  for (int64_t k = 0; k < size; k++)
+    *in += balance->force[k] * v[k];
   const int32_t status = hooke_system_force(system, hooke_state_time(state), q, v, balance->force);
   for (int64_t p = 0; status == HOOKE_OK && p < system->particle_count; p++) {
     if (system->constrained[p] != HOOKE_IS_DRIVEN) continue;
@@ -38,7 +45,7 @@ static int32_t find_powers(const struct hk_balance *balance, const hooke_state *
 
 int32_t hk_balance_begin(struct hk_balance *balance, const hooke_system *system, const hooke_state *state) {
   *balance = (struct hk_balance){.system = system, .dissipated_power = hooke_system_dissipated_power_at};
-  if (system->drive_count > 0) {
+  if (system->drive_count > 0 || system->force) {
     balance->force = hk_new(3 * system->particle_count, sizeof(double));
     if (balance->force == NULL) return HOOKE_NO_MEMORY;
   }

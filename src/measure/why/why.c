@@ -19,7 +19,8 @@ static const double PUNCTUAL = 0.85;
 
 static const double LEAST_SECONDS = 2.0, LEAST_BYTES = 16e6, SHARE_OF_MEMORY = 0.4;
 
-/* Counted work of an evaluation with a callback [s]: a script takes about so long, and nobody knows. */
+/* Counted work of an evaluation with a callback [s]: a script takes about so long, and nobody knows,
+ * unless its force is of a shared library. */
 static const double CALLBACK = 5e-5;
 
 static const struct hk_option_row why_rows[] = {
@@ -53,7 +54,7 @@ int32_t hk_inquiry_has_memory(struct hk_inquiry *inquiry, double bytes, const ch
 }
 
 double hk_why_work_of(const hooke_integrator *run) {
-  const double callback = hk_system_calls_back(run->system) ? CALLBACK : 0.0;
+  const double callback = hk_system_calls_back(run->system) && !hk_force_from(run->system) ? CALLBACK : 0.0;
   return hk_work_of(run) + callback * (double)run->count.force_evaluations;
 }
 

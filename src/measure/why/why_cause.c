@@ -7,6 +7,7 @@
 #include "core/utf8.h"
 #include "measure/limit/limit.h"
 #include "measure/spectrum/naming.h"
+#include "model/callbacks.h"
 #include "model/force/altitude.h"
 #include "model/force/spring.h"
 
@@ -59,6 +60,7 @@ static void tell_failure(struct hk_inquiry *inquiry) {
 
 static void judge_bad_value(struct hk_inquiry *inquiry) {
   const struct hk_bad_value *bad_value = &inquiry->bad_value;
+  char name[512];
   inquiry->why->particle = (double)bad_value->particle;
   if (bad_value->of_drive) {
     say(inquiry, "force-not-finite",
@@ -67,9 +69,9 @@ static void judge_bad_value(struct hk_inquiry *inquiry) {
         (long long)bad_value->particle, bad_value->time);
   } else {
     say(inquiry, "force-not-finite",
-        "the force callback gives particle %lld a force that is not "
+        "%s gives particle %lld a force that is not "
         "finite at t = %.6g s, while all positions and velocities are",
-        (long long)bad_value->particle, bad_value->time);
+        hk_force_called(inquiry->system, name, sizeof name), (long long)bad_value->particle, bad_value->time);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/callbacks.h"
 #include "model/check_value.h"
 #include "model/variant/variant.h"
 
@@ -22,13 +23,18 @@ static int32_t copy(const struct hk_variant_maker *maker) {
   if (!present(from)) return HOOKE_OK;
   const int32_t status = hk_variant_require_numbers(maker, "a force callback");
   maker->made->force_scale = from->force_scale;
-  return status == HOOKE_OK
-             ? hooke_system_set_force(maker->made, from->force, from->force_product, from->force_ctx)
-             : status;
+  if (status != HOOKE_OK) return status;
+  (void)hooke_system_set_force(maker->made, from->force, from->force_product, from->force_ctx); /* is open */
+  char *const *name = hk_force_from(from);
+  return name ? hooke_system_name_force(maker->made, name[HOOKE_FORCE_FILE], name[HOOKE_FORCE_NAME],
+                                        name[HOOKE_FORCE_DIGEST])
+              : HOOKE_OK;
 }
 
-static int32_t stopped(int32_t value, double t) {
-  return hk_fail(HOOKE_STOPPED, NULL, "the force callback returned %d at t = %.6g s", (int)value, t);
+static int32_t stopped(const hooke_system *system, int32_t value, double t) {
+  char name[512];
+  return hk_fail(HOOKE_STOPPED, NULL, "%s returned %d at t = %.6g s",
+                 hk_force_called(system, name, sizeof name), (int)value, t);
 }
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
@@ -42,7 +48,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   const int32_t value = system->force(n, t, q, v, f, system->force_ctx);
   if (value != 0) {
     motion->stop_value = value;
-    return stopped(value, t);
+    return stopped(system, value, t);
   }
   hk_components_from_rows(n, f, motion->f);
   for (int64_t k = 0; k < 3 * n && system->force_scale; k++)
@@ -91,7 +97,7 @@ static int32_t add_difference(const hooke_system *system, const struct hk_point 
   hooke_rows_hold(rows[1], -1);
   if (missing) return HOOKE_NO_MEMORY;
   *point->stop_value = value;
-  return value == 0 ? HOOKE_OK : stopped(value, point->t);
+  return value == 0 ? HOOKE_OK : stopped(system, value, point->t);
 }
 
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
@@ -109,7 +115,7 @@ static int32_t add_product(const hooke_system *system, const struct hk_point *po
   if (own) memcpy(out, rows + 4 * size, (size_t)size * sizeof *out);
   hooke_rows_hold(rows, -1);
   *point->stop_value = value;
-  return value == 0 ? HOOKE_OK : stopped(value, point->t);
+  return value == 0 ? HOOKE_OK : stopped(system, value, point->t);
 }
 
 const struct hk_force_row hk_force_callback = {.name = "callback",

@@ -495,6 +495,13 @@ void hk_springs_largest(const struct hk_springs *springs, double t, const double
   }
 }
 
+int32_t hooke_system_compression(const hooke_system *system, double *compression) {
+  const int32_t status = hk_system_require_committed(system);
+  for (int64_t k = 0; status == HOOKE_OK && k < system->springs->count; k++)
+    compression[k] = !hk_springs_find(system->springs, k, 0.0).pull_only;
+  return status;
+}
+
 int32_t hooke_system_tension(const hooke_system *system, double t, const double *q, const double *v,
                              double *tension) {
   const int32_t status = hk_system_require_committed(system);

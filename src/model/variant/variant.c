@@ -18,17 +18,25 @@ static int64_t flags_of(const hooke_system *system) {
   return system->group_count + system->springs->count + system->particle_count + 2 * system->part_count;
 }
 
+static int64_t factors_of(const hooke_system *system) {
+  return system->part_count + 2 * system->group_count + system->particle_count;
+}
+
 /* One block: numbers, then flags. */
 int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant) {
-  *variant = (struct hk_variant){
-      .stiffness = 1.0, .scale = hk_new(system->part_count + flags_of(system) / 8 + 1, sizeof(double))};
+  const int64_t factors = factors_of(system);
+  *variant =
+      (struct hk_variant){.drag = 1.0, .scale = hk_new(factors + flags_of(system) / 8 + 1, sizeof(double))};
   if (variant->scale == NULL) return HOOKE_NO_MEMORY;
-  variant->group = (uint8_t *)(variant->scale + system->part_count);
+  variant->factor[HOOKE_KAPPA] = variant->scale + system->part_count;
+  variant->factor[HOOKE_GAMMA] = variant->factor[HOOKE_KAPPA] + system->group_count;
+  variant->mass = variant->factor[HOOKE_GAMMA] + system->group_count;
+  variant->group = (uint8_t *)(variant->scale + factors);
   variant->spring = variant->group + system->group_count;
   variant->particle = variant->spring + system->springs->count;
   variant->part = variant->particle + system->particle_count;
   variant->rigid = variant->part + system->part_count;
-  for (int64_t k = 0; k < system->part_count; k++)
+  for (int64_t k = 0; k < factors; k++)
     variant->scale[k] = 1.0;
   return HOOKE_OK;
 }
@@ -43,8 +51,9 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
   variant->damping |= other->damping;
   variant->compression |= other->compression;
   join(flags_of(system), variant->group, other->group);
-  for (int64_t k = 0; k < system->part_count; k++)
+  for (int64_t k = 0; k < factors_of(system); k++)
     variant->scale[k] *= other->scale[k];
+  variant->drag *= other->drag;
 }
 
 /* 1 if a part adds the group and is left out, or is a body, which has nothing inside but feels drag. */
@@ -121,8 +130,9 @@ static int32_t renumber(const struct hk_variant_maker *maker, const struct hk_gr
   return 1;
 }
 
-/* The members from `first` on that remain. */
-static void collect(const struct hk_variant_maker *maker, int64_t first, struct hk_group *kept) {
+/* The members from `first` on that remain, with the factors of their group. */
+static void collect(const struct hk_variant_maker *maker, int64_t first, const double factor[2],
+                    struct hk_group *kept) {
   const uint8_t *spring = kept->force->kind & HOOKE_LOOPED ? maker->variant->spring + first : NULL;
   const int64_t count = kept->count;
   kept->force->recall(maker->from, first, kept);
@@ -130,6 +140,8 @@ static void collect(const struct hk_variant_maker *maker, int64_t first, struct 
   for (int64_t k = 0; k < count; k++) {
     if ((spring && spring[k]) || !renumber(maker, kept, k)) continue;
     if (k != kept->count) hk_group_swap(kept, k, kept->count);
+    for (int n = HOOKE_KAPPA; n <= HOOKE_GAMMA; n++)
+      if (kept->number[n]) kept->number[n][kept->count] *= factor[n];
     kept->count++;
   }
   if (maker->variant->damping && kept->number[HOOKE_GAMMA] && kept->count > 0)
@@ -138,10 +150,11 @@ static void collect(const struct hk_variant_maker *maker, int64_t first, struct 
 
 /* Options as given find the rest lengths of springs to a part at another resolution. */
 static int32_t take_options(const struct hk_variant_maker *maker, const hooke_options *from,
-                            struct hk_group *kept) {
+                            const double factor[2], struct hk_group *kept) {
   int32_t status = hooke_options_copy(from, &kept->options);
   if (status != HOOKE_OK || !(kept->force->kind & HOOKE_LOOPED)) return status;
-  if (maker->variant->damping) status = hooke_options_unset(kept->options, "damping");
+  status = hk_variant_scale_options(kept->options, "", factor);
+  if (status == HOOKE_OK && maker->variant->damping) status = hooke_options_unset(kept->options, "damping");
   if (status == HOOKE_OK && maker->variant->damping)
     status = hooke_options_unset(kept->options, "damping_ratio");
   if (status == HOOKE_OK && maker->variant->compression)
@@ -169,15 +182,18 @@ static int keeps_clamps(const struct hk_variant_maker *maker, const struct hk_gr
  * for springs whose options are known. A group whose members all have neither stiffness nor damping keeps its
  * place. */
 static int32_t keep_group(const struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
+  const int64_t g = group - maker->from->group;
+  const double factor[2] = {maker->variant->factor[HOOKE_KAPPA][g], maker->variant->factor[HOOKE_GAMMA][g]};
   struct hk_group kept = {.force = group->force,
                           .count = group->count,
                           .pull_only =
                               group->pull_only || (maker->variant->compression && hk_group_resists(group))};
   int32_t status = hk_curve_copy(group->curve, kept.pull_only, &kept.curve);
+  if (status == HOOKE_OK && kept.curve && factor[0] != 1.0) status = hk_curve_scale(&kept.curve, factor[0]);
   if (status == HOOKE_OK) status = hk_group_allocate(&kept, group->name);
-  if (status == HOOKE_OK) collect(maker, first, &kept);
+  if (status == HOOKE_OK) collect(maker, first, factor, &kept);
   if (status == HOOKE_OK) status = hk_scaling_copy(group->scaling, &kept.scaling);
-  if (status == HOOKE_OK && group->options) status = take_options(maker, group->options, &kept);
+  if (status == HOOKE_OK && group->options) status = take_options(maker, group->options, factor, &kept);
   if (status == HOOKE_OK && (kept.count > 0 || group->count == 0))
     return hk_system_add_group(maker->made, &kept);
   hk_group_release(&kept);
@@ -226,16 +242,6 @@ static int32_t copy_movers(const struct hk_variant_maker *maker) {
   return status;
 }
 
-static int32_t scale_stiffness(hooke_system *made, double factor) {
-  int32_t status = HOOKE_OK;
-  for (int64_t g = 0; g < made->group_count && status == HOOKE_OK; g++)
-    if (made->group[g].curve) status = hk_curve_scale(&made->group[g].curve, factor);
-  for (int64_t g = 0; g < made->group_count; g++)
-    for (int64_t k = 0; k < made->group[g].count && made->group[g].number[HOOKE_KAPPA]; k++)
-      made->group[g].number[HOOKE_KAPPA][k] *= factor;
-  return status;
-}
-
 /* Rigid bodies take it as far as their pins let them. */
 static void add_velocity(hooke_system *made, const double velocity[3]) {
   if (velocity[0] == 0.0 && velocity[1] == 0.0 && velocity[2] == 0.0) return;
@@ -264,7 +270,6 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) status = copy_others(&maker);
   if (status == HOOKE_OK && !from->overdamped) status = hk_medium_copy_wind(&maker); /* there it is a force */
   if (status == HOOKE_OK) {
-    if (variant->stiffness != 1.0) status = scale_stiffness(maker.made, variant->stiffness);
     add_velocity(maker.made, variant->velocity);
   }
   if (status == HOOKE_OK) status = hooke_system_commit(maker.made);

@@ -1,4 +1,5 @@
-/* A variant: a system rebuilt from another with some ingredients left out, or parts at another resolution. */
+/* A variant: a system rebuilt from another with some ingredients left out, with other numbers, or parts at
+ * another resolution. */
 #ifndef HOOKE_MODEL_VARIANT_VARIANT_H
 #define HOOKE_MODEL_VARIANT_VARIANT_H
 
@@ -15,20 +16,23 @@ struct hk_variant {
   uint8_t *particle;   /* by particle; particles of parts are left out only with their part */
   uint8_t *part;       /* by part */
   uint8_t *rigid;      /* by part: 1: it is one rigid body, and what is inside it drops out */
-  double *scale;       /* by part: factor on the cells along each axis */
   int32_t loose;       /* 1: parts become plain particles and groups, of which any may be left out */
-  double stiffness;    /* factor on all stiffness, initially 1; ignored by hk_variant_join() */
-  double velocity[3];  /* added to the initial velocity of every free particle [m/s]; ignored there, too */
+  /* factors, initially 1, which hk_variant_join() multiplies */
+  double *scale;      /* by part: on the cells along each axis */
+  double *factor[2];  /* by group: on stiffness (HOOKE_KAPPA) and damping (HOOKE_GAMMA) of its members */
+  double *mass;       /* by particle, of those of no part */
+  double drag;        /* on the linear drag */
+  double velocity[3]; /* added to the initial velocity of every free particle [m/s]; not joined */
 };
 
 /* Creates a variant of a committed system without changes. HOOKE_NO_MEMORY. */
 int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant);
 void hk_variant_release(struct hk_variant *variant);
-/* Also leaves out everything that `other`, of the same system, leaves out. */
+/* Also leaves out everything that `other`, of the same system, leaves out, and changes what it changes. */
 void hk_variant_join(const hooke_system *system, struct hk_variant *variant, const struct hk_variant *other);
 
-/* 1 if joining `other` would change nothing: everything that it leaves out is left out already, or belongs to
- * a part or a group that is. */
+/* 1 if joining `other`, without factors but on cells, would change nothing: everything that it leaves out is
+ * left out already, or belongs to a part or a group that is. */
 int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *variant,
                           const struct hk_variant *other);
 
@@ -88,6 +92,9 @@ int32_t hk_variant_corners(const struct hk_variant_part *part, int64_t offset, i
 
 /* Adds particles, in parts and alone, and fills the map (variant_particles.c). */
 int32_t hk_variant_add_particles(struct hk_variant_maker *maker);
+/* Multiplies stiffness and damping, as far as they are set, of a group of springs or of a family ("bend.") of
+ * a part. */
+int32_t hk_variant_scale_options(hooke_options *options, const char *family, const double factor[2]);
 /* Pins and drives. A particle of a part at another resolution is constrained if all particles that it lies
  * between are, or one that it is nearest to (variant_constrained.c). */
 int32_t hk_variant_constrain(struct hk_variant_maker *maker);

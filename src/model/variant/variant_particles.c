@@ -38,6 +38,44 @@ static int ends_in(const char *name, const char *ending) {
   return length > end && strcmp(name + length - end, ending) == 0;
 }
 
+/* Multiplies the numbers of an option that is set. */
+static int32_t scale_option(hooke_options *options, const char *family, const char *key, double factor) {
+  char name[64];
+  snprintf(name, sizeof name, "%s%s", family, key);
+  if (factor == 1.0 || !hooke_options_is_set(options, name)) return HOOKE_OK;
+  const int64_t count = hooke_options_number_count(options, name);
+  double *value = hk_new(count, sizeof *value);
+  for (int64_t k = 0; k < count && value; k++)
+    value[k] = factor * hooke_options_numbers(options, name)[k];
+  const int32_t status = value ? hooke_options_set_numbers(options, name, count, value) : HOOKE_NO_MEMORY;
+  hk_free(value);
+  return status;
+}
+
+int32_t hk_variant_scale_options(hooke_options *options, const char *family, const double factor[2]) {
+  static const char *const keys[] = {"stiffness", "curve.force", "curve.coefficients", "damping",
+                                     "damping_ratio"};
+  int32_t status = HOOKE_OK;
+  for (int k = 0; k < 5 && status == HOOKE_OK; k++)
+    status = scale_option(options, family, keys[k], factor[k < 3 ? HOOKE_KAPPA : HOOKE_GAMMA]);
+  return status;
+}
+
+/* Stiffness and damping of the families of groups that have factors. */
+static int32_t scale_families(const struct hk_variant_maker *maker, int64_t part, hooke_options *options) {
+  int32_t status = HOOKE_OK;
+  for (int64_t g = 0; g < maker->from->group_count && status == HOOKE_OK; g++) {
+    const struct hk_group *group = &maker->from->group[g];
+    const double factor[2] = {maker->variant->factor[HOOKE_KAPPA][g], maker->variant->factor[HOOKE_GAMMA][g]};
+    char family[64];
+    if (!group->from_part || group->part != part) continue;
+    snprintf(family, sizeof family, "%s.", family_of(group->name));
+    status = group->force == &hk_force_bending ? scale_option(options, "bending", "", factor[HOOKE_KAPPA])
+                                               : hk_variant_scale_options(options, family, factor);
+  }
+  return status;
+}
+
 /* Damping and compression of all present families. */
 static int32_t change_families(const struct hk_variant *variant, hooke_options *options) {
   int32_t status = HOOKE_OK;
@@ -108,6 +146,7 @@ static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
   if (status == HOOKE_OK && part->axes > 0) status = change_resolution(record, part, options);
   if (status == HOOKE_OK && part->axes > 0 && maker->from->gravity_factor)
     status = change_factors(maker->from->gravity_factor + record->first, part, options);
+  if (status == HOOKE_OK) status = scale_families(maker, k, options);
   if (status == HOOKE_OK) status = leave_families_out(maker, k, options);
   if (status == HOOKE_OK) status = change_families(maker->variant, options);
   if (status == HOOKE_OK && maker->variant->rigid[k])
@@ -137,8 +176,10 @@ static int32_t add_alone(struct hk_variant_maker *maker, int64_t first, int64_t 
                                           from->velocity ? from->velocity + 3 * first : NULL, stop - first,
                                           from->mass + first, &added);
     }
-    for (int64_t p = first; p < stop; p++)
+    for (int64_t p = first; p < stop && status == HOOKE_OK; p++) {
       maker->map->to[p] = added + p - first;
+      maker->made->mass[maker->map->to[p]] *= maker->variant->mass[p];
+    }
     if (stop < end) maker->map->to[stop] = -1;
     first = stop + 1;
   }
