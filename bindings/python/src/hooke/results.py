@@ -473,8 +473,8 @@ class _Recorder:
         self._kept = [np.empty((frame_count, *array.shape), array.dtype) for array in _arrays(state)]
 
     def __call__(self, step: int, state: State) -> None:
-        for kept, array in zip(self._kept, _arrays(state)):
-            kept[self._count] = array
+        for rows, array in zip(self._kept, _arrays(state)):
+            rows[self._count] = array
         self._count += 1
 
     def frames(self) -> Frames:
