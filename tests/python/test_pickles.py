@@ -60,7 +60,8 @@ def test_a_pool_returns_results():
         found = pool.starmap(stiffer, [(scene, step) for step in steps[:2]])
     for step, result in zip(steps, found):
         here = stiffer(scene, step)
-        assert np.array_equal(here.state.q, result.state.q) and str(here) == str(result) and repr(here.error) == repr(result.error)
+        assert np.array_equal(here.state.q, result.state.q)
+        assert str(here) == str(result) and repr(here.error) == repr(result.error)
         assert result.system.energy(result.state.q, result.state.v) == scene.system.energy(here.state.q, here.state.v)
 
 
