@@ -207,6 +207,9 @@ class Scene(Parts, Problem):
         """Writes the current scene, its system and `run_options`, as a scene file; see `System.save`."""
         write_scene(path, self._system, self.title, self.run_options)
 
+    def __reduce__(self) -> Any:
+        return Scene.parse, (self._system._written(self.title, self.run_options),)
+
     def __repr__(self) -> str:
         return f"Scene({self.title!r}, {self._system!r})"
 
