@@ -26,6 +26,7 @@ OUTPUTS = {
     "limit": ("limit scene.json --methods verlet --report", ""),
     "modes": ("modes scene.json --report", ""),
     "rest": ("rest scene.json -o", ".json"),
+    "rest --report": ("rest scene.json --report", ""),
     "needs": ("needs scene.json --want 1m -o", ""),
     "needs --report": ("needs scene.json --want 1m --report", ""),
     "why": ("why scene.json --report", ""),
