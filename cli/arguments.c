@@ -177,7 +177,11 @@ int32_t cli_argument_adds_up(const struct cli_argument *argument) {
 /* Takes the text as the value, or adds it there. */
 static int read_value(const struct cli_arguments *arguments, struct cli_argument *argument) {
   const char *before = argument->value && cli_argument_adds_up(argument) ? argument->value : "";
-  const char *between = before[0] == '\0' ? "" : has_rows(argument) ? ";" : ",";
+  const char *type = hooke_options_row(argument->table, argument->row, "type");
+  const char *between = before[0] == '\0'           ? ""
+                        : has_rows(argument)        ? ";"
+                        : strcmp(type, "text") == 0 ? "\n"
+                                                    : ",";
   const size_t size = strlen(before) + strlen(argument->text) + 2;
   char *value = malloc(size);
   if (value) snprintf(value, size, "%s%s%s", before, between, argument->text);

@@ -16,6 +16,18 @@ static void add_change(struct cli_string *text, const hooke_options *changes, co
                              : hooke_options_text(changes, name));
 }
 
+/* Every line that was set, as an option. */
+static void add_sets(struct cli_string *text, const char *lines) {
+  for (size_t length; *lines; lines += length + (lines[length] == '\n')) {
+    struct cli_string line = {0};
+    length = strcspn(lines, "\n");
+    cli_string_add(&line, "%.*s", (int)length, lines);
+    cli_string_add(text, " --set ");
+    cli_string_quote(text, line.bytes ? line.bytes : "");
+    free(line.bytes);
+  }
+}
+
 void cli_command_add(struct cli_string *text, const struct cli_arguments *arguments, const char *verb,
                      const hooke_options *changes) {
   const int32_t same = strcmp(verb, arguments->verb->name) == 0;
@@ -25,12 +37,16 @@ void cli_command_add(struct cli_string *text, const struct cli_arguments *argume
     const struct cli_argument *argument = &arguments->all[i];
     if (!argument->text || cli_is_among(SHOW_DIVERGENCE, argument->name)) continue;
     if (changes && hooke_options_is_set(changes, argument->name)) continue;
-    if (!same && argument->table != arguments->run && !cli_is_among("from-rest force", argument->name))
+    if (!same && argument->table != arguments->run && !cli_is_among("from-rest force set", argument->name))
       continue;
     /* the options that --want would choose are given */
     if (strcmp(argument->name, "want") == 0 && changes && hooke_options_is_set(changes, "method")) continue;
     const char *instead = arguments->verb->for_scene;
     if (instead && strcmp(argument->name, instead) == 0) continue; /* replaced by the scene */
+    if (strcmp(argument->name, "set") == 0) {
+      add_sets(text, argument->value);
+      continue;
+    }
     cli_string_add(text, " --%s", argument->flag);
     if (argument->own && !argument->own->value) continue;
     cli_string_add(text, cli_argument_is_flag(argument) ? "=" : " ");

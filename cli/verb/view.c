@@ -97,9 +97,10 @@ static void open_page(const struct cli_arguments *arguments, const char *page) {
 
 /* ---- what is shown ---- */
 
-/* 1 if an option of a run, or --want, was given: then the scene of a trajectory is run anew. */
+/* 1 if an option of a run, --want or --set was given: then the scene of a trajectory is run anew. */
 static int is_to_run(const struct cli_arguments *arguments) {
-  return cli_arguments_has_run(arguments) || cli_arguments_text(arguments, "want") != NULL;
+  return cli_arguments_has_run(arguments) || cli_arguments_text(arguments, "want") ||
+         cli_arguments_text(arguments, "set");
 }
 
 static int open_trajectory(const struct cli_arguments *arguments, struct shown *shown, int32_t k) {

@@ -79,7 +79,7 @@ HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t ro
  *   "required"              1 if it has to be given; for a member of a family, where the family is given, and
  * with "only", where that is chosen "min_count", "max_count" of the type "numbers"; NaN: any count "columns"
  * numbers come in rows of this many in a scene, "flat" 1 if one row may do without its brackets "word_lists"
- * 1 if several words and numbers may be mixed */
+ * 1 if several words and numbers may be mixed; of a text: it may have several lines */
 HOOKE_API double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property);
 
 #ifdef __cplusplus

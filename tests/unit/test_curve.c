@@ -163,7 +163,7 @@ TEST(variants_keep_a_curve_and_scale_it) {
     struct hk_variant variant;
     struct hk_variant_map map;
     check_ok(hk_variant_create(system, &variant));
-    variant.stiffness = 1.1;
+    variant.factor[HOOKE_KAPPA][0] = 1.1;
     variant.compression = 1;
     check_ok(hk_variant_make(system, &variant, &made, &map));
     for (double r = 0.2; r < 3.0; r += 0.13) {

@@ -45,6 +45,9 @@ const char *hk_json_text(const char *value);
 const char *hk_json_first(const char *value);
 const char *hk_json_next(const char *item);
 
+/* What follows a value. */
+const char *hk_json_end(const char *value);
+
 int64_t hk_json_count(const char *array);
 
 /* The value of a key, and that of the first key of this name; NULL if there is none, or `object` is no

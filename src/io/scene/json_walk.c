@@ -55,7 +55,7 @@ static const char *skip_text(const char *at) {
   return at;
 }
 
-static const char *skip_value(const char *at) {
+const char *hk_json_end(const char *at) {
   int32_t depth = 0;
   do {
     if (*at == '"') {
@@ -80,7 +80,7 @@ const char *hk_json_first(const char *value) {
 }
 
 const char *hk_json_next(const char *item) {
-  item = hk_json_skip_blanks(skip_value(item));
+  item = hk_json_skip_blanks(hk_json_end(item));
   if (*item == ':') return hk_json_next(follow(item));
   return *item == ',' ? follow(item) : NULL;
 }

@@ -34,7 +34,9 @@ int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key)
 
 static int32_t read_text(hooke_scene *scene, const char *folder) {
   const char *at;
-  const int32_t status = hk_json_open(scene->text, scene->length, &scene->json, &at);
+  int32_t status = hk_scene_set(scene);
+  if (status != HOOKE_OK) return in_text(status, scene, NULL);
+  status = hk_json_open(scene->text, scene->length, &scene->json, &at);
   if (status == HOOKE_BAD_VALUE) return in_text(status, scene, at);
   return status == HOOKE_OK ? hk_scene_build(scene, folder) : status;
 }
@@ -46,6 +48,11 @@ static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
     return NULL;
   }
   if (scene && limits) {
+    const char *set = hooke_options_text(limits, "set");
+    if (set[0] && (scene->set = hk_copy_text(set)) == NULL) {
+      hooke_scene_destroy(scene);
+      return NULL;
+    }
     if (hooke_options_is_set(limits, "memory"))
       scene->memory_limit = 1e9 * hooke_options_number(limits, "memory");
     scene->outside = hooke_options_number(limits, "outside") != 0.0;
@@ -97,6 +104,10 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
 int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene) {
   HOOKE_KEEP_ERRNO;
   *scene = NULL;
+  const int32_t changed = limits && hooke_options_is_set(limits, "set");
+  if (hk_record_is_one(path) && changed)
+    return hk_fail(HOOKE_BAD_VALUE, "set", "%s is a trajectory, which keeps its scene; allowed: for a scene",
+                   path);
   if (hk_record_is_one(path)) return load_record(path, limits, scene);
   hooke_scene *made = new_scene(path, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
@@ -149,6 +160,7 @@ void hooke_scene_destroy(hooke_scene *scene) {
   hk_free(scene->title);
   hk_free(scene->text);
   hk_free(scene->json);
+  hk_free(scene->set);
   hk_free(scene->name);
   hk_handle_free(scene);
 }

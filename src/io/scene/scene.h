@@ -13,12 +13,16 @@ struct hooke_scene {
   hooke_options *run;
   char *title;
   double memory_limit; /* [bytes]; 0: the machine's memory */
+  char *set;           /* lines PATH=VALUE that change the text; NULL: none */
   int32_t outside;     /* files that it names may be anywhere */
 };
 
 /* Fills system, run and title from `json`. `folder` may be NULL. The message of a failure has its place in
  * the text; that of HOOKE_BAD_VALUE has a line for each fault. */
 int32_t hk_scene_build(hooke_scene *scene, const char *folder);
+
+/* Changes the text by the lines of `set`. HOOKE_BAD_VALUE with the path of the line, HOOKE_NO_MEMORY. */
+int32_t hk_scene_set(hooke_scene *scene);
 
 /* Prefixes name, line and column to the last failure, whose place is a path in the text; `at_key` is 1 if the
  * fault is a key and not its value. Returns `status`. */

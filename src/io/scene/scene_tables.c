@@ -86,6 +86,10 @@ static const struct hk_option_row limit_rows[] = {
                  "memory that the scene may need; what the machine has if not given"),
     HOOKE_OPTION("outside", .type = HOOKE_OPTION_FLAG, "false",
                  "the scene may name files anywhere, and not in its folder alone"),
+    HOOKE_OPTION(
+        "set", .type = HOOKE_OPTION_TEXT, NULL,
+        "PATH=VALUE: sets a key of the scene, or of a part, group, anchor or body by its name; several",
+        .word_lists = 1, .example = "run.step=1ms"),
 };
 
 static const struct hk_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};

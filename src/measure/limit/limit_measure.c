@@ -39,7 +39,7 @@ struct trial {
 static const double CERTAIN = 0.05;
 
 /* The rise of the log of an amplitude that a run shows for certain; where it never falls, much less does. */
-static const double CERTAIN_RISE = 10.0, CERTAIN_IF_CONVEX = 0.1;
+static const double CERTAIN_RISE = 3.0, CERTAIN_IF_CONVEX = 0.1;
 
 /* 1 if a run at `step`, or at one as far above the limit, grows by so much in its steps, as eigenvalues have
  * it. Without them it may. */

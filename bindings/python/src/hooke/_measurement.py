@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copyreg
 import ctypes
 import functools
+import itertools
 import operator
 import os
 import pathlib
@@ -17,9 +19,11 @@ from ._callback import listening
 from ._library import lib
 from ._look import draw
 from ._memory import Handle, address_of, text, view
-from ._status import OUTCOMES, NotBuilt, plain
+from ._status import OUTCOMES, BadCall, NotBuilt, plain
 from ._types import FloatArray, Path, Table
+from .system import kept
 
+F = TypeVar("F", bound="Found")
 R = TypeVar("R", bound="Record")
 
 
@@ -187,6 +191,52 @@ class Measurement:
             lib.hooke_measurement_label(self.handle, what.encode(), label and label.encode())
 
 
+    def __reduce__(self) -> Any:
+        kind, tables = self.kind.encode(), itertools.count()
+        of, read = lib.hooke_measurement_table, {"text": self.text, "series": self.series}
+        values = {
+            (table, name): (self.unit(table, name), [read.get(column.type, self.number)(table, row, name) for row in rows])
+            for table in map(text, iter(lambda: of(kind, next(tables), b"name"), None))
+            for rows in [range(self.count(table))]
+            for name, column in columns(self.kind, table).items()
+        }
+        return Kept, (self.kind, values)
+
+
+class Kept(Measurement):
+    """The tables of a measurement of another process, all that a pickle holds of it."""
+
+    def __init__(self, kind: str, values: dict[tuple[str, str], tuple[str, list[Any]]]):
+        self.kind, self._values = kind, values
+
+    def __reduce__(self) -> Any:
+        return Kept, (self.kind, self._values)
+
+    @property
+    def handle(self) -> Handle:  # type: ignore[override]
+        raise BadCall(f"this {self.kind} was pickled, which keeps its tables alone; measure again for more")
+
+    def count(self, table: str) -> int:
+        return max((len(values) for (of, _), (_, values) in self._values.items() if of == table), default=0)
+
+    def _value(self, table: str, row: int, column: str, none: Any) -> Any:
+        values = self._values.get((table, column), ("", []))[1]
+        return values[row] if row < len(values) else none
+
+    def number(self, table: str, row: int, column: str) -> float:
+        return float(self._value(table, row, column, np.nan))
+
+    def text(self, table: str, row: int, column: str) -> str:
+        return str(self._value(table, row, column, ""))
+
+    def unit(self, table: str, column: str) -> str:
+        return self._values.get((table, column), ("", []))[0]
+
+    def series(self, table: str, row: int, column: str) -> FloatArray | None:
+        found: FloatArray | None = self._value(table, row, column, None)
+        return found if found is None else found.copy()
+
+
 class Claim(Record, table="study.claims"):
     """A sentence about results."""
 
@@ -219,6 +269,19 @@ class Found:
         self.rows: Table = found.rows(self._rows)
         vars(self).update(found.record(found.kind))
         self._read(found)
+
+    def __reduce__(self) -> Any:
+        state = {**vars(self), "_handle": self._handle, "_scene": None, "_system": kept(self._system), "_progress": None}
+        return copyreg.__newobj__, (type(self),), state  # type: ignore[attr-defined]
+
+    def __copy__(self: F) -> F:
+        made = type(self).__new__(type(self))
+        vars(made).update(vars(self))
+        return made
+
+    def __deepcopy__(self: F, memo: Any) -> F:
+        """It shares what it does not change."""
+        return self.__copy__()
 
     @property
     def claims(self) -> list[Claim]:

@@ -18,12 +18,12 @@ V = TypeVar("V")
 
 
 class Owner:
-    """Base of classes that hold an object of the library: they cannot be copied or pickled, as it belongs to this
-    process."""
+    """Base of classes that hold an object of the library, which belongs to this process: they cannot be copied or pickled,
+    unless they say how they are made again."""
 
     __slots__ = ()
 
-    def __reduce_ex__(self, protocol: Any) -> Any:
+    def __reduce__(self) -> Any:
         way = "copy() makes another" if hasattr(self, "copy") else "build it again where it is needed"
         raise TypeError(
             f"a {type(self).__name__} holds an object of the library and cannot be copied or pickled; {way}. "

@@ -24,6 +24,10 @@ class Error(Exception):
     status: int | None = None
     lines: int = 1  # of a message of the library
 
+    def __reduce__(self) -> Any:
+        """Without what belongs to this process."""
+        return type(self), self.args, {name: value for name, value in vars(self).items() if name != "integrator"}
+
     def __str__(self) -> str:
         return "\n".join(plain(line) for line in super().__str__().split("\n", self.lines - 1))
 
@@ -50,6 +54,10 @@ class MissingInput(BadValue, FileNotFoundError):
 
 class MissingFile(IOFailed, FileNotFoundError):
     """A file, or the folder that it should go into, is not there."""
+
+
+class UnknownOption(BadValue, TypeError):
+    """An option, or a keyword that stands for one, has a name that is not known."""
 
 
 class NotBuilt(Error, NotImplementedError):
@@ -84,7 +92,10 @@ _KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFaile
 FAILURES: dict[int, type[Error]] = {1: Stopped, **{-number: kind for number, kind in enumerate(_KINDS, 1)}}
 for _number, _kind in FAILURES.items():
     _kind.status = _number
-_MISSING: dict[int, type[Error]] = {-2: MissingInput, -4: MissingFile}  # where the message of the library says so
+_SPECIAL: dict[str, dict[int, type[Error]]] = {  # where the message of the library says so
+    "No such file or directory": {-2: MissingInput, -4: MissingFile},
+    'unknown option "': {-2: UnknownOption},
+}
 
 
 _KEY = re.compile(r"[a-z_]+(\[\d+\])*(\.[a-z_]+(\[\d+\])*)*: ")
@@ -125,8 +136,8 @@ def checker(words: Sequence[Callable[..., Any]], outcomes: bool) -> Callable[[in
             raise exception
         if code < 0 or (code > 0 and not outcomes):
             message = last_error().decode("utf-8", "replace") or status_name(code).decode()
-            kinds = _MISSING if "No such file or directory" in message else FAILURES
-            failure: Error = kinds.get(code, FAILURES.get(code, Error))(message)
+            kinds = next((kinds for words, kinds in _SPECIAL.items() if words in message and code in kinds), FAILURES)
+            failure: Error = kinds.get(code, Error)(message)
             failure.status = code
             failure.lines = message.count("\n") + 1
             raise failure

@@ -53,6 +53,7 @@ class Row(NamedTuple):
     by: str
 
 
+_TABLES: dict[str, dict[str, Row]] = {}  #: the rows of the tables that were read, by their names
 _LISTS = ("methods", "watch")  #: texts that are lists of words
 
 
@@ -78,14 +79,29 @@ class Options(Owner, MutableMapping[str, Any]):
     Options of an integrator cannot be changed.
     """
 
-    def __init__(self, handle: Handle, read_only: bool = False):
+    def __init__(self, handle: Handle, read_only: bool = False, table: str = "run"):
         self._handle = handle
         self._read_only = read_only
-        self._rows = {row.name: row for row in _rows(handle)}
+        self._table = table
+        if table not in _TABLES:
+            _TABLES[table] = {row.name: row for row in _rows(handle)}
+        self._rows = _TABLES[table]
 
     @classmethod
     def _of(cls, table: str) -> Options:
-        return cls(Handle.made(None, lib.hooke_options_create, table.encode()))
+        return cls(Handle.made(None, lib.hooke_options_create, table.encode()), table=table)
+
+    @classmethod
+    def _again(cls, table: str, values: dict[str, Value], read_only: bool) -> Options:
+        made = cls._of(table)
+        for name, value in values.items():
+            made[name] = value
+        made._read_only = read_only
+        return made
+
+    def __reduce__(self) -> Any:
+        values = {name: "" if row.type == "family" else self[name] for name, row in self._rows.items() if self.is_set(name)}
+        return Options._again, (self._table, values, self._read_only)
 
     for_run = _of_table("run")
     for_study = _of_table("study")
@@ -110,7 +126,7 @@ class Options(Owner, MutableMapping[str, Any]):
 
     def copy(self) -> Options:
         """A copy with the same values."""
-        return Options(Handle.made(None, lib.hooke_options_copy, self._handle))
+        return Options(Handle.made(None, lib.hooke_options_copy, self._handle), table=self._table)
 
     @property
     def rows(self) -> list[Row]:

@@ -14,6 +14,7 @@ After a killed run, frames that were not written have the time NaN: use only tho
 from __future__ import annotations
 
 import contextlib
+import copy
 import ctypes
 import itertools
 import math
@@ -38,7 +39,7 @@ from .problems import FirstOrder, SecondOrder
 from .problems import Problem as Base
 from .scene import Scene
 from .state import State
-from .system import Force, System, posed, system_of
+from .system import Force, System, kept, posed, system_of
 from .why import Why
 
 #: Problems that are no scene: a system, or a first- or second-order problem.
@@ -121,6 +122,15 @@ class Result:
             return system_of(self.problem, "system")
         except BadValue as missing:
             raise AttributeError(str(missing)) from None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "problem": kept(self.problem), "integrator": None}
+
+    def __copy__(self) -> Result:
+        return replace(self)
+
+    def __deepcopy__(self, memo: Any) -> Result:
+        return replace(self, state=self.state.copy(), frames=copy.deepcopy(self.frames, memo))
 
     def __str__(self) -> str:
         return said(self.claims) or repr(self)
@@ -257,7 +267,7 @@ class _Once:
 
     def _integrate(self, integrator: Integrator, state: State, watchers: list[Observer]) -> str:
         if self.output is None:
-            return integrator.run(state, on_frame=_all(watchers), on_step=self.on_step)
+            return integrator.run(state, on_frame=_all(watchers) if watchers else None, on_step=self.on_step)
         path, file, system = os.fsencode(self.output), TRAJECTORY(), system_of(self.problem, "output")
         text = None if self.scene is None else self.scene.text.encode()
         lib.hooke_trajectory_create(path, system._handle, integrator._handle, text, ctypes.byref(file))
@@ -347,6 +357,8 @@ def why(
     shows a bar, with tqdm) and ends it by returning a non-zero number.
     """
     if isinstance(what, (Result, SolverFailed)):
+        if what.integrator is None and getattr(what, "status", None) not in ("finished", "stopped"):
+            raise BadCall("this run was not pickled with its result, run it again: hooke.why(scene, **result.options)")
         return what.integrator.why(budget, progress) if what.integrator is not None else None
     scene, problem, wanted = resolve(what, None, options)
     integrator = Integrator(problem, wanted)
@@ -461,8 +473,8 @@ class _Recorder:
         self._kept = [np.empty((frame_count, *array.shape), array.dtype) for array in _arrays(state)]
 
     def __call__(self, step: int, state: State) -> None:
-        for kept, array in zip(self._kept, _arrays(state)):
-            kept[self._count] = array
+        for rows, array in zip(self._kept, _arrays(state)):
+            rows[self._count] = array
         self._count += 1
 
     def frames(self) -> Frames:

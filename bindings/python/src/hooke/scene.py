@@ -83,11 +83,14 @@ class Scene(Parts, Problem):
         return scene
 
     @classmethod
-    def load(cls, path: Path, *, memory: float | None = None, outside: bool = False) -> Scene:
+    def load(
+        cls, path: Path, *, memory: float | None = None, outside: bool = False, set: Mapping[str, Any] | None = None
+    ) -> Scene:
         """Reads a scene file, or the scene of a trajectory file with the options of its run. `memory` [GB] is the
-        maximum memory of the scene, None: the machine's; with `outside` it may name files outside its folder.
+        maximum memory of the scene, None: the machine's; with `outside` it may name files outside its folder;
+        `set` has values by paths such as "run.step" or "cloth.structural.stiffness", which replace those of a scene file.
         BadValue describes a fault and its place; IOFailed if the file cannot be read."""
-        return cls._made(lib.hooke_scene_load, os.fsencode(path), limits_of(memory, outside))
+        return cls._made(lib.hooke_scene_load, os.fsencode(path), limits_of(memory, outside, set))
 
     @classmethod
     def parse(
@@ -98,17 +101,18 @@ class Scene(Parts, Problem):
         *,
         memory: float | None = None,
         outside: bool = False,
+        set: Mapping[str, Any] | None = None,
     ) -> Scene:
         """Reads a scene from its text, or from a dict of the same shape, which may hold NumPy arrays.
 
         `name` replaces the file name in messages; files named in the scene are looked up in `folder` (None: none are
-        allowed); `memory` and `outside` are those of load().
+        allowed); `memory`, `outside` and `set` are those of load().
         """
         if isinstance(scene, Mapping):
             scene = _dump(scene)
         data = scene.encode() if isinstance(scene, str) else bytes(scene)
         where = None if folder is None else os.fsencode(folder)
-        return cls._made(lib.hooke_scene_parse, data, len(data), name.encode(), where, limits_of(memory, outside))
+        return cls._made(lib.hooke_scene_parse, data, len(data), name.encode(), where, limits_of(memory, outside, set))
 
     # building
 
@@ -203,6 +207,9 @@ class Scene(Parts, Problem):
         """Writes the current scene, its system and `run_options`, as a scene file; see `System.save`."""
         write_scene(path, self._system, self.title, self.run_options)
 
+    def __reduce__(self) -> Any:
+        return Scene.parse, (self._system._written(self.title, self.run_options),)
+
     def __repr__(self) -> str:
         return f"Scene({self.title!r}, {self._system!r})"
 
@@ -262,9 +269,10 @@ class Scene(Parts, Problem):
         return particles[int(number)]
 
 
-def limits_of(memory: float | None, outside: bool) -> Handle:
+def limits_of(memory: float | None, outside: bool, values: Mapping[str, Any] | None = None) -> Handle:
     """Options of hooke_scene_load()."""
-    return Options.for_scene("limits").set(memory=memory, outside=outside)._handle
+    lines = "\n".join(f"{path}={_dump(value)}" for path, value in (values or {}).items())
+    return Options.for_scene("limits").set(memory=memory, outside=outside, set=lines or None)._handle
 
 
 def _require_rest(piece: dict[str, Any]) -> None:
@@ -285,5 +293,5 @@ def _keys(given: dict[str, Any], *others: str) -> dict[str, Any]:
     }
 
 
-def _dump(document: Mapping[str, Any]) -> str:
+def _dump(document: Any) -> str:
     return json.dumps(document, default=lambda value: value.tolist() if hasattr(value, "tolist") else list(value))

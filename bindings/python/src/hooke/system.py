@@ -13,7 +13,7 @@ from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, rows, text
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT
 from ._queries import Queries
-from ._status import BadValue
+from ._status import BadCall, BadValue, Unsuited
 from ._types import FloatArray, IntArray, Path
 from .options import Options
 from .problems import Problem
@@ -216,6 +216,46 @@ class System(Queries):
         lib.hooke_system_drive_callback(self._handle, *_numbered(particles), callback, None)
         self._callbacks.append(callback)
 
+    # copies
+
+    def _written(self, title: str = "", run: Options | None = None) -> str:
+        """The text of the scene that the committed system is to the bit; a TypeError says why there is none."""
+        if vars(self).get("_gone"):
+            raise TypeError(vars(self)["_gone"])
+        if vars(self).get("_kept") and not title and run is None:
+            return str(vars(self)["_kept"])
+        try:
+            given = self._committed(), title.encode(), run and run._handle, None, None
+            scene = Handle.made(None, lib.hooke_scene_of_system, *given)
+            copy = System._of_scene(scene).state()
+        except Unsuited as reason:
+            raise TypeError(f"a {type(self).__name__} with callbacks cannot be copied or pickled: {reason}") from None
+        if copy.x.tobytes() != self.state().x.tobytes():
+            raise TypeError("a System with particles after its parts cannot be copied or pickled: a scene numbers them first")
+        return text(lib.hooke_scene_text(scene, b"text"))
+
+    def __reduce__(self) -> Any:
+        gone = vars(self).get("_gone", "")
+        return System._recalled, ("" if gone else self._written(), gone)
+
+    @classmethod
+    def _recalled(cls, kept: str, gone: str = "") -> System:
+        """A system that is made of its text when it is used first, or then refuses for the reason `gone`."""
+        system = cls.__new__(cls)
+        vars(system).update(_kept=kept, _gone=gone)
+        return system
+
+    def __getattr__(self, name: str) -> Any:
+        kept, gone = vars(self).get("_kept"), vars(self).get("_gone")
+        if name not in ("_handle", "_commit", "_final", "_callbacks", "_shape") or kept is None:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        if gone:
+            raise BadCall(f"this system was not pickled with its result: {gone}")
+        data = kept.encode()
+        made = Handle.made(None, lib.hooke_scene_parse, data, len(data), b"pickle", None, None)
+        vars(self).update(vars(System._of_scene(made).commit()))
+        return vars(self)[name]
+
     def commit(self) -> System:
         """Checks the system as a whole and makes it constant; a second call is a BadCall. Returns the
         system."""
@@ -287,6 +327,16 @@ def particle_keys(position: Any, velocity: Any, mass: Any, gravity_factor: Any =
         if each.size:
             keys[key] = each.copy() if each.size != 1 else float(each[0])
     return keys
+
+
+def kept(problem: Problem) -> System:
+    """The problem as a pickled result has it, which refuses use if a pickle cannot hold it."""
+    try:
+        if isinstance(problem, System):
+            return System._recalled(problem._written())
+        return System._recalled("", f"it was {problem._what}")
+    except TypeError as reason:
+        return System._recalled("", str(reason))
 
 
 def posed(problem: Problem) -> System:

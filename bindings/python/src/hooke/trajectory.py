@@ -64,6 +64,10 @@ class Trajectory(Closing):
         self._kept: dict[Any, Any] = {}
         self._count: int = lib.hooke_record_count(self._handle, b"frames")
 
+    def __reduce__(self) -> Any:
+        assert self._handle  # which is a BadCall once it is closed
+        return type(self), (os.path.abspath(self.path),)
+
     def _keep(self, what: Any, read: Callable[[], K]) -> K:
         """What was read before, or is now."""
         if what not in self._kept:
