@@ -6,10 +6,11 @@
 
 #include <string.h>
 
-/* A pass computes every batch at every particle: with fewer springs than this fraction of that, other ways
- * are faster; and a system of few particles gains nothing. */
+/* A pass computes every batch at every particle, and to set a batch up costs as much as some particles: with
+ * fewer springs than this fraction of that, other ways are faster; and a system of few particles gains
+ * nothing. */
 static const double LEAST_FILLED = 0.3;
-enum { LEAST_PARTICLES = 64, MOST_WINDOW = 1 << 18 };
+enum { PARTICLES_A_SET_UP = 16, LEAST_PARTICLES = 64, MOST_WINDOW = 1 << 18 };
 
 /* Indices of three numbers a particle have 32 bits. */
 enum { MOST_PARTICLES = 1 << 30 };
@@ -95,8 +96,26 @@ static int add_spring(struct finder *finder, const struct hk_run *run, int64_t k
   return 1;
 }
 
+/* Batches that one pass sets up: at the first particle, and wherever one begins or ends, all that are there.
+ */
+static int64_t set_ups(const struct hk_strided_batches *strided) {
+  int64_t count = 0;
+  for (int64_t at = 0, next; at < INT64_MAX; at = next) {
+    next = INT64_MAX;
+    for (int32_t k = 0; k < strided->count; k++) {
+      const struct hk_strided_batch *batch = &strided->batch[k];
+      const int64_t begin = batch->first / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT,
+                    end = ((batch->last + batch->offset) / HOOKE_STRIDED_UNIT + 1) * HOOKE_STRIDED_UNIT;
+      count += begin <= at && at < end;
+      if (begin > at && begin < next) next = begin;
+      if (end > at && end < next) next = end;
+    }
+  }
+  return count;
+}
+
 static int pays(const struct hk_strided_batches *strided, int64_t springs) {
-  int64_t window = 0, reached = 0;
+  int64_t window = 0, reached = PARTICLES_A_SET_UP * set_ups(strided);
   for (int32_t k = 0; k < strided->count; k++) {
     window += strided->batch[k].offset;
     reached += strided->batch[k].last + strided->batch[k].offset - strided->batch[k].first;
