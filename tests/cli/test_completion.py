@@ -97,6 +97,7 @@ def test_options_of_every_verb_are_those_of_its_help(complete, words):
     assert complete([*words, "-"], [*words, "--js"]) == [wanted, {"--json"}]
 
 
+@pytest.mark.check
 def test_values_are_words_files_or_nothing(complete):
     methods = set(listed("methods"))
     rows = {(flag, *row): words for words in TAKERS for flag, row in flags_of(words).items()}  # each of several verbs once

@@ -253,6 +253,7 @@ def test_other_versions_make_no_difference_to_a_fixed_step(hooke, made):
     assert answer.code == 3 and "frame 7, particle 2, position y" in answer.err
 
 
+@pytest.mark.check
 def test_runs_that_ended_early(hooke, write):
     write(SIX_PARTICLES, method="forward-euler", step=0.1, duration=100, every=0.2)
     assert hooke("run", "scene.json", "-o", "out.h5", "--quiet").code == 4
