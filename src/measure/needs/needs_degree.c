@@ -236,7 +236,7 @@ static int32_t run_degree(struct hk_needs *needs, struct hk_needs_degree *degree
     status = climb(needs, degree);
   }
   if (degree->factor == 1.0) degree->step_limit = needs->full.step_limit;
-  degree->work = needs->full.unlimited ? 1.0 : needs->full.step_limit / degree->step_limit;
+  degree->work = needs->full.unlimited != 0.0 ? 1.0 : needs->full.step_limit / degree->step_limit;
   degree->tried = status == HOOKE_OK;
   return status;
 }
