@@ -59,6 +59,7 @@ def test_refuses_with_the_place_and_the_nearest_name(hooke, write, value, told):
     assert answer.code == 3 and told in answer.err, answer.err
 
 
+@pytest.mark.everything
 def test_a_file_and_a_command_have_the_values(hooke, write, tmp_path):
     scene, out = write({**SCENE, "run": {**SCENE["run"], "step": 0.1}}), str(tmp_path / "out.h5")
     words = ["--set", "run.duration=0.01", "--set", 'title=a "b"', "--set", "run.step=1ms"]

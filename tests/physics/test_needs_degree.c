@@ -70,13 +70,15 @@ TEST(a_stiff_spring_may_be_as_soft_as_an_independent_run_says_and_the_lean_scene
   check_close(hooke_measurement_number(needs, "degrees", degree_of(needs, "soft.stiffness"), "factor"), 1.0,
               0.0);
 
-  /* the lean scene */
+  /* the lean scene, softened by the mode that limits it */
+#if HOOKE_HAVE_LAPACK
   assert_int_equal(hooke_measurement_row_count(needs, "changed"), 1);
   assert_string_equal(hooke_measurement_text(needs, "changed", 0, "quantity"), "stiff.stiffness");
   check_between(hooke_measurement_number(needs, "changed", 0, "factor"), 1.0 / 224.0, 0.1);
   check_between(hooke_measurement_number(needs, "lean", 0, "error"), 1e-4, WANT);
   check_between(hooke_measurement_number(needs, "lean", 0, "steps"), 100.0,
                 0.3 * hooke_measurement_number(needs, "cheapest", 0, "steps"));
+#endif
 }
 
 TEST(what_is_kept_is_neither_left_out_nor_changed) {
