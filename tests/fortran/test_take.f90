@@ -8,10 +8,9 @@ program test_take
   type(hooke_state) :: state
   type(hooke_options) :: run
   type(hooke_integrator) :: integrator, late
-  real(hooke_real), allocatable :: q(:, :), v(:, :), whole(:, :), forces(:, :)
+  real(hooke_real) :: q(3, 25), v(3, 25), whole(3, 25), forces(3, 15)
   integer :: k, status
   call make_cloth(system)
-  allocate (q(3, 25), v(3, 25), whole(3, 25), forces(3, 15))
   q = reshape([(sin(0.7_hooke_real*k), k=1, 75)], [3, 25])
   v = reshape([(cos(1.3_hooke_real*k), k=1, 75)], [3, 25])
   call system%take_particles([(k, k=1, 15)], part)
