@@ -22,8 +22,8 @@ typedef struct hooke_scene hooke_scene;
  * `limits` are options "limits": "memory" is the maximum memory [GB] that the scene may need, by default the
  * machine's memory or its limit on the address space; "outside" 1 lets the scene name files anywhere;
  * "set" changes the text before it is read, by lines PATH=VALUE (docs/scene.md), and is refused for a
- * trajectory. NULL: the defaults, which are safe for scenes from any source. The message of HOOKE_NO_MEMORY says how much
- * memory too large a scene would need; it is returned before anything is allocated. */
+ * trajectory. NULL: the defaults, which are safe for scenes from any source. The message of HOOKE_NO_MEMORY
+ * says how much memory too large a scene would need; it is returned before anything is allocated. */
 HOOKE_API int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene);
 
 /* The same from `length` bytes of text; `name` replaces the file name in messages (NULL: "scene"), `folder`

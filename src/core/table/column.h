@@ -69,6 +69,7 @@ struct hk_table {
   const char *value;  /* column whose value alone is a row; NULL: a row is an object of all */
   const char *lists[HOOKE_LISTS][HOOKE_LIST_SIZE]; /* arrays of a row: the name, and its columns */
   int32_t series_in_json;                          /* 1: as arrays of numbers; 0: they are left out */
+  int32_t empty_in_json;                           /* 1: without rows it is there, too, inside of another */
   const struct hk_column *columns;
   int32_t column_count;
   int64_t (*count)(const void *object); /* of rows; NULL: the member below, or 1 */

@@ -115,7 +115,7 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
     if (!is_named(other->inside, table->name)) continue;
     if (is_named(other->key, "quantities"))
       add_quantities(text, m, other);
-    else if (other->record || hk_measured_rows(m, other) > 0 || is_named(other->name, "changed"))
+    else if (other->record || hk_measured_rows(m, other) > 0 || other->empty_in_json)
       add_table(text, m, key_of(other), other, row);
   }
 }

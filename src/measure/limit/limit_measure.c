@@ -42,8 +42,9 @@ static const double CERTAIN = 0.05;
 static const double CERTAIN_RISE = 3.0, CERTAIN_IF_CONVEX = 0.1;
 
 /* 1 if a run at `step`, or at one as far above the limit, grows by so much in its steps, as eigenvalues have
- * it. Without them it may. */
+ * it. Without them, or where they limit nothing, it may. */
 static int is_seen(const struct trial *trial, double step) {
+  if (isinf(trial->predicted)) return 1;
   const double mirrored = trial->predicted * trial->predicted / step, h = fmax(step, mirrored);
   double growth = trial->limit->mode_count > 0 ? 0.0 : INFINITY;
   for (int64_t k = 0; k < trial->limit->mode_count; k++) {
@@ -152,7 +153,8 @@ static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int
   return status;
 }
 
-static int32_t measure(struct trial *trial, double predicted, struct hk_measured_limit *out) {
+static int32_t measure(struct trial *trial, struct hk_measured_limit *out) {
+  const double predicted = trial->predicted;
   const double slow_step = trial->growth->twin->lin.slow_step;
   struct hk_bracket bracket = {.try_step = try_frozen,
                                .ctx = trial,
@@ -226,7 +228,7 @@ int32_t hk_limit_measure(const struct hk_limit *limit, const struct hk_limit_row
                           .degree = slow ? stability->degree : 1};
     trial.most_steps = steps_for(&trial);
     choose_accuracy(&trial);
-    status = measure(&trial, predicted, out);
+    status = measure(&trial, out);
     out->steps_run = growth.steps_run;
     find_note(&trial, out);
     hk_growth_release(&growth);

@@ -152,6 +152,7 @@ const struct hk_table hk_needs_tables[] = {
          COST_COLUMNS(struct hk_needs, cheapest))},
     {.name = "changed",
      .inside = "lean",
+     .empty_in_json = 1,
      .doc = "numbers that the lean system has changed",
      .count = count_changed,
      HOOKE_TABLE_COLUMNS(

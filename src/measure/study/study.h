@@ -111,6 +111,8 @@ int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method);
 double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k);
 /* Finds the safe step of each method. */
 int32_t hk_study_find_safe_steps(struct hk_study *study);
+/* The option by which the caller has chosen the values of ladders; NULL: none. */
+const char *hk_study_chosen_ladder(const struct hk_study *study);
 /* Finds `unit` and checks the caller's ladders. */
 int32_t hk_study_check_ladder(struct hk_study *study);
 

@@ -115,12 +115,17 @@ static int32_t check_steps(const struct hk_study *study) {
   return HOOKE_OK;
 }
 
-static int32_t refuse_ladder(const struct hk_study *study) {
+const char *hk_study_chosen_ladder(const struct hk_study *study) {
   static const char *const of_ladders[] = {"points", "steps", "tolerances"};
   for (int k = 0; k < 3; k++)
-    if (hooke_options_is_set(study->m->options, of_ladders[k]))
-      return hk_fail(HOOKE_BAD_VALUE, of_ladders[k], "is not for `once`, which takes the step of the run");
-  return HOOKE_OK;
+    if (hooke_options_is_set(study->m->options, of_ladders[k])) return of_ladders[k];
+  return NULL;
+}
+
+static int32_t refuse_ladder(const struct hk_study *study) {
+  const char *chosen = hk_study_chosen_ladder(study);
+  if (chosen == NULL) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, chosen, "is not for `once`, which takes the step of the run");
 }
 
 int32_t hk_study_check_ladder(struct hk_study *study) {

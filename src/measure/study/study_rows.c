@@ -139,11 +139,9 @@ static struct cost predict(const struct hk_study *study, int32_t method, double 
 /* The least counted work of a row that meets the want [s]; infinity without one, or where the caller has
  * chosen the rows. */
 static double least_work(const struct hk_study *study) {
-  static const char *const chosen[] = {"points", "steps", "tolerances"};
   const double want = hooke_options_number(study->m->options, "want");
   double least = INFINITY;
-  for (size_t k = 0; k < sizeof chosen / sizeof chosen[0]; k++)
-    if (hooke_options_is_set(study->m->options, chosen[k])) return INFINITY;
+  if (hk_study_chosen_ladder(study)) return INFINITY;
   for (int64_t k = 0; k < study->row_count; k++) {
     const struct hk_trial *trial = &study->row[k].trial;
     if (trial->error_max <= want && strcmp(trial->status, "finished") == 0) least = fmin(least, trial->work);
