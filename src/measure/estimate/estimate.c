@@ -30,8 +30,9 @@ static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
 static const double SHORT = 2.0, MOST_RUNS = 10.0; /* most work of a refined run [s], or times the first */
 
 static const struct hk_option_row rows[] = {
-    HOOKE_OPTION("want", HOOKE_OPTION_POSITIVE("m"), NULL,
-                 "error that no free particle may exceed at any frame; only estimates if not given"),
+    HOOKE_OPTION(
+        "want", HOOKE_OPTION_WANT, NULL,
+        "error that no free particle may exceed at any frame; only estimates if not given" HOOKE_WANT_FORMS),
     HOOKE_OPTION("callbacks", .type = HOOKE_OPTION_FLAG, "false",
                  "repeats runs for the estimate even if they call callbacks of forces or drives"),
     HOOKE_OPTION(
@@ -43,10 +44,21 @@ static const struct hk_option_row rows[] = {
 
 static const struct hk_option_table options = {"estimate", HOOKE_OPTION_ROWS(rows)};
 
+void hk_estimate_forget(struct hk_estimate *e, const char *reason) {
+  for (int32_t n = 0; n < HOOKE_KNOWN; n++)
+    e->known[n] = (struct hk_known){.error = NAN, .order = NAN};
+  e->rms = e->known_until = NAN;
+  hk_estimate_say(e, reason);
+}
+
+void hk_estimate_say(struct hk_estimate *e, const char *reason) {
+  for (int32_t n = 0; n < HOOKE_KNOWN; n++)
+    hk_print(e->known[n].reason, sizeof e->known[n].reason, "%s", reason);
+}
+
 static void clear(struct hk_estimate *e) {
-  e->error = e->rms = e->known_until = e->order = e->last_error = e->last_from = NAN;
-  e->by = NULL;
-  e->reason[0] = '\0';
+  e->last_error = e->last_from = NAN;
+  hk_estimate_forget(e, "");
 }
 
 static int32_t create(hooke_measurement *m) {
@@ -54,14 +66,14 @@ static int32_t create(hooke_measurement *m) {
   if (e == NULL) return HOOKE_NO_MEMORY;
   e->measurement = m;
   e->system = m->system;
-  e->want = hooke_options_number(m->options, "want");
   e->callbacks = hooke_options_number(m->options, "callbacks") != 0.0;
   e->only_watches = hooke_options_number(m->options, "error") == 0.0;
   e->watched.system = m->system;
   e->first = e->rise = e->heat_excess = NAN;
   clear(e);
   const char *watch = hooke_options_text(m->options, "watch");
-  return watch[0] ? hk_watched_read(&e->watched, "watch", watch) : HOOKE_OK;
+  const int32_t status = watch[0] ? hk_watched_read(&e->watched, "watch", watch) : HOOKE_OK;
+  return status == HOOKE_OK ? hk_wants_read(&e->wants, &e->watched, m->options) : status;
 }
 
 static void forget_run(struct hk_estimate *e) {
@@ -88,11 +100,11 @@ static void destroy(void *object) {
 
 /* ---- picking ---- */
 
-/* Picks for the error `want` of the whole run, and sets the result in `run`. */
-static int32_t pick(struct hk_estimate *e, double want, hooke_options *run) {
+/* Picks for what is wanted of the whole run, and sets the result in `run`. */
+static int32_t pick(struct hk_estimate *e, hooke_options *run) {
   hk_pick_release(&e->pick);
   const double begun = hk_clock_seconds();
-  int32_t status = hk_pick_run(&e->pick, e->system, run, want, e->only != NULL, &e->only,
+  int32_t status = hk_pick_run(&e->pick, e->system, run, &e->wants, e->wants.most, e->only != NULL, &e->only,
                                e->measurement->progress, e->measurement->progress_ctx);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
@@ -110,13 +122,13 @@ int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_opti
   const struct hk_method *only = NULL;
   if (status == HOOKE_OK) status = hk_run_options_require(run, "run");
   if (status != HOOKE_OK) return status;
-  if (isnan(e->want)) return hk_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
+  if (e->wants.count == 0) return hk_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
   if (method && (status = hk_method_take(method, &only)) != HOOKE_OK) return status;
   e->only = only ? only->name : NULL;
   e->refined = 0;
   e->first = NAN;
   e->before = INFINITY;
-  return pick(e, e->want, run);
+  return pick(e, run);
 }
 
 /* ---- watching the run ---- */
@@ -139,7 +151,7 @@ static int is_whole_reference(const struct hk_estimate *e) {
 
 /* No limit is needed: the method has none, nothing is wanted, or the pick examined the same frames. */
 static int is_checked(const struct hk_estimate *e, const hooke_integrator *it) {
-  return it->method->adaptive || isnan(e->want) || (e->picked && is_whole_reference(e));
+  return it->method->adaptive || e->wants.count == 0 || (e->picked && is_whole_reference(e));
 }
 
 static int32_t refuse_system(void) {
@@ -171,6 +183,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   if (status != HOOKE_OK || e->only_watches) return status;
   choose_kept(e, it, &count);
   status = hk_frames_create(e->system, count, &e->kept);
+  if (status == HOOKE_OK) status = hk_frames_watch(&e->kept, e->wants.list, &e->wants);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status != HOOKE_OK) return status;
@@ -239,52 +252,77 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 
 /* 1 if nobody can know that the want is met. */
 static int is_out_of_reach(const struct hk_estimate *e) {
-  return is_whole_reference(e) && !(e->pick.reference.agreement < e->want);
+  return is_whole_reference(e) && !(e->pick.reference.wanted_agreement < e->wants.most);
 }
 
 /* Distances of the kept frames from trusted ones of the reference at the same times; returns how many there
  * are. */
-static int64_t compare(const struct hk_estimate *e, double *most, double *rms) {
+static int64_t compare(const struct hk_estimate *e, struct hk_distance *from) {
   const struct hk_reference *r = &e->pick.reference;
   const double *time = r->frames.time, *kept = e->kept.time, near = 1e-9 * e->duration;
   int64_t count = 0;
-  *most = *rms = 0.0;
+  *from = (struct hk_distance){.rms = 0.0};
   for (int64_t f = 0, k = 0; f < e->kept.recorded; f++) {
     double far;
     while (k < r->trusted && time[k] - time[0] < kept[f] - kept[0] - near)
       k++;
     if (k == r->trusted) break;
     if (time[k] - time[0] > kept[f] - kept[0] + near) continue;
-    *rms = fmax(*rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
-    *most = fmax(*most, far);
+    from->rms = fmax(from->rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
+    from->of[0] = fmax(from->of[0], far);
+    for (int32_t n = 0; n < e->wants.count; n++) {
+      const double way = hk_want_difference(&e->wants, n, &e->kept.watched, f, &r->frames.watched, k, far);
+      if (!(way <= from->of[1 + n])) from->of[1 + n] = way;
+    }
     count++;
   }
   return count;
+}
+
+static double agreement(const struct hk_estimate *e, int32_t n) {
+  const struct hk_reference *r = &e->pick.reference;
+  return n == 0 ? r->agreement : r->wanted_agreement * (e->bound[n - 1] / e->wants.most);
+}
+
+/* The pick saw other frames, and a displaced start: its error is that of the want that is the farthest off.
+ */
+static void raise_worst(struct hk_estimate *e, double error) {
+  int32_t n = 0, worst = 1;
+  for (n = 2; n <= e->wants.count; n++)
+    if (e->known[n].error / e->bound[n - 1] > e->known[worst].error / e->bound[worst - 1]) worst = n;
+  error *= e->bound[worst - 1] / e->wants.most;
+  if (error > e->known[worst].error) e->known[worst].error = error;
+  if (e->wants.want[worst - 1].width == 0 && error > e->known[0].error) e->known[0].error = error;
 }
 
 /* The picked run was compared with the reference at frames of the pick; 0 of another one that has few of
  * them. */
 static int measure_by_reference(struct hk_estimate *e) {
   const struct hk_reference *r = &e->pick.reference;
-  double most, rms;
-  const int64_t count = compare(e, &most, &rms);
+  struct hk_distance from;
+  char reason[sizeof e->known->reason];
+  const int64_t count = compare(e, &from);
   if (!e->picked && count < LEAST_COMPARED && count < e->kept.recorded) return 0;
   if (r->trusted > 1) {
-    if (e->picked) most = fmax(most, e->pick.best.error), rms = fmax(rms, e->pick.best.rms);
-    e->error = most + r->agreement;
-    e->rms = fmin(e->error, rms + r->agreement);
+    for (int32_t n = 0; n <= e->wants.count; n++)
+      hk_estimate_know(e, n, from.of[n] + agreement(e, n), "reference");
+    if (e->picked)
+      raise_worst(e, e->pick.best.error + r->wanted_agreement), from.rms = fmax(from.rms, e->pick.best.rms);
+    e->rms = fmin(e->known->error, from.rms + r->agreement);
     e->known_until = e->begin + hk_pick_trusted(&e->pick);
-    e->by = "reference";
   }
-  if (is_out_of_reach(e))
-    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g%s alone", r->agreement,
-             hk_metres(e->system));
+  if (is_out_of_reach(e)) {
+    hk_print(reason, sizeof reason, "the reference itself is known to %.3g%s alone", r->wanted_agreement,
+             hk_wants_unit(&e->wants, e->system));
+    hk_estimate_say(e, reason);
+  }
   if (r->trusted == r->frames.count) return 1;
-  hk_print(e->reason, sizeof e->reason,
+  hk_print(reason, sizeof reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
            r->hurried ? ", for want of time"
                       : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
+  hk_estimate_say(e, reason);
   return 1;
 }
 
@@ -305,32 +343,30 @@ static const char *find_obstacle(const struct hk_estimate *e, const hooke_state 
 static int32_t measure_again(struct hk_estimate *e) {
   if (is_whole_reference(e) && measure_by_reference(e)) return HOOKE_OK;
   int32_t status = hk_estimate_by_runs(e);
-  if (status == HOOKE_OK && !isnan(e->error)) status = hk_estimate_by_other_method(e);
+  if (status == HOOKE_OK && !isnan(e->known->error)) status = hk_estimate_by_other_method(e);
   /* a pick from the beginning alone: its error is over more frames */
-  if (e->picked && e->pick.met && e->pick.best.error > e->error) e->error = e->pick.best.error;
-  if (status == HOOKE_OK && isnan(e->error)) status = hk_estimate_last_slice(e);
+  if (e->picked && e->pick.met) raise_worst(e, e->pick.best.error);
+  if (status == HOOKE_OK && isnan(e->known->error)) status = hk_estimate_last_slice(e);
   return status;
 }
 
 static void explain_want(struct hk_estimate *e) {
-  if (!isnan(e->want) && !hk_soundness_holds(&e->soundness))
-    hk_print(e->reason, sizeof e->reason,
-             isinf(e->soundness.least_limit) ? "its energy grows by itself"
-                                             : "its step is above 0.9 of the stable one");
-  else if (e->soundness.unknown_limit && !e->reason[0])
-    hk_print(e->reason, sizeof e->reason, "the stable step of its rigid bodies is not known at all times");
+  if (e->wants.count > 0 && !hk_soundness_holds(&e->soundness))
+    hk_estimate_say(e, isinf(e->soundness.least_limit) ? "its energy grows by itself"
+                                                       : "its step is above 0.9 of the stable one");
+  else if (e->soundness.unknown_limit && !e->known->reason[0])
+    hk_estimate_say(e, "the stable step of its rigid bodies is not known at all times");
 }
 
 static void forget_overflow(struct hk_estimate *e) {
-  if (!isinf(e->error + e->rms)) return;
+  if (!isinf(e->known->error + e->rms)) return;
   clear(e);
-  hk_print(e->reason, sizeof e->reason, "distances are beyond the range of numbers");
+  hk_estimate_say(e, "distances are beyond the range of numbers");
 }
 
 static void give_up(struct hk_estimate *e, int32_t status) {
   clear(e);
-  hk_print(e->reason, sizeof e->reason,
-           status == HOOKE_STOPPED ? "interrupted" : "memory was too short to find it out");
+  hk_estimate_say(e, status == HOOKE_STOPPED ? "interrupted" : "memory was too short to find it out");
 }
 
 static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
@@ -342,10 +378,11 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
   if (isnan(e->first)) e->first = e->work;
   const char *obstacle = find_obstacle(e, state);
   if (obstacle) {
-    hk_print(e->reason, sizeof e->reason, "%s", obstacle);
+    hk_estimate_say(e, obstacle);
     return HOOKE_OK;
   }
   const double begun = hk_clock_seconds();
+  hk_wants_bounds(&e->wants, &e->kept.watched, e->kept.recorded, e->bound);
   status = measure_again(e);
   forget_overflow(e);
   if (status == HOOKE_OK)
@@ -382,19 +419,41 @@ int32_t hk_estimate_saw_all(const struct hk_estimate *e) {
          fabs(e->course.until - e->begin - e->duration) <= near;
 }
 
-double hk_estimate_met(const struct hk_estimate *e) {
-  if (isnan(e->want)) return NAN;
-  if (is_out_of_reach(e) && e->error - 2.0 * e->pick.reference.agreement <= e->want) return NAN;
-  if (e->error > e->want || (!isnan(e->error) && !hk_soundness_holds(&e->soundness))) return 0.0;
+double hk_estimate_meets(const struct hk_estimate *e, int32_t want) {
+  const double error = e->known[1 + want].error, bound = e->bound[want];
+  if (is_out_of_reach(e) && error - 2.0 * agreement(e, 1 + want) <= bound) return NAN;
+  if (error > bound || (!isnan(error) && !hk_soundness_holds(&e->soundness))) return 0.0;
   if (e->soundness.unknown_limit) return NAN;
-  return e->error <= e->want && hk_estimate_knows_all(e) ? 1.0 : NAN;
+  return error <= bound && hk_estimate_knows_all(e) ? 1.0 : NAN;
+}
+
+double hk_estimate_met(const struct hk_estimate *e) {
+  double met = e->wants.count > 0 ? 1.0 : NAN;
+  for (int32_t k = 0; k < e->wants.count && met != 0.0; k++) {
+    const double one = hk_estimate_meets(e, k);
+    if (!(one == 1.0)) met = one;
+  }
+  return met;
+}
+
+/* The largest error over bound, and the order of that error. */
+static double find_worst(const struct hk_estimate *e, double *order) {
+  double most = 0.0;
+  *order = 1.0;
+  for (int32_t k = 0; k < e->wants.count; k++) {
+    const struct hk_known *known = &e->known[1 + k];
+    if (!(known->error / e->bound[k] > most)) continue;
+    most = known->error / e->bound[k];
+    *order = isnan(known->order) ? 1.0 : known->order;
+  }
+  return most;
 }
 
 /* Next finer step or tolerance of the same method. */
 static double finer(const struct hk_estimate *e) {
-  const double value = hk_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
-  double factor = pow(AIM * e->want / e->error, 1.0 / order);
-  factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
+  double order;
+  const double value = hk_estimate_value(e->options), worst = find_worst(e, &order);
+  const double factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, pow(AIM / worst, 1.0 / order)));
   return fmin(value * factor, hk_soundness_limit_share * e->soundness.least_limit);
 }
 
@@ -415,13 +474,15 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
   struct hk_estimate *e = m->object;
   int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_refine");
   if (status != HOOKE_OK) return status;
+  double order;
+  const double worst = find_worst(e, &order);
   const int32_t known = e->options != NULL && !is_out_of_reach(e) && !isnan(hk_estimate_met(e)) &&
-                        e->error <= LEAST_GAIN * e->before;
+                        worst <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
-    return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->reason);
+    return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->known->reason);
   status = set_finer(e, run);
   e->refined++;
-  e->before = e->error;
+  e->before = worst;
   e->picked = 0;
   return status;
 }

@@ -8,20 +8,36 @@
 #include "measure/recommend/soundness.h"
 #include "measure/measurement.h"
 
+/* All free particles come first, what is wanted after them. */
+enum { HOOKE_KNOWN = 1 + HOOKE_WANTS };
+
+/* Distances of a run from this one over frames, each in its unit, and the root mean square over free
+ * particles [m]. NaN if it did not finish. */
+struct hk_distance {
+  double of[HOOKE_KNOWN], rms;
+};
+
+struct hk_known {
+  double error, order; /* the order of the error in the step or tolerance */
+  const char *by;      /* NULL: it is not known */
+  char reason[256];
+};
+
 struct hk_estimate {
   const hooke_measurement *measurement;
   const hooke_system *system;
-  double want;         /* [m], NaN: none */
-  int32_t callbacks;   /* 1: runs are repeated even if callbacks take part */
-  struct hk_pick pick; /* with a system, after its run */
-  int32_t picked;      /* 1: the next run is the picked one, not a refined one */
-  const char *only;    /* the only method allowed; NULL: any */
-  double first;        /* counted work of the first run [s] */
-  double before;       /* error before refinement [m]; infinity at first */
-  int32_t refined;     /* number of refinements */
+  struct hk_wants wants;
+  double bound[HOOKE_WANTS]; /* of these, by the largest values of the run */
+  int32_t callbacks;         /* 1: runs are repeated even if callbacks take part */
+  struct hk_pick pick;       /* with a system, after its run */
+  int32_t picked;            /* 1: the next run is the picked one, not a refined one */
+  const char *only;          /* the only method allowed; NULL: any */
+  double first;              /* counted work of the first run [s] */
+  double before;             /* largest error over its bound before refinement; infinity at first */
+  int32_t refined;           /* number of refinements */
 
-  struct hk_watched_list watched;
-  int32_t only_watches; /* 1: it is not asked for the error */
+  struct hk_watched_list watched; /* and what is wanted */
+  int32_t only_watches;           /* 1: it is not asked for the error */
 
   /* the run */
   hooke_options *options;             /* copy of the integrator's */
@@ -40,12 +56,12 @@ struct hk_estimate {
   double late_after; /* its earliest time [s]; NaN once recorded */
 
   /* results */
-  double error, rms, known_until, order; /* the order of the error in the step or tolerance */
-  const char *by;
+  struct hk_known known[HOOKE_KNOWN];
+  double rms, known_until;
   double last_error, last_from; /* what the last piece of the run made; NaN: not measured */
   double rise, heat_excess, spent;
   double left; /* counted work that other runs may still take [s] */
-  char reason[256], reversal[160];
+  char reversal[160];
 };
 
 extern const struct hk_measurement_kind hk_estimate_kind;
@@ -56,8 +72,15 @@ void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *c
 
 /* 1 if its error is known to the end of the run. */
 int32_t hk_estimate_knows_all(const struct hk_estimate *estimate);
-/* 1 if the run meets the wanted error, 0 if not, NaN if that is unknown or none is wanted. */
+/* 1 if the run meets what is wanted, 0 if not, NaN if that is unknown or nothing is wanted; and of one want.
+ */
 double hk_estimate_met(const struct hk_estimate *estimate);
+double hk_estimate_meets(const struct hk_estimate *estimate, int32_t want);
+/* Nothing is known any more, for this reason; and the reason alone. */
+void hk_estimate_forget(struct hk_estimate *estimate, const char *reason);
+void hk_estimate_say(struct hk_estimate *estimate, const char *reason);
+/* An error is known, by one of the column "by", beside what is not known of the value itself. */
+void hk_estimate_know(struct hk_estimate *estimate, int32_t number, double error, const char *by);
 
 /* 1 if extremes of what is watched are over the whole run. */
 int32_t hk_estimate_saw_all(const struct hk_estimate *estimate);
@@ -104,11 +127,6 @@ int32_t hk_estimate_by_other_method(struct hk_estimate *estimate);
  * there was no time for a slice. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_estimate_heat(struct hk_estimate *estimate);
 
-/* Distances of a run from this one over frames [m]: of the farthest free particle, and root mean square. NaN
- * if it did not finish. */
-struct hk_distance {
-  double most, rms;
-};
 /* Runs, within the work that is left, and compares the first `frames` of the kept ones. */
 int32_t hk_estimate_compare(struct hk_estimate *estimate, const struct hk_rerun *rerun, int64_t frames,
                             struct hk_distance *distance);

@@ -61,12 +61,10 @@ static int32_t judge_whole(struct hk_estimate *e, int32_t *judged) {
   if (isnan(step)) return status;
   const struct hk_rerun rerun = {judge, step, e->duration, e->apart, OTHER, 0.7, 0.3, NULL, NULL, NULL};
   status = hk_estimate_compare(e, &rerun, e->kept.count, &from);
-  *judged = !isnan(from.most);
-  if (from.most > e->error) {
-    e->error = from.most;
-    e->rms = fmax(e->rms, from.rms);
-    e->by = "other-method";
-  }
+  *judged = !isnan(from.of[0]);
+  if (from.of[0] > e->known->error) e->rms = fmax(e->rms, from.rms);
+  for (int32_t n = 0; n <= e->wants.count; n++)
+    if (from.of[n] > e->known[n].error) hk_estimate_know(e, n, from.of[n], "other-method");
   return status;
 }
 
@@ -94,9 +92,9 @@ static int32_t find_first_value(const struct hk_estimate *e, const char *judge, 
 }
 
 static void contradict(struct hk_estimate *e, const char *judge) {
-  hk_print(e->reason, sizeof e->reason, "another method, %s, says otherwise", judge);
-  e->error = e->rms = e->known_until = NAN;
-  e->by = NULL;
+  char reason[sizeof e->known->reason];
+  hk_print(reason, sizeof reason, "another method, %s, says otherwise", judge);
+  hk_estimate_forget(e, reason);
 }
 
 /* The other method is refined until it is close enough. It contradicts if it does not come closer. */
@@ -111,9 +109,9 @@ static int32_t judge_beginning(struct hk_estimate *e) {
     const struct hk_rerun rerun = {judge, value, duration, fmin(e->apart, duration), OTHER, 0.7, 0.1,
                                    NULL,  NULL,  NULL};
     status = hk_estimate_compare(e, &rerun, frames, &from);
-    if (status != HOOKE_OK || isnan(from.most) || from.most <= APART * e->error) break;
-    if (k == 0) first = from.most;
-    if (k == HALVINGS && from.most > 0.5 * first) contradict(e, judge);
+    if (status != HOOKE_OK || isnan(from.of[0]) || from.of[0] <= APART * e->known->error) break;
+    if (k == 0) first = from.of[0];
+    if (k == HALVINGS && from.of[0] > 0.5 * first) contradict(e, judge);
     value *= hooke_method_is_adaptive(judge) ? TIGHTER : 0.5;
   }
   return status;

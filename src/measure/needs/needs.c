@@ -4,7 +4,6 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "measure/quantity/watched.h"
 #include "measure/recommend/pick.h"
 
 #include <math.h>
@@ -12,8 +11,10 @@
 #include <string.h>
 
 static const struct hk_option_row needs_rows[] = {
-    HOOKE_OPTION("want", HOOKE_OPTION_POSITIVE("m"), NULL,
-                 "error that one can live with, the largest distance of any watched particle", .required = 1),
+    HOOKE_OPTION(
+        "want", HOOKE_OPTION_WANT, NULL,
+        "error that one can live with, the largest distance of any watched particle" HOOKE_WANT_FORMS,
+        .required = 1),
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
                  "what is looked at: a part, a group, or particle "
                  "numbers or names such as 0,7-9,tip; all free particles if not given"),
@@ -34,6 +35,10 @@ static int32_t read_times(struct hk_needs *needs) {
   const int32_t status = hk_step_times(needs->m->run, &needs->duration, &needs->every);
   if (status != HOOKE_OK) return status;
   needs->judged = needs->frame_count = hk_schedule_frames(needs->duration, needs->every);
+  needs->path_time = hk_new(needs->frame_count, sizeof(double));
+  if (needs->path_time == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t f = 0; f < needs->frame_count; f++)
+    needs->path_time[f] = hk_needs_time(needs, f);
   return hk_step_unit(needs->duration, needs->every, &needs->unit);
 }
 
@@ -117,8 +122,10 @@ static int32_t read_keep(struct hk_needs *needs) {
 static int32_t prepare(struct hk_needs *needs) {
   int32_t status = hk_options_check_required(needs->m->options);
   if (status != HOOKE_OK) return status;
-  needs->want = hooke_options_number(needs->m->options, "want");
-  status = read_times(needs);
+  needs->watched.system = needs->m->system;
+  status = hk_wants_read(&needs->wants, &needs->watched, needs->m->options);
+  needs->want = needs->wants.most;
+  if (status == HOOKE_OK) status = read_times(needs);
   if (status == HOOKE_OK) status = read_method(needs);
   if (status == HOOKE_OK) status = read_watch(needs);
   if (status == HOOKE_OK) status = read_keep(needs);
@@ -143,6 +150,8 @@ static void destroy(void *object) {
   hk_free(needs->row);
   hk_free(needs->part);
   hk_free(needs->watch);
+  hk_free(needs->path_time);
+  hk_watched_release(&needs->watched);
   hk_free(needs->kept);
   hk_free(needs->largest_force);
   hk_free(needs);

@@ -50,12 +50,12 @@ struct hk_watched_word {
 };
 
 struct hk_watched {
-  char *text; /* as it was written */
-  const struct hk_watched_word *what;
-  int32_t is_period;              /* of the quantity inside */
-  int64_t particle;               /* of a coordinate or a reaction */
-  const struct hk_course *course; /* of the drive of a particle with a reaction; NULL: none */
-  int64_t spring;                 /* its number: of a length, strain or tension */
+  char *text;                         /* as it was written */
+  const struct hk_watched_word *what; /* NULL: it is not there, and its value is NaN */
+  int32_t is_period;                  /* of the quantity inside */
+  int64_t particle;                   /* of a coordinate or a reaction */
+  const struct hk_course *course;     /* of the drive of a particle with a reaction; NULL: none */
+  int64_t spring;                     /* its number: of a length, strain or tension */
   const char *group; /* or its largest or smallest over the groups of that name; NULL: of the spring */
   int32_t smallest;
 };
@@ -107,9 +107,10 @@ double hk_watched_period(int64_t count, const double *time, const double *value)
 struct hk_watched_series {
   const struct hk_watched_list *list; /* NULL: nothing is watched */
   int64_t frames;
-  double *value;  /* one quantity after another, `frames` each; NaN where missing */
-  double *figure; /* by quantity: difference from another run */
-  double *now;    /* by quantity: of one frame */
+  const double *time; /* of the frames, where it is given */
+  double *value;      /* one quantity after another, `frames` each; NaN where missing */
+  double *figure;     /* by quantity: difference from another run */
+  double *now;        /* by quantity: of one frame */
 };
 
 /* Allocates space for so many frames, all NaN. HOOKE_NO_MEMORY. */
