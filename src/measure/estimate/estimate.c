@@ -44,21 +44,12 @@ static const struct hk_option_row rows[] = {
 
 static const struct hk_option_table options = {"estimate", HOOKE_OPTION_ROWS(rows)};
 
-void hk_estimate_forget(struct hk_estimate *e, const char *reason) {
-  for (int32_t n = 0; n < HOOKE_KNOWN; n++)
-    e->known[n] = (struct hk_known){.error = NAN, .order = NAN};
-  e->rms = e->known_until = NAN;
-  hk_estimate_say(e, reason);
-}
-
-void hk_estimate_say(struct hk_estimate *e, const char *reason) {
-  for (int32_t n = 0; n < HOOKE_KNOWN; n++)
-    hk_print(e->known[n].reason, sizeof e->known[n].reason, "%s", reason);
-}
-
 static void clear(struct hk_estimate *e) {
-  e->last_error = e->last_from = NAN;
-  hk_estimate_forget(e, "");
+  e->rms = e->known_until = e->last_error = e->last_from = NAN;
+  for (int32_t n = 0; n < HOOKE_ERRORS; n++)
+    e->error[n] = e->order[n] = NAN;
+  e->by = NULL;
+  e->reason[0] = '\0';
 }
 
 static int32_t create(hooke_measurement *m) {
@@ -269,11 +260,7 @@ static int64_t compare(const struct hk_estimate *e, struct hk_distance *from) {
     if (k == r->trusted) break;
     if (time[k] - time[0] > kept[f] - kept[0] + near) continue;
     from->rms = fmax(from->rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
-    from->of[0] = fmax(from->of[0], far);
-    for (int32_t n = 0; n < e->wants.count; n++) {
-      const double way = hk_want_difference(&e->wants, n, &e->kept.watched, f, &r->frames.watched, k, far);
-      if (!(way <= from->of[1 + n])) from->of[1 + n] = way;
-    }
+    hk_wants_spread(&e->wants, &e->kept.watched, f, &r->frames.watched, k, far, from->of);
     count++;
   }
   return count;
@@ -284,15 +271,26 @@ static double agreement(const struct hk_estimate *e, int32_t n) {
   return n == 0 ? r->agreement : r->wanted_agreement * (e->bound[n - 1] / e->wants.most);
 }
 
+/* The want that is the farthest off, and by how many times what is wanted. */
+static int32_t find_worst(const struct hk_estimate *e, double *most) {
+  int32_t worst = 0;
+  *most = 0.0;
+  for (int32_t k = 0; k < e->wants.count; k++) {
+    if (!(e->error[1 + k] / e->bound[k] > *most)) continue;
+    *most = e->error[1 + k] / e->bound[k];
+    worst = k;
+  }
+  return worst;
+}
+
 /* The pick saw other frames, and a displaced start: its error is that of the want that is the farthest off.
  */
 static void raise_worst(struct hk_estimate *e, double error) {
-  int32_t n = 0, worst = 1;
-  for (n = 2; n <= e->wants.count; n++)
-    if (e->known[n].error / e->bound[n - 1] > e->known[worst].error / e->bound[worst - 1]) worst = n;
-  error *= e->bound[worst - 1] / e->wants.most;
-  if (error > e->known[worst].error) e->known[worst].error = error;
-  if (e->wants.want[worst - 1].width == 0 && error > e->known[0].error) e->known[0].error = error;
+  double most;
+  const int32_t k = find_worst(e, &most);
+  error *= e->bound[k] / e->wants.most;
+  if (error > e->error[1 + k]) e->error[1 + k] = error;
+  if (e->wants.want[k].width == 0) e->error[0] = fmax(e->error[0], e->error[1 + k]);
 }
 
 /* The picked run was compared with the reference at frames of the pick; 0 of another one that has few of
@@ -300,29 +298,26 @@ static void raise_worst(struct hk_estimate *e, double error) {
 static int measure_by_reference(struct hk_estimate *e) {
   const struct hk_reference *r = &e->pick.reference;
   struct hk_distance from;
-  char reason[sizeof e->known->reason];
   const int64_t count = compare(e, &from);
   if (!e->picked && count < LEAST_COMPARED && count < e->kept.recorded) return 0;
   if (r->trusted > 1) {
     for (int32_t n = 0; n <= e->wants.count; n++)
-      hk_estimate_know(e, n, from.of[n] + agreement(e, n), "reference");
-    if (e->picked)
-      raise_worst(e, e->pick.best.error + r->wanted_agreement), from.rms = fmax(from.rms, e->pick.best.rms);
-    e->rms = fmin(e->known->error, from.rms + r->agreement);
+      hk_estimate_know(e, n, from.of[n] + agreement(e, n));
+    if (e->picked) raise_worst(e, e->pick.best.error + r->wanted_agreement);
+    if (e->picked) from.rms = fmax(from.rms, e->pick.best.rms);
+    e->rms = fmin(e->error[0], from.rms + r->agreement);
     e->known_until = e->begin + hk_pick_trusted(&e->pick);
+    e->by = "reference";
   }
-  if (is_out_of_reach(e)) {
-    hk_print(reason, sizeof reason, "the reference itself is known to %.3g%s alone", r->wanted_agreement,
-             hk_wants_unit(&e->wants, e->system));
-    hk_estimate_say(e, reason);
-  }
+  if (is_out_of_reach(e))
+    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g%s alone",
+             r->wanted_agreement, hk_wants_unit(&e->wants, e->system));
   if (r->trusted == r->frames.count) return 1;
-  hk_print(reason, sizeof reason,
+  hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
            r->hurried ? ", for want of time"
                       : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
-  hk_estimate_say(e, reason);
   return 1;
 }
 
@@ -343,30 +338,32 @@ static const char *find_obstacle(const struct hk_estimate *e, const hooke_state 
 static int32_t measure_again(struct hk_estimate *e) {
   if (is_whole_reference(e) && measure_by_reference(e)) return HOOKE_OK;
   int32_t status = hk_estimate_by_runs(e);
-  if (status == HOOKE_OK && !isnan(e->known->error)) status = hk_estimate_by_other_method(e);
+  if (status == HOOKE_OK && !isnan(e->error[0])) status = hk_estimate_by_other_method(e);
   /* a pick from the beginning alone: its error is over more frames */
   if (e->picked && e->pick.met) raise_worst(e, e->pick.best.error);
-  if (status == HOOKE_OK && isnan(e->known->error)) status = hk_estimate_last_slice(e);
+  if (status == HOOKE_OK && isnan(e->error[0])) status = hk_estimate_last_slice(e);
   return status;
 }
 
 static void explain_want(struct hk_estimate *e) {
   if (e->wants.count > 0 && !hk_soundness_holds(&e->soundness))
-    hk_estimate_say(e, isinf(e->soundness.least_limit) ? "its energy grows by itself"
-                                                       : "its step is above 0.9 of the stable one");
-  else if (e->soundness.unknown_limit && !e->known->reason[0])
-    hk_estimate_say(e, "the stable step of its rigid bodies is not known at all times");
+    hk_print(e->reason, sizeof e->reason,
+             isinf(e->soundness.least_limit) ? "its energy grows by itself"
+                                             : "its step is above 0.9 of the stable one");
+  else if (e->soundness.unknown_limit && !e->reason[0])
+    hk_print(e->reason, sizeof e->reason, "the stable step of its rigid bodies is not known at all times");
 }
 
 static void forget_overflow(struct hk_estimate *e) {
-  if (!isinf(e->known->error + e->rms)) return;
+  if (!isinf(e->error[0] + e->rms)) return;
   clear(e);
-  hk_estimate_say(e, "distances are beyond the range of numbers");
+  hk_print(e->reason, sizeof e->reason, "distances are beyond the range of numbers");
 }
 
 static void give_up(struct hk_estimate *e, int32_t status) {
   clear(e);
-  hk_estimate_say(e, status == HOOKE_STOPPED ? "interrupted" : "memory was too short to find it out");
+  hk_print(e->reason, sizeof e->reason,
+           status == HOOKE_STOPPED ? "interrupted" : "memory was too short to find it out");
 }
 
 static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
@@ -378,7 +375,7 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
   if (isnan(e->first)) e->first = e->work;
   const char *obstacle = find_obstacle(e, state);
   if (obstacle) {
-    hk_estimate_say(e, obstacle);
+    hk_print(e->reason, sizeof e->reason, "%s", obstacle);
     return HOOKE_OK;
   }
   const double begun = hk_clock_seconds();
@@ -420,7 +417,7 @@ int32_t hk_estimate_saw_all(const struct hk_estimate *e) {
 }
 
 double hk_estimate_meets(const struct hk_estimate *e, int32_t want) {
-  const double error = e->known[1 + want].error, bound = e->bound[want];
+  const double error = e->error[1 + want], bound = e->bound[want];
   if (is_out_of_reach(e) && error - 2.0 * agreement(e, 1 + want) <= bound) return NAN;
   if (error > bound || (!isnan(error) && !hk_soundness_holds(&e->soundness))) return 0.0;
   if (e->soundness.unknown_limit) return NAN;
@@ -429,31 +426,17 @@ double hk_estimate_meets(const struct hk_estimate *e, int32_t want) {
 
 double hk_estimate_met(const struct hk_estimate *e) {
   double met = e->wants.count > 0 ? 1.0 : NAN;
-  for (int32_t k = 0; k < e->wants.count && met != 0.0; k++) {
-    const double one = hk_estimate_meets(e, k);
-    if (!(one == 1.0)) met = one;
-  }
+  for (int32_t k = 0; k < e->wants.count && met != 0.0; k++)
+    if (hk_estimate_meets(e, k) != 1.0) met = hk_estimate_meets(e, k);
   return met;
-}
-
-/* The largest error over bound, and the order of that error. */
-static double find_worst(const struct hk_estimate *e, double *order) {
-  double most = 0.0;
-  *order = 1.0;
-  for (int32_t k = 0; k < e->wants.count; k++) {
-    const struct hk_known *known = &e->known[1 + k];
-    if (!(known->error / e->bound[k] > most)) continue;
-    most = known->error / e->bound[k];
-    *order = isnan(known->order) ? 1.0 : known->order;
-  }
-  return most;
 }
 
 /* Next finer step or tolerance of the same method. */
 static double finer(const struct hk_estimate *e) {
-  double order;
-  const double value = hk_estimate_value(e->options), worst = find_worst(e, &order);
-  const double factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, pow(AIM / worst, 1.0 / order)));
+  double most;
+  const double value = hk_estimate_value(e->options), seen = e->order[1 + find_worst(e, &most)];
+  double factor = pow(AIM / most, 1.0 / (isnan(seen) ? 1.0 : seen));
+  factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
   return fmin(value * factor, hk_soundness_limit_share * e->soundness.least_limit);
 }
 
@@ -474,15 +457,15 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
   struct hk_estimate *e = m->object;
   int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_refine");
   if (status != HOOKE_OK) return status;
-  double order;
-  const double worst = find_worst(e, &order);
+  double most;
+  (void)find_worst(e, &most);
   const int32_t known = e->options != NULL && !is_out_of_reach(e) && !isnan(hk_estimate_met(e)) &&
-                        worst <= LEAST_GAIN * e->before;
+                        most <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
-    return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->known->reason);
+    return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->reason);
   status = set_finer(e, run);
   e->refined++;
-  e->before = worst;
+  e->before = most;
   e->picked = 0;
   return status;
 }

@@ -8,20 +8,8 @@
 #include "measure/recommend/soundness.h"
 #include "measure/measurement.h"
 
-/* All free particles come first, what is wanted after them. */
-enum { HOOKE_KNOWN = 1 + HOOKE_WANTS };
-
-/* Distances of a run from this one over frames, each in its unit, and the root mean square over free
- * particles [m]. NaN if it did not finish. */
-struct hk_distance {
-  double of[HOOKE_KNOWN], rms;
-};
-
-struct hk_known {
-  double error, order; /* the order of the error in the step or tolerance */
-  const char *by;      /* NULL: it is not known */
-  char reason[256];
-};
+/* Errors and distances: those of all free particles [m], then those of the wants. */
+enum { HOOKE_ERRORS = 1 + HOOKE_WANTS };
 
 struct hk_estimate {
   const hooke_measurement *measurement;
@@ -56,12 +44,13 @@ struct hk_estimate {
   double late_after; /* its earliest time [s]; NaN once recorded */
 
   /* results */
-  struct hk_known known[HOOKE_KNOWN];
+  double error[HOOKE_ERRORS], order[HOOKE_ERRORS]; /* NaN: not known; orders in the step or tolerance */
   double rms, known_until;
+  const char *by;
   double last_error, last_from; /* what the last piece of the run made; NaN: not measured */
   double rise, heat_excess, spent;
   double left; /* counted work that other runs may still take [s] */
-  char reversal[160];
+  char reason[256], reversal[160];
 };
 
 extern const struct hk_measurement_kind hk_estimate_kind;
@@ -72,15 +61,11 @@ void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *c
 
 /* 1 if its error is known to the end of the run. */
 int32_t hk_estimate_knows_all(const struct hk_estimate *estimate);
-/* 1 if the run meets what is wanted, 0 if not, NaN if that is unknown or nothing is wanted; and of one want.
- */
+/* 1 if the run meets what is wanted, 0 if not, NaN if that is unknown or nothing is wanted; and one want. */
 double hk_estimate_met(const struct hk_estimate *estimate);
 double hk_estimate_meets(const struct hk_estimate *estimate, int32_t want);
-/* Nothing is known any more, for this reason; and the reason alone. */
-void hk_estimate_forget(struct hk_estimate *estimate, const char *reason);
-void hk_estimate_say(struct hk_estimate *estimate, const char *reason);
-/* An error is known, by one of the column "by", beside what is not known of the value itself. */
-void hk_estimate_know(struct hk_estimate *estimate, int32_t number, double error, const char *by);
+/* Sets an error, to which it adds what is not known of the value itself. */
+void hk_estimate_know(struct hk_estimate *estimate, int32_t number, double error);
 
 /* 1 if extremes of what is watched are over the whole run. */
 int32_t hk_estimate_saw_all(const struct hk_estimate *estimate);
@@ -127,6 +112,11 @@ int32_t hk_estimate_by_other_method(struct hk_estimate *estimate);
  * there was no time for a slice. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_estimate_heat(struct hk_estimate *estimate);
 
+/* Distances of a run from this one over frames, and the root mean square over free particles [m]. NaN if it
+ * did not finish. */
+struct hk_distance {
+  double of[HOOKE_ERRORS], rms;
+};
 /* Runs, within the work that is left, and compares the first `frames` of the kept ones. */
 int32_t hk_estimate_compare(struct hk_estimate *estimate, const struct hk_rerun *rerun, int64_t frames,
                             struct hk_distance *distance);

@@ -30,39 +30,36 @@ static enum hk_claim_of of_known(const struct hk_estimate *e) {
 }
 
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
-  const struct hk_known *known = e->known;
   if (e->only_watches) return;
   const char *m = hk_metres(e->system), *what = e->system->generalized ? "number" : "particle";
-  if (known->by)
-    hk_claim(claims, "error", of_known(e), known->by,
+  if (e->by)
+    hk_claim(claims, "error", of_known(e), e->by,
              "the error is at most %.3g%s until t = %.6g s, of any %s (root mean square %.2g%s), %s",
-             known->error, m, e->known_until, what, e->rms, m, source_of(known->by));
+             e->error[0], m, e->known_until, what, e->rms, m, source_of(e->by));
   else
-    hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "", "the error is not known: %s", known->reason);
+    hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "", "the error is not known: %s", e->reason);
 }
 
 /* Each of a list. */
 static void tell_each(const struct hk_estimate *e, struct hk_claims *claims) {
-  for (int32_t k = 0; k < e->wants.count && hk_wants_is_list(&e->wants) && !e->only_watches; k++) {
-    const struct hk_known *known = &e->known[1 + k];
+  for (int32_t k = 0; k < e->wants.count && e->wants.list && e->by; k++) {
     const char *name = e->wants.want[k].name, *unit = hk_want_unit(&e->wants, k), *blank = unit[0] ? " " : "";
-    if (known->by)
-      hk_claim(claims, "error", of_known(e), known->by, "of %s at most %.3g%s%s, where %.3g%s%s are wanted",
-               name, known->error, blank, unit, e->bound[k], blank, unit);
+    if (isnan(e->error[1 + k]))
+      hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "",
+               "of %s it is not known: other runs do not tell it, or its value (a period takes eight frames)",
+               name);
     else
-      hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "", "of %s it is not known: %s", name, known->reason);
+      hk_claim(claims, "error", of_known(e), e->by, "of %s it is at most %.3g%s%s, where %.3g%s%s are wanted",
+               name, e->error[1 + k], blank, unit, e->bound[k], blank, unit);
   }
 }
 
 static void tell_want(const struct hk_estimate *e, struct hk_claims *claims) {
   const double met = hk_estimate_met(e);
-  const struct hk_known *known = e->known;
-  const char *by = known->by ? known->by : "", *reason = known->by ? known->reason : "",
-             *joint = reason[0] ? ": " : "";
-  char want[48] = "quantities";
+  const char *by = e->by ? e->by : "", *reason = e->by ? e->reason : "", *joint = reason[0] ? ": " : "";
+  char want[32] = "quantities";
   if (e->wants.count == 0) return;
-  if (!hk_wants_is_list(&e->wants))
-    hk_print(want, sizeof want, "%.6g%s", e->wants.most, hk_metres(e->system));
+  if (!e->wants.list) hk_print(want, sizeof want, "%.6g%s", e->wants.most, hk_metres(e->system));
   if (met == 1.0)
     hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "that is within the wanted %s", want);
   else if (met == 0.0)

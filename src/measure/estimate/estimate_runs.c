@@ -26,6 +26,13 @@ static const double MOST_WORK = 4.0, MOMENT = 0.01; /* of other runs in all, in 
 static const char TOO_LONG[] =
     "the run is too long, or its tolerance too tight, for a finer one, and coarser ones do not tell";
 
+static struct hk_distance no_distance(void) {
+  struct hk_distance none = {.rms = NAN};
+  for (int32_t n = 0; n < HOOKE_ERRORS; n++)
+    none.of[n] = NAN;
+  return none;
+}
+
 double hk_estimate_value(const hooke_options *options) {
   const int32_t adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
   return hooke_options_number(options, adaptive ? "rtol" : "step");
@@ -34,8 +41,6 @@ double hk_estimate_value(const hooke_options *options) {
 static const struct hk_method *method_of(const struct hk_estimate *e) {
   return hk_method_find(hooke_options_text(e->options, "method"));
 }
-
-static const char UNSEEN[] = "frames do not tell its value; those of a period are at least eight";
 
 /* ---- other runs ---- */
 
@@ -81,21 +86,6 @@ int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, s
   return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
 }
 
-static void take_distances(const struct hk_estimate *e, const struct hk_trial *trial, int64_t frames,
-                           struct hk_distance *distance) {
-  distance->of[0] = trial->error_max;
-  distance->rms = trial->error;
-  for (int32_t k = 0; k < e->wants.count && !isnan(trial->error_max); k++) {
-    double *most = &distance->of[1 + k];
-    *most = 0.0;
-    for (int64_t f = 0; f < frames && !isnan(*most); f++) {
-      const double way =
-          hk_want_difference(&e->wants, k, &e->kept.watched, f, &trial->watched, f, trial->error_max_at[f]);
-      if (!(way <= *most)) *most = way;
-    }
-  }
-}
-
 int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun, int64_t frames,
                             struct hk_distance *distance) {
   struct run run = {e, rerun};
@@ -103,12 +93,14 @@ int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun,
       .on_progress = tell, .on_start = start_from, .most_work = e->left, .ctx = &run};
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
-  distance->rms = NAN;
-  for (int32_t n = 0; n < HOOKE_KNOWN; n++)
-    distance->of[n] = NAN;
+  *distance = no_distance();
   int32_t status = make_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &e->kept, frames, options, &listener);
-  if (status == HOOKE_OK) take_distances(e, &trial, frames, distance);
+  if (status == HOOKE_OK && !isnan(trial.error_max)) {
+    *distance = (struct hk_distance){.rms = trial.error};
+    for (int64_t f = 0; f < frames; f++)
+      hk_wants_spread(&e->wants, &e->kept.watched, f, &trial.watched, f, trial.error_max_at[f], distance->of);
+  }
   e->left -= trial.work;
   hk_trial_release(&trial);
   hooke_options_destroy(options);
@@ -143,9 +135,7 @@ static int32_t run_level(struct hk_estimate *e, double factor, double done, doub
   double other = factor * value;
   if (!adaptive && factor > 1.0) other = hk_estimate_fit_step(e, other);
   if (adaptive && other > LOOSEST * (1.0 + 1e-9)) other = NAN;
-  *level = (struct level){.factor = other / value, .from = {.rms = NAN}};
-  for (int32_t n = 0; n < HOOKE_KNOWN; n++)
-    level->from.of[n] = NAN;
+  *level = (struct level){other / value, no_distance()};
   if (isnan(other)) return HOOKE_OK;
   const struct hk_rerun rerun = {.method = method_of(e)->name,
                                  .value = other,
@@ -180,15 +170,24 @@ static double noise(const struct hk_estimate *e) {
   return hold * (128.0 + 0.1 * e->steps * sqrt(e->steps));
 }
 
-static void say(struct hk_known *known, const char *reason) {
-  hk_print(known->reason, sizeof known->reason, "%s", reason);
+void hk_estimate_know(struct hk_estimate *e, int32_t n, double error) {
+  e->error[n] = error + (n > 0 ? hk_want_doubt(&e->wants, n - 1, &e->kept.watched) : 0.0);
 }
 
-void hk_estimate_know(struct hk_estimate *e, int32_t n, double error, const char *by) {
-  e->known[n].error = error + (n > 0 ? hk_want_doubt(&e->wants, n - 1, &e->kept.watched) : 0.0);
-  e->known[n].by = isnan(e->known[n].error) ? NULL : by;
+static void know(struct hk_estimate *e, int32_t n, const struct hk_distance *from, double order,
+                 double factor) {
+  e->order[n] = order;
+  hk_estimate_know(e, n, factor * from->of[n]);
+  if (n > 0) return;
+  e->rms = factor * from->rms;
   e->known_until = e->begin + e->duration;
-  if (isnan(e->known[n].error)) say(&e->known[n], UNSEEN);
+  e->by = method_of(e)->adaptive ? "tolerance" : "half-step";
+}
+
+/* Of particles; what else is not known has no reason of its own. */
+static void say(struct hk_estimate *e, int32_t n, const char *reason) {
+  if (n > 0) return;
+  hk_print(e->reason, sizeof e->reason, "%s", reason);
 }
 
 static double expected_order(const struct hk_estimate *e) {
@@ -201,23 +200,21 @@ static int is_expected(const struct hk_estimate *e, double seen) {
 }
 
 /* 1 if another step, `near`, gives another motion, as far as its size tells, where no order is seen. */
-static int32_t is_lost(const struct hk_estimate *e, const struct level *near, const struct level *far) {
-  const double most = near->from.of[0];
+static int is_lost(const struct hk_estimate *e, const struct level *near, const struct level *far) {
   if (isnan(far->factor) || !isnan(far->from.of[0])) return 0;
   /* the motion is at least as large as its first frame, which mostly tells without a pass over all */
-  return most > LOST * hk_frames_extent(&e->kept, 1) &&
-         most > LOST * hk_frames_extent(&e->kept, e->kept.recorded);
+  return near->from.of[0] > LOST * hk_frames_extent(&e->kept, 1) &&
+         near->from.of[0] > LOST * hk_frames_extent(&e->kept, e->kept.recorded);
 }
 
 /* From the run `near`, at half the step, and `far`, at twice the step or unknown. */
 static void judge_by_finer(struct hk_estimate *e, int32_t n, const struct level *near,
                            const struct level *far) {
-  const int32_t adaptive = method_of(e)->adaptive;
+  const int32_t adaptive = method_of(e)->adaptive, is_length = n == 0 || e->wants.want[n - 1].width == 0;
   const double one = near->from.of[n], other = far->from.of[n];
-  const int32_t is_length = n == 0 || e->wants.want[n - 1].width == 0;
   double order = expected_order(e), safety = UNSURE;
   if (!adaptive && is_lost(e, near, far)) {
-    say(&e->known[n], "half the step gives another motion, and twice the step none");
+    say(e, n, "half the step gives another motion, and twice the step none");
     return;
   }
   if (!is_length && one <= SMALL * e->bound[n - 1]) {
@@ -226,19 +223,16 @@ static void judge_by_finer(struct hk_estimate *e, int32_t n, const struct level 
     const double seen = order_seen(far->factor, near->factor, other / one);
     if (is_expected(e, seen)) safety = adaptive ? SURE_TOLERANCE : SURE;
     if (!adaptive && seen < LEAST_ORDER) {
-      say(&e->known[n], "half the step gives another motion");
+      say(e, n, "half the step gives another motion");
       return;
     }
     if (!adaptive && seen > order + ORDERS_ABOVE) {
-      say(&e->known[n], "twice the step loses the motion, and so may this step");
+      say(e, n, "twice the step loses the motion, and so may this step");
       return;
     }
     if (!adaptive) order = fmin(order, seen);
   }
-  e->known[n].order = adaptive ? POWER : order;
-  const double factor = safety / fabs(expm1(order * log(near->factor)));
-  if (n == 0) e->rms = factor * near->from.rms;
-  hk_estimate_know(e, n, factor * one, adaptive ? "tolerance" : "half-step");
+  know(e, n, &near->from, adaptive ? POWER : order, safety / fabs(expm1(order * log(near->factor))));
 }
 
 /* From runs at twice the step and at four times, if the order is seen. */
@@ -246,13 +240,10 @@ static void judge_by_coarser(struct hk_estimate *e, int32_t n, const struct leve
                              const struct level *far) {
   const double order = expected_order(e), one = near->from.of[n], other = far->from.of[n];
   if (!(one > 0.0 && other > 0.0 && is_expected(e, order_seen(far->factor, near->factor, other / one)))) {
-    say(&e->known[n], TOO_LONG);
+    say(e, n, TOO_LONG);
     return;
   }
-  e->known[n].order = order;
-  const double factor = UNSURE / expm1(order * log(near->factor));
-  if (n == 0) e->rms = factor * near->from.rms;
-  hk_estimate_know(e, n, factor * one, method_of(e)->adaptive ? "tolerance" : "half-step");
+  know(e, n, &near->from, order, UNSURE / expm1(order * log(near->factor)));
 }
 
 int32_t hk_estimate_by_runs(struct hk_estimate *e) {
@@ -265,14 +256,9 @@ int32_t hk_estimate_by_runs(struct hk_estimate *e) {
   if (status == HOOKE_OK && !isnan(near.from.of[0]))
     status = run_level(e, finer ? ratio : ratio * ratio, 0.6, 0.1, &far);
   if (status != HOOKE_OK) return status;
-  if (isnan(near.from.of[0])) hk_estimate_say(e, finer ? "a finer run did not come to its end" : TOO_LONG);
-  for (int32_t n = 0; n <= e->wants.count && !isnan(near.from.of[0]); n++)
+  if (isnan(near.from.of[0])) say(e, 0, finer ? "a finer run did not come to its end" : TOO_LONG);
+  for (int32_t n = 0; n <= e->wants.count && !isnan(near.from.of[0]) && (n == 0 || !isnan(e->error[0])); n++)
     (finer ? judge_by_finer : judge_by_coarser)(e, n, &near, &far);
-  if (isnan(e->known->error)) { /* then nothing is */
-    char reason[sizeof e->known->reason];
-    hk_print(reason, sizeof reason, "%s", e->known->reason);
-    hk_estimate_forget(e, reason);
-  }
   return HOOKE_OK;
 }
 

@@ -27,9 +27,8 @@ HOOKE_COUNTER(count_wants, struct hk_estimate, it->options ? it->wants.count : 0
 HOOKE_READER(const char *, wanted_quantity, struct hk_estimate, it->wants.want[row].name)
 HOOKE_READER(const char *, wanted_unit, struct hk_estimate, hk_want_unit(&it->wants, (int32_t)row))
 HOOKE_READER(double, bound, struct hk_estimate, it->bound[row])
-HOOKE_READER(double, wanted_error, struct hk_estimate, it->known[1 + row].error)
+HOOKE_READER(double, wanted_error, struct hk_estimate, it->error[1 + row])
 HOOKE_READER(double, meets, struct hk_estimate, hk_estimate_meets(it, (int32_t)row))
-HOOKE_READER(const char *, wanted_reason, struct hk_estimate, it->known[1 + row].reason)
 
 /* ---- the tables ---- */
 
@@ -39,7 +38,7 @@ const struct hk_table hk_estimate_tables[] = {
      .record = 1,
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_AS(
-             struct hk_estimate, known[0].error, estimate, NUMBER, "m",
+             struct hk_estimate, error[0], estimate, NUMBER, "m",
              "error of the run: distance of the farthest free particle, at any frame, from where it should be"),
          HOOKE_COLUMN(struct hk_estimate, rms, NUMBER, "m",
                       "its root mean square over free particles, at the worst frame"),
@@ -47,8 +46,8 @@ const struct hk_table hk_estimate_tables[] = {
              struct hk_estimate, known_until, NUMBER, "s",
              "time up to which that holds: the end of the run or, where the motion is not predictable "
              "that long, the time until which the reference can be trusted"),
-         HOOKE_COLUMN_AS(
-             struct hk_estimate, known[0].by, by, TEXT, "",
+         HOOKE_COLUMN(
+             struct hk_estimate, by, TEXT, "",
              "half-step, tolerance (of runs of the method at other steps or tolerances), other-method or "
              "reference; none without an estimate"),
          HOOKE_COLUMN_AS(struct hk_estimate, wants.most, wanted, NUMBER, "m", "wanted error; 1 of a list"),
@@ -71,8 +70,8 @@ const struct hk_table hk_estimate_tables[] = {
                          "time that picking and measuring took so far"),
          HOOKE_COLUMN_BY(memory_bytes, COUNT, "bytes",
                          "memory of the states that it keeps while the run goes on"),
-         HOOKE_COLUMN_AS(struct hk_estimate, known[0].reason, reason, TEXT, "",
-                         "why the error is not known, or why the wanted one is not met"),
+         HOOKE_COLUMN(struct hk_estimate, reason, TEXT, "",
+                      "why the error is not known, or why the wanted one is not met"),
          HOOKE_COLUMN(struct hk_estimate, reversal, TEXT, "",
                       "the times on this machine of the two best picks, where they would reverse the "
                       "choice by more than 2"))},
@@ -99,14 +98,11 @@ const struct hk_table hk_estimate_tables[] = {
     {.name = "wants",
      .doc = "what is wanted, one by one",
      .count = count_wants,
-     HOOKE_TABLE_COLUMNS(
-         HOOKE_COLUMN_BY_AS(wanted_quantity, quantity, TEXT, "",
-                            "quantity as written, or particles: all free ones"),
-         HOOKE_COLUMN_BY_AS(wanted_unit, unit, TEXT, "", "its unit"),
-         HOOKE_COLUMN_BY_AS(bound, wanted, NUMBER, "of the quantity",
-                            "largest error that is wanted, at any frame"),
-         HOOKE_COLUMN_BY_AS(wanted_error, error, NUMBER, "of the quantity",
-                            "its error; unknown: see the reason"),
-         HOOKE_COLUMN_BY_AS(meets, met, FLAG, "", "1 if the run meets it"),
-         HOOKE_COLUMN_BY_AS(wanted_reason, reason, TEXT, "", "why it is not known, or not met"))},
+     HOOKE_TABLE_COLUMNS(HOOKE_COLUMN_BY_AS(wanted_quantity, quantity, TEXT, "",
+                                            "quantity as written, or particles: all free ones"),
+                         HOOKE_COLUMN_BY_AS(wanted_unit, unit, TEXT, "", "its unit"),
+                         HOOKE_COLUMN_BY_AS(bound, wanted, NUMBER, "of the quantity",
+                                            "largest error that is wanted, at any frame"),
+                         HOOKE_COLUMN_BY_AS(wanted_error, error, NUMBER, "of the quantity", "its error"),
+                         HOOKE_COLUMN_BY_AS(meets, met, FLAG, "", "1 if the run meets it"))},
     {.name = NULL}};

@@ -15,9 +15,11 @@ static const struct hk_option_row needs_rows[] = {
         "want", HOOKE_OPTION_WANT, NULL,
         "error that one can live with, the largest distance of any watched particle" HOOKE_WANT_FORMS,
         .required = 1),
-    HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
-                 "what is looked at: a part, a group, or particle "
-                 "numbers or names such as 0,7-9,tip; all free particles if not given"),
+    HOOKE_OPTION(
+        "watch", .type = HOOKE_OPTION_TEXT, NULL,
+        "what is looked at: a part, a group, or particle "
+        "numbers or names such as 0,7-9,tip, or coordinates and lengths such as tip.y,group:max.length; "
+        "all free particles if not given"),
     HOOKE_OPTION("keep", .type = HOOKE_OPTION_TEXT, NULL,
                  "names of groups and parts, separated by commas, that are neither left out nor changed"),
     HOOKE_OPTION("refine", .type = HOOKE_OPTION_FLAG, "false",
@@ -61,15 +63,17 @@ static int32_t read_watch(struct hk_needs *needs) {
   const char *text = hooke_options_text(needs->m->options, "watch");
   uint8_t *mark = hk_new(system->particle_count, 1);
   if (mark == NULL) return HOOKE_NO_MEMORY;
-  int32_t status = HOOKE_OK;
-  if (text[0] == '\0') {
-    for (int64_t p = 0; p < system->particle_count; p++)
-      mark[p] = system->constrained[p] == 0;
-  } else {
+  int32_t status = HOOKE_OK, all = text[0] == '\0';
+  if (!all) {
     status = hk_watched_mark_particles(system, "watch", text, mark);
+    all = status == HOOKE_BAD_VALUE && strchr(text, '.') && !needs->wants.list;
+    if (all) status = hk_wants_of_each(&needs->wants, &needs->watched, text);
+    needs->want = needs->wants.most;
   }
-  for (int64_t p = 0; p < system->particle_count; p++)
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (all) mark[p] = system->constrained[p] == 0;
     needs->watch_count += mark[p];
+  }
   needs->watch = hk_new(needs->watch_count, sizeof *needs->watch);
   if (status == HOOKE_OK && needs->watch == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK && needs->watch_count == 0) {

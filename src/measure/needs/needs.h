@@ -193,7 +193,7 @@ int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
 
 /* ---- needs_values.c ---- */
 
-/* The watched quantities in the system of a trial, where some may be missing; the caller frees `item`. */
+/* The watched quantities in the system of a trial, where some may be missing. Must be released. */
 int32_t hk_needs_move_watched(const struct hk_needs *needs, const struct hk_needs_trial *trial,
                               struct hk_watched_list *moved);
 /* Records them at the last recorded frame. */

@@ -205,7 +205,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   cost->work = taken.work;
   cost->atol = isnan(cost->rtol) ? NAN : taken.atol;
   cost->steps = recorder->last_step;
-  hk_free(recorder->moved.item);
+  hk_watched_release(&recorder->moved);
   *finished = status == HOOKE_OK;
   const int32_t judged = judge_end(recorder, *finished);
   if (judged != HOOKE_OK) return judged;

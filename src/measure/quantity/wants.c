@@ -101,8 +101,24 @@ int32_t hk_wants_read(struct hk_wants *wants, struct hk_watched_list *list, cons
   return HOOKE_OK;
 }
 
+int32_t hk_wants_of_each(struct hk_wants *wants, struct hk_watched_list *list, const char *text) {
+  const int32_t status = hk_watched_read(list, "watch", text);
+  const double bound = wants->most;
+  *wants = (struct hk_wants){.list = list, .most = 1.0, .length = bound};
+  for (int64_t k = 0; status == HOOKE_OK && k < list->count; k++) {
+    const char *unit = hk_watched_unit(&list->item[k]);
+    struct hk_want *want = &wants->want[wants->count++];
+    if (strcmp(unit, "m") != 0 || wants->count == HOOKE_WANTS)
+      return hk_fail(HOOKE_BAD_VALUE, "watch", "%s is in %s, which no length bounds; want %s=a number%s",
+                     list->item[k].text, unit, list->item[k].text, unit);
+    *want = (struct hk_want){.width = 1, .at = {k}, .bound = bound};
+    hk_print(want->name, sizeof want->name, "%s", list->item[k].text);
+  }
+  return status;
+}
+
 const char *hk_wants_unit(const struct hk_wants *wants, const hooke_system *system) {
-  return hk_wants_is_list(wants) ? " of the want" : hk_metres(system);
+  return hk_wants_is_list(wants) ? " of what is wanted" : hk_metres(system);
 }
 
 const char *hk_want_unit(const struct hk_wants *wants, int32_t number) {
@@ -155,13 +171,21 @@ void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_serie
   }
 }
 
-double hk_want_difference(const struct hk_wants *wants, int32_t number, const struct hk_watched_series *a,
-                          int64_t i, const struct hk_watched_series *b, int64_t j, double far) {
-  const struct hk_want *want = &wants->want[number];
+static double difference(const struct hk_wants *wants, const struct hk_want *want,
+                         const struct hk_watched_series *a, int64_t i, const struct hk_watched_series *b,
+                         int64_t j, double far) {
   if (want->width == 0) return far;
   if (!is_period(wants, want)) return distance(want, a, i, b, j);
   if (i < a->frames - 1 || j < b->frames - 1) return 0.0;
   return fabs(period_of(b, want, b->frames, 1) - period_of(a, want, a->frames, 1));
+}
+
+void hk_wants_spread(const struct hk_wants *wants, const struct hk_watched_series *a, int64_t i,
+                     const struct hk_watched_series *b, int64_t j, double far, double most[1 + HOOKE_WANTS]) {
+  for (int32_t n = 0; n <= wants->count; n++) {
+    const double way = n == 0 ? far : difference(wants, &wants->want[n - 1], a, i, b, j, far);
+    if (!(way <= most[n]) && !isnan(most[n])) most[n] = way;
+  }
 }
 
 /* From every other frame a period has about sixteen times the error of interpolation. */
@@ -176,8 +200,8 @@ double hk_wants_error(const struct hk_wants *wants, const double bound[HOOKE_WAN
                       double far) {
   double most = 0.0;
   for (int32_t k = 0; k < wants->count; k++) {
-    const double difference = hk_want_difference(wants, k, a, frame, b, frame, far);
-    const double error = difference == 0.0 ? 0.0 : difference / bound[k];
+    const double way = difference(wants, &wants->want[k], a, frame, b, frame, far);
+    const double error = way == 0.0 ? 0.0 : way / bound[k];
     if (!(error <= most)) most = error;
     if (isnan(most)) break;
   }

@@ -34,6 +34,9 @@ struct hk_wants {
 /* Reads the option "want", and adds what it names to a list, which has to outlive it. HOOKE_BAD_VALUE. */
 int32_t hk_wants_read(struct hk_wants *wants, struct hk_watched_list *list, const hooke_options *options);
 
+/* Makes a length that of each quantity of a list, which are all in m. HOOKE_BAD_VALUE, for "watch". */
+int32_t hk_wants_of_each(struct hk_wants *wants, struct hk_watched_list *list, const char *text);
+
 /* 1 if it is a list, so that errors are fractions of what is wanted. */
 static inline int32_t hk_wants_is_list(const struct hk_wants *wants) {
   return wants && wants->list;
@@ -46,10 +49,11 @@ const char *hk_want_unit(const struct hk_wants *wants, int32_t number);
 /* Bounds, the relative ones by the largest values over the first `frames` frames of a run. */
 void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_series *series, int64_t frames,
                      double bound[HOOKE_WANTS]);
-/* Difference of frame i of a run and frame j of another one; of periods that of the runs, where these are
- * their last frames, else 0. `far`: of all free particles. */
-double hk_want_difference(const struct hk_wants *wants, int32_t number, const struct hk_watched_series *a,
-                          int64_t i, const struct hk_watched_series *b, int64_t j, double far);
+/* Raises `most` to the distances of frame i of a run from frame j of another one: `far` of all free
+ * particles, then those of the wants; of periods that of the runs, where these are their last frames. NaN
+ * where unknown. */
+void hk_wants_spread(const struct hk_wants *wants, const struct hk_watched_series *a, int64_t i,
+                     const struct hk_watched_series *b, int64_t j, double far, double most[1 + HOOKE_WANTS]);
 /* By how much the value itself is not known: of a period, for interpolation between the frames. */
 double hk_want_doubt(const struct hk_wants *wants, int32_t number, const struct hk_watched_series *series);
 /* The largest difference over the wants, at a frame of both. NaN if one is unknown. */

@@ -50,12 +50,12 @@ struct hk_watched_word {
 };
 
 struct hk_watched {
-  char *text;                         /* as it was written */
-  const struct hk_watched_word *what; /* NULL: it is not there, and its value is NaN */
-  int32_t is_period;                  /* of the quantity inside */
-  int64_t particle;                   /* of a coordinate or a reaction */
-  const struct hk_course *course;     /* of the drive of a particle with a reaction; NULL: none */
-  int64_t spring;                     /* its number: of a length, strain or tension */
+  char *text; /* as it was written */
+  const struct hk_watched_word *what;
+  int32_t is_period;              /* of the quantity inside */
+  int64_t particle;               /* of a coordinate or a reaction */
+  const struct hk_course *course; /* of the drive of a particle with a reaction; NULL: none */
+  int64_t spring;                 /* its number: of a length, strain or tension */
   const char *group; /* or its largest or smallest over the groups of that name; NULL: of the spring */
   int32_t smallest;
 };

@@ -59,7 +59,6 @@ static double value_of_support(const struct hk_watched *watched, const hooke_sys
 /* `force`: NULL without memory for them. */
 static double value_of(const struct hk_watched *watched, const hooke_system *system, double t,
                        const double *q, const double *v, const double *force) {
-  if (watched->what == NULL) return NAN;
   switch (watched->what->kind) {
   case HOOKE_WATCHED_COORDINATE:
     return q[3 * watched->particle + watched->what->axis];
@@ -83,7 +82,7 @@ static void values_of(int64_t count, const struct hk_watched *watched, const hoo
   double *force = NULL;
   int32_t some = 0;
   for (int64_t k = 0; k < count; k++)
-    some |= watched[k].what && watched[k].what->kind == HOOKE_WATCHED_REACTION;
+    some |= watched[k].what->kind == HOOKE_WATCHED_REACTION;
   if (some) force = hk_new(3 * system->particle_count, sizeof(double));
   const int32_t known = force && hooke_system_force(system, t, q, v, force) == HOOKE_OK;
   for (int64_t k = 0; k < count; k++)
