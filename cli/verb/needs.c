@@ -136,9 +136,12 @@ static void print_parts(const hooke_measurement *needs) {
 static void print_words(const struct cli_results *results) {
   const hooke_measurement *needs = results->found;
   const double spread = cli_number(needs, "needs", "spread");
-  char unit[TITLE];
-  cli_say("%s, %g %s wanted\n", cli_setup_title(results->arguments, &results->setup),
-          cli_number(needs, "needs", "want"), title(needs, "%s", unit));
+  const char *want = cli_arguments_text(results->arguments, "want");
+  cli_say("%s, ", cli_setup_title(results->arguments, &results->setup));
+  if (strchr(want, '='))
+    cli_say("%s wanted\n", want);
+  else
+    cli_say("%g m wanted\n", cli_number(needs, "needs", "want"));
   cli_claims_print(results->arguments, needs, LABEL, results->command);
   if (isnan(cli_number(needs, "full", "step_error"))) return;
   printf("\n");

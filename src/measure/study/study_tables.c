@@ -89,7 +89,7 @@ double hk_study_least_error(const struct hk_study *study) {
 }
 
 HOOKE_READER(double, error_low, struct hk_study, hk_study_least_error(it))
-HOOKE_READER(const char *, error_unit, struct hk_study, it->wants.list ? "wants" : "m")
+HOOKE_READER(const char *, unit_of_errors, struct hk_study, it->wants.list ? "wants" : "m")
 HOOKE_READER(double, error_high, struct hk_study, it->recommendation.error + it->reference.wanted_agreement)
 
 /* ---- watched quantities ---- */
@@ -303,7 +303,7 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN(
              struct hk_study_recommendation, want, NUMBER, "m",
              "the wanted error, a distance that no free particle exceeds; of a list 1, and errors are parts of it"),
-         HOOKE_COLUMN_BY(error_unit, TEXT, "",
+         HOOKE_COLUMN_BY_AS(unit_of_errors, error_unit, TEXT, "",
                          "unit of errors: m, or \"wants\": they are parts of what a list wants"),
          HOOKE_COLUMN_BY_AS(
              recommended_method, method, TEXT, "",
