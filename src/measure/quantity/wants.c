@@ -10,19 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-static const char PARTICLES[] = "particles";
 static const double LEAST = 1e-3; /* of the size of a scene: what a list without a length stands for */
 
 /* ---- reading ---- */
-
-static int32_t refuse(const char *text, const char *why) {
-  char shown[HOOKE_OPTION_SHOWN];
-  hk_option_show(text, (int64_t)strlen(text), shown);
-  return hk_fail(HOOKE_BAD_VALUE, "want",
-                 "\"%s\": %s; allowed: at most %d of a length, a particle=a length, "
-                 "a watched quantity=a number in its unit or in %%",
-                 shown, why, HOOKE_WANTS);
-}
 
 /* A number > 0 with a unit, or in % where it is no length of all particles. */
 static int32_t read_bound(const char *text, const char *unit, struct hk_want *want) {
@@ -55,18 +45,15 @@ static int32_t read_name(struct hk_watched_list *list, struct hk_want *want) {
   return HOOKE_OK;
 }
 
-/* "energy=0.1J", or a length. */
+/* "energy=0.1J", or a length; the text is modified. */
 static int32_t read_want(struct hk_watched_list *list, char *text, struct hk_want *want) {
   char *value = strrchr(text, '=');
-  hk_print(want->name, sizeof want->name, PARTICLES);
+  hk_print(want->name, sizeof want->name, "%s", value ? text : "particles");
   if (value == NULL) return read_bound(text, "m", want);
-  const size_t length = (size_t)(value++ - text);
-  if (length >= sizeof want->name) return refuse(text, "is too long a name");
-  hk_print(want->name, sizeof want->name, "%.*s", (int)length, text);
+  want->name[value - text] = '\0';
   const int32_t status = read_name(list, want);
-  return status == HOOKE_OK
-             ? read_bound(value + strspn(value, " "), hk_watched_unit(&list->item[want->at[0]]), want)
-             : status;
+  if (status != HOOKE_OK) return status;
+  return read_bound(value + 1 + strspn(value + 1, " "), hk_watched_unit(&list->item[want->at[0]]), want);
 }
 
 static int32_t read_list(struct hk_wants *wants, struct hk_watched_list *list, const char *text) {
@@ -77,10 +64,12 @@ static int32_t read_list(struct hk_wants *wants, struct hk_watched_list *list, c
   wants->most = 1.0;
   wants->length = LEAST * (size > 0.0 ? size : 1.0);
   for (const char *at = text; status == HOOKE_OK && at;) {
-    char one[2 * HOOKE_WANT_NAME];
+    char one[HOOKE_WANT_NAME];
     at += strspn(at, " ");
     const size_t length = strcspn(at, ",");
-    if (wants->count == HOOKE_WANTS || length >= sizeof one) return refuse(at, "is too much");
+    if (wants->count == HOOKE_WANTS || length >= sizeof one)
+      return hk_fail(HOOKE_BAD_VALUE, "want", "is too much; allowed: %d quantities, each in %d characters",
+                     HOOKE_WANTS, HOOKE_WANT_NAME - 1);
     hk_print(one, sizeof one, "%.*s", (int)length, at);
     struct hk_want *want = &wants->want[wants->count++];
     status = read_want(list, one, want);
@@ -171,20 +160,16 @@ void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_serie
   }
 }
 
-static double difference(const struct hk_wants *wants, const struct hk_want *want,
-                         const struct hk_watched_series *a, int64_t i, const struct hk_watched_series *b,
-                         int64_t j, double far) {
-  if (want->width == 0) return far;
-  if (!is_period(wants, want)) return distance(want, a, i, b, j);
-  if (i < a->frames - 1 || j < b->frames - 1) return 0.0;
-  return fabs(period_of(b, want, b->frames, 1) - period_of(a, want, a->frames, 1));
-}
-
 void hk_wants_spread(const struct hk_wants *wants, const struct hk_watched_series *a, int64_t i,
                      const struct hk_watched_series *b, int64_t j, double far, double most[1 + HOOKE_WANTS]) {
-  for (int32_t n = 0; n <= wants->count; n++) {
-    const double way = n == 0 ? far : difference(wants, &wants->want[n - 1], a, i, b, j, far);
-    if (!(way <= most[n]) && !isnan(most[n])) most[n] = way;
+  if (!(far <= most[0])) most[0] = far;
+  for (int32_t k = 0; k < wants->count; k++) {
+    const struct hk_want *want = &wants->want[k];
+    double way = want->width == 0 ? far : 0.0;
+    if (want->width > 0 && !is_period(wants, want)) way = distance(want, a, i, b, j);
+    if (is_period(wants, want) && i == a->frames - 1 && j == b->frames - 1)
+      way = fabs(period_of(b, want, b->frames, 1) - period_of(a, want, a->frames, 1));
+    if (!(way <= most[1 + k]) && !isnan(most[1 + k])) most[1 + k] = way;
   }
 }
 
@@ -198,12 +183,9 @@ double hk_want_doubt(const struct hk_wants *wants, int32_t number, const struct 
 double hk_wants_error(const struct hk_wants *wants, const double bound[HOOKE_WANTS],
                       const struct hk_watched_series *a, const struct hk_watched_series *b, int64_t frame,
                       double far) {
-  double most = 0.0;
-  for (int32_t k = 0; k < wants->count; k++) {
-    const double way = difference(wants, &wants->want[k], a, frame, b, frame, far);
-    const double error = way == 0.0 ? 0.0 : way / bound[k];
-    if (!(error <= most)) most = error;
-    if (isnan(most)) break;
-  }
+  double way[1 + HOOKE_WANTS] = {0.0}, most = 0.0;
+  hk_wants_spread(wants, a, frame, b, frame, far, way);
+  for (int32_t k = 0; k < wants->count && !isnan(most); k++)
+    if (!(way[1 + k] <= most * bound[k])) most = way[1 + k] / bound[k];
   return wants->most * most;
 }
