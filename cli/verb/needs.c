@@ -138,7 +138,7 @@ static void print_words(const struct cli_results *results) {
   const double spread = cli_number(needs, "needs", "spread");
   const char *want = cli_arguments_text(results->arguments, "want");
   cli_say("%s, ", cli_setup_title(results->arguments, &results->setup));
-  if (strchr(want, '='))
+  if (strcmp(hooke_measurement_text(needs, "needs", 0, "error_unit"), "m") != 0)
     cli_say("%s wanted\n", want);
   else
     cli_say("%g m wanted\n", cli_number(needs, "needs", "want"));

@@ -98,7 +98,7 @@ int32_t hk_wants_of_each(struct hk_wants *wants, struct hk_watched_list *list, c
     const char *unit = hk_watched_unit(&list->item[k]);
     struct hk_want *want = &wants->want[wants->count++];
     if (strcmp(unit, "m") != 0 || wants->count == HOOKE_WANTS)
-      return hk_fail(HOOKE_BAD_VALUE, "watch", "%s is in %s, which no length bounds; want %s=a number%s",
+      return hk_fail(HOOKE_BAD_VALUE, "watch", "%s is in %s, which no length bounds; want %s=a number [%s]",
                      list->item[k].text, unit, list->item[k].text, unit);
     *want = (struct hk_want){.width = 1, .at = {k}, .bound = bound};
     hk_print(want->name, sizeof want->name, "%s", list->item[k].text);

@@ -132,7 +132,6 @@ static int32_t make_space(const struct hk_frames *reference, struct hk_trial *tr
   trial->wanted_at = hk_part(&block, reference->count);
   const int32_t status = hk_watched_series_create(reference->watched.list, reference->count, &trial->watched);
   if (status != HOOKE_OK) hk_trial_release(trial);
-  trial->watched.time = reference->time;
   return status;
 }
 
@@ -284,6 +283,7 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   for (int64_t f = 0; f < reference->count; f++)
     trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = trial->wanted_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
+  trial->watched.time = reference->time; /* not that of the last run */
   status = run_once(&run, reference->system, options, &integrator);
   judge_wants(trial, reference, frames);
   const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
