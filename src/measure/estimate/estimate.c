@@ -99,7 +99,8 @@ static int32_t pick(struct hk_estimate *e, hooke_options *run) {
                                e->measurement->progress, e->measurement->progress_ctx);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
-    status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", e->only);
+    status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here%s", e->only,
+                     e->wants.list ? ", or its frames do not tell what is wanted" : "");
   if (status == HOOKE_OK) status = hk_trial_set_value(run, e->pick.best.method, e->pick.best.value);
   hk_pick_say_reversal(&e->pick, e->reversal, sizeof e->reversal);
   if (status != HOOKE_OK) hk_pick_release(&e->pick);
