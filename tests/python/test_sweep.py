@@ -1,5 +1,6 @@
 """Sweeps: rows with the same bits on every executor, whole or absent, never run twice, whatever ends them."""
 
+import functools
 import json
 import os
 import random
@@ -102,6 +103,16 @@ def test_rows_that_do_not_finish_have_a_reason(tmp_path):
     for _ in range(2):
         assert hooke.sweep(hooke.Scene.parse(ROPE), values[-1:], output=output, run=absent)[0]["status"] == "unavailable"
     assert len(output.read_text().splitlines()) == 4, "what the machine lacked is not kept"
+
+
+def stiffer(factor, scene):
+    return {"x": factor}
+
+
+def test_a_function_is_known_by_what_it_is(path, tmp_path):
+    asked = [functools.partial(stiffer, factor) for factor in (1, 1, 2)]
+    rows = [hooke.sweep(path, {"run.step": 1e-3}, run=run, output=tmp_path / "rows.jsonl")[0]["x"] for run in asked]
+    assert rows == [1, 1, 2] and len(rows_of(tmp_path / "rows.jsonl")) == 2
 
 
 def test_measurements_are_rows():

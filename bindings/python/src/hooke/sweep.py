@@ -8,7 +8,6 @@ import hashlib
 import inspect
 import itertools
 import json
-import math
 import os
 import pickle
 import queue
@@ -30,7 +29,6 @@ from .scene import Scene
 
 #: Values by paths such as "run.step" or "cloth.structural.stiffness": their combinations, or those of each row.
 Vary = Union[Mapping[str, Iterable[Any]], Iterable[Mapping[str, Any]], Any]
-_AHEAD = 4  # rows submitted for each worker
 
 
 class Sweep(Sequence[dict[str, Any]]):
@@ -88,18 +86,9 @@ class _Work:
 
     def keys(self, rows: list[dict[str, Any]]) -> list[str]:
         """What each row depends on, as a number."""
-        try:
-            source = inspect.getsource(self.run)
-        except (OSError, TypeError):
-            source = repr(self.run)
-        start = hashlib.sha256(self.text)
-        start.update(_dump([source, self.options, build_facts()["version"]]))
-        keys = []
-        for values in rows:
-            one = start.copy()
-            one.update(_dump(values))
-            keys.append(one.hexdigest()[:20])
-        return keys
+        start = _dump([self.run, self.options, build_facts()["version"]], _known)
+        start = hashlib.sha256(self.text + start).digest()
+        return [hashlib.sha256(start + _dump(values)).hexdigest()[:20] for values in rows]
 
 
 def _told(found: Any) -> dict[str, Any]:
@@ -128,18 +117,18 @@ def _flat(values: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in told.items() if name[0] != "_"}
 
 
-def _plain(value: Any) -> Any:
-    """As JSON has it: no arrays, and None for numbers that are not finite."""
-    value = value.tolist() if hasattr(value, "tolist") else value
-    if isinstance(value, Mapping):
-        return {str(key): _plain(one) for key, one in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+def _dump(document: Any, other: Callable[[Any], str] = str) -> bytes:
+    """A line of JSON, with null for numbers that are not finite."""
+    text = json.dumps(document, default=lambda value: value.tolist() if hasattr(value, "tolist") else other(value))
+    return json.dumps(json.loads(text, parse_constant=lambda _: None)).encode()
 
 
-def _dump(document: Any) -> bytes:
-    return json.dumps(_plain(document), default=repr).encode()
+def _known(function: Any) -> str:
+    """What tells a function, or a callable object, from another one, in every process."""
+    try:
+        return inspect.getsource(function)
+    except (OSError, TypeError):
+        return getattr(function, "__qualname__", None) or repr(pickle.dumps(function))
 
 
 @contextlib.contextmanager
@@ -169,9 +158,9 @@ def _rows(vary: Vary) -> list[dict[str, Any]]:
     if hasattr(vary, "to_dict"):  # a data frame
         vary = vary.to_dict("records")
     if not isinstance(vary, Mapping):
-        return [_plain(row) for row in vary]
-    columns = ([value] if isinstance(value, str) or not np.iterable(value) else _plain(list(value)) for value in vary.values())
-    return [dict(zip(vary, values)) for values in itertools.product(*columns)]
+        return [json.loads(_dump(row)) for row in vary]
+    columns = ([value] if isinstance(value, str) or not np.iterable(value) else list(value) for value in vary.values())
+    return [dict(zip(vary, values)) for values in itertools.product(*(json.loads(_dump(column)) for column in columns))]
 
 
 def _text(scene: Scene | Path) -> tuple[bytes, str | None]:
@@ -191,7 +180,7 @@ def _finished(
     if executor is None:
         yield from ((key, work(values)) for key, values in rows.items())
         return
-    most = ahead or _AHEAD * (getattr(executor, "_max_workers", None) or os.cpu_count() or 1)
+    most = ahead or 4 * (getattr(executor, "_max_workers", None) or os.cpu_count() or 1)
     waiting, done = iter(rows.items()), queue.SimpleQueue[Any]()
     under_way: dict[Future[dict[str, Any]], str] = {}
     try:
@@ -252,8 +241,9 @@ def sweep(
     for path in paths:
         if path.startswith("run.") and path[4:] in options:
             raise BadValue(f"{path}: it is varied, and an option of all runs; give one of them")
-    asked = {"watch": watch} if watch is not None else {}
-    work = _Work(*_text(scene), run, {**options, **asked, **({"estimate": error} if error or run is run_scene else {})})
+    options |= {"watch": watch} if watch is not None else {}
+    options |= {"estimate": error} if error or run is run_scene else {}
+    work = _Work(*_text(scene), run, options)
     mine = list(zip(work.keys(rows), rows))[only]
     table = File(output) if output is not None and File(output).suffix in (".csv", ".parquet") else None
     with _kept(f"{table}.jsonl" if table else output) as (done, keep), shown(progress) as tell:
@@ -271,11 +261,7 @@ def sweep(
             raise Error(f"a worker was ended; {known} of {len(mine)} rows are done, and the same call does the rest") from broken
     made = Sweep(paths, [done[key] for key, _ in mine if key in done])
     if table:
-        _write(made.to_pandas(), table)
+        part = table.with_suffix(".part")
+        getattr(made.to_pandas(), f"to_{table.suffix[1:]}")(part, index=False)
+        os.replace(part, table)
     return made
-
-
-def _write(frame: Any, path: File) -> None:
-    part = path.with_suffix(".part")
-    getattr(frame, f"to_{path.suffix[1:]}")(part, index=False)
-    os.replace(part, path)
