@@ -1,5 +1,6 @@
 """Sweeps: rows with the same bits on every executor, whole or absent, never run twice, whatever ends them."""
 
+import contextlib
 import functools
 import json
 import os
@@ -57,6 +58,19 @@ def test_the_same_bits_everywhere(path):
     for pool in (ThreadPoolExecutor(3), ProcessPoolExecutor(2)):
         with pool:
             assert timeless(hooke.sweep(scene, VARY, watch="2.y", executor=pool)) == rows
+
+
+@pytest.mark.check
+@pytest.mark.parametrize("name", ["loky", "distributed"])
+def test_the_same_bits_on_executors_of_others(path, name):
+    module = pytest.importorskip(name)
+    with contextlib.ExitStack() as stack:
+        if name == "distributed":
+            pool = stack.enter_context(module.Client(n_workers=2, threads_per_worker=1, dashboard_address=None)).get_executor()
+        else:
+            pool = module.get_reusable_executor(2)
+        assert timeless(hooke.sweep(path, VARY, watch="2.y", executor=pool)) == timeless(hooke.sweep(path, VARY, watch="2.y"))
+        pool.shutdown()
 
 
 def test_what_is_in_the_file_is_not_run_again(path, tmp_path):
