@@ -79,7 +79,7 @@ def study(
     source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | None = None
 ) -> Any:
     """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error_max [m]
-    against cost, one marked line a method, and error against step with the observed orders.
+    against cost, one marked line a method, and error against step with the observed orders; errors of one step are dotted.
 
     `cost` is "wall_seconds" [s], "force_evaluations" or "steps". Steps at which a run diverged are marked at the
     upper edge of the second. The grey band is the uncertainty of the reference, and ten times that. `want` [m] draws
@@ -96,6 +96,7 @@ def study(
             order = table.orders.get(method, np.nan)
             label = f"{method}, order {order:.2f}" if np.isfinite(order) else method
             _ladder(steps, table["step"][rows], table["error_max"][rows], label, style)
+            _ladder(steps, table["step"][rows], table["error_step"][rows], "_", {**style, "marker": ".", "linestyle": ":"})
             _edge(steps, table["step"][rows[np.isnan(table["error_max"][rows])]], style)
     costs.set_xlabel({"wall_seconds": "wall time [s]"}.get(cost, cost.replace("_", " ")))
     steps.set_xlabel("step [s]")
@@ -105,7 +106,7 @@ def study(
         ax.set_ylabel("error [m]" if getattr(source, "unit", "m") else "error")
         if table.agreement > 0:
             ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
-            ax.set_ylim(bottom=table.agreement)
+            ax.set_ylim(bottom=np.nanmin([table.agreement, *table["error_step"]]))
         if want is not None:
             ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8)
         ax.legend(fontsize="small")
@@ -193,6 +194,7 @@ class _Table:
         with h5py.File(source, "r") as file:
             group = file["study"]
             self._columns = {name: group[name][:] for name in group if isinstance(group[name], h5py.Dataset)}
+            self._columns.setdefault("error_step", np.full(len(group["method"]), np.nan))  # of an older version
             for name in ("method", "status"):
                 self._columns[name] = np.array([_text(word) for word in self._columns[name]])
             names = (_text(word) for word in group["orders/method"][:])
