@@ -177,6 +177,26 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     return ax
 
 
+def flow(rate: Any, *results: Result, box: tuple[float, float, float, float], ax: Axes | None = None) -> Axes:
+    """Draws the flow x' = phi(t, x) of two components at t = 0 as arrows in `box`, (left, right, low, high), and the frames of
+    results of it as marked lines."""
+    ax = _new_axes() if ax is None else ax
+    left, right, low, high = box
+    place = np.stack(np.meshgrid(np.linspace(left, right, 20), np.linspace(low, high, 14)))
+    speed = np.zeros_like(place)
+    for i, j in np.ndindex(*place.shape[1:]):
+        rate(0.0, place[:, i, j], speed[:, i, j])
+    ax.quiver(*place, *speed, color="0.7", angles="xy")
+    for result in results:
+        frames = result.frames
+        if frames is None:
+            raise BadValue("results: a result without frames; give run() frames=True")
+        ax.plot(*frames.q.T, marker=".", label=str(result.options["method"]))
+    ax.set(xlim=(left, right), ylim=(low, high), xlabel="x", ylabel="y", aspect="equal")
+    ax.legend(fontsize="small")
+    return ax
+
+
 _MARKERS = "osD^v<>PX*"
 
 
