@@ -1,4 +1,5 @@
-"""Writes what docs/lecture.md plays, build/playground/lecture.js, after `make playground`: python docs/make_lecture.py build/playground
+"""Writes what docs/lecture.md plays, build/playground/lecture.js, from the WebAssembly there: python docs/make_lecture.py
+build/playground
 
 With the word `pictures` it also draws the figures as they begin, docs/images/lecture-NAME.svg, with node: the page without
 WebAssembly shows them.

@@ -1,6 +1,6 @@
 "use strict";
 /* Draws a panel as SVG text. A panel has `x` and `y`, { from, to, name, log }, `equal` for one scale on both, and `marks`: each is one of
- * line, dots, arrow, segments, strips or word, with a colour. */
+ * line, dots, arrow, segments and strips, with a colour. */
 
 const COLOURS = { blue: "#3b82c4", orange: "#d9731a", green: "#2f9457", red: "#d13f3f", violet: "#8b62c9", grey: "#8a8f98" };
 const SIZE = { width: 360, height: 270, left: 52, right: 12, top: 12, bottom: 40 };
@@ -83,9 +83,6 @@ const MARKS = {
     const path = strips.map(([from, to, y, high]) => `M${place(sx(from))} ${place(sy(y + high / 2))}H${place(sx(to))}V${place(sy(y - high / 2))}H${place(sx(from))}z`);
     return `<path d="${path.join("")}" fill="${colour}" fill-opacity=".3"/>`;
   },
-  word({ word, at: [x, y], colour, anchor = "start" }, { sx, sy }) {
-    return `<text x="${place(sx(x))}" y="${place(sy(y))}" text-anchor="${anchor}" fill="${colour}">${escaped(word)}</text>`;
-  },
 };
 
 const legend = (marks) => marks.filter(({ name }) => name).map(({ name, colour, dots }, k) => `<line x1="${SIZE.left + 8}" x2="${SIZE.left + 26}"
@@ -107,5 +104,3 @@ function fileOf(panels) {
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}"><style>svg{color:#333}
 @media(prefers-color-scheme:dark){svg{color:#ccc}}</style>${panels.map((panel, k) => svgOf(panel, k, k * SIZE.width)).join("\n")}</svg>\n`.replace(/\n\s+/g, "\n");
 }
-
-if (typeof module === "object") module.exports = { COLOURS, SIZE, scales, svgOf, fileOf };

@@ -356,5 +356,3 @@ const FIGURES = [
 ];
 
 const begun = ({ knobs }) => Object.fromEntries(knobs.map(({ name, value }) => [name, value]));
-
-if (typeof module === "object") module.exports = { FIGURES, begun, errorsOf, chainErrors, slopeOf };

@@ -74,4 +74,4 @@ async function begin() {
   document.querySelectorAll('img[src*="lecture-"]').forEach((picture) => near.observe(picture));
 }
 
-if (typeof document === "object") begin();
+if (typeof document === "object") begin(); // not under node

@@ -14,6 +14,7 @@ class Motion {
     try {
       library.check("options_set_text", options, "method", method);
       library.check("options_set_number", options, "step", step);
+      library.check("options_set_number", options, "newton_tolerance", 1e-12);
       this.integrator = library.make(`integrator_create_${name}`, n, this.callback, 0, ...(problem.rate ? [] : [0, 1n, this.one]), options);
       this.state = library.make(`state_create_${name}`, n);
       this.x = start;
@@ -144,5 +145,3 @@ function regionOf(library, method, [left, right, top], cell = 0.1) {
   factor.release();
   return strips.flatMap(([a, b, y]) => [[a, b, y], [a, b, -y]]).map((strip) => [...strip, height]);
 }
-
-if (typeof module === "object") module.exports = { Motion, pathOf, endOf, PROBLEMS, linear, oscillator, Factor, edgeOf, regionOf };
