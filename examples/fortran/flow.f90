@@ -14,6 +14,7 @@ contains
     real(hooke_real), intent(in) :: t, x(n)
     real(hooke_real), intent(out) :: rate(n)
     integer, intent(inout) :: stop_value
+    if (n /= 2 .or. t < 0) stop_value = 1
     select case (self%name)
     case ("river")
       rate = [1.0_hooke_real, cos(x(1)) - (x(2) - sin(x(1)))/2]
