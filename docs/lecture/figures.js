@@ -97,7 +97,7 @@ function chain(library, step, wrong, until = 5) {
 }
 
 const chainErrors = (library, wrong) => once(`chain ${wrong}`, () => {
-  const exact = once("chain", () => chain(library, 1e-3, "rk4").end);
+  const exact = once("chain", () => chain(library, 5e-3, "rk4").end);
   return [0.04, 0.02, 0.01, 0.005].map((step) => [step, distance(chain(library, step, wrong).end, exact)]);
 });
 
