@@ -246,7 +246,8 @@ const FIGURES = [
     draw(library, { pieces }, scenes) {
       const y = resting(library, scenes["rope-resolution"]), hung = BANDS[pieces].map((from) => y.slice(from, from + Number(pieces) + 1));
       const long = hung.map((band) => -1 - band.at(-1));
-      return { numbers: hung.map((band) => band.at(-1)), words: `In ${pieces} pieces the band hangs ${said(long[0])} m longer where the stiffness is a force of the material, and ` +
+      return { numbers: hung.map((band) => band.at(-1)),
+        words: `In ${pieces} pieces the band hangs ${said(long[0])} m longer where the stiffness is a force of the material, and ` +
           `${said(long[1])} m longer where every piece has the stiffness, in N/m, of the whole.`,
         panels: [{ x: axis(-0.4, 1.9, ""), y: axis(Math.min(-2, ...hung[1]) - 0.2, 0.9, "y [m]"), marks: hung.flatMap((band, k) => {
           const line = band.map((place) => [0.3 + k, place]), colour = [blue, red][k];
@@ -261,7 +262,8 @@ const FIGURES = [
       const [light, heavy] = [height(0), height(2)], end = [light.at(-1)[1], heavy.at(-1)[1]];
       const stretch = (i) => frames.map(({ time, position }) => [time, position[3 * i + 3] - position[3 * i] - 1]);
       const pair = (of) => [{ line: of(0), colour: orange, name: "in an ether" }, { line: of(2), colour: blue, name: "rusty" }];
-      return { numbers: end, words: `After 4 s the spring in the ether has fallen ${said(-end[0])} m, and the rusty one ${said(-end[1])} m, as far as a free fall.`,
+      return { numbers: end,
+        words: `After 4 s the spring in the ether has fallen ${said(-end[0])} m, and the rusty one ${said(-end[1])} m, as far as a free fall.`,
         panels: [{ x: axis(0, 4, "t [s]"), y: axis(-90, 25, "height [m]"), marks: pair(height) },
           { x: axis(0, 4, "t [s]"), y: axis(-0.25, 0.35, "longer than at rest [m]"), marks: pair(stretch) }] };
     } },
@@ -289,7 +291,8 @@ const FIGURES = [
       const path = pathOf(library, problem, method, step, count), rows = FIRST_ORDER.map((by) => errorsOf(library, errorAtEnd, name, by));
       const tangents = path.slice(0, -1).map((at) => [at, problem.rate(0, at)]);
       return { numbers: path.at(-1), words: `${count} steps of ${said(step)} s by ${method} end at ${path.at(-1).map((x) => said(x)).join(", ")}.`,
-        panels: [{ x: axis(left, right, "x"), y: axis(low, high, "y"), equal: true, marks: [...fieldOf(problem), { line: finely(library, name), colour: blue, name: "the leaf" },
+        panels: [{ x: axis(left, right, "x"), y: axis(low, high, "y"), equal: true,
+          marks: [...fieldOf(problem), { line: finely(library, name), colour: blue, name: "the leaf" },
           ...tangents.map(([[x, y], [u, v]]) => ({ segments: [[x, y, x + 1.3 * step * u, y + 1.3 * step * v]], colour: orange, wide: 0.8 })),
           { line: path, colour: orange, name: method }, { dots: path, colour: orange }] },
         { x: axis(0.02, 0.5, "step [s]", true), y: axis(...rangeAround(rows.flat()), "error at the end", true),
@@ -300,7 +303,8 @@ const FIGURES = [
     draw(library, { step, method }) {
       const [ones, ends] = [errorOfStep, errorAtEnd].map((of) => errorsOf(library, of, "river", method)), count = Math.round(PROBLEMS.river.duration / step);
       const [one, end] = [errorOfStep, errorAtEnd].map((of) => of(library, "river", method, step)), slopes = [ones, ends].map((row) => slopeOf(row.slice(-2)));
-      return { numbers: [one, end], words: `One step of ${said(step)} s errs by ${said(one)}, order ${slopes[0].toFixed(2)}; ${count} of them, to the end, by ${said(end)}, ` +
+      return { numbers: [one, end],
+        words: `One step of ${said(step)} s errs by ${said(one)}, order ${slopes[0].toFixed(2)}; ${count} of them, to the end, by ${said(end)}, ` +
           `order ${slopes[1].toFixed(2)}: there are 1/step of them.`,
         panels: [{ x: axis(0.02, 0.5, "step [s]", true), y: axis(...rangeAround([...ones, ...ends]), "error", true),
           marks: [...orders(ends, blue, "at the end"), ...orders(ones, orange, "of one step"), { dots: [[step, one], [step, end]], colour: red, wide: 5 }] }] };
@@ -314,12 +318,14 @@ const FIGURES = [
       factor.release();
       const modes = modesOf(library, scenes["six-particles"], 15), most = Math.max(...modes.map((mode) => Math.hypot(...mode)));
       const points = modes.flatMap(([a, b]) => [[a, b], [a, -b]]).map((mode) => mode.map((part) => (part * size) / most));
-      return { numbers: path[10] || [NaN, NaN], bad: grows > 1 + 1e-9, words: `A step by ${method} multiplies ${single && grows !== 1 ? "x" : "the oscillation"} by ${said(grows)} in size: ` +
+      return { numbers: path[10] || [NaN, NaN], bad: grows > 1 + 1e-9,
+        words: `A step by ${method} multiplies ${single && grows !== 1 ? "x" : "the oscillation"} by ${said(grows)} in size: ` +
           `${grows > 1 + 1e-9 ? "it grows" : "it does not grow"}. After ${path.length - 1} steps it is at ${end.map((x) => said(x)).join(", ")}.`,
         panels: [{ x: axis(-4.2, 1.6, "real part of a dt"), y: axis(-2.6, 2.6, "imaginary part"), equal: true, marks: [{ strips, colour: green },
           { line: [[-9, 0], [9, 0]], colour: grey, wide: 0.7 }, { line: [[0, -9], [0, 9]], colour: grey, wide: 0.7 }, { arrow: [-1, 0, re, im], colour: blue, wide: 2 },
           { dots: points, colour: violet, wide: 2.5, name: "modes of six particles" }, { dots: [[re, im]], colour: orange, wide: 6, edge: true }] },
-        { x: axis(-far, far, single ? "real part of x\u2099" : "q\u2099"), y: axis(-far, far, single ? "imaginary part" : "v\u2099"), equal: true, marks: [{ line: path, colour: blue, wide: 0.8 },
+        { x: axis(-far, far, single ? "real part of x\u2099" : "q\u2099"), y: axis(-far, far, single ? "imaginary part" : "v\u2099"), equal: true,
+          marks: [{ line: path, colour: blue, wide: 0.8 },
           { dots: path, colour: blue, name: "x\u2080, x\u2081, ..." }, ...(single ? [{ arrow: [0, 0, ...path[1] || [0, 0]], colour: orange, wide: 2 }] : [])] }] };
     } },
   { name: "accuracy",
@@ -328,17 +334,21 @@ const FIGURES = [
       const count = Math.floor(63 / step), path = pathOf(library, { start: [1, 0], force: (t, [q]) => [-q] }, method, step, count), factor = new Factor(library, method);
       const bad = factor.at(0, step) > 1 + 1e-6, line = path.map(([q], k) => [(k * step) / (2 * Math.PI), q]), end = path[count] || [NaN];
       factor.release();
-      return { numbers: [end[0]], bad, words: `${bad ? "Unstable. " : "Stable. "}After ${count} steps, about ten periods, q is ${said(end[0])}, and should be ${said(Math.cos(count * step))}.`,
-        panels: [{ x: axis(0, 10, "periods"), y: axis(-1.6, 2.2, "q"), marks: [{ line: range(800).map((k) => [k / 80, Math.cos((k * Math.PI) / 40)]), colour: grey, name: "exact" },
+      return { numbers: [end[0]], bad,
+        words: `${bad ? "Unstable. " : "Stable. "}After ${count} steps, about ten periods, q is ${said(end[0])}, and should be ${said(Math.cos(count * step))}.`,
+        panels: [{ x: axis(0, 10, "periods"), y: axis(-1.6, 2.2, "q"),
+          marks: [{ line: range(800).map((k) => [k / 80, Math.cos((k * Math.PI) / 40)]), colour: grey, name: "exact" },
           { line, colour: bad ? red : blue, name: method }] }] };
     } },
   { name: "rule",
     knobs: [{ name: "step", from: 1e-4, to: 1, value: 1e-3, unit: "s", log: true }],
     draw(library, { step }, scenes) {
       const scales_ = modesOf(library, scenes["stiff-spring"], 18).map((mode) => 1 / Math.hypot(...mode)).sort((a, b) => a - b);
-      return { numbers: [1 / scales_[0], 1 / scales_.at(-1)], bad: step > 2 * scales_[0], words: `The shortest time scale of the chain, 1/\u03c9, is ${said(scales_[0])} s: ${said(scales_[0] / step)} steps. ` +
+      return { numbers: [1 / scales_[0], 1 / scales_.at(-1)], bad: step > 2 * scales_[0],
+        words: `The shortest time scale of the chain, 1/\u03c9, is ${said(scales_[0])} s: ${said(scales_[0] / step)} steps. ` +
           `The longest is ${said(scales_.at(-1))} s.`,
-        panels: [{ x: axis(1e-4, 10, "time [s]", true), y: axis(-1, 18, "mode"), marks: [{ segments: scales_.map((s, k) => [1e-4, k, s, k]), colour: blue, wide: 5 },
+        panels: [{ x: axis(1e-4, 10, "time [s]", true), y: axis(-1, 18, "mode"),
+          marks: [{ segments: scales_.map((s, k) => [1e-4, k, s, k]), colour: blue, wide: 5 },
           { line: [[step, -1], [step, 18]], colour: step > 2 * scales_[0] ? red : orange, wide: 2.5, name: "the step" }] }] };
     } },
   { name: "stiff",
@@ -347,10 +357,12 @@ const FIGURES = [
       const text = scenes["stiff-spring"], limit = limitAt(library, softened(text, softer)), bad = step > 1e3 * limit, price = priceOf(library, text, softer);
       const see = (live) => [live.time, live.position[10]], line = framesOf(library, softened(text, softer), 1, 100, { step: step / 1e3, see });
       const factors = [0.001, 0.003, 0.01, 0.025, 0.1, 0.3], prices = factors.map((factor) => [factor, priceOf(library, text, factor)]);
-      return { numbers: [limit, price], bad, words: `With the stiff spring at ${said(100 * softer)} % the limit is ${said(1e3 * limit)} ms, and a step of ${said(step)} ms is ${bad ? "above" : "below"} it. ` +
+      return { numbers: [limit, price], bad,
+        words: `With the stiff spring at ${said(100 * softer)} % the limit is ${said(1e3 * limit)} ms, and a step of ${said(step)} ms is ${bad ? "above" : "below"} it. ` +
           `The softening moves a particle by up to ${said(price)} m in 1 s.`,
         panels: [{ x: axis(0, 1, "t [s]"), y: axis(-4, 1, "height of particle 3 [m]"), marks: [{ line, colour: bad ? red : blue, wide: 2 }] },
-          { x: axis(0.0008, 1.2, "stiffness of the stiff spring", true), y: axis(...rangeAround(prices), "price [m]", true), marks: [...orders(prices, violet, "largest change of a position"),
+          { x: axis(0.0008, 1.2, "stiffness of the stiff spring", true), y: axis(...rangeAround(prices), "price [m]", true),
+            marks: [...orders(prices, violet, "largest change of a position"),
             { dots: [[softer, price]], colour: orange, wide: 5 }] }] };
     } },
 ];
