@@ -54,10 +54,13 @@ HOOKE_INLINE void add_ring(const char *x, ptrdiff_t stride, const int begins, ve
 
 HOOKE_INLINE void add(const struct item *item, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
   const char *x = item->ring + ((BYTES * p - item->offset) & item->mask);
-  if (item->offset == 0)
+  if (item->offset == 0) { /* empty instructions: or the compiler loads before the branch */
+    __asm__("" : "+r"(x));
     add_ring(x, stride, 1, sum);
-  else
+  } else {
+    __asm__("" : "+r"(x));
     add_ring(x, stride, 0, sum);
+  }
 }
 
 /* The ends and then the beginnings of a batch. The empty instruction keeps the compiler from computing an
@@ -96,7 +99,7 @@ HOOKE_INLINE void clear_absent(const struct batch *batch, ptrdiff_t p, vec b[3])
 /* Lengths of the springs of a batch that begin at particles at q and v, whose numbers are `x` and `u`. */
 HOOKE_INLINE void find_lengths(struct batch *batch, const char *q, const char *v, ptrdiff_t stride,
                                const vec x[3], const vec u[3], const int shape) {
-  vec d[3], along = {0};
+  vec d[3];
   q += batch->offset;
   v += batch->offset;
   __asm__("" : "+r"(q), "+r"(v));
@@ -104,7 +107,7 @@ HOOKE_INLINE void find_lengths(struct batch *batch, const char *q, const char *v
     d[a] = x[a] - load_at(q + a * stride);
   batch->r = hk_vector_sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
   if (shape & HOOKE_RUN_DAMPED) {
-    along = (u[0] - load_at(v)) * d[0];
+    vec along = (u[0] - load_at(v)) * d[0];
     for (int a = 1; a < 3; a++)
       along = along + (u[a] - load_at(v + a * stride)) * d[a];
     batch->along = along;
@@ -120,7 +123,7 @@ HOOKE_INLINE void fill(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p,
   vec number[HOOKE_STRIDED_NUMBERS], b[3];
   for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
     number[n] = batch->shared[n];
-  if (shape & batch->shape & HOOKE_RUN_MIXED) find_numbers(batch, p, number);
+  if (shape & HOOKE_RUN_MIXED) find_numbers(batch, p, number);
   const vec r = batch->r, ir = 1.0 / r, stretch = r - number[HOOKE_STRIDED_REST];
   vec tension = number[HOOKE_STRIDED_KAPPA] * stretch;
   *shortest = hk_lesser(r + stretch, *shortest);
@@ -165,9 +168,8 @@ static int64_t fill_one(const struct hk_strided_pass *pass, const struct hk_stri
   const double s = hk_spring_tension(r, rest, *hk_strided_number(material, p, HOOKE_STRIDED_KAPPA), brake,
                                      damped, (batch->shape & HOOKE_RUN_PULL_ONLY) != 0) *
                    ir;
-  for (int a = 0; a < 3; a++) {
+  for (int a = 0; a < 3; a++)
     batch->ring[a * pass->ring_stride + at] = s * d[a];
-  }
   return hk_spring_shortness(r, rest);
 }
 
@@ -288,8 +290,12 @@ static void copy_batches(const struct hk_strided_pass *pass, struct loop *loop) 
 /* `shape` is that of all batches, or ANY. */
 HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape, ptrdiff_t from,
                              ptrdiff_t to) {
-  struct loop loop = {
-      .pass = pass, .move = pass->move, .from = from, .to = to, .ring_stride = BYTES * pass->ring_stride};
+  struct loop loop; /* whose unused batches are not cleared */
+  loop.pass = pass;
+  loop.move = pass->move;
+  loop.from = from;
+  loop.to = to;
+  loop.ring_stride = BYTES * pass->ring_stride;
   int64_t lost = 0;
   copy_batches(pass, &loop);
   ptrdiff_t p = from;
@@ -303,13 +309,13 @@ HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape
 }
 
 HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
-  int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0, paired = PAIRED;
+  const int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0;
+  int32_t paired = PAIRED;
   for (int32_t k = 0; k < pass->count; k++) {
     const struct hk_strided_view *batch = &pass->batch[k];
     const struct hk_strided_item *item = &pass->item[2 * k];
     if (item[0].ring != batch->ring || item[1].ring != batch->ring || item[1].offset != 0) paired = 0;
-    if ((shape ^ batch->shape) & ~HOOKE_RUN_MIXED) return ANY;
-    shape |= batch->shape;
+    if (batch->shape != shape) return ANY;
   }
   return shape | paired;
 }

@@ -12,8 +12,8 @@
 enum {
   HOOKE_MOST_STRIDED = 32,
   HOOKE_STRIDED_UNIT = 8, /* passes begin and end at multiples of this particle number */
-  /* A ring holds at least offset + HOOKE_RING_SLACK springs, a power of two, and after them the first unit
-   * once more. */
+  /* A ring holds at least offset + HOOKE_RING_SLACK springs, a power of two and not less than
+   * HOOKE_LEAST_RING, and has space for a unit after them, where the first vector is repeated. */
   HOOKE_RING_SLACK = 48,
   HOOKE_LEAST_RING = 64
 };

@@ -53,7 +53,7 @@ static int64_t whole_units(int64_t count) {
 }
 
 static int64_t ring_capacity(const struct hk_strided_batch *batch) {
-  int64_t capacity = HOOKE_STRIDED_UNIT;
+  int64_t capacity = HOOKE_LEAST_RING;
   while (capacity < batch->offset + HOOKE_RING_SLACK)
     capacity *= 2;
   return capacity;
