@@ -1,192 +1,153 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Two vectors of springs are computed together,
- * and sums are some vectors behind, so that the processor always finds operations with available operands. It
- * looks ahead by a limited number of operations and loads, so those of addresses are kept few. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. A step of the loop works on three vectors of
+ * particles: it finds the lengths of the springs of one, the forces of those before it, and the sums of those
+ * before these. Roots and quotients have a whole step to end, so that little waits for them in the queue of
+ * floating-point operations, whose length limits the loop. */
 #include "kernel/spring/strided_loops.h"
 
 #include "kernel/instruction_set.h"
 #include "kernel/move_body.h"
 
-#include <string.h>
-
 typedef hk_vector vec;
 
 /* Shapes of a pass: that of its batches, if the items of each batch are consecutive in the order of batches;
  * or any. */
-enum { PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
+enum { PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES };
 
-/* The two vectors belong to TOGETHER batches and to VECTORS successive vectors of particles, which make a
- * step of the loop. Sums are BEHIND particles behind. */
-enum {
-  VECTORS = HOOKE_WIDTH == HOOKE_STRIDED_UNIT ? 1 : 2,
-  TOGETHER = 2 / VECTORS,
-  STEP = VECTORS * HOOKE_WIDTH,
-  BEHIND = HOOKE_WIDTH == HOOKE_STRIDED_UNIT ? 2 * STEP : STEP,
-  BYTES = sizeof(double)
-};
+enum { STEP = HOOKE_WIDTH, ALL = (1 << STEP) - 1, BYTES = sizeof(double) };
 
 /* Copies of views and items with addresses in bytes, which need no scaling. */
 struct batch {
-  ptrdiff_t offset, mask, stride;
+  vec d[3], r, along; /* of the last vector of springs: distances, lengths, velocities times distances */
+  vec shared[HOOKE_STRIDED_NUMBERS];
+  ptrdiff_t offset, mask, ahead;
   char *ring;
   const uint8_t *present;
-  double shared[HOOKE_STRIDED_NUMBERS];
-  const struct hk_strided_material *material;
+  const uint32_t *unit;
+  const double *value;
   int32_t shape;
-};
+} __attribute__((aligned(64)));
 
 struct item {
-  ptrdiff_t offset, mask, stride;
+  ptrdiff_t offset, mask;
   const char *ring;
 };
 
-struct slot {
-  const char *q, *v;   /* index of the current vectors of particles */
-  ptrdiff_t stride, p; /* in bytes; number of particles */
+struct loop {
+  const struct hk_strided_pass *pass;
+  struct hk_move move;
+  ptrdiff_t from, to, ring_stride;
+  struct batch batch[HOOKE_MOST_STRIDED];
+  struct item item[2 * HOOKE_MOST_STRIDED];
 };
 
-#define EACH_VECTOR for (int j = 0; j < VECTORS; j++)
-
-HOOKE_INLINE vec load_at(const char *at, int j) {
-  return hk_load((const double *)(const void *)at + j * HOOKE_WIDTH);
-}
-
-HOOKE_INLINE void store_three(char *x, ptrdiff_t stride, vec b[VECTORS][3]) {
-  for (int a = 0; a < 3; a++)
-    EACH_VECTOR hk_store((double *)(void *)(x + a * stride) + j * HOOKE_WIDTH, b[j][a]);
-}
-
-HOOKE_INLINE void store_forces(const struct batch *batch, ptrdiff_t p, vec b[VECTORS][3]) {
-  const ptrdiff_t mask = batch->mask, stride = batch->stride, at = BYTES * p & mask;
-  char *x = batch->ring + at;
-  store_three(x, stride, b);
-  if (__builtin_expect(at < BYTES * HOOKE_STRIDED_UNIT, 0)) store_three(x + mask + BYTES, stride, b);
+HOOKE_INLINE vec load_at(const char *at) {
+  return hk_load((const double *)(const void *)at);
 }
 
 /* Adds the springs at `x` of a ring, or subtracts those that begin at the particles. */
-HOOKE_INLINE void add_ring(const char *x, ptrdiff_t stride, const int begins, vec sum[VECTORS][3]) {
+HOOKE_INLINE void add_ring(const char *x, ptrdiff_t stride, const int begins, vec sum[3]) {
   for (int a = 0; a < 3; a++) {
-    EACH_VECTOR {
-      const vec b = load_at(x + a * stride, j);
-      sum[j][a] = begins ? sum[j][a] - b : sum[j][a] + b;
-    }
+    const vec b = load_at(x + a * stride);
+    sum[a] = begins ? sum[a] - b : sum[a] + b;
   }
 }
 
-HOOKE_INLINE void add(const struct item *item, ptrdiff_t p, vec sum[VECTORS][3]) {
+HOOKE_INLINE void add(const struct item *item, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
   const char *x = item->ring + ((BYTES * p - item->offset) & item->mask);
-  if (item->offset == 0)
-    add_ring(x, item->stride, 1, sum);
-  else
-    add_ring(x, item->stride, 0, sum);
+  if (item->offset == 0) { /* empty instructions: or the compiler loads before the branch */
+    __asm__("" : "+r"(x));
+    add_ring(x, stride, 1, sum);
+  } else {
+    __asm__("" : "+r"(x));
+    add_ring(x, stride, 0, sum);
+  }
 }
 
-/* The ends and then the beginnings of a batch. */
-HOOKE_INLINE void add_pair(const struct batch *batch, ptrdiff_t p, vec sum[VECTORS][3]) {
-  const ptrdiff_t mask = batch->mask, stride = batch->stride;
-  add_ring(batch->ring + ((BYTES * p - batch->offset) & mask), stride, 0, sum);
-  add_ring(batch->ring + (BYTES * p & mask), stride, 1, sum);
+/* The ends and then the beginnings of a batch. The empty instruction keeps the compiler from computing an
+ * address for each component. */
+HOOKE_INLINE void add_pair(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
+  const char *end = batch->ring + ((BYTES * p - batch->offset) & batch->mask),
+             *begin = batch->ring + (BYTES * p & batch->mask);
+  __asm__("" : "+r"(end), "+r"(begin));
+  add_ring(end, stride, 0, sum);
+  add_ring(begin, stride, 1, sum);
 }
 
-/* p modulo a unit, where steps are shorter. */
-HOOKE_INLINE size_t within_unit(ptrdiff_t p) {
-  return (int)STEP == (int)HOOKE_STRIDED_UNIT ? 0 : (size_t)p % HOOKE_STRIDED_UNIT;
-}
-
-/* Location of the material of the springs at p, prefetched if it is stored in a row. */
-HOOKE_INLINE void locate(const struct hk_strided_material *material, ptrdiff_t p, const double **number) {
-  const uint32_t *unit =
-      material->unit + (HOOKE_STRIDED_NUMBERS * ((size_t)p / HOOKE_STRIDED_UNIT) & (size_t)material->mask);
+/* Numbers of the springs at p, prefetched if they are stored in a row. */
+HOOKE_INLINE void find_numbers(const struct batch *batch, ptrdiff_t p, vec number[HOOKE_STRIDED_NUMBERS]) {
+  const uint32_t *unit = batch->unit + HOOKE_STRIDED_NUMBERS * ((size_t)p / HOOKE_STRIDED_UNIT);
+  const double *value = batch->value + (size_t)p % HOOKE_STRIDED_UNIT;
   for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
-    number[n] = material->value + unit[n] + within_unit(p);
-  if (material->ahead == 0) return;
+    number[n] = hk_load(value + unit[n]);
+  if (batch->ahead == 0 || (size_t)p % HOOKE_STRIDED_UNIT) return;
   for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
-    __builtin_prefetch(number[n] + material->ahead);
+    __builtin_prefetch(value + unit[n] + batch->ahead);
 }
 
-HOOKE_INLINE vec number_of(const struct batch *batch, const double *const *own, int n, int j,
-                           const int mixed) {
-  return mixed ? hk_load(own[n] + j * HOOKE_WIDTH) : hk_all(batch->shared[n]);
+/* Bits of the springs at p. */
+HOOKE_INLINE uint32_t present_at(const uint8_t *present, ptrdiff_t p) {
+  return (uint32_t)present[(size_t)p / HOOKE_STRIDED_UNIT] >> (size_t)p % HOOKE_STRIDED_UNIT & ALL;
 }
 
 /* Clears the forces of springs that do not exist. */
-HOOKE_INLINE void clear_absent(const struct batch *batch, ptrdiff_t p, vec b[VECTORS][3]) {
-  const uint32_t all = (1u << STEP) - 1, vector = (1u << HOOKE_WIDTH) - 1;
-  const uint32_t bits = (uint32_t)batch->present[(size_t)p / HOOKE_STRIDED_UNIT] >> within_unit(p) & all;
-  if (__builtin_expect(bits == all, 1)) return;
+HOOKE_INLINE void clear_absent(const struct batch *batch, ptrdiff_t p, vec b[3]) {
+  const uint32_t bits = present_at(batch->present, p);
   for (int a = 0; a < 3; a++)
-    EACH_VECTOR b[j][a] = hk_keep(bits >> j * HOOKE_WIDTH & vector, b[j][a]);
+    b[a] = hk_keep(bits, b[a]);
 }
 
-#define EACH   for (int i = 0; i < together * VECTORS; i++)
-#define BATCH  (batch + i / VECTORS)
-#define VECTOR (i % VECTORS)
-
-/* The velocity of the ends against each other times their distance vector `d`. */
-HOOKE_INLINE void find_along(const struct batch *batch, const int together, const char *v, ptrdiff_t stride,
-                             vec d[2][3], vec along[2]) {
-  EACH along[i] = (load_at(v, VECTOR) - load_at(v + BATCH->offset, VECTOR)) * d[i][0];
-  for (int a = 1; a < 3; a++) {
-    const char *u = v + a * stride;
-    EACH along[i] = along[i] + (load_at(u, VECTOR) - load_at(u + BATCH->offset, VECTOR)) * d[i][a];
+/* Lengths of the springs of a batch that begin at particles at q and v, whose numbers are `x` and `u`. */
+HOOKE_INLINE void find_lengths(struct batch *batch, const char *q, const char *v, ptrdiff_t stride,
+                               const vec x[3], const vec u[3], const int shape) {
+  vec d[3];
+  q += batch->offset;
+  v += batch->offset;
+  __asm__("" : "+r"(q), "+r"(v));
+  for (int a = 0; a < 3; a++)
+    d[a] = x[a] - load_at(q + a * stride);
+  batch->r = hk_vector_sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]);
+  if (shape & HOOKE_RUN_DAMPED) {
+    vec along = (u[0] - load_at(v)) * d[0];
+    for (int a = 1; a < 3; a++)
+      along = along + (u[a] - load_at(v + a * stride)) * d[a];
+    batch->along = along;
   }
+  for (int a = 0; a < 3; a++)
+    batch->d[a] = d[a];
 }
 
-/* Tension over length of springs of length r. */
-HOOKE_INLINE vec tension_of(const struct batch *batch, const double *const *own, int j, const int shape,
-                            vec r, vec ir, vec along, vec *shortest) {
-  const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
-  const vec rest = number_of(batch, own, HOOKE_STRIDED_REST, j, mixed);
-  vec tension = number_of(batch, own, HOOKE_STRIDED_KAPPA, j, mixed) * (r - rest);
-  *shortest = hk_lesser(r + (r - rest), *shortest);
-  if (shape & HOOKE_RUN_DAMPED)
-    tension = tension + number_of(batch, own, HOOKE_STRIDED_GAMMA, j, mixed) * (along * ir);
+/* Forces of the springs at p, of known length, into the ring of their batch; `shortest` receives the minimum
+ * of twice their length less their rest length. */
+HOOKE_INLINE void fill(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, const int shape, int whole,
+                       vec *shortest) {
+  vec number[HOOKE_STRIDED_NUMBERS], b[3];
+  for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
+    number[n] = batch->shared[n];
+  if (shape & HOOKE_RUN_MIXED) find_numbers(batch, p, number);
+  const vec r = batch->r, ir = 1.0 / r, stretch = r - number[HOOKE_STRIDED_REST];
+  vec tension = number[HOOKE_STRIDED_KAPPA] * stretch;
+  *shortest = hk_lesser(r + stretch, *shortest);
+  if (shape & HOOKE_RUN_DAMPED) tension = tension + number[HOOKE_STRIDED_GAMMA] * (batch->along * ir);
   if (shape & HOOKE_RUN_PULL_ONLY)
-    tension = (vec)((hk_vector_mask)tension & ~((r <= rest) | (tension < 0.0)));
-  return tension * ir;
+    tension = (vec)((hk_vector_mask)tension & ~((r <= number[HOOKE_STRIDED_REST]) | (tension < 0.0)));
+  tension = tension * ir;
+  for (int a = 0; a < 3; a++)
+    b[a] = tension * batch->d[a];
+  if (__builtin_expect(!whole, 0)) clear_absent(batch, p, b);
+  char *x = batch->ring + (BYTES * p & batch->mask);
+  __asm__("" : "+r"(x));
+  for (int a = 0; a < 3; a++)
+    hk_store((double *)(void *)(x + a * stride), b[a]);
 }
 
-/* Forces of the springs of 1 or TOGETHER batches of one shape into their rings, and sums behind;
- * `shortest` receives the minimum of twice their length less their rest length. Stores may alias anything
- * for the compiler, so they come last. The empty instruction keeps it from storing sums of addresses
- * outside the loop, whose loads cost more than adding. */
-HOOKE_INLINE void fill(const struct batch *batch, const struct item *item, const int together,
-                       const struct slot *at, const int shape, vec *shortest, vec sum[VECTORS][3]) {
-  const char *q = at->q, *v = at->v;
-  ptrdiff_t stride = at->stride, p = at->p;
-  const double *own[TOGETHER][HOOKE_STRIDED_NUMBERS];
-  vec d[2][3], r[2], ir[2], along[2] = {{0}, {0}};
-  __asm__("" : "+r"(q), "+r"(v), "+r"(stride), "+r"(p));
-  for (int k = 0; k < together && shape & HOOKE_RUN_MIXED; k++)
-    locate(batch[k].material, p, own[k]);
-  for (int a = 0; a < 3; a++) {
-    const char *x = q + a * stride;
-    EACH d[i][a] = load_at(x, VECTOR) - load_at(x + BATCH->offset, VECTOR);
+/* Repeats the first vector of springs of the rings that begin anew at p after their ends. */
+static __attribute__((noinline)) void repeat_first(const struct hk_strided_pass *pass, ptrdiff_t p) {
+  for (int32_t k = 0; k < pass->count; k++) {
+    const ptrdiff_t mask = pass->batch[k].mask;
+    double *x = pass->batch[k].ring;
+    for (int a = 0; a < 3 && (p & mask) == 0; a++, x += pass->ring_stride)
+      hk_store(x + mask + 1, hk_load(x));
   }
-  EACH r[i] = d[i][0] * d[i][0] + d[i][1] * d[i][1];
-  EACH r[i] = hk_vector_sqrt(r[i] + d[i][2] * d[i][2]);
-  if (shape & HOOKE_RUN_DAMPED) find_along(batch, together, v, stride, d, along);
-  for (int k = 0; k < together; k++) {
-    if (shape & PAIRED) {
-      add_pair(batch + k, p - BEHIND, sum);
-    } else {
-      add(item + 2 * k, p - BEHIND, sum);
-      add(item + 2 * k + 1, p - BEHIND, sum);
-    }
-  }
-  EACH ir[i] = 1.0 / r[i];
-  EACH {
-    const vec s = tension_of(BATCH, own[i / VECTORS], VECTOR, shape, r[i], ir[i], along[i], shortest);
-    for (int a = 0; a < 3; a++)
-      d[i][a] = s * d[i][a];
-  }
-  for (int k = 0; k < together; k++)
-    clear_absent(batch + k, p, d + k * VECTORS);
-  for (int k = 0; k < together; k++)
-    store_forces(batch + k, p, d + k * VECTORS);
-}
-
-HOOKE_INLINE int present_at(const struct hk_strided_view *batch, ptrdiff_t p) {
-  return batch->present[p / HOOKE_STRIDED_UNIT] >> p % HOOKE_STRIDED_UNIT & 1;
 }
 
 /* The force of the spring of a batch at p into its ring. Returns how short it is. */
@@ -207,11 +168,8 @@ static int64_t fill_one(const struct hk_strided_pass *pass, const struct hk_stri
   const double s = hk_spring_tension(r, rest, *hk_strided_number(material, p, HOOKE_STRIDED_KAPPA), brake,
                                      damped, (batch->shape & HOOKE_RUN_PULL_ONLY) != 0) *
                    ir;
-  for (int a = 0; a < 3; a++) {
-    double *to = batch->ring + a * hk_ring_stride(batch->mask) + at;
-    *to = s * d[a];
-    if (at < HOOKE_STRIDED_UNIT) to[batch->mask + 1] = *to;
-  }
+  for (int a = 0; a < 3; a++)
+    batch->ring[a * pass->ring_stride + at] = s * d[a];
   return hk_spring_shortness(r, rest);
 }
 
@@ -220,7 +178,7 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
     for (ptrdiff_t l = p; l < p + STEP; l++) {
-      if (present_at(&pass->batch[k], l)) lost += fill_one(pass, &pass->batch[k], l);
+      if (present_at(pass->batch[k].present, l) & 1) lost += fill_one(pass, &pass->batch[k], l);
     }
   }
   return lost;
@@ -252,114 +210,112 @@ static __attribute__((noinline)) void move_otherwise(const struct hk_strided_pas
   }
 }
 
-HOOKE_INLINE void move_on(const struct hk_strided_pass *pass, const struct hk_move *move, ptrdiff_t first,
-                          vec sums[VECTORS][3]) {
-  EACH_VECTOR {
-    const ptrdiff_t p = first + j * HOOKE_WIDTH;
-    const vec *sum = sums[j];
-    if (__builtin_expect(move->kind == HOOKE_KICK_THEN_DRIFT, 1))
-      MOVE(HOOKE_KICK_THEN_DRIFT);
-    else if (move->kind != HOOKE_MOVE_NOTHING)
-      move_otherwise(pass, p, sum[0], sum[1], sum[2]);
-  }
+HOOKE_INLINE void move_on(const struct loop *loop, ptrdiff_t p, const vec sum[3]) {
+  const struct hk_strided_pass *pass = loop->pass;
+  const struct hk_move *move = &loop->move;
+  if (__builtin_expect(move->kind == HOOKE_KICK_THEN_DRIFT, 1))
+    MOVE(HOOKE_KICK_THEN_DRIFT);
+  else if (move->kind != HOOKE_MOVE_NOTHING)
+    move_otherwise(pass, p, sum[0], sum[1], sum[2]);
 }
 
-#define BODY(shape)                                                                                          \
-  case shape:                                                                                                \
-    fill(batch, item, 1, at, (shape) | HOOKE_RUN_MIXED, shortest, sum);                                      \
-    break;
-
-HOOKE_INLINE void fill_any(const struct batch *batch, const struct item *item, const struct slot *at,
-                           vec *shortest, vec sum[VECTORS][3]) {
-  switch (batch->shape & ~HOOKE_RUN_MIXED) {
-    BODY(0)
-    BODY(HOOKE_RUN_DAMPED)
-    BODY(HOOKE_RUN_PULL_ONLY)
-  default:
-    fill(batch, item, 1, at, HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED | HOOKE_RUN_MIXED, shortest, sum);
-  }
-}
-
-/* Forces of all batches at a step of the loop, and sums behind it: TOGETHER batches at a time if all have one
- * shape, known at compile time. */
-HOOKE_INLINE void fill_all(const struct batch *batch, const struct item *item, int32_t count, const int shape,
-                           const struct slot *at, vec *shortest, vec sum[VECTORS][3]) {
-  const struct batch *end = batch + count;
-  if (shape == ANY) {
-    for (; batch < end; batch++, item += 2)
-      fill_any(batch, item, at, shortest, sum);
-    return;
-  }
-  for (; batch + TOGETHER <= end; batch += TOGETHER, item += 2 * TOGETHER)
-    fill(batch, item, TOGETHER, at, shape, shortest, sum);
-  if (TOGETHER > 1 && batch < end) fill(batch, item, 1, at, shape, shortest, sum);
-}
-
-HOOKE_INLINE void fetch(const struct slot *at, ptrdiff_t ahead) {
+HOOKE_INLINE void fetch(const char *q, const char *v, ptrdiff_t stride, ptrdiff_t ahead) {
   for (int a = 0; a < 3; a++) {
-    __builtin_prefetch(at->q + BYTES * ahead + a * at->stride);
-    __builtin_prefetch(at->v + BYTES * ahead + a * at->stride);
+    __builtin_prefetch(q + BYTES * ahead + a * stride);
+    __builtin_prefetch(v + BYTES * ahead + a * stride);
   }
 }
 
-static void copy_batches(const struct hk_strided_pass *pass, struct batch *batch, struct item *item) {
+/* Lengths at p, forces one vector behind, sums two behind: all of them if the step is an inner one, and those
+ * in the range of the loop otherwise. Returns how short the springs are. */
+HOOKE_INLINE int64_t step(struct loop *loop, ptrdiff_t p, const int shape, const int inner) {
+  const struct hk_strided_pass *pass = loop->pass;
+  const int lengths = inner || p < loop->to,
+            forces = inner || (p - STEP >= loop->from && p - STEP < loop->to),
+            sums = inner || p - 2 * STEP >= loop->from;
+  const ptrdiff_t stride = BYTES * pass->stride, ring = loop->ring_stride;
+  const char *q = (const char *)(pass->q + p), *v = (const char *)(pass->v + p);
+  struct batch *batch = loop->batch;
+  const struct item *item = loop->item;
+  vec x[3] = {{0}}, u[3] = {{0}}, sum[3] = {{0}}, shortest = hk_all(INFINITY);
+  const int whole = forces && present_at(pass->present, p - STEP) == ALL;
+  int64_t lost = 0;
+  if (pass->ahead > 0) fetch(q, v, stride, pass->ahead);
+  for (int a = 0; a < 3 && lengths; a++) {
+    x[a] = load_at(q + a * stride);
+    if (shape & (HOOKE_RUN_DAMPED | ANY)) u[a] = load_at(v + a * stride);
+  }
+  for (const struct batch *end = batch + pass->count; batch < end; batch++, item += 2) {
+    const int kind = shape == ANY ? batch->shape : shape;
+    if (sums && shape & PAIRED) add_pair(batch, ring, p - 2 * STEP, sum);
+    if (sums && !(shape & PAIRED)) {
+      add(item, ring, p - 2 * STEP, sum);
+      add(item + 1, ring, p - 2 * STEP, sum);
+    }
+    if (forces) fill(batch, ring, p - STEP, kind, whole, &shortest);
+    if (lengths) find_lengths(batch, q, v, stride, x, u, kind);
+  }
+  if (__builtin_expect(hk_has_none_left(shortest), 0)) lost = fill_with_care(pass, p - STEP);
+  if ((p - STEP) % HOOKE_LEAST_RING == 0) repeat_first(pass, p - STEP);
+  if (sums) move_on(loop, p - 2 * STEP, sum);
+  return lost;
+}
+
+static __attribute__((noinline)) int64_t outer_step(struct loop *loop, ptrdiff_t p) {
+  return step(loop, p, ANY, 0);
+}
+
+static void copy_batches(const struct hk_strided_pass *pass, struct loop *loop) {
   for (int32_t k = 0; k < pass->count; k++) {
     const struct hk_strided_view *view = &pass->batch[k];
-    batch[k] = (struct batch){.offset = BYTES * view->offset,
-                              .mask = BYTES * view->mask,
-                              .stride = BYTES * hk_ring_stride(view->mask),
-                              .ring = (char *)view->ring,
-                              .present = view->present,
-                              .material = &view->material,
-                              .shape = view->shape};
-    memcpy(batch[k].shared, view->shared, sizeof view->shared);
+    struct batch *batch = &loop->batch[k];
+    *batch = (struct batch){.offset = BYTES * view->offset,
+                            .mask = BYTES * view->mask,
+                            .ring = (char *)view->ring,
+                            .present = view->present,
+                            .unit = view->material.unit,
+                            .value = view->material.value,
+                            .ahead = view->material.ahead,
+                            .shape = view->shape};
+    for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
+      batch->shared[n] = hk_all(view->shared[n]);
   }
   for (int32_t i = 0; i < 2 * pass->count; i++) {
     const struct hk_strided_item *from = &pass->item[i];
-    item[i] = (struct item){.offset = BYTES * from->offset,
-                            .mask = BYTES * from->mask,
-                            .stride = BYTES * hk_ring_stride(from->mask),
-                            .ring = (const char *)from->ring};
+    loop->item[i] = (struct item){
+        .offset = BYTES * from->offset, .mask = BYTES * from->mask, .ring = (const char *)from->ring};
   }
 }
 
 /* `shape` is that of all batches, or ANY. */
 HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape, ptrdiff_t from,
                              ptrdiff_t to) {
-  const struct hk_move how = pass->move;
-  const int32_t count = pass->count;
-  struct batch batch[HOOKE_MOST_STRIDED];
-  struct item item[2 * HOOKE_MOST_STRIDED];
+  struct loop loop; /* whose unused batches are not cleared */
+  loop.pass = pass;
+  loop.move = pass->move;
+  loop.from = from;
+  loop.to = to;
+  loop.ring_stride = BYTES * pass->ring_stride;
   int64_t lost = 0;
-  copy_batches(pass, batch, item);
-  for (ptrdiff_t p = from; p < to; p += STEP) {
-    const struct slot at = {.q = (const char *)(pass->q + p),
-                            .v = (const char *)(pass->v + p),
-                            .stride = BYTES * pass->stride,
-                            .p = p};
-    vec sum[VECTORS][3] = {{{0}}}, shortest = hk_all(INFINITY);
-    if (pass->ahead > 0) fetch(&at, pass->ahead);
-    fill_all(batch, item, count, shape, &at, &shortest, sum);
-    if (__builtin_expect(hk_has_none_left(shortest), 0)) lost += fill_with_care(pass, p);
-    if (p - BEHIND >= from) move_on(pass, &how, p - BEHIND, sum);
-  }
-  for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += STEP) {
-    vec sum[VECTORS][3] = {{{0}}};
-    for (int32_t i = 0; i < 2 * count; i++)
-      add(&item[i], p, sum);
-    move_on(pass, &how, p, sum);
-  }
+  copy_batches(pass, &loop);
+  ptrdiff_t p = from;
+  for (; p < from + 2 * STEP; p += STEP)
+    lost += outer_step(&loop, p);
+  for (; p < to; p += STEP)
+    lost += step(&loop, p, shape, 1);
+  for (; p < to + 2 * STEP; p += STEP)
+    lost += outer_step(&loop, p);
   return lost;
 }
 
 HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
-  int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0, paired = PAIRED;
+  const int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0;
+  int32_t paired = PAIRED;
   for (int32_t k = 0; k < pass->count; k++) {
     const struct hk_strided_view *batch = &pass->batch[k];
     const struct hk_strided_item *item = &pass->item[2 * k];
     if (item[0].ring != batch->ring || item[1].ring != batch->ring || item[1].offset != 0) paired = 0;
-    if ((shape ^ batch->shape) & ~HOOKE_RUN_MIXED) return ANY;
-    shape |= batch->shape;
+    if (batch->shape != shape) return ANY;
   }
   return shape | paired;
 }

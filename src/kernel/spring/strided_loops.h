@@ -12,9 +12,10 @@
 enum {
   HOOKE_MOST_STRIDED = 32,
   HOOKE_STRIDED_UNIT = 8, /* passes begin and end at multiples of this particle number */
-  /* A ring holds at least offset + HOOKE_RING_SLACK springs, a power of two, and after them the first unit
-   * once more. */
-  HOOKE_RING_SLACK = 48
+  /* A ring holds at least offset + HOOKE_RING_SLACK springs, a power of two and not less than
+   * HOOKE_LEAST_RING, and has space for a unit after them, where the first vector is repeated. */
+  HOOKE_RING_SLACK = 48,
+  HOOKE_LEAST_RING = 64
 };
 
 /* Kappa, gamma and rest length of the springs of a batch, in this order. Units equal to the bit are stored
@@ -39,7 +40,7 @@ struct hk_strided_view {
   int32_t shape;                        /* HOOKE_RUN_*; not mixed: all springs have one material */
   const uint8_t *present;               /* bit l % 8 of byte l / 8: spring l exists */
   ptrdiff_t offset, mask;               /* mask: size of the ring minus 1 */
-  double *ring;                         /* x of spring l at l & mask; y, z one and two strides on */
+  double *ring;                         /* x of spring l at l & mask; y, z one and two strides of rings on */
   double shared[HOOKE_STRIDED_NUMBERS]; /* not mixed: the material, close in memory */
   struct hk_strided_material material;
 };
@@ -51,18 +52,14 @@ struct hk_strided_item {
   ptrdiff_t offset, mask;
 };
 
-/* Distance between x, y and z of a ring, including the repeated first unit, chosen to avoid cache conflicts.
- */
-static inline ptrdiff_t hk_ring_stride(ptrdiff_t mask) {
-  return mask + 1 + 3 * (ptrdiff_t)HOOKE_STRIDED_UNIT;
-}
-
 /* Arrays are padded by HOOKE_STRIDED_UNIT particles, q and v also by the largest offset; the padding is read
  * and not used. */
 struct hk_strided_pass {
   int32_t count;
   struct hk_strided_view batch[HOOKE_MOST_STRIDED];
   struct hk_strided_item item[2 * HOOKE_MOST_STRIDED]; /* two a batch, in the order of the sum */
+  const uint8_t *present;                              /* springs that all batches have there */
+  ptrdiff_t ring_stride;                               /* between x, y and z of rings */
   ptrdiff_t stride;                                    /* between x, y and z of q, and of v */
   ptrdiff_t ahead; /* q and v are prefetched so many particles ahead; 0: never */
   double *q, *v;

@@ -123,6 +123,22 @@ static int pays(const struct hk_strided_batches *strided, int64_t springs) {
   return window <= MOST_WINDOW && (double)springs >= LEAST_FILLED * (double)reached;
 }
 
+/* HOOKE_NO_MEMORY. */
+static int32_t find_whole_units(struct hk_strided_batches *strided, int64_t particles) {
+  const int64_t units = particles / HOOKE_STRIDED_UNIT + 1;
+  strided->present = hk_new(units, sizeof *strided->present);
+  if (strided->present == NULL) return HOOKE_NO_MEMORY;
+  memset(strided->present, 0xff, (size_t)units);
+  strided->memory += units;
+  for (int32_t k = 0; k < strided->count; k++) {
+    const struct hk_strided_batch *batch = &strided->batch[k];
+    for (int64_t u = batch->first / HOOKE_STRIDED_UNIT;
+         u <= (batch->last + batch->offset) / HOOKE_STRIDED_UNIT; u++)
+      strided->present[u] &= batch->present[u];
+  }
+  return HOOKE_OK;
+}
+
 /* An item with successors has more of them than any of these. */
 static void put_in_order(const struct finder *finder) {
   struct hk_strided_batches *strided = finder->strided;
@@ -163,7 +179,9 @@ int32_t hk_strided_batches_create(struct hk_springs *springs, int64_t particle_c
   const int found = !finder.failed && find(&finder, springs);
   int32_t status = finder.failed ? HOOKE_NO_MEMORY : HOOKE_OK;
   hk_free(finder.at);
-  if (found) status = hk_strided_batches_take_material(springs, particle_count, strided);
+  if (found) status = find_whole_units(strided, particle_count);
+  if (found && status == HOOKE_OK)
+    status = hk_strided_batches_take_material(springs, particle_count, strided);
   if (!found || status != HOOKE_OK) hk_strided_batches_release(strided);
   return status;
 }
@@ -174,6 +192,7 @@ void hk_strided_batches_release(struct hk_strided_batches *strided) {
     hk_free(strided->material[k].value);
     hk_free(strided->material[k].unit);
   }
+  hk_free(strided->present);
   hk_free(strided->batch_of);
   memset(strided, 0, sizeof *strided);
 }

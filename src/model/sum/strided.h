@@ -30,6 +30,7 @@ struct hk_strided_batches {
   struct hk_strided_material material[HOOKE_MOST_STRIDED];
   uint8_t item[HOOKE_MOST_ITEMS]; /* in the order of sums: 2 k the ends of batch k, 2 k + 1 its beginnings */
   uint8_t *batch_of;              /* of each spring; NULL if no run looks up its material */
+  uint8_t *present;               /* springs that all batches around there have */
   int64_t memory;
 };
 

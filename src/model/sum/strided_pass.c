@@ -12,6 +12,10 @@
  * first time, so many ahead of the first spring. */
 enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
 
+/* Numbers between components beside those of the rings: a power of two apart they would conflict in cache
+ * sets. */
+enum { FROM_POWERS_OF_TWO = 3 * HOOKE_STRIDED_UNIT };
+
 struct partition {
   struct hk_strided_view view[HOOKE_MOST_STRIDED]; /* every batch, with its ring here */
   struct hk_strided_pass pass;                     /* batches active in the loop */
@@ -23,8 +27,8 @@ struct partition {
 
 struct hk_rings {
   int32_t workers;
-  double t; /* of the scaled values, NAN before the first */
-  int64_t reach, border_stride, memory;
+  double t;                                     /* of the scaled values, NAN before the first */
+  int64_t reach, border_stride, stride, memory; /* stride: between x, y and z of rings */
   double *block;
   double *value[HOOKE_MOST_STRIDED]; /* of batches that follow time, as they are then; else NULL */
   struct partition *partition;
@@ -49,7 +53,7 @@ static int64_t whole_units(int64_t count) {
 }
 
 static int64_t ring_capacity(const struct hk_strided_batch *batch) {
-  int64_t capacity = HOOKE_STRIDED_UNIT;
+  int64_t capacity = HOOKE_LEAST_RING;
   while (capacity < batch->offset + HOOKE_RING_SLACK)
     capacity *= 2;
   return capacity;
@@ -66,10 +70,6 @@ static struct hk_strided_view view_of(const struct hk_strided_batches *strided, 
   for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
     view.shared[j] = *hk_strided_number(&view.material, batch->first, j);
   return view;
-}
-
-static int64_t ring_size(const struct hk_strided_batch *batch) {
-  return 3 * hk_ring_stride(ring_capacity(batch) - 1);
 }
 
 /* Values that a motion has of its own, whatever number they are. */
@@ -120,15 +120,16 @@ static void scale(const struct hk_strided_batches *strided, double t, struct hk_
 struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32_t workers) {
   struct hk_rings *rings = hk_new(1, sizeof *rings);
   if (rings == NULL) return NULL;
-  int64_t numbers = 0, values = 0;
+  int64_t values = 0;
+  rings->stride = FROM_POWERS_OF_TWO;
   for (int32_t k = 0; k < strided->count; k++) {
-    numbers += ring_size(&strided->batch[k]);
+    rings->stride += ring_capacity(&strided->batch[k]) + HOOKE_STRIDED_UNIT;
     values += scaled_values(&strided->batch[k]);
   }
   rings->workers = workers;
   rings->reach = strided->reach;
   rings->border_stride = 2 * strided->reach + HOOKE_STRIDED_UNIT;
-  numbers += workers > 1 ? 6 * rings->border_stride : 0;
+  const int64_t numbers = 3 * rings->stride + (workers > 1 ? 6 * rings->border_stride : 0);
   rings->partition = hk_new(workers, sizeof *rings->partition);
   rings->block = hk_new(workers * numbers + values, sizeof(double));
   rings->memory = (int64_t)sizeof *rings + workers * (int64_t)sizeof *rings->partition +
@@ -137,14 +138,13 @@ struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32
     hk_rings_destroy(rings);
     return NULL;
   }
-  double *next = rings->block;
   for (int32_t m = 0; m < workers; m++) {
-    for (int32_t k = 0; k < strided->count; next += ring_size(&strided->batch[k++]))
-      rings->partition[m].view[k] = view_of(strided, k, next);
-    rings->partition[m].border = next;
-    next += workers > 1 ? 6 * rings->border_stride : 0;
+    double *ring = rings->block + m * numbers;
+    rings->partition[m].border = ring + 3 * rings->stride;
+    for (int32_t k = 0; k < strided->count; ring += ring_capacity(&strided->batch[k++]) + HOOKE_STRIDED_UNIT)
+      rings->partition[m].view[k] = view_of(strided, k, ring);
   }
-  take_values(strided, rings, next);
+  take_values(strided, rings, rings->block + workers * numbers);
   return rings;
 }
 
@@ -160,11 +160,11 @@ int64_t hk_rings_memory(const struct hk_rings *rings) {
 }
 
 /* Clears the springs below particle `from`, as far as the ring is read from there on. */
-static void clear_below(const struct hk_strided_view *batch, int64_t from) {
+static void clear_below(const struct hk_strided_view *batch, int64_t stride, int64_t from) {
   const int64_t capacity = batch->mask + 1, first = (from - batch->offset) & batch->mask,
                 before_end = lesser(batch->offset, capacity - first), wrapped = batch->offset - before_end;
   for (int a = 0; a < 3; a++) {
-    double *x = batch->ring + a * hk_ring_stride(batch->mask);
+    double *x = batch->ring + a * stride;
     memset(x + first, 0, (size_t)before_end * sizeof(double));
     memset(x, 0, (size_t)wrapped * sizeof(double));
     memset(x + capacity, 0, (size_t)lesser(wrapped, HOOKE_STRIDED_UNIT) * sizeof(double));
@@ -195,7 +195,7 @@ static int64_t set_strided(const struct hk_strided_batches *strided, int32_t lef
     if (from < begin) to = lesser(to, begin);
     if (from < begin || from >= end) continue;
     to = lesser(to, end);
-    if (!partition->open[k]) clear_below(&partition->view[k], from);
+    if (!partition->open[k]) clear_below(&partition->view[k], partition->pass.ring_stride, from);
     partition->open[k] = there[k] = 1;
     partition->pass.batch[partition->pass.count] = partition->view[k];
     partition->pass.batch[partition->pass.count++].shape &= ~left_out;
@@ -248,6 +248,8 @@ static void begin(const struct task *task, struct partition *partition, int32_t 
   const struct hk_motion *m = task->motion;
   partition->from = hk_pool_share(m->n, HOOKE_TILE, worker, workers);
   partition->to = whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
+  partition->pass.present = task->system->strided->present;
+  partition->pass.ring_stride = m->rings->stride;
   partition->pass.stride = hk_motion_stride(m);
   partition->pass.q = m->q[0];
   partition->pass.v = m->v[0];
