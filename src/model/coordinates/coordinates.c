@@ -38,6 +38,13 @@ int32_t hk_movers_commit(hooke_system *system) {
   return status;
 }
 
+int32_t hk_movers_find_acted(hooke_system *system, const uint8_t *acted) {
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 0; k < HOOKE_COORDINATES && status == HOOKE_OK; k++)
+    status = table[k]->find_acted(system, acted);
+  return status;
+}
+
 void hk_movers_undo(hooke_system *system) {
   for (int32_t k = 0; k < HOOKE_COORDINATES; k++)
     table[k]->undo(system);
@@ -95,10 +102,11 @@ void hk_movers_read(const hooke_system *system, const struct hk_motion *motion, 
   }
 }
 
-void hk_movers_write(const hooke_system *system, struct hk_motion *motion, const double *own) {
+void hk_movers_write(const hooke_system *system, struct hk_motion *motion, const double *own,
+                     int32_t only_acted) {
   for (int64_t k = 0; k < system->mover_count; k++) {
     const struct hk_mover *m = &system->mover[k];
-    m->row->write(system, m->thing, own + m->at, motion->q, motion->v, 1);
+    m->row->write(system, m->thing, own + m->at, motion->q, motion->v, 1, only_acted);
   }
 }
 
@@ -108,6 +116,11 @@ void hk_movers_push(const hooke_system *system, const struct hk_motion *motion, 
     const struct hk_mover *m = &system->mover[k];
     m->row->push(system, m->thing, motion, own + m->at, push + HOOKE_PUSH * k);
   }
+}
+
+void hk_movers_clear(const hooke_system *system, struct hk_motion *motion) {
+  for (int64_t k = 0; k < system->mover_count; k++)
+    system->mover[k].row->clear(system->mover[k].thing, motion->f);
 }
 
 void hk_movers_normalise(const hooke_system *system, double *own) {
@@ -148,6 +161,6 @@ void hk_movers_renew(const hooke_system *system, double *q, double *v) {
     const struct hk_mover *m = &system->mover[k];
     double own[HOOKE_MOST_OWN];
     m->row->read(m->thing, from[0], from[1], 3, own);
-    m->row->write(system, m->thing, own, to[0], to[1], 3);
+    m->row->write(system, m->thing, own, to[0], to[1], 3, 0);
   }
 }
