@@ -288,12 +288,10 @@ TEST(warnings_know_how_damping_is_taken) {
     owned_state *state = start_state(system);
     check_ok(hooke_integrator_on_warning(integrator, hear_above, &heard));
     hooke_state_velocity(state)[3] = 1e-3;
-    hooke_integrator_step(integrator, state, 1000);
+    check_ok(hooke_integrator_step(integrator, state, 1)); /* after which it is looked at */
+    check_status(hooke_integrator_step(integrator, state, 999), explicitly ? HOOKE_DIVERGED : HOOKE_OK);
     assert_int_equal(heard.above, explicitly);
     if (explicitly) check_close(heard.limit, 4.0 / (0.2 + sqrt(4.04)), 1e-12);
-    const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
-    const double energy = hooke_system_energy(system, "total", q, v);
-    if (explicitly != (energy > 1.0)) check_failed("energy %g J", energy);
   }
 }
 
