@@ -116,7 +116,8 @@ static int32_t find_acted(hooke_system *system) {
     else if (row->add && (row->elements == NULL || row->kind == HOOKE_UNIFORM))
       memset(acted, 1, (size_t)system->particle_count);
   }
-  if (status == HOOKE_OK) status = hk_movers_find_acted(system, acted);
+  for (int32_t k = 0; hk_coordinates_table(k) && status == HOOKE_OK; k++)
+    status = hk_coordinates_table(k)->find_acted(system, acted);
   hk_free(acted);
   return status;
 }

@@ -11,8 +11,8 @@
 /* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */
 static int32_t create(hooke_integrator *it) {
   if (it->rate) return HOOKE_OK;
-  const int movers = it->system->mover_count > 0 && (it->system->force || it->system->drive_count > 0);
-  const int whole = it->system->overdamped || movers; /* more than put_back() knows */
+  const int may_stop = it->system->force || it->system->drive_count > 0; /* and movers have their own */
+  const int whole = it->system->overdamped || (it->system->mover_count > 0 && may_stop);
   if (whole && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
   if (it->method->stages.count == 1 && !it->system->overdamped) return HOOKE_OK;
   const int64_t numbers = 12 * hk_motion_stride(it->motion);

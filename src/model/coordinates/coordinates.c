@@ -38,13 +38,6 @@ int32_t hk_movers_commit(hooke_system *system) {
   return status;
 }
 
-int32_t hk_movers_find_acted(hooke_system *system, const uint8_t *acted) {
-  int32_t status = HOOKE_OK;
-  for (int32_t k = 0; k < HOOKE_COORDINATES && status == HOOKE_OK; k++)
-    status = table[k]->find_acted(system, acted);
-  return status;
-}
-
 void hk_movers_undo(hooke_system *system) {
   for (int32_t k = 0; k < HOOKE_COORDINATES; k++)
     table[k]->undo(system);
@@ -116,11 +109,6 @@ void hk_movers_push(const hooke_system *system, const struct hk_motion *motion, 
     const struct hk_mover *m = &system->mover[k];
     m->row->push(system, m->thing, motion, own + m->at, push + HOOKE_PUSH * k);
   }
-}
-
-void hk_movers_clear(const hooke_system *system, struct hk_motion *motion) {
-  for (int64_t k = 0; k < system->mover_count; k++)
-    system->mover[k].row->clear(system->mover[k].thing, motion->f);
 }
 
 void hk_movers_normalise(const hooke_system *system, double *own) {

@@ -83,7 +83,6 @@ const struct hk_coordinates_row *hk_coordinates_table(int32_t k);
 
 /* By all rows: see there. Committing finds the movers, and which particles they carry. */
 int32_t hk_movers_commit(struct hooke_system *system);
-int32_t hk_movers_find_acted(struct hooke_system *system, const uint8_t *acted);
 void hk_mover_add(struct hooke_system *system, const struct hk_coordinates_row *row, const void *thing);
 void hk_movers_undo(struct hooke_system *system);
 void hk_movers_release(struct hooke_system *system);
@@ -100,7 +99,6 @@ void hk_movers_write(const struct hooke_system *system, struct hk_motion *motion
                      int32_t only_acted);
 void hk_movers_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
                     double *push);
-void hk_movers_clear(const struct hooke_system *system, struct hk_motion *motion);
 void hk_movers_normalise(const struct hooke_system *system, double *own);
 void hk_movers_tolerance(const struct hooke_system *system, double position, double velocity,
                          double *tolerance);

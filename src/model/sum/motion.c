@@ -334,7 +334,8 @@ static void clear_stepped(const hooke_system *system, struct hk_motion *motion) 
     for (int a = 0; a < 3; a++)
       memset(motion->f[a] + system->span[s].from, 0, (size_t)system->span[s].count * sizeof(double));
   }
-  hk_movers_clear(system, motion);
+  for (int64_t k = 0; k < system->mover_count; k++)
+    system->mover[k].row->clear(system->mover[k].thing, motion->f);
 }
 
 int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, double t) {
