@@ -107,7 +107,7 @@ class Needs(Paged, Closing, kind="needs"):
 
 def needs(
     problem: Runnable,
-    want: float,
+    want: float | str,
     watch: Any = None,
     *,
     progress: WorkProgress | bool | None = None,
@@ -115,7 +115,7 @@ def needs(
 ) -> Needs:
     """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds the change of
     the watched positions and the savings; then leaves out together everything that is not needed for errors of at
-    most `want` [m], and checks the lean system against the full one.
+    most `want` [m], or within a list as of ``hooke.run``, and checks the lean system against the full one.
 
     `watch` is the name of a part or of a group, or particle numbers; None: all free particles. The keywords `options`
     are those of ``hooke.describe("needs")``, and those of a run: duration [s], every [s], method, ...; steps and

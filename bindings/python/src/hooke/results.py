@@ -77,7 +77,8 @@ class Result:
     `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and
     `claims` what is said of it, which ``print(result)`` shows. `watched` is a table of what was watched, a row a quantity,
     with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
-    `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early.
+    `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early. `wants` is one of what
+    was wanted: `quantity`, `unit`, `wanted`, `error`, `met`.
     """
 
     status: str
@@ -96,6 +97,7 @@ class Result:
     claims: tuple[Claim, ...] = ()
     probes_file: Path | None = None
     watched: Table | None = None
+    wants: Table | None = None
 
     @property
     def diagnosis(self) -> str:
@@ -175,7 +177,8 @@ def run(
     and `on_step` see `Integrator.run`.
 
     ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance such that no frame has a larger error,
-    runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice.
+    runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice. A list,
+    ``want="tip=2mm,line:max.tension=1%,energy=0.1J"``, bounds the errors of watched quantities, also in % of their largest value.
     ``estimate=True`` estimates the error of the run after it. The result's `error` holds it.
 
     ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the largest
@@ -255,7 +258,8 @@ class _Once:
             return result
         if self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
-        return replace(result, error=estimate.one(RunError, "estimate"))
+        wants = estimate.rows("wants") if estimate.count("wants") > 0 else None
+        return replace(result, error=estimate.one(RunError, "estimate"), wants=wants)
 
     @contextlib.contextmanager
     def _probing(self, integrator: Integrator) -> Iterator[None]:
