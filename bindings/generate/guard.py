@@ -10,7 +10,7 @@ import headers
 
 # Options may be NULL, which means the defaults, except in these functions.
 NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_row", "hooke_options_row_number",
-                "hooke_probes_create"}
+                "hooke_probes_create", "hooke_step_settle"}
 # Texts, arrays, callbacks and places for results that may be NULL, by the names of their parameters; and those that need
 # the function's name as well.
 OPTIONAL = {"folder", "run", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first", "observer", "product",

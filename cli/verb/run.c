@@ -84,7 +84,9 @@ static int32_t watch_warnings(struct cli_run *run) {
 }
 
 static int32_t prepare(struct cli_run *run) {
-  int32_t status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
+  int32_t status = run->resumed ? HOOKE_OK : hooke_step_settle(run->setup.system, run->setup.options);
+  if (status == HOOKE_OK)
+    status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
   if (status == HOOKE_OK)
     status = hooke_options_copy(hooke_integrator_options(run->integrator), &run->options);
   if (status != HOOKE_OK) return status;

@@ -33,7 +33,7 @@ static int32_t see_run(double done, const char *method, void *watch) {
 /* By the state with its velocities, on which the damping of friction depends. */
 static int32_t find_bound(struct why *why, hooke_state *state) {
   hooke_measurement *check = NULL;
-  int32_t status = hooke_measurement_create("check", why->setup.system, NULL, NULL, &check);
+  int32_t status = hooke_measurement_create("check", why->setup.system, why->setup.options, NULL, &check);
   if (status == HOOKE_OK) status = hooke_measurement_run(check, state);
   if (status == HOOKE_OK) {
     const int64_t row = hooke_measurement_find(check, "step_limit", "method",

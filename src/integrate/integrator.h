@@ -202,6 +202,9 @@ void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, dou
 int32_t hk_integrator_move(hooke_integrator *integrator, double t, struct hk_move *move);
 /* The same under the forces in the motion. */
 void hk_integrator_move_on(hooke_integrator *integrator, struct hk_move *move);
+/* 1 with movers, if steps leave behind what they carry and no force may act on, which is where `numbers` say
+ * after a whole step. One that may fail midway moves all. */
+int32_t hk_integrator_skips_unacted(const hooke_integrator *integrator);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
 /* Applies it to all stepped particles. */

@@ -99,7 +99,8 @@ const struct hk_stability *hk_method_stability(const char *name) {
 }
 
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
-  const int32_t predicts = system->mover_count > 0 || hk_system_is_not_linear(system);
+  const int32_t predicts =
+      system->mover_count > 0 || system->explicit_damping || hk_system_is_not_linear(system);
   const struct hk_method *method = predicts ? hk_method_find(name) : NULL;
   const int own = method && method->with_bodies.kind != HOOKE_STABILITY_UNKNOWN;
   return own ? &method->with_bodies : hk_method_stability(name);

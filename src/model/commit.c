@@ -91,9 +91,41 @@ void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   }
 }
 
-/* A tiled batch renumbers particles and iterates over all of them. */
+static int32_t mark_loaded(const hooke_system *system, uint8_t *acted) {
+  const int64_t count = system->rest->member_count[hk_force_number(&hk_force_loads)];
+  struct hk_group columns = {.force = &hk_force_loads, .count = count};
+  int32_t *particle = columns.particle[0] = hk_new(count, sizeof *particle);
+  if (particle == NULL) return HOOKE_NO_MEMORY;
+  hk_force_loads.recall(system, 0, &columns);
+  for (int64_t k = 0; k < count; k++)
+    acted[particle[k]] = 1;
+  hk_free(particle);
+  return HOOKE_OK;
+}
+
+/* For movers: forces without elements act on all particles, but for loads. */
+static int32_t find_acted(hooke_system *system) {
+  uint8_t *acted = hk_new(system->particle_count, sizeof *acted);
+  if (acted == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = HOOKE_OK;
+  hk_system_mark_touched(system, acted);
+  for (int32_t k = 0; k < system->force_row_count && status == HOOKE_OK; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    if (row == &hk_force_loads)
+      status = mark_loaded(system, acted);
+    else if (row->add && (row->elements == NULL || row->kind == HOOKE_UNIFORM))
+      memset(acted, 1, (size_t)system->particle_count);
+  }
+  for (int32_t k = 0; hk_coordinates_table(k) && status == HOOKE_OK; k++)
+    status = hk_coordinates_table(k)->find_acted(system, acted);
+  hk_free(acted);
+  return status;
+}
+
+/* A tiled batch renumbers particles and moves all of them. */
 static int32_t is_stepped(const hooke_system *system, const uint8_t *idle, int64_t from, int64_t end) {
-  return system->tiled->particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
+  const int by_tiles = system->tiled->particles > 0 && system->mover_count == 0;
+  return by_tiles || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
 }
 
 /* Spans, and the pinned particles in them, counted before the list exists. */
@@ -119,8 +151,8 @@ static void add_tiles(hooke_system *system, const uint8_t *idle) {
   }
 }
 
-/* Finds the particles that no step needs to visit: tiles of pinned particles that nothing acts on. A callback
- * force may read any. */
+/* Finds the particles that no step needs to visit: tiles of pinned particles that nothing acts on, and of
+ * carried ones, unless strided batches sum their springs. A callback force may read any. */
 static int32_t find_stepped(hooke_system *system) {
   const int64_t n = system->particle_count;
   uint8_t *idle = hk_new(n, sizeof *idle);
@@ -129,8 +161,11 @@ static int32_t find_stepped(hooke_system *system) {
   if (status == HOOKE_OK) {
     hk_system_mark_touched(system, idle);
     for (int64_t p = 0; p < n; p++) {
-      idle[p] = !idle[p] && system->constrained[p] == HOOKE_IS_PINNED && system->force == NULL;
+      const int touched = idle[p] || system->force;
+      const int carried = hk_is_carried(system, p) && !(touched && system->strided->count > 0);
+      idle[p] = !touched && system->constrained[p] == HOOKE_IS_PINNED;
       system->idle_count += idle[p];
+      idle[p] = idle[p] || carried;
     }
     add_tiles(system, idle);
     system->pin = hk_new(system->pin_count, sizeof *system->pin);
@@ -203,6 +238,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status == HOOKE_OK) status = find_stepped(system);
+  if (status == HOOKE_OK && system->mover_count > 0) status = find_acted(system);
   if (status != HOOKE_OK) {
     hk_system_undo(system);
     return status;

@@ -67,7 +67,8 @@ struct hooke_system {
   uint8_t *carried;
 
   struct hk_system_rest *rest; /* what few read (model/system.h) */
-  double moment;   /* time of the springs that an analysis of one state sees; 0 but in hk_system_at() */
+  double moment; /* time of the springs that an analysis of one state sees; 0 but in hk_system_at() */
+  int32_t explicit_damping; /* 1: that analysis is of a verlet which takes damping explicitly */
   int32_t borrows; /* 1: by hooke_system_with_force(), all but what depends on its force is another's */
 };
 

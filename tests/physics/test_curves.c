@@ -201,7 +201,8 @@ TEST(coefficients_have_no_largest_stiffness) {
   owned_options *options =
       run_options((struct run){.method = "verlet", .step = 1e-3, .verlet_damping = "explicit"});
   hooke_integrator *run = NULL;
-  check_status(hooke_integrator_create(system, options, &run), HOOKE_UNSUITED);
+  check_ok(hooke_integrator_create(system, options, &run));
+  hooke_integrator_destroy(run);
   owned_system *table = oscillator(0.1, "curve.elongation=-1,0,1 curve.force=-3,0,8 damping=0.1");
   check_ok(hooke_integrator_create(table, options, &run));
   hooke_integrator_destroy(run);

@@ -8,7 +8,7 @@ import warnings
 import h5py
 import numpy as np
 import pytest
-from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
+from conftest import ROOT, SIX_PARTICLES, build_oscillator, build_six_particles
 
 import hooke
 
@@ -393,3 +393,13 @@ def test_what_is_missing_is_said(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match="pip install pandas"):
         hooke.run(scene, probe="energy", probes=tmp_path / "a.csv").to_pandas()
+
+
+def test_damping_is_explicit_where_the_start_allows_it(tmp_path):
+    """At a step at which an integrator by itself solves for it."""
+    path, run = ROOT / "examples/scenes/cloth-16.json", {"method": "verlet", "step": 5e-4, "duration": 0.02}
+    result = hooke.run(path, **run, output=tmp_path / "cloth.h5")
+    assert result.counts["linear_iterations"] == 0
+    assert hooke.open(tmp_path / "cloth.h5").options["verlet_damping"] == "explicit"
+    solved = hooke.Integrator(hooke.Scene.load(path).system, **run)
+    assert solved.options["verlet_damping"] == "implicit"

@@ -100,6 +100,10 @@ static void move_own(const struct hk_mover *m, const struct hk_move *move, const
   }
 }
 
+int32_t hk_integrator_skips_unacted(const hooke_integrator *it) {
+  return it->system && it->numbers.x && it->start == NULL && it->system->force == NULL;
+}
+
 /* Stages between have quaternions of other lengths. */
 static void move_with_movers(hooke_integrator *it, struct hk_move *move) {
   const hooke_system *system = it->system;
@@ -111,7 +115,7 @@ static void move_with_movers(hooke_integrator *it, struct hk_move *move) {
   for (int64_t k = 0; k < system->mover_count; k++)
     move_own(&system->mover[k], move, own->push + HOOKE_PUSH * k, own);
   if (kind != HOOKE_FIRST_STAGE && kind != HOOKE_MIDDLE_STAGE) hk_movers_normalise(system, own->x);
-  hk_movers_write(system, it->motion, own->x);
+  hk_movers_write(system, it->motion, own->x, hk_integrator_skips_unacted(it));
 }
 
 void hk_integrator_move_on(hooke_integrator *it, struct hk_move *move) {

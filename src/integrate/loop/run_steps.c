@@ -4,6 +4,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "model/coordinates/coordinates.h"
 
 #include <math.h>
 
@@ -102,6 +103,7 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
 }
 
 int32_t hk_run_take_fixed_steps(hooke_integrator *it, int64_t count) {
+  const int64_t before = it->k;
   int32_t status = HOOKE_OK;
   while (count > 0 && status == HOOKE_OK) {
     const int64_t left = it->teller.progress ? it->teller.left : count, steps = left < count ? left : count;
@@ -109,5 +111,7 @@ int32_t hk_run_take_fixed_steps(hooke_integrator *it, int64_t count) {
     if (status == HOOKE_OK) status = hk_run_tell(it, steps);
     count -= steps;
   }
+  if (it->k > before && hk_integrator_skips_unacted(it))
+    hk_movers_write(it->system, it->motion, it->numbers.x, 0);
   return status;
 }

@@ -11,7 +11,8 @@
 /* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */
 static int32_t create(hooke_integrator *it) {
   if (it->rate) return HOOKE_OK;
-  const int whole = it->system->overdamped || it->system->mover_count > 0; /* more than put_back() knows */
+  const int may_stop = it->system->force || it->system->drive_count > 0; /* and movers have their own */
+  const int whole = it->system->overdamped || (it->system->mover_count > 0 && may_stop);
   if (whole && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
   if (it->method->stages.count == 1 && !it->system->overdamped) return HOOKE_OK;
   const int64_t numbers = 12 * hk_motion_stride(it->motion);
@@ -123,8 +124,10 @@ static int32_t step(hooke_integrator *it) {
   int32_t status = HOOKE_OK;
   if (it->rate) return step_numbers(it);
   if (it->system->overdamped) return step_overdamped(it);
-  if (it->numbers.x) hk_movers_read(it->system, it->motion, it->numbers.x);
-  if (it->numbers.x) hk_movers_write(it->system, it->motion, it->numbers.x); /* forces are those there */
+  if (it->numbers.x) { /* forces are those there */
+    hk_movers_read(it->system, it->motion, it->numbers.x);
+    hk_movers_write(it->system, it->motion, it->numbers.x, hk_integrator_skips_unacted(it));
+  }
   for (int stage = 0; stage < it->method->stages.count && status == HOOKE_OK; stage++) {
     status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);

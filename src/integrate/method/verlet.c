@@ -10,7 +10,6 @@
  * */
 #include "integrate/method/verlet.h"
 #include "core/memory.h"
-#include "core/number.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
 #include "model/force/altitude.h"
@@ -258,16 +257,6 @@ static int32_t find_explicit_step(const hooke_system *system, double *step) {
   return status;
 }
 
-static int32_t refuse_step(double step, double most) {
-  char given[HOOKE_NUMBER_SIZE], allowed[HOOKE_NUMBER_SIZE];
-  hk_number_print(step, given);
-  hk_number_print(most, allowed);
-  return hk_fail(HOOKE_BAD_VALUE, "step",
-                 "%s s is too large for damping that is explicit; "
-                 "allowed: up to %s s, or verlet_damping \"implicit\"",
-                 given, allowed);
-}
-
 /* Damping is taken at the predicted velocity: of bodies, and where it depends on velocities, by which no
  * choice may be made. */
 static int32_t predict_always(hooke_integrator *it, const char *asked, const char *unknown) {
@@ -277,29 +266,20 @@ static int32_t predict_always(hooke_integrator *it, const char *asked, const cha
                  unknown);
 }
 
-/* Decides by the system, the step and the option `verlet_damping`, whose value it sets to what it decided.
- * HOOKE_UNSUITED or HOOKE_BAD_VALUE where explicit damping is asked for and cannot be. */
+/* Decides by the system, the step and the option `verlet_damping`, whose value it sets to what it decided. */
 static int32_t choose(hooke_integrator *it) {
   const char *asked = hooke_options_text(it->options, "verlet_damping");
   if (it->system->mover_count > 0) return predict_always(it, asked, "rigid bodies yet");
   if (hk_system_is_not_linear(it->system))
     return predict_always(it, asked, "forces that are not linear in velocities");
-  const int required = strcmp(asked, "explicit") == 0;
-  double most;
+  double most = 0.0;
   if (!hk_system_is_damped(it->system, ~HOOKE_UNIFORM)) {
     if (it->by_tiles) it->by_tiles |= HOOKE_MOTION_KEEPS;
     return HOOKE_OK;
   }
-  if (required && depends_on_state(it->system))
-    return hk_fail(
-        HOOKE_UNSUITED, "verlet_damping",
-        "damping is solved for where damped springs only pull, beside altitude springs and springs whose "
-        "curve has no largest stiffness");
-  const int32_t status = find_explicit_step(it->system, &most);
+  const int32_t status = strcmp(asked, "auto") == 0 ? find_explicit_step(it->system, &most) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
-  const int32_t allowed = it->schedule.step <= most;
-  if (required && !allowed) return refuse_step(it->schedule.step, most);
-  it->explicit_damping = allowed && strcmp(asked, "implicit") != 0;
+  it->explicit_damping = strcmp(asked, "explicit") == 0 || it->schedule.step <= most;
   if (!it->explicit_damping) it->by_tiles = 0;
   return hooke_options_set_text(it->options, "verlet_damping",
                                 it->explicit_damping ? "explicit" : "implicit");

@@ -146,12 +146,12 @@ static void place_body(struct hk_stage *stage, int64_t k, const double *v) {
 void hk_body_stage_place(struct hk_stage *stage, const double *v) {
   for (int64_t k = 0; k < stage->body.count; k++)
     place_body(stage, k, v);
-  hk_movers_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own);
+  hk_movers_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own, 0);
 }
 
 void hk_body_stage_end(struct hk_stage *stage) {
   hk_movers_normalise(system_of(stage), stage->body.own);
-  hk_movers_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own);
+  hk_movers_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own, 0);
 }
 
 void hk_body_stage_begin(struct hk_stage *stage) {

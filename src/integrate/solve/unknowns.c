@@ -127,7 +127,7 @@ int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, dou
   const ptrdiff_t stride = hk_motion_stride(it->motion);
   hk_unknowns_spread(u, y, it->motion->q[0], stride);
   if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v[0], stride);
-  hk_movers_write(it->system, it->motion, y + 6 * u->free_count);
+  hk_movers_write(it->system, it->motion, y + 6 * u->free_count, 0);
   return hk_integrator_hold(it, t);
 }
 

@@ -197,9 +197,11 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_check *check = m->object;
   forget(check);
   int32_t status = find_memory(check, state);
+  hooke_system seen = *check->m->system;
+  seen.explicit_damping = strcmp(hooke_options_text(check->m->run, "verlet_damping"), "explicit") == 0;
   if (status == HOOKE_OK)
-    status = hk_step_bound_at(check->m->system, NULL, hooke_state_position(state),
-                              hooke_state_velocity(state), check->bound);
+    status =
+        hk_step_bound_at(&seen, NULL, hooke_state_position(state), hooke_state_velocity(state), check->bound);
   return status == HOOKE_OK ? warn(check, hooke_state_position(state)) : status;
 }
 

@@ -250,7 +250,8 @@ static int32_t choose_step(struct hk_cost *cost, const hooke_state *state) {
   if (safe > 0.0) step = fmin(step, safe); /* also if there is none */
   if (!isfinite(step)) step = SOME_STEP;
   cost->step = step;
-  return hooke_options_set_number(cost->m->run, "step", step);
+  const int32_t set = hooke_options_set_number(cost->m->run, "step", step);
+  return set == HOOKE_OK ? hooke_step_settle(cost->m->system, cost->m->run) : set;
 }
 
 static double memory_of(const hooke_system *system, const struct timed *timed) {

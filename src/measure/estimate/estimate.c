@@ -6,6 +6,7 @@
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "measure/counted_work/work.h"
+#include "measure/limit/explicit_step.h"
 #include "model/callbacks.h"
 #include "model/generalized.h"
 
@@ -102,6 +103,7 @@ static int32_t pick(struct hk_estimate *e, hooke_options *run) {
     status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here%s", e->only,
                      e->wants.list ? ", or its frames do not tell what is wanted" : "");
   if (status == HOOKE_OK) status = hk_trial_set_value(run, e->pick.best.method, e->pick.best.value);
+  if (status == HOOKE_OK) status = hooke_step_settle(e->system, run);
   hk_pick_say_reversal(&e->pick, e->reversal, sizeof e->reversal);
   if (status != HOOKE_OK) hk_pick_release(&e->pick);
   e->picked = status == HOOKE_OK;
@@ -180,7 +182,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status != HOOKE_OK) return status;
   hooke_state_copy(state, e->start);
-  return hk_soundness_begin(&e->soundness, e->system, it->method->name,
+  return hk_soundness_begin(&e->soundness, e->system, hk_step_limited_as(e->system, it->options),
                             is_checked(e, it) ? NAN : it->schedule.step, state, MOST_SEEN + 2);
 }
 

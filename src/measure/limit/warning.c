@@ -4,6 +4,7 @@
 #include "core/status.h"
 #include "core/utf8.h"
 #include "integrate/integrator.h"
+#include "measure/limit/explicit_step.h"
 #include "measure/spectrum/naming.h"
 #include "measure/spectrum/step_bound.h"
 
@@ -71,7 +72,8 @@ static int32_t look(const hooke_integrator *it, const hooke_state *state, void *
   const double margin = warner->told[NEAR_LIMIT] ? 0.0 : MARGIN, most = it->schedule.step / (1.0 - margin);
   int64_t particle;
   hk_node_blocks_fill(&warner->blocks, *state->t, state->q, state->v);
-  const double limit = hk_step_bound_of(&warner->blocks, it->method->name, most, &particle);
+  const double limit =
+      hk_step_bound_of(&warner->blocks, hk_step_limited_as(it->system, it->options), most, &particle);
   return limit < most ? tell(warner, it, state, particle, limit) : 0;
 }
 

@@ -5,7 +5,7 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
-#include "measure/spectrum/step_bound.h"
+#include "measure/limit/explicit_step.h"
 #include "model/force/spring.h"
 
 #include <math.h>

@@ -5,6 +5,7 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/counted_work/work.h"
+#include "measure/limit/explicit_step.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/recommend/soundness.h"
 #include "measure/spectrum/step_bound.h"
@@ -264,6 +265,7 @@ static double work_left(const struct hk_pick *pick) {
 struct looker {
   const struct search *search;
   struct hk_soundness soundness;
+  const char *limited_as;
   double step, displacement;
   int32_t status;
 };
@@ -285,12 +287,11 @@ static void on_start(hooke_state *state, void *ctx) {
 
 static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
   struct looker *looker = ctx;
-  const struct search *s = looker->search;
-  const struct hk_frames *frames = &s->pick->reference.frames;
+  const struct hk_frames *frames = &looker->search->pick->reference.frames;
   (void)step;
   if (frame == 0)
-    looker->status =
-        hk_soundness_begin(&looker->soundness, frames->system, s->method, looker->step, state, frames->count);
+    looker->status = hk_soundness_begin(&looker->soundness, frames->system, looker->limited_as, looker->step,
+                                        state, frames->count);
   if (looker->status != HOOKE_OK) return 1;
   hk_soundness_see(&looker->soundness, state);
   return 0;
@@ -321,6 +322,8 @@ static int32_t run_row(struct search *s, double value, double displacement, doub
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
   int32_t status = hk_pick_options(s->pick->run, s->method, value, &options);
+  if (status == HOOKE_OK) status = hooke_step_settle(s->pick->system, options);
+  if (status == HOOKE_OK) looker.limited_as = hk_step_limited_as(s->pick->system, options);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &r->frames, r->trusted, options, &listener);
   if (looker.status != HOOKE_OK) status = looker.status;
   s->pick->work += trial.work;

@@ -93,15 +93,3 @@ int32_t hk_step_bound_at(const hooke_system *system, const char *method, const d
   if (one_pass) hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
-
-/* Explicit steps that are a step which solves for its damping, on a cloth of 32 x 32. */
-static const double STEPS_OF_SOLVE = 8.0;
-
-int32_t hk_step_cheapest(const hooke_system *system, const char *method, double *step) {
-  const struct hk_method *row = hk_method_find(method);
-  double most = 0.0;
-  if (row == NULL || row->explicit_step == NULL) return HOOKE_OK;
-  const int32_t status = row->explicit_step(system, &most);
-  if (most > *step / STEPS_OF_SOLVE) *step = fmin(*step, most);
-  return status;
-}

@@ -16,8 +16,4 @@ double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method,
 int32_t hk_step_bound_at(const hooke_system *system, const char *method, const double *q, const double *v,
                          double *bound);
 
-/* `step`, or the largest below it at which the method solves nothing, where that makes a run cheaper.
- * HOOKE_NO_MEMORY. */
-int32_t hk_step_cheapest(const hooke_system *system, const char *method, double *step);
-
 #endif

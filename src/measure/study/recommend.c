@@ -5,6 +5,7 @@
 #include "core/clock.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "measure/limit/explicit_step.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/recommend/pick.h"
 #include "model/generalized.h"
@@ -35,14 +36,18 @@ static int32_t tell_limit(double done, const char *what, void *study) {
 }
 
 static int32_t find_limit_share(struct hk_study *study, struct hk_study_recommendation *r) {
-  const char *method = study->method[r->method];
   hooke_state *state = NULL;
+  hooke_options *options = NULL;
   double limit = NAN;
   if (hk_study_is_adaptive(study, r->method)) return HOOKE_OK;
-  int32_t status = hooke_state_create(study->m->system, &state);
-  if (status != HOOKE_OK) return status;
-  status = hk_limit_predict(study->m->system, hooke_state_position(state), hooke_state_velocity(state),
-                            method, ACCURACY, tell_limit, study, &limit);
+  int32_t status = hk_study_row_options(study, r->method, r->value, &options);
+  if (status == HOOKE_OK) status = hooke_step_settle(study->m->system, options);
+  if (status == HOOKE_OK) status = hooke_state_create(study->m->system, &state);
+  if (status == HOOKE_OK)
+    status =
+        hk_limit_predict(study->m->system, hooke_state_position(state), hooke_state_velocity(state),
+                         hk_step_limited_as(study->m->system, options), ACCURACY, tell_limit, study, &limit);
+  hooke_options_destroy(options);
   hooke_state_destroy(state);
   if (status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED) return status;
   if (status == HOOKE_OK) r->margin.limit_share = r->value / limit;

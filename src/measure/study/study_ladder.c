@@ -6,7 +6,7 @@
 #include "core/number.h"
 #include "core/status.h"
 #include "measure/counted_work/work.h"
-#include "measure/spectrum/step_bound.h"
+#include "measure/limit/explicit_step.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -243,7 +243,11 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 static int32_t run_once(struct run *run, const hooke_system *system, const hooke_options *options,
                         hooke_integrator **integrator) {
   hooke_state *state = NULL;
-  int32_t status = hooke_integrator_create(system, options, integrator);
+  hooke_options *own = NULL;
+  int32_t status = hooke_options_copy(options, &own);
+  if (status == HOOKE_OK) status = hooke_step_settle(system, own);
+  if (status == HOOKE_OK) status = hooke_integrator_create(system, own, integrator);
+  hooke_options_destroy(own);
   run->integrator = *integrator;
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) {

@@ -269,8 +269,10 @@ static int32_t explain(struct hk_why *why, const hooke_measurement *m) {
   why->noticed = run->outcome == HOOKE_DIVERGED ? run->diverged_at : run->t;
   if (!run->method->adaptive) why->step = run->schedule.step;
   snprintf(why->method, sizeof why->method, "%s", run->method->name);
+  hooke_system seen = *run->system;
+  seen.explicit_damping = run->explicit_damping;
   struct hk_inquiry inquiry = {.run = run,
-                               .system = run->system,
+                               .system = &seen,
                                .why = why,
                                .bad_particle = -1,
                                .force = -1,

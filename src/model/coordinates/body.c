@@ -17,7 +17,9 @@
 
 static void release_frame(struct hk_body *body) {
   hk_free(body->place);
+  hk_free(body->acted);
   body->place = NULL;
+  body->acted = NULL;
   body->moves = 0;
 }
 
@@ -70,7 +72,7 @@ static int64_t memory(const hooke_system *system) {
   int64_t bytes =
       bodies->capacity * (int64_t)sizeof *bodies->body + (bodies->of ? 4 * system->particle_count : 0);
   for (int64_t k = 0; k < bodies->count; k++)
-    bytes += bodies->body[k].count * (int64_t)(sizeof(int32_t) + 3 * sizeof(double));
+    bytes += bodies->body[k].count * (int64_t)(2 * sizeof(int32_t) + 3 * sizeof(double));
   return bytes;
 }
 
@@ -244,6 +246,21 @@ static int32_t commit(hooke_system *system) {
   return status;
 }
 
+static int32_t find_acted(hooke_system *system, const uint8_t *acted) {
+  for (int64_t k = 0; k < system->bodies->count; k++) {
+    struct hk_body *body = &system->bodies->body[k];
+    if (!body->moves) continue;
+    body->acted = hk_new(body->count, sizeof *body->acted);
+    if (body->acted == NULL) return HOOKE_NO_MEMORY;
+    body->acted_count = 0;
+    for (int32_t i = 0; i < body->count; i++) {
+      const int is_base = i == body->base[0] || i == body->base[1] || i == body->base[2];
+      if (is_base || acted[body->particle[i]]) body->acted[body->acted_count++] = i;
+    }
+  }
+  return HOOKE_OK;
+}
+
 /* ---- states ---- */
 
 static const double STATE_ROUNDING = 1e-6;
@@ -392,6 +409,7 @@ const struct hk_coordinates_row hk_coordinates_of_bodies = {.name = "bodies",
                                                             .turns = 1,
                                                             .count = count,
                                                             .commit = commit,
+                                                            .find_acted = find_acted,
                                                             .undo = undo,
                                                             .release = release_all,
                                                             .bytes = bytes,
@@ -404,6 +422,7 @@ const struct hk_coordinates_row hk_coordinates_of_bodies = {.name = "bodies",
                                                             .read = hk_body_read,
                                                             .write = hk_body_write,
                                                             .push = hk_body_push,
+                                                            .clear = hk_body_clear,
                                                             .kick = hk_body_kick,
                                                             .drift = hk_body_drift,
                                                             .slope = hk_body_slope,

@@ -35,6 +35,9 @@ struct hk_body {
   int32_t rank;       /* 0: a single point, 1: points in a line, 2: neither */
   int32_t base[3];    /* index in `particle` of the three particles of the rule; `rank` + 1 are used */
   double triad[3][3]; /* their directions e1, e2, e3 in the axes of the body */
+  /* index in `particle`, ascending, of those three and of all that a force may act on, but for a callback */
+  int64_t acted_count;
+  int32_t *acted;
 };
 
 struct hk_bodies {
@@ -54,9 +57,10 @@ void hk_system_remove_bodies(struct hooke_system *system, int64_t part);
 void hk_body_read(const void *body, const double *const q[3], const double *const v[3], int64_t stride,
                   double *own);
 void hk_body_write(const struct hooke_system *system, const void *body, const double *own, double *const q[3],
-                   double *const v[3], int64_t stride);
+                   double *const v[3], int64_t stride, int32_t only_acted);
 void hk_body_push(const struct hooke_system *system, const void *body, const struct hk_motion *motion,
                   const double *own, double *push);
+void hk_body_clear(const void *body, double *const f[3]);
 void hk_body_kick(const void *body, double h, const double *push, double *own);
 /* The free motion over h: order 2, symmetric, symplectic, with the same angular momentum. */
 void hk_body_drift(const void *body, double h, double *own);

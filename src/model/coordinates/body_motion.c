@@ -169,13 +169,14 @@ static void divide_by_inertia(const struct hk_body *body, const double m[3][3], 
 }
 
 void hk_body_write(const struct hooke_system *system, const void *thing, const double *own,
-                   double *const q[3], double *const v[3], int64_t stride) {
+                   double *const q[3], double *const v[3], int64_t stride, int32_t only_acted) {
   const struct hk_body *body = thing;
+  const int64_t count = only_acted ? body->acted_count : body->count;
   double m[3][3], w[3], arm[3], swing[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
   divide_by_inertia(body, m, own + HOOKE_BODY_SPIN, w);
-  for (int64_t k = 0; k < body->count; k++) {
-    const int64_t p = body->particle[k], at = stride * p;
+  for (int64_t i = 0; i < count; i++) {
+    const int64_t k = only_acted ? body->acted[i] : i, p = body->particle[k], at = stride * p;
     if (system->constrained[p]) continue;
     to_space(m, body->place + 3 * k, arm);
     hk_cross3(w, arm, swing);
@@ -189,7 +190,7 @@ void hk_body_write(const struct hooke_system *system, const void *thing, const d
 void hk_body_write_rows(const struct hooke_system *system, const struct hk_body *body, const double *own,
                         double *q, double *v) {
   hk_body_write(system, body, own, (double *const[3]){q, q + 1, q + 2}, (double *const[3]){v, v + 1, v + 2},
-                3);
+                3, 0);
 }
 
 /* ---- forces ---- */
@@ -219,13 +220,16 @@ static void add_gravity(const struct hooke_system *system, const struct hk_body 
   hk_add3(body->mass, turning, torque);
 }
 
+/* Particles that no force acts on would add zeros. */
 void hk_body_push(const struct hooke_system *system, const void *thing, const struct hk_motion *motion,
                   const double *own, double *push) {
   const struct hk_body *body = thing;
+  const int only_acted = system->force == NULL;
+  const int64_t count = only_acted ? body->acted_count : body->count;
   double sum[3] = {0.0, 0.0, 0.0}, *acceleration = push, *torque = push + 3;
   memset(torque, 0, 3 * sizeof(double));
-  for (int64_t k = 0; k < body->count; k++) {
-    const int64_t p = body->particle[k];
+  for (int64_t i = 0; i < count; i++) {
+    const int64_t p = body->particle[only_acted ? body->acted[i] : i];
     if (system->constrained[p]) continue;
     const double force[3] = {motion->f[0][p], motion->f[1][p], motion->f[2][p]};
     double arm[3], turning[3];
@@ -238,6 +242,14 @@ void hk_body_push(const struct hooke_system *system, const void *thing, const st
   hk_scale3(body->inverse_mass, sum, acceleration);
   if (system->has_gravity) add_gravity(system, body, own, acceleration, torque);
   keep_axes(body, own, torque);
+}
+
+void hk_body_clear(const void *thing, double *const f[3]) {
+  const struct hk_body *body = thing;
+  for (int64_t i = 0; i < body->acted_count; i++) {
+    for (int a = 0; a < 3; a++)
+      f[a][body->particle[body->acted[i]]] = 0.0;
+  }
 }
 
 void hk_body_kick(const void *thing, double h, const double *push, double *own) {

@@ -95,10 +95,11 @@ void hk_movers_read(const hooke_system *system, const struct hk_motion *motion, 
   }
 }
 
-void hk_movers_write(const hooke_system *system, struct hk_motion *motion, const double *own) {
+void hk_movers_write(const hooke_system *system, struct hk_motion *motion, const double *own,
+                     int32_t only_acted) {
   for (int64_t k = 0; k < system->mover_count; k++) {
     const struct hk_mover *m = &system->mover[k];
-    m->row->write(system, m->thing, own + m->at, motion->q, motion->v, 1);
+    m->row->write(system, m->thing, own + m->at, motion->q, motion->v, 1, only_acted);
   }
 }
 
@@ -148,6 +149,6 @@ void hk_movers_renew(const hooke_system *system, double *q, double *v) {
     const struct hk_mover *m = &system->mover[k];
     double own[HOOKE_MOST_OWN];
     m->row->read(m->thing, from[0], from[1], 3, own);
-    m->row->write(system, m->thing, own, to[0], to[1], 3);
+    m->row->write(system, m->thing, own, to[0], to[1], 3, 0);
   }
 }

@@ -23,9 +23,11 @@ struct hk_coordinates_row {
   int32_t turns;   /* 1: it is a rigid body (model/coordinates/body_tangent.h) */
 
   /* While a system is built and committed; these have its list. Commit returns HOOKE_BAD_VALUE and
-   * HOOKE_NO_MEMORY, and adds what moves by hk_mover_add(); undoing leaves the list. */
+   * HOOKE_NO_MEMORY, and adds what moves by hk_mover_add(); undoing leaves the list. The
+   * forces are known later: `acted` is 1 for each particle that one may act on (HOOKE_NO_MEMORY). */
   int64_t (*count)(const struct hooke_system *system);
   int32_t (*commit)(struct hooke_system *system);
+  int32_t (*find_acted)(struct hooke_system *system, const uint8_t *acted);
   void (*undo)(struct hooke_system *system);
   void (*release)(struct hooke_system *system);
   double (*bytes)(const struct hooke_system *system); /* needed at most */
@@ -36,15 +38,16 @@ struct hk_coordinates_row {
   int32_t (*check_state)(const struct hooke_system *system, const struct hooke_state *state);
 
   /* Motion of one thing. `push` has its acceleration, gravity included, and what turns it, by the forces of
-   * the working copy; `own` += h push; free motion over h; d own/dt; accelerations of its particles, 3 each
-   * of all. */
+   * the working copy, which `clear` makes 0 where any may act; `own` += h push; free motion over h; d own/dt;
+   * accelerations of its particles, 3 each of all. */
   const int32_t *(*particles)(const void *thing, int64_t *count);
   void (*read)(const void *thing, const double *const q[3], const double *const v[3], int64_t stride,
                double *own);
   void (*write)(const struct hooke_system *system, const void *thing, const double *own, double *const q[3],
-                double *const v[3], int64_t stride); /* of free particles */
+                double *const v[3], int64_t stride, int32_t only_acted); /* of free particles */
   void (*push)(const struct hooke_system *system, const void *thing, const struct hk_motion *motion,
                const double *own, double *push);
+  void (*clear)(const void *thing, double *const f[3]);
   void (*kick)(const void *thing, double h, const double *push, double *own);
   void (*drift)(const void *thing, double h, double *own);
   void (*slope)(const void *thing, const double *own, const double *push, double *slope);
@@ -89,9 +92,11 @@ int32_t hk_movers_check_state(const struct hooke_system *system, const struct ho
 /* 1 if every mover's kind is `solved`. */
 int32_t hk_movers_are_solved(const struct hooke_system *system);
 
-/* Own coordinates of all movers from the working copy and to it. `push` has HOOKE_PUSH numbers for each. */
+/* Own coordinates of all movers from the working copy and to it, or only to what forces and reading them
+ * again need. `push` has HOOKE_PUSH numbers for each. */
 void hk_movers_read(const struct hooke_system *system, const struct hk_motion *motion, double *own);
-void hk_movers_write(const struct hooke_system *system, struct hk_motion *motion, const double *own);
+void hk_movers_write(const struct hooke_system *system, struct hk_motion *motion, const double *own,
+                     int32_t only_acted);
 void hk_movers_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
                     double *push);
 void hk_movers_normalise(const struct hooke_system *system, double *own);

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
+#include "model/coordinates/coordinates.h"
 #include "model/force/drive.h"
 #include "model/force/force.h"
 #include "model/sum/tiled.h"
@@ -327,13 +328,26 @@ static void clear_forces(int32_t worker, int32_t workers, void *ctx) {
     memset(m->f[a] + from, 0, (size_t)count * sizeof(double));
 }
 
+/* With movers: of what is stepped by itself, and where forces may act on movers. */
+static void clear_stepped(const hooke_system *system, struct hk_motion *motion) {
+  for (int64_t s = 0; s < system->span_count; s++) {
+    for (int a = 0; a < 3; a++)
+      memset(motion->f[a] + system->span[s].from, 0, (size_t)system->span[s].count * sizeof(double));
+  }
+  for (int64_t k = 0; k < system->mover_count; k++)
+    system->mover[k].row->clear(system->mover[k].thing, motion->f);
+}
+
 int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, double t) {
   return hk_motion_forces_without(system, motion, t, 0);
 }
 
 int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *motion, double t,
                                  int32_t left_out) {
-  hk_pool_run(motion->pool, clear_forces, motion);
+  if (system->mover_count > 0 && system->force == NULL)
+    clear_stepped(system, motion);
+  else
+    hk_pool_run(motion->pool, clear_forces, motion);
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     if (row->add == NULL || row->kind & left_out) continue;

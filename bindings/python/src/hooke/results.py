@@ -206,6 +206,14 @@ def run(
     return _run_to_want(once, measurement, system, wanted, options, want)
 
 
+def _settled(problem: Problem, options: Options) -> Integrator:
+    """An integrator of a whole run, which takes damping explicitly where the start of the system allows it."""
+    chosen = options.copy()
+    if isinstance(problem, System):
+        lib.hooke_step_settle(problem._committed(), chosen._handle)
+    return Integrator(problem, chosen)
+
+
 @dataclass(frozen=True)
 class _Once:
     """The unchanged parts of repeated runs."""
@@ -222,7 +230,7 @@ class _Once:
     probes: Path | None
 
     def run(self, options: Options, state: State, estimate: Measurement | None = None, judged: bool = True) -> Result:
-        integrator = Integrator(self.problem, options)
+        integrator = _settled(self.problem, options)
         integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
         recorder = _Recorder(integrator.frame_count, state) if self.frames else None
@@ -365,7 +373,7 @@ def why(
             raise BadCall("this run was not pickled with its result, run it again: hooke.why(scene, **result.options)")
         return what.integrator.why(budget, progress) if what.integrator is not None else None
     scene, problem, wanted = resolve(what, None, options)
-    integrator = Integrator(problem, wanted)
+    integrator = _settled(problem, wanted)
     integrator._title = scene.title if scene is not None else ""
     with contextlib.suppress(SolverFailed):
         integrator.run(problem.state())
