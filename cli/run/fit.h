@@ -1,4 +1,4 @@
-/* A step that fits: for a fixed-step method, `every` and `duration` have to be whole multiples of it. */
+/* A step that fits `every` and the duration, see hooke_step_fit(). */
 #ifndef HOOKE_CLI_FIT_H
 #define HOOKE_CLI_FIT_H
 

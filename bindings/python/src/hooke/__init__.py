@@ -33,7 +33,7 @@ from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from .cost import Check, Cost, check, cost
 from .files import Verification, verify, view, write_xdmf
-from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
+from .integrator import FitWarning, Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
 from .modes import Modes, modes
 from .needs import Needs, needs
@@ -63,6 +63,7 @@ __all__ = [
     "Energy",
     "Error",
     "FirstOrder",
+    "FitWarning",
     "Frame",
     "Frames",
     "IOFailed",

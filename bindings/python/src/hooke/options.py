@@ -54,7 +54,7 @@ class Row(NamedTuple):
 
 
 _TABLES: dict[str, dict[str, Row]] = {}  #: the rows of the tables that were read, by their names
-_LISTS = ("methods", "watch")  #: texts that are lists of words
+_LISTS = ("methods", "watch", "probe")  #: texts that are lists of words
 
 
 def _of_table(what: str) -> classmethod[Options, [], Options]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
+from ._look import draw
 from ._memory import Handle, Owner, double_pointer, doubles, plain
 from ._prototypes import FORCE, FORCE_PRODUCT, RATE
 from ._status import BadValue
@@ -17,8 +18,7 @@ from .options import Options
 from .state import State, restored
 
 if TYPE_CHECKING:
-    from .rest import Rest
-    from .results import Result
+    from . import rest, results
 
 #: rate(t, x, rate): writes x' into its last argument, arrays (size,).
 Rate = Callable[[float, Table, Table], Optional[int]]
@@ -33,21 +33,17 @@ class Problem(Owner):
 
     _what: str  #: what it is, for messages
     _shown: dict[str, Any]  #: how `State` shows its states, where it has no particles
-    #: hooke.run, which is above all problems and so sets this itself.
-    _run_by: Callable[..., Result]
-    _rest_by: Callable[..., Rest]  #: hooke.rest, likewise
+    if TYPE_CHECKING:  # what is above all problems, and so makes itself a method
+        run = results.run
+        rest = rest.rest
+
+    def _repr_html_(self) -> str | None:
+        shown: str | None = draw("notebook.still", self) if not hasattr(self, "_what") else None
+        return shown
 
     def _posed(self) -> tuple[Handle, list[Any]]:
         """It as a system of the library, and the callbacks of that (see `Posed`)."""
         raise NotImplementedError
-
-    def run(self, **options: Any) -> Result:
-        """Runs it; see `hooke.run`."""
-        return Problem._run_by(self, **options)
-
-    def rest(self, **options: Any) -> Rest:
-        """Finds where it is at rest; see `hooke.rest`."""
-        return Problem._rest_by(self, **options)
 
 
 class FirstOrder(Problem):

@@ -16,24 +16,27 @@ from __future__ import annotations
 import contextlib
 import copy
 import ctypes
+import functools
 import itertools
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
 from ._callback import stop_value
+from ._keywords import RunKeywords
 from ._library import lib
 from ._look import WorkProgress, draw, shown
 from ._measurement import Claim, Measurement, Record, said
 from ._prototypes import PROBES, TRAJECTORY
+from ._signature import Unpack, takes
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
 from .files import numbers, opened, read_probes, run_options, view, write_companion
-from .integrator import BLOWN_UP, Integrator, Observer
+from .integrator import BLOWN_UP, Integrator, Observer, fit
 from .options import Options
 from .problems import FirstOrder, SecondOrder
 from .problems import Problem as Base
@@ -67,6 +70,28 @@ class RunError(Record, table="estimate.estimate", without=("seconds", "memory_by
     """The error of a run; a number that is not known is NaN. `met` is None if that is unknown or no error was wanted."""
 
 
+class Judged:
+    """What is found of a run after it, when it is asked for."""
+
+    def __init__(self, estimate: Measurement, state: State):
+        self._estimate, self._state = estimate, state
+
+    @functools.cached_property
+    def found(self) -> tuple[RunError | None, tuple[Claim, ...]]:
+        """The error, and what is said of it."""
+        self._estimate.run(None, self._state)
+        return self._estimate.one(RunError, "estimate"), tuple(self._estimate.each(Claim, "claims"))
+
+    def __reduce__(self) -> Any:
+        return _Told, (self.found,)
+
+
+class _Told(NamedTuple):
+    """That of a result of another process."""
+
+    found: tuple[RunError | None, tuple[Claim, ...]]
+
+
 @dataclass(frozen=True)
 class Result:
     """The result of a run.
@@ -74,8 +99,8 @@ class Result:
     `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
     the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
     returned by the callback that stopped the run, `output` the file that was written, `probes_file` that of probes.
-    `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and
-    `claims` what is said of it, which ``print(result)`` shows. `watched` is a table of what was watched, a row a quantity,
+    `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, None if there is no estimate,
+    and `claims` what is said of it, which ``print(result)`` shows; both are found when they are first asked for. `watched` is a table of what was watched, a row a quantity,
     with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
     `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early.
     """
@@ -92,10 +117,19 @@ class Result:
     frames: Frames | None = None
     output: Path | None = None
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
-    error: RunError | None = None
-    claims: tuple[Claim, ...] = ()
+    judged: Judged | _Told | None = field(default=None, repr=False, compare=False)
     probes_file: Path | None = None
     watched: Table | None = None
+
+    @property
+    def error(self) -> RunError | None:
+        """The error of the run, as runs at other steps or tolerances tell it, which are made now; None without an estimate."""
+        return self.judged.found[0] if self.judged is not None else None
+
+    @property
+    def claims(self) -> tuple[Claim, ...]:
+        """What is said of the run, the most important first."""
+        return self.judged.found[1] if self.judged is not None else ()
 
     @property
     def diagnosis(self) -> str:
@@ -142,10 +176,13 @@ class Result:
         )
 
     def _repr_html_(self) -> str | None:
+        if self.output is None and self.integrator is not None:
+            return self.integrator.why()._repr_html_()
         words: str = draw("notebook.paragraphs", self.diagnosis or said(self.claims))
         return (words + (draw("notebook.embed", lambda page: view(self, page)) if self.output is not None else "")) or None
 
 
+@takes(RunKeywords)
 def run(
     problem: Runnable,
     *,
@@ -157,17 +194,19 @@ def run(
     on_frame: Observer | None = None,
     on_step: tuple[int, Observer] | None = None,
     want: Length | None = None,
-    estimate: bool = False,
-    watch: str | None = None,
-    probe: str | None = None,
+    estimate: bool | None = None,
+    strict: bool = False,
+    watch: str | Iterable[str] | None = None,
+    probe: str | Iterable[str] | None = None,
     probe_every: float | str | None = None,
     probes: Path | None = None,
-    **options: Any,
+    **options: Unpack[RunKeywords],
 ) -> Result:
     """Runs a scene (or the path of one), a system, or a first- or second-order problem, and returns the `Result`.
 
-    The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s],
-    checkpoint [s], rtol, atol [m], atol_velocity [m/s], ...; they override the scene's own. `state` is the start (it
+    The keywords `options`, listed below, override the scene's own. A missing step is chosen, and step, `every` and duration
+    that do not fit one another are adjusted, as ``hooke run`` does, each with a `FitWarning`, unless the run is `strict`.
+    Numbers may have units: ``step="1 ms"``. `state` is the start (it
     is changed; by default the initial state), `output` the HDF5 file to write (with its ``.xdmf`` companion for
     ParaView; with `checkpoint` also ``<output>.checkpoint``, until the run has finished, for `hooke.resume`),
     ``frames=True`` keeps all frames in memory, `force` is the callback force of this run (see `System.set_force`),
@@ -176,7 +215,9 @@ def run(
 
     ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance such that no frame has a larger error,
     runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice.
-    ``estimate=True`` estimates the error of the run after it. The result's `error` holds it.
+    The result's `error` holds it. Without `want` it is estimated when it is first asked for, or at
+    once into the file `output`, with a few times the work of the run; ``estimate=True`` does it at once, ``estimate=False``
+    never. A run from a `state` has none, and one with callbacks for forces or drives not without ``estimate=True``.
 
     ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the largest
     over all steps, in the result's `watched`.
@@ -187,8 +228,12 @@ def run(
     scene, problem, wanted = resolve(problem, force, options)
     once = _Once(problem, scene, output, frames, progress, on_frame, on_step, probe, probe_every, probes)
     start = problem.state() if state is None else state
-    asked = want is not None or estimate
-    if not asked and watch is None:
+    asked = want is not None or bool(estimate)
+    plain = isinstance(problem, System) and not problem._callbacks
+    judged = asked or (estimate is None and state is None and plain)
+    if want is None and not strict:
+        fit(problem, start, wanted)
+    if not judged and watch is None:
         return once.run(wanted, start)
     if asked and state is not None:
         raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
@@ -196,11 +241,11 @@ def run(
         system_of(problem, "output")
     system = posed(problem) if watch is None else system_of(problem, "watch")
     wish = want.strip() if isinstance(want, str) else want
-    chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=asked)
+    chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=judged)
     measurement = Measurement.create("estimate", system, None, chosen)
     if not asked:
-        return once.run(wanted, start, measurement, judged=False)
-    return _run_to_want(once, measurement, system, wanted, options, want)
+        return once.run(wanted, start, measurement, judged, now=watch is not None)
+    return _run_to_want(once, measurement, system, wanted, options, want, strict)
 
 
 @dataclass(frozen=True)
@@ -214,11 +259,14 @@ class _Once:
     progress: Progress | bool | None
     on_frame: Observer | None
     on_step: tuple[int, Observer] | None
-    probe: str | None
+    probe: str | Iterable[str] | None
     probe_every: float | str | None
     probes: Path | None
 
-    def run(self, options: Options, state: State, estimate: Measurement | None = None, judged: bool = True) -> Result:
+    def run(
+        self, options: Options, state: State, estimate: Measurement | None = None, judged: bool = True, now: bool = True
+    ) -> Result:
+        """With an `estimate` the result is judged: `now`, or when it is asked for."""
         integrator = Integrator(self.problem, options)
         integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
@@ -240,14 +288,14 @@ class _Once:
         if estimate is None:
             return result
         lib.hooke_estimate_follow(None, integrator._handle)
-        estimate.run(None, state)
-        watched = estimate.rows("watched") if estimate.count("watched") > 0 else None
-        result = replace(result, watched=watched, claims=tuple(estimate.each(Claim, "claims")))
-        if not judged:
-            return result
-        if self.output is not None and status == "finished":
-            lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
-        return replace(result, error=estimate.one(RunError, "estimate"))
+        writes = judged and self.output is not None and status == "finished"
+        if not (now or writes):
+            return replace(result, judged=Judged(estimate, state.copy()))
+        made = Judged(estimate, state)
+        result = replace(result, judged=made if made.found else None)
+        if writes:
+            lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(str(self.output)))
+        return replace(result, watched=estimate.rows("watched")) if estimate.count("watched") > 0 else result
 
     @contextlib.contextmanager
     def _probing(self, integrator: Integrator) -> Iterator[None]:
@@ -275,7 +323,7 @@ class _Once:
 
 
 def _run_to_want(
-    once: _Once, estimate: Measurement, system: System, options: Options, given: dict[str, Any], want: Length | None
+    once: _Once, estimate: Measurement, system: System, options: Options, given: RunKeywords, want: Length | None, strict: bool
 ) -> Result:
     """Runs; with a wanted error, picks a method and its step or tolerance, keeping a method that is among those `given`,
     and repeats until the error is met or nothing finer is known to help."""
@@ -286,6 +334,8 @@ def _run_to_want(
         method = given.get("method")
         with estimate.listening(None):
             lib.hooke_estimate_pick(estimate.handle, None if method is None else method.encode(), options._handle)
+        if not strict:
+            fit(system, system.state(), options)
     watched = replace(once, problem=system)
     while True:
         result = watched.run(options, system.state(), estimate)
@@ -342,11 +392,12 @@ def resume(
     return _result(status, integrator, state, output, None)
 
 
+@takes(RunKeywords)
 def why(
     what: Runnable | Result | SolverFailed,
-    budget: float | None = None,
+    budget: float | str | None = None,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[RunKeywords],
 ) -> Why | None:
     """Explains a run that blew up: the `Result` of one, the `SolverFailed` that it raised, or anything that
     `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
@@ -361,10 +412,12 @@ def why(
             raise BadCall("this run was not pickled with its result, run it again: hooke.why(scene, **result.options)")
         return what.integrator.why(budget, progress) if what.integrator is not None else None
     scene, problem, wanted = resolve(what, None, options)
+    state = problem.state()
+    fit(problem, state, wanted)
     integrator = Integrator(problem, wanted)
     integrator._title = scene.title if scene is not None else ""
     with contextlib.suppress(SolverFailed):
-        integrator.run(problem.state())
+        integrator.run(state)
     return integrator.why(budget, progress) if integrator.outcome in BLOWN_UP else None
 
 
@@ -390,7 +443,7 @@ def _result(
 
 
 def resolve(
-    problem: Runnable, force: Force | None, options: Mapping[str, Any]
+    problem: Runnable, force: Force | None, options: Mapping[str, object]
 ) -> tuple[Scene | None, Problem, Options]:
     """The scene (if there is one), the problem, and the options of a run of it."""
     scene, given = None, Options.for_run()
@@ -405,18 +458,22 @@ def resolve(
 
 
 def measured(
-    kind: str, problem: Runnable, given: dict[str, Any], progress: Any, at: Any = None, force: Force | None = None
+    kind: str, problem: Runnable, keywords: Mapping[str, object], progress: Any, at: Any = None, force: Force | None = None
 ) -> tuple[Measurement, Scene | None, System, int]:
     """A measurement of a kind, done `at` a state of a system, with its scene, its system and the status. The keywords
-    `given` are options of the kind, or of its runs, which may be in several threads."""
-    chosen = Options._of(kind)
+    are options of the kind, or of its runs, which may be in several threads."""
+    chosen, given = Options._of(kind), dict(keywords)
     chosen.set(**{name: given.pop(name) for name in list(given) if name in chosen})
     scene, found, options = resolve(problem, force, given)
     system, threads = posed(found) if kind == "study" else system_of(found, kind), options["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
+    state = at and at(system)
+    if kind == "check":
+        with contextlib.suppress(Unsuited):
+            fit(system, state or system.state(), options)
     made = Measurement.create(kind, system, options, chosen)
-    return made, scene, system, made.run(progress, at and at(system))
+    return made, scene, system, made.run(progress, state)
 
 
 def _all(watchers: list[Observer]) -> Observer:
@@ -487,4 +544,4 @@ def _arrays(state: State) -> list[Table]:
     return [np.asarray(state.t), *([state.x] if state._v is None else [state.q, state.v])]
 
 
-Base._run_by = run
+Base.run = run  # type: ignore[method-assign]

@@ -216,7 +216,19 @@ class System(Queries):
         lib.hooke_system_drive_callback(self._handle, *_numbered(particles), callback, None)
         self._callbacks.append(callback)
 
+    def part(self, name: str) -> range:
+        """The numbers of the particles of a part."""
+        before, count = (int(lib.hooke_system_part_count(self._handle, name.encode(), what)) for what in (b"before", b"particles"))
+        if count < 0:
+            raise BadValue(f'part: there is no part called "{name}"')
+        return range(before, before + count)
+
     # copies
+
+    @property
+    def text(self) -> str:
+        """The text of the scene that the system is to the bit, which it commits; a TypeError says why there is none."""
+        return self._written()
 
     def _written(self, title: str = "", run: Options | None = None) -> str:
         """The text of the scene that the committed system is to the bit; a TypeError says why there is none."""

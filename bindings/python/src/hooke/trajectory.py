@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, TypeVar, overload
 
 import numpy as np
@@ -15,7 +15,7 @@ from ._look import draw
 from ._memory import Asked, Closing, text
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
-from .files import numbers, opened, run_options, view
+from .files import numbers, opened, run_options, view, watched
 from .results import Frames, RunError
 from .scene import Scene
 from .state import State
@@ -225,6 +225,14 @@ class Trajectory(Closing):
             raise BadValue(f"{self.path}: the forces of its callback are not known; take `System.reaction` of its system")
         state = self.state(frame)
         return self.system.reaction(state.q, state.v, state.t)
+
+    def watched(self, watch: str | Iterable[str]) -> dict[str, tuple[str, FloatArray]]:
+        """Quantities at every frame, in the grammar of ``hooke.run(watch=...)``: of each the unit and the values (frames,).
+        Needs the scene."""
+        found = watched(self._handle, watch)
+        rows = range(found.count("watched"))
+        names = [found.text("watched", row, "quantity") for row in rows]
+        return {name: (found.text("watched", row, "unit"), found.series("watched", row, "value")) for row, name in zip(rows, names)}
 
     # pictures
 
