@@ -20,10 +20,9 @@ def takes(keywords: Any) -> Callable[[F], F]:
     def signed(function: F) -> F:
         own = inspect.signature(function)
         named = [parameter for parameter in own.parameters.values() if parameter.kind is not parameter.VAR_KEYWORD]
-        named += [
-            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=getattr(hint, "__forward_arg__", hint))
-            for name, hint in keywords.__annotations__.items()
-        ]
+        for name, hint in keywords.__annotations__.items():
+            given = {"default": None, "annotation": getattr(hint, "__forward_arg__", hint)}
+            named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, **given))
         function.__signature__ = own.replace(parameters=named)  # type: ignore[attr-defined]
         words = inspect.cleandoc(keywords.__doc__).partition("\n\n")[2]
         function.__doc__ = f"{inspect.cleandoc(function.__doc__ or '')}\n\n{words}\n"

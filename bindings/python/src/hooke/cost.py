@@ -36,8 +36,8 @@ def cost(
     """Measures the cost of each ingredient of a scene (or the path of one) or of a system: compares it with the same
     scene without the ingredient, at `state` (at the start, if None).
 
-    ``predict=True`` skips the timing. Of many groups the `groups` largest are measured; the numbers of the others stay NaN. ``progress(fraction, what)`` receives progress and stops the work
-    by returning a non-zero number.
+    ``predict=True`` skips the timing. Of many groups the `groups` largest are measured; the numbers of the others stay NaN.
+    ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
     return Cost(*measured("cost", problem, options, progress, lambda _: state))
 

@@ -93,7 +93,9 @@ class Integrator(Closing):
     """
 
     @takes(RunKeywords)
-    def __init__(self, problem: System | FirstOrder | SecondOrder, options: Options | None = None, **keywords: Unpack[RunKeywords]):
+    def __init__(
+        self, problem: System | FirstOrder | SecondOrder, options: Options | None = None, **keywords: Unpack[RunKeywords]
+    ):
         chosen = (options.copy() if options is not None else Options.for_run()).set(**keywords)
         self._problem = problem  # its callbacks are called by the library
         self._handle = problem._integrator(chosen)

@@ -96,8 +96,8 @@ def limit(
     at rest, and then measured by running the method, unless `predict` is True.
 
     `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that
-    and the number of a frame. The other keywords are `options` of limits and of a run, listed below: ``along=True`` predicts at every frame of the run and returns the smallest limits and their times;
-    ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress (``progress=True``
+    and the number of a frame. With ``along=True`` it predicts at every frame of the run and returns the
+    smallest limits and their times; ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress (``progress=True``
     shows a bar, with tqdm) and stops the work by returning a non-zero number.
     """
     return Limit(*measured("limit", problem, {**options, "methods": methods}, progress, lambda system: state_at(system, at)))

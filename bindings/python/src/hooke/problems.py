@@ -18,7 +18,8 @@ from .options import Options
 from .state import State, restored
 
 if TYPE_CHECKING:
-    from . import rest, results
+    from .rest import rest as _rest
+    from .results import run as _run
 
 #: rate(t, x, rate): writes x' into its last argument, arrays (size,).
 Rate = Callable[[float, Table, Table], Optional[int]]
@@ -33,9 +34,9 @@ class Problem(Owner):
 
     _what: str  #: what it is, for messages
     _shown: dict[str, Any]  #: how `State` shows its states, where it has no particles
-    if TYPE_CHECKING:  # what is above all problems, and so makes itself a method
-        run = results.run
-        rest = rest.rest
+    if TYPE_CHECKING:  # functions above all problems, which make themselves methods
+        run = _run
+        rest = _rest
 
     def _repr_html_(self) -> str | None:
         shown: str | None = draw("notebook.still", self) if not hasattr(self, "_what") else None

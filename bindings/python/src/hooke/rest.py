@@ -27,7 +27,6 @@ class Rest(Paged, kind="rest", rows="watched"):
         return f"Rest({self.status}, residual {self.residual:.3g} N)"
 
 
-@takes(RestKeywords)
 def rest(
     problem: Runnable,
     at: Place | None = None,
@@ -42,4 +41,4 @@ def rest(
     return Rest(*measured("rest", problem, options, progress, lambda system: state_at(system, at)))
 
 
-Problem.rest = rest  # type: ignore[method-assign]
+Problem.rest = takes(RestKeywords)(rest)

@@ -100,8 +100,8 @@ class Result:
     the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
     returned by the callback that stopped the run, `output` the file that was written, `probes_file` that of probes.
     `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, None if there is no estimate,
-    and `claims` what is said of it, which ``print(result)`` shows; both are found when they are first asked for. `watched` is a table of what was watched, a row a quantity,
-    with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
+    and `claims` what is said of it, which ``print(result)`` shows; both are found when they are first asked for.
+    `watched` is a table of what was watched, a row a quantity, with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
     `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early.
     """
 
@@ -182,7 +182,6 @@ class Result:
         return (words + (draw("notebook.embed", lambda page: view(self, page)) if self.output is not None else "")) or None
 
 
-@takes(RunKeywords)
 def run(
     problem: Runnable,
     *,
@@ -544,4 +543,4 @@ def _arrays(state: State) -> list[Table]:
     return [np.asarray(state.t), *([state.x] if state._v is None else [state.q, state.v])]
 
 
-Base.run = run  # type: ignore[method-assign]
+Base.run = takes(RunKeywords)(run)

@@ -151,11 +151,11 @@ def study(
     **options: Unpack[StudyKeywords],
 ) -> Study:
     """Runs a scene (or the path of one), a system or a first- or second-order problem by each of `methods` (all that this
-    build has, if None) over a
-    ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the `Study`.
+    build has, if None) over a ladder of steps or tolerances, judges every run by a reference that checks itself, and returns
+    the `Study`.
 
-    `steps` [s] and `tolerances` are ladders of your own, `want` [m] requests a recommendation. `output` is a file to write (see `Study.write`), `force` is the callback force of these
-    runs, ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the study by
+    `steps` [s] and `tolerances` are ladders of your own, `want` [m] requests a recommendation. `output` is
+    a file to write (see `Study.write`), `force` is the callback force of these runs, ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the study by
     returning a non-zero number. ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
     """
     made = Study(*measured("study", problem, {**options, "methods": methods}, progress, force=force))

@@ -15,7 +15,7 @@ from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT
 from ._queries import Queries
 from ._status import BadCall, BadValue, Unsuited
 from ._types import FloatArray, IntArray, Path
-from .options import Options
+from .options import Options, in_units
 from .problems import Problem
 from .state import State
 
@@ -218,7 +218,8 @@ class System(Queries):
 
     def part(self, name: str) -> range:
         """The numbers of the particles of a part."""
-        before, count = (int(lib.hooke_system_part_count(self._handle, name.encode(), what)) for what in (b"before", b"particles"))
+        of = self._handle, name.encode()
+        before, count = (int(lib.hooke_system_part_count(*of, what)) for what in (b"before", b"particles"))
         if count < 0:
             raise BadValue(f'part: there is no part called "{name}"')
         return range(before, before + count)
@@ -330,6 +331,9 @@ def write_scene(path: Path, system: System, title: str, run: Options) -> None:
 
 def particle_keys(position: Any, velocity: Any, mass: Any, gravity_factor: Any = ()) -> dict[str, Any]:
     """The keys of a scene's particles, as copies of what the caller may change."""
+    position, velocity, mass = (
+        in_units("particles", key, value) for key, value in (("position", position), ("velocity", velocity), ("mass", mass))
+    )
     q = np.atleast_2d(doubles(position, "position"))
     keys: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
     if velocity is not None:

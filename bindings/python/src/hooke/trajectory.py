@@ -230,9 +230,12 @@ class Trajectory(Closing):
         """Quantities at every frame, in the grammar of ``hooke.run(watch=...)``: of each the unit and the values (frames,).
         Needs the scene."""
         found = watched(self._handle, watch)
-        rows = range(found.count("watched"))
-        names = [found.text("watched", row, "quantity") for row in rows]
-        return {name: (found.text("watched", row, "unit"), found.series("watched", row, "value")) for row, name in zip(rows, names)}
+        values: dict[str, tuple[str, FloatArray]] = {}
+        for row in range(found.count("watched")):
+            series = found.series("watched", row, "value")
+            assert series is not None
+            values[found.text("watched", row, "quantity")] = found.text("watched", row, "unit"), series
+        return values
 
     # pictures
 

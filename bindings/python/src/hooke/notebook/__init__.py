@@ -41,11 +41,10 @@ def still(problem: Any) -> str | None:
             if scene is None:
                 return None
             scene = Scene.parse(scene.text)
-        moment = {name: 1e-9 for name in ("step", "every", "duration")}
         with tempfile.TemporaryDirectory() as folder:
             method = "symplectic-euler" if system.dynamics == "inertial" else "rk4"
             path, shown = Path(folder, "start.h5"), scene or system
-            run(shown, method=method, output=path, on_frame=lambda *_: 1, estimate=False, **moment)
+            run(shown, method=method, step=1e-9, every=1e-9, duration=1e-9, output=path, on_frame=lambda *_: 1, estimate=False)
             return embed(lambda page: view(path, page, title=scene.title if scene else "system"), 480)
     except Error:
         return None  # what cannot be shown is told of in words

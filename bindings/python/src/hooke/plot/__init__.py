@@ -55,7 +55,7 @@ def cloth(
             ax.set_title(f"t = {time:g} s")
     fit(ax, points)
     faces = _faces(system) if surface and system is not None else []
-    inside = np.isin(ends, np.concatenate([np.ravel(each) for each in faces] or [[]])).all(axis=1)
+    inside = np.isin(ends, [particle for each in faces for particle in np.unique(each)]).all(axis=1)
     for each in faces:
         look = {"facecolors": color, "edgecolors": (*_paled(color, np.array([0.3]))[0], 0.6), "linewidths": 0.4 * linewidth}
         ax.add_collection3d(Poly3DCollection(points[each], shade=True, label=label, **look), autolim=False)
@@ -101,7 +101,10 @@ def over_time(
 ) -> Axes:
     """Draws quantities of a trajectory, in the grammar of ``hooke.run(watch=...)``, over time: ``over_time(out, "57.y")``.
     Several have to share a unit. A part after the run diverged is drawn on grey."""
-    trajectory = source if isinstance(source, Trajectory) else Trajectory(source.output or "" if isinstance(source, Result) else source)
+    path = source.output if isinstance(source, Result) else source
+    if path is None:
+        raise BadValue("source: this run was not written to a file; run it with output=...")
+    trajectory = path if isinstance(path, Trajectory) else Trajectory(path)
     ax = _new_axes(layout="constrained") if ax is None else ax
     found = trajectory.watched(watch)
     units = {unit for unit, _ in found.values()}
