@@ -55,10 +55,11 @@ static int32_t refuse(const char *method, double safe) {
     return hk_fail(HOOKE_UNSUITED, NULL,
                    "no step: %s is certain to be stable here at no step; give one, or take another method",
                    method);
-  return hk_fail(HOOKE_UNSUITED, NULL,
-                 "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; give "
-                 "one, or take another method",
-                 method, safe);
+  return hk_fail(
+      HOOKE_UNSUITED, NULL,
+      "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; give "
+      "one, or take another method",
+      method, safe);
 }
 
 static int32_t choose_step(struct fit *fit, const hooke_system *system, const double *q, const char *method) {

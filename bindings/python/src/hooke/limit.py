@@ -95,10 +95,10 @@ def limit(
     or a system: predicted from the eigenvalues of the scene linearised `at` its positions (at the start, if None) and
     at rest, and then measured by running the method, unless `predict` is True.
 
-    `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that
-    and the number of a frame. With ``along=True`` it predicts at every frame of the run and returns the
-    smallest limits and their times; ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress (``progress=True``
-    shows a bar, with tqdm) and stops the work by returning a non-zero number.
+    `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
+    the number of a frame. With ``along=True`` it predicts at every frame of the run and returns the smallest limits and
+    their times; ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress
+    (``progress=True`` shows a bar, with tqdm) and stops the work by returning a non-zero number.
     """
     return Limit(*measured("limit", problem, {**options, "methods": methods}, progress, lambda system: state_at(system, at)))
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._look import draw
 from ._memory import Handle, Owner, double_pointer, doubles, plain
 from ._prototypes import FORCE, FORCE_PRODUCT, RATE
 from ._status import BadValue
@@ -37,10 +36,6 @@ class Problem(Owner):
     if TYPE_CHECKING:  # functions above all problems, which make themselves methods
         run = _run
         rest = _rest
-
-    def _repr_html_(self) -> str | None:
-        shown: str | None = draw("notebook.still", self) if not hasattr(self, "_what") else None
-        return shown
 
     def _posed(self) -> tuple[Handle, list[Any]]:
         """It as a system of the library, and the callbacks of that (see `Posed`)."""

@@ -73,14 +73,15 @@ class RunError(Record, table="estimate.estimate", without=("seconds", "memory_by
 class Judged:
     """What is found of a run after it, when it is asked for."""
 
-    def __init__(self, estimate: Measurement, state: State):
-        self._estimate, self._state = estimate, state
+    def __init__(self, estimate: Measurement, state: State, errors: bool):
+        self._estimate, self._state, self._errors = estimate, state, errors
 
     @functools.cached_property
     def found(self) -> tuple[RunError | None, tuple[Claim, ...]]:
         """The error, and what is said of it."""
         self._estimate.run(None, self._state)
-        return self._estimate.one(RunError, "estimate"), tuple(self._estimate.each(Claim, "claims"))
+        error = self._estimate.one(RunError, "estimate") if self._errors else None
+        return error, tuple(self._estimate.each(Claim, "claims"))
 
     def __reduce__(self) -> Any:
         return _Told, (self.found,)
@@ -96,13 +97,14 @@ class _Told(NamedTuple):
 class Result:
     """The result of a run.
 
-    `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
-    the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
-    returned by the callback that stopped the run, `output` the file that was written, `probes_file` that of probes.
-    `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, None if there is no estimate,
-    and `claims` what is said of it, which ``print(result)`` shows; both are found when they are first asked for.
-    `watched` is a table of what was watched, a row a quantity, with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
-    `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early.
+    `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has the
+    details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value returned by the
+    callback that stopped the run, `output` the file that was written, `probes_file` that of probes. `integrator` is kept
+    if the run blew up, for `hooke.why`. `error` is the error of the run, None if there is no estimate, and `claims` what
+    is said of it, which ``print(result)`` shows; both are found when they are first asked for. `watched` is a table of
+    what was watched, a row a quantity, with the columns `quantity`, `unit`, `value` (at the end), `minimum`,
+    `at_minimum`, `maximum`, `at_maximum`, and `from` and `until`: the time [s] that smallest and largest are known for,
+    the whole run unless it ended early.
     """
 
     status: str
@@ -203,26 +205,26 @@ def run(
 ) -> Result:
     """Runs a scene (or the path of one), a system, or a first- or second-order problem, and returns the `Result`.
 
-    The keywords `options`, listed below, override the scene's own. A missing step is chosen, and step, `every` and duration
-    that do not fit one another are adjusted, as ``hooke run`` does, each with a `FitWarning`, unless the run is `strict`.
-    Numbers may have units: ``step="1 ms"``. `state` is the start (it
-    is changed; by default the initial state), `output` the HDF5 file to write (with its ``.xdmf`` companion for
-    ParaView; with `checkpoint` also ``<output>.checkpoint``, until the run has finished, for `hooke.resume`),
-    ``frames=True`` keeps all frames in memory, `force` is the callback force of this run (see `System.set_force`),
-    ``progress(fraction, state)`` is called at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame`
-    and `on_step` see `Integrator.run`.
+    The keywords `options`, listed below, override the scene's own. A missing step is chosen, and step, `every` and
+    duration that do not fit one another are adjusted, as ``hooke run`` does, each with a `FitWarning`, unless the run
+    is `strict`. Numbers may have units: ``step="1 ms"``. `state` is the start (it is changed; by default the initial
+    state), `output` the HDF5 file to write (with its ``.xdmf`` companion for ParaView; with `checkpoint` also
+    ``<output>.checkpoint``, until the run has finished, for `hooke.resume`), ``frames=True`` keeps all frames in
+    memory, `force` is the callback force of this run (see `System.set_force`), ``progress(fraction, state)`` is called
+    at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
 
     ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance such that no frame has a larger error,
-    runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice.
-    The result's `error` holds it. Without `want` it is estimated when it is first asked for, or at
-    once into the file `output`, with a few times the work of the run; ``estimate=True`` does it at once, ``estimate=False``
-    never. A run from a `state` has none, and one with callbacks for forces or drives not without ``estimate=True``.
+    runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice. The
+    result's `error` holds it. Without `want` it is estimated when it is first asked for, with a few times the work of
+    the run; ``estimate=True`` does it at once, and writes it into `output`, ``estimate=False`` never. A run from a
+    `state` has none, and one with callbacks for forces or drives not without ``estimate=True``.
 
-    ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the largest
-    over all steps, in the result's `watched`.
+    ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the
+    largest over all steps, in the result's `watched`.
 
-    ``probe="57.y,energy"`` writes these quantities, in the grammar of `watch`, into the file `probes` (.csv or .h5) while
-    the run goes: a line every `probe_every` [s], which is that of frames if None. The result's `probes` reads them.
+    ``probe="57.y,energy"`` writes these quantities, in the grammar of `watch`, into the file `probes` (.csv or .h5)
+    while the run goes: a line every `probe_every` [s], which is that of frames if None. The result's `probes` reads
+    them.
     """
     scene, problem, wanted = resolve(problem, force, options)
     once = _Once(problem, scene, output, frames, progress, on_frame, on_step, probe, probe_every, probes)
@@ -287,13 +289,12 @@ class _Once:
         if estimate is None:
             return result
         lib.hooke_estimate_follow(None, integrator._handle)
-        writes = judged and self.output is not None and status == "finished"
-        if not (now or writes):
-            return replace(result, judged=Judged(estimate, state.copy()))
-        made = Judged(estimate, state)
-        result = replace(result, judged=made if made.found else None)
-        if writes:
-            lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(str(self.output)))
+        if not now:
+            return replace(result, judged=Judged(estimate, state.copy(), judged))
+        found = Judged(estimate, state, judged)
+        result = replace(result, judged=found if found.found else None)
+        if judged and self.output is not None and status == "finished":
+            lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
         return replace(result, watched=estimate.rows("watched")) if estimate.count("watched") > 0 else result
 
     @contextlib.contextmanager

@@ -12,6 +12,7 @@ import numpy as np
 
 from ._keywords import RunKeywords
 from ._library import lib
+from ._look import still
 from ._memory import Asked, Handle, indices, text
 from ._signature import Unpack, takes
 from ._status import BadCall, BadValue, placed
@@ -211,6 +212,8 @@ class Scene(Parts, Problem):
 
     def __reduce__(self) -> Any:
         return Scene.parse, (self._system._written(self.title, self.run_options),)
+
+    _repr_html_ = still
 
     def __repr__(self) -> str:
         return f"Scene({self.title!r}, {self._system!r})"

@@ -154,9 +154,10 @@ def study(
     build has, if None) over a ladder of steps or tolerances, judges every run by a reference that checks itself, and returns
     the `Study`.
 
-    `steps` [s] and `tolerances` are ladders of your own, `want` [m] requests a recommendation. `output` is
-    a file to write (see `Study.write`), `force` is the callback force of these runs, ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the study by
-    returning a non-zero number. ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
+    `steps` [s] and `tolerances` are ladders of your own, `want` [m] requests a recommendation. `output` is a file to
+    write (see `Study.write`), `force` is the callback force of these runs, ``progress(fraction, what)`` receives progress
+    (``progress=True`` shows a bar, with tqdm) and stops the study by returning a non-zero number. ``hooke study --report
+    FILE.html`` makes a page with diagrams of the same study.
     """
     made = Study(*measured("study", problem, {**options, "methods": methods}, progress, force=force))
     made._progress = progress

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
+from ._look import still
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, rows, text
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT
 from ._queries import Queries
@@ -298,6 +299,8 @@ class System(Queries):
             self._shape = (self.particle_count, 3)
             self._final = True
         return self._handle
+
+    _repr_html_ = still
 
     def __repr__(self) -> str:
         return f"System({self.particle_count} particles, {self.spring_count} springs)"

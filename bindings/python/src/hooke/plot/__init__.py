@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import BadValue, Limit, Needs, Result, Scene, Study, System, Trajectory
 from .._types import FloatArray, IntArray, Path, Table
-from ._pictures import Line3DCollection, MaxNLocator, Poly3DCollection, to_rgb
+from ._pictures import Line3DCollection, LogLocator, MaxNLocator, Poly3DCollection, to_rgb
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ Source = Union[Path, Trajectory, Result, Scene, System, tuple[Any, Any]]
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _AXES = {"x": 0, "y": 1, "z": 2}
-_FAINT = 0.7  # of white, in the colour of what is farthest
+_FAINT = 0.55  # of white, in the colour of what is farthest
 
 
 def cloth(
@@ -34,12 +34,12 @@ def cloth(
     frame: int = -1,
     up: str = "y",
     color: str = COLOURS[0],
-    linewidth: float = 0.5,
+    linewidth: float = 0.8,
     label: str | None = None,
     surface: bool = True,
 ) -> Any:
-    """Draws a cloth, or any other system, in space: cloths and meshes as surfaces, with light from above, unless `surface` is
-    False, and other springs as lines, which are the fainter the farther they are from the eye.
+    """Draws a cloth, or any other system, in space: cloths and meshes as surfaces, the lighter the more they face the eye,
+    unless `surface` is False, and other springs as lines, which are the fainter the farther they are from the eye.
 
     `source` is a file that a run or `hooke.compare` wrote, a `Trajectory`, a `Result`, a `Scene` or `System` at its start,
     or a pair of positions (n, 3) [m] and spring ends (m, 2). In a file, `run` is "all" (the run, or the reference) or one
@@ -56,13 +56,16 @@ def cloth(
     fit(ax, points)
     faces = _faces(system) if surface and system is not None else []
     inside = np.isin(ends, [particle for each in faces for particle in np.unique(each)]).all(axis=1)
+    elevation, azimuth = np.deg2rad([ax.elev, ax.azim])
+    eye = [np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)]
     for each in faces:
-        look = {"facecolors": color, "edgecolors": (*_paled(color, np.array([0.3]))[0], 0.6), "linewidths": 0.4 * linewidth}
-        ax.add_collection3d(Poly3DCollection(points[each], shade=True, label=label, **look), autolim=False)
+        corner = points[each]
+        normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        light = np.abs(normal @ eye) / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)  # from the eye, on both sides
+        look = {"facecolors": _paled(color, 0.2 + light), "edgecolors": color, "linewidths": 0.4 * linewidth}
+        ax.add_collection3d(Poly3DCollection(corner, label=label, **look), autolim=False)
     lines = points[ends[~inside]]
     if len(lines):
-        elevation, azimuth = np.deg2rad([ax.elev, ax.azim])
-        eye = [np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)]
         away = -lines.mean(axis=1) @ eye
         far = np.argsort(-away)
         faint = (away[far] - away.min()) / max(np.ptp(away), 1e-300)
@@ -105,7 +108,7 @@ def over_time(
     if path is None:
         raise BadValue("source: this run was not written to a file; run it with output=...")
     trajectory = path if isinstance(path, Trajectory) else Trajectory(path)
-    ax = _new_axes(layout="constrained") if ax is None else ax
+    ax = _new_axes() if ax is None else ax
     found = trajectory.watched(watch)
     units = {unit for unit, _ in found.values()}
     if len(units) > 1:
@@ -132,7 +135,7 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
         methods = [_text(name) for name in table["method"][:]]
         reference = table["reference"].attrs["method"]
         time, values = table["series/time"][:], np.abs(table[f"series/{series}"][:])
-    ax = _new_axes(layout="constrained") if ax is None else ax
+    ax = _new_axes() if ax is None else ax
     for number, (method, row) in enumerate(zip(methods, values)):
         shown = row > 0  # a logarithm has no zero, and NaN is past the end
         ax.plot(time[shown], row[shown], label=method, **_style(number, markevery=max(1, len(time) // 8)))
@@ -159,14 +162,18 @@ def study(
     costs, steps = axes
     work_precision(source, costs, cost=cost, want=want)
     costs.get_legend().remove()
+    unstepped = []
     for number, method in enumerate(dict.fromkeys(table["method"])):
         rows, style = np.flatnonzero(table["method"] == method), _style(number)
         order = table.orders.get(method, np.nan)
+        if not np.isfinite(table["step"][rows]).any():
+            unstepped += [line for line in costs.lines if line.get_label() == method]
+            continue
         label = f"{method}, order {order:.2f}" if np.isfinite(order) else method
         _ladder(steps, table["step"][rows], table["error_max"][rows], label, style)
         _edge(steps, table["step"][rows[np.isnan(table["error_max"][rows])]], style)
     steps.set_xlabel("step [s]")
-    _finish(steps, table, getattr(source, "unit", "m"), want)
+    _finish(steps, table, getattr(source, "unit", "m"), want, unstepped)
     return axes
 
 
@@ -176,7 +183,7 @@ def work_precision(
     """Draws error_max [m] against cost of a study, or of the file that one wrote, one marked line a method; with `cost` and
     `want` as for `study`."""
     table = _Table(source)
-    ax = _new_axes(layout="constrained") if ax is None else ax
+    ax = _new_axes() if ax is None else ax
     for number, method in enumerate(dict.fromkeys(table["method"])):
         rows = np.flatnonzero(table["method"] == method)
         _ladder(ax, table[cost][rows], table["error_max"][rows], method, _style(number))
@@ -185,14 +192,19 @@ def work_precision(
     return ax
 
 
-def _finish(ax: Any, table: _Table, unit: str, want: float | None) -> None:
+def _finish(ax: Any, table: _Table, unit: str, want: float | None, lines: Iterable[Any] = ()) -> None:
     ax.set(xscale="log", yscale="log", ylabel=f"error [{unit}]" if unit else "error")
+    low, high = ax.get_xlim()
+    if high < 100 * low:  # few powers of ten: some numbers between them
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter("")
     if table.agreement > 0:
         ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
         ax.set_ylim(bottom=table.agreement)
     if want is not None:
         ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {want:g} {unit}")
-    _legend(ax)
+    _legend(ax, lines)
 
 
 def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
@@ -240,7 +252,7 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     """Draws the change of the watched positions [m] without each ingredient, the largest on top, with the wanted
     error as a line: needed ones in one colour, others in another, those that the lean scene lacks darker."""
     rows = found.rows[np.argsort(np.where(np.isnan(found.rows["error"]), np.inf, found.rows["error"]), kind="stable")]
-    ax = _new_axes(layout="constrained") if ax is None else ax
+    ax = _new_axes() if ax is None else ax
     seen = np.append(rows["error"][rows["error"] > 1e-9 * found.want], found.want)
     low, high = seen.min() / 3, seen.max() * 3
     length = np.clip(np.where(np.isnan(rows["error"]), high, rows["error"]), low, high)
@@ -269,10 +281,11 @@ def _style(number: int, **options: Any) -> dict[str, Any]:
     return {"color": COLOURS[number % len(COLOURS)], "linestyle": dashes, "marker": marker, "markersize": 4, **options}
 
 
-def _legend(ax: Any) -> None:
-    """Beside the axes in a figure of this module, which makes room for it; within them in others."""
+def _legend(ax: Any, lines: Iterable[Any] = ()) -> None:
+    """Beside the axes in a figure of this module, which makes room for it, within them in others; with `lines` of others."""
     beside = {"loc": "upper left", "bbox_to_anchor": (1.01, 1), "borderaxespad": 0}
-    ax.legend(fontsize="small", frameon=False, **(beside if ax.figure.get_layout_engine() is not None else {}))
+    handles = [*ax.get_legend_handles_labels()[0], *lines]
+    ax.legend(handles=handles, fontsize="small", frameon=False, **(beside if ax.figure.get_layout_engine() is not None else {}))
 
 
 class _Table:
@@ -306,7 +319,7 @@ def _ladder(ax: Any, x: FloatArray, error: FloatArray, label: str, style: dict[s
 
 def _edge(ax: Any, x: FloatArray, style: dict[str, Any]) -> None:
     height = np.full(x.size, 0.98)
-    ax.plot(x, height, transform=ax.get_xaxis_transform(), linestyle="", **{**style, "marker": "x"})
+    ax.plot(x, height, transform=ax.get_xaxis_transform(), **{**style, "linestyle": "", "marker": "x"})
 
 
 def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | None, System | None]:
@@ -345,7 +358,7 @@ def _two_axes(**options: Any) -> Any:
 def _new_axes(**options: Any) -> Any:
     import matplotlib.pyplot as plt
 
-    return plt.figure().add_subplot(**options)
+    return plt.figure(layout="constrained").add_subplot(**options)
 
 
 def axis_order(up: str) -> list[int]:
@@ -360,7 +373,7 @@ def new_space(order: list[int]) -> Any:
     """New axes in space, named by the `order` of `axis_order`."""
     ax = _new_axes(projection="3d")
     for name, axis in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order):
-        name(f"{'xyz'[axis]} [m]")
+        name(f"{'xyz'[axis]} [m]", labelpad=12)
     return ax
 
 
@@ -375,13 +388,11 @@ def fit(ax: Any, points: FloatArray) -> None:
         low, high = np.minimum(low, drawn[0]), np.maximum(high, drawn[1])
     ax._hooke_limits = low, high
     most = max(float((high - low).max()), 1e-9)
-    margin = most * 0.02
-    ax.set_xlim(low[0] - margin, high[0] + margin)
-    ax.set_ylim(low[1] - margin, high[1] + margin)
-    ax.set_zlim(low[2] - margin, high[2] + margin)
-    ax.set_box_aspect(high - low + 2 * margin)
-    for axis, size in zip((ax.xaxis, ax.yaxis, ax.zaxis), high - low):  # numbers that stand apart, also on short axes
-        axis.set_major_locator(MaxNLocator(max(1, round(5 * float(size) / most)), min_n_ticks=1))
+    middle, size = (low + high) / 2, np.maximum(1.04 * (high - low), 0.3 * most)  # numbers stand apart, also on short axes
+    ax.set(**{f"{name}lim": limits for name, *limits in zip("xyz", middle - size / 2, middle + size / 2)})
+    ax.set_box_aspect((*size,), zoom=0.8)
+    for axis, share in zip((ax.xaxis, ax.yaxis, ax.zaxis), size / most):
+        axis.set_major_locator(MaxNLocator(max(1, round(5 * float(share))), min_n_ticks=1))
 
 
 def _text(value: Any) -> str:
