@@ -156,7 +156,7 @@ def from_moorpy(system: Any, *, damping_ratio: float = 0.1) -> Scene:
         weight += [0.0] * (len(nodes) - 2)
         for share, number in zip([0.5, *[1.0] * (len(nodes) - 2), 0.5], numbers):
             mass[number] += share * piece * line.type["m"]
-            weight[number] += share * piece * line.type["w"]
+            weight[number] += share * piece * line.w
         groups.append((f"line{line.number}", np.stack([numbers[:-1], numbers[1:]], axis=1), line.type["EA"], piece))
     pulled = [(k, point.fExt) for k, point in enumerate(system.pointList) if k not in held and np.any(point.fExt)]
     bodies, coupled = len(system.bodyList), sum(point.type == -1 for point in system.pointList)
