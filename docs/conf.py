@@ -69,6 +69,9 @@ def adapt(app, name, source) -> None:
             title, rest = source[0].split("\n\n", 1)
             source[0] = f"{title}\n\n{FRONT}\n{rest}"
         source[0] += "\n\n" + navigation(source[0]) + "\n"
+    if name == "notebooks" and (Path(app.srcdir) / "notebooks").exists():
+        source[0] = re.sub(r"\(\.\./examples/(notebooks/[\w-]+)\.ipynb\)", r"(\1.md)", source[0])
+        source[0] += "\n\n" + "\n".join(["```{toctree}", ":hidden:", "", *re.findall(r"\((notebooks/[\w-]+)\.md\)", source[0]), "```"])
     if not name.startswith("reference/"):
         if name == "gallery" and LIVE.exists():
             live = r'`\1.json`, <a href="live.html#open=\1">in the playground</a>'

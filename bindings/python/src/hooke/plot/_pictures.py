@@ -8,4 +8,13 @@ try:
 except ImportError as error:
     raise ImportError(f"pictures and films need matplotlib ({error}): pip install matplotlib h5py") from error
 
-__all__ = ["FuncAnimation", "Line3DCollection", "LinearSegmentedColormap", "LogLocator", "MaxNLocator", "Poly3DCollection", "to_rgb", "writers"]
+__all__ = [
+    "FuncAnimation",
+    "Line3DCollection",
+    "LinearSegmentedColormap",
+    "LogLocator",
+    "MaxNLocator",
+    "Poly3DCollection",
+    "to_rgb",
+    "writers",
+]
