@@ -44,7 +44,7 @@ def still(problem: Any) -> str | None:
         with tempfile.TemporaryDirectory() as folder:
             method = "symplectic-euler" if system.dynamics == "inertial" else "rk4"
             path, shown = Path(folder, "start.h5"), scene or system
-            run(shown, method=method, step=1e-9, every=1e-9, duration=1e-9, output=path, on_frame=lambda *_: 1, estimate=False)
+            run(shown, method=method, step=1e-9, every=1e-9, duration=1e-9, output=path, estimate=False)
             return embed(lambda page: view(path, page, title=scene.title if scene else "system"), 480)
     except Error:
         return None  # what cannot be shown is told of in words
