@@ -71,7 +71,8 @@ def adapt(app, name, source) -> None:
         source[0] += "\n\n" + navigation(source[0]) + "\n"
     if name == "notebooks" and (Path(app.srcdir) / "notebooks").exists():
         source[0] = re.sub(r"\(\.\./examples/(notebooks/[\w-]+)\.ipynb\)", r"(\1.md)", source[0])
-        source[0] += "\n\n" + "\n".join(["```{toctree}", ":hidden:", "", *re.findall(r"\((notebooks/[\w-]+)\.md\)", source[0]), "```"])
+        pages = re.findall(r"\((notebooks/[\w-]+)\.md\)", source[0])
+        source[0] += "\n\n" + "\n".join(["```{toctree}", ":hidden:", "", *pages, "```"]) + "\n"
     if not name.startswith("reference/"):
         if name == "gallery" and LIVE.exists():
             live = r'`\1.json`, <a href="live.html#open=\1">in the playground</a>'

@@ -1,12 +1,13 @@
 """The notebooks: their cells run in order, their code is typed, and they are kept without outputs."""
 
 import json
+import os
 import re
 import subprocess
 import sys
 
 import pytest
-from conftest import ROOT
+from pages import BUILD, ROOT
 
 sys.path.insert(0, str(ROOT / "docs/generate"))
 import notebooks
@@ -55,6 +56,7 @@ def test_their_code_is_typed(tmp_path):
     pytest.importorskip("mypy")
     for name in NAMES:
         (tmp_path / f"{name.replace('-', '_')}.py").write_text(notebooks.code(FOLDER / f"{name}.ipynb"))
-    command = [sys.executable, "-m", "mypy", "--strict", "--config-file", ROOT / "pyproject.toml", *sorted(tmp_path.glob("*.py"))]
-    checked = subprocess.run(command, capture_output=True, text=True)
+    command = [sys.executable, "-m", "mypy", "--strict", "--config-file", ROOT / "pyproject.toml", *tmp_path.glob("*.py")]
+    environment = {**os.environ, "MYPYPATH": str(BUILD / "python")}
+    checked = subprocess.run([*command, "--cache-dir", BUILD / "mypy"], env=environment, capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout + checked.stderr

@@ -51,15 +51,10 @@ static int32_t set(struct fit *fit, const char *name, double *number, double val
 /* ---- without a given step ---- */
 
 static int32_t refuse(const char *method, double safe) {
-  if (!(safe > 0.0))
-    return hk_fail(HOOKE_UNSUITED, NULL,
-                   "no step: %s is certain to be stable here at no step; give one, or take another method",
-                   method);
-  return hk_fail(
-      HOOKE_UNSUITED, NULL,
-      "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; give "
-      "one, or take another method",
-      method, safe);
+  char where[80] = "here at no step";
+  if (safe > 0.0) hk_print(where, sizeof where, "up to %.6g s alone, which would mean over 1e8 steps", safe);
+  return hk_fail(HOOKE_UNSUITED, NULL,
+                 "no step: %s is certain to be stable %s; give one, or take another method", method, where);
 }
 
 static int32_t choose_step(struct fit *fit, const hooke_system *system, const double *q, const char *method) {

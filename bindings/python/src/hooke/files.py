@@ -94,7 +94,7 @@ def view(
     if output is None and len(sources) != 1:
         raise BadValue("output: is required for several trajectories")
     page = pathlib.Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")
-    views = [_view(source, title, options) for source in sources]
+    views = [view_of(source, title, options) for source in sources]
     for other in views[1:]:
         lib.hooke_view_add(views[0].handle, other.handle)
     lib.hooke_measurement_write(views[0].handle, os.fsencode(page))
@@ -128,17 +128,12 @@ def _file_of(trajectory: Source) -> pathlib.Path:
     return pathlib.Path(os.fspath(output))
 
 
-def _view(source: pathlib.Path, title: str | None, options: Mapping[str, object]) -> Measurement:
+def view_of(source: Path, title: str | None, options: Mapping[str, object]) -> Measurement:
+    """What a page shows of a trajectory."""
     record, chosen = opened(source), Options._of("view").set(**options)
     made = Measurement.made(record, lib.hooke_view_create, record, chosen._handle)
     made.label(title=title)
     return made
-
-
-def watched(record: Handle, watch: Any) -> Measurement:
-    """A view of all frames, and what is watched in it."""
-    chosen = Options._of("view").set(watch=watch, springs=1, size=2000, beyond=10**9)
-    return Measurement.made(record, lib.hooke_view_create, record, chosen._handle)
 
 
 class Verification(Record, table="verify.verify", also=("claims",)):

@@ -37,11 +37,7 @@ class Modes(Paged, kind="modes"):
 
 @takes(ModesKeywords)
 def modes(
-    problem: Runnable,
-    at: Place | None = None,
-    count: int | None = None,
-    *,
-    progress: WorkProgress | bool | None = None,
+    problem: Runnable, at: Place | None = None, count: int | None = None, *, progress: WorkProgress | bool | None = None,
     **options: Unpack[ModesKeywords],
 ) -> Modes:
     """Finds the `count` (6) lowest modes of a scene (or the path of one) or a system `at` a state, as in `hooke.limit`: at

@@ -71,26 +71,21 @@ class RunError(Record, table="estimate.estimate", without=("seconds", "memory_by
 
 
 class Judged:
-    """What is found of a run after it, when it is asked for."""
+    """The error of a run, and what is said of it, which are found when they are asked for."""
 
     def __init__(self, estimate: Measurement, state: State, errors: bool):
-        self._estimate, self._state, self._errors = estimate, state, errors
+        self._given = estimate, state, errors
 
     @functools.cached_property
     def found(self) -> tuple[RunError | None, tuple[Claim, ...]]:
-        """The error, and what is said of it."""
-        self._estimate.run(None, self._state)
-        error = self._estimate.one(RunError, "estimate") if self._errors else None
-        return error, tuple(self._estimate.each(Claim, "claims"))
+        """Both."""
+        estimate, state, errors = self._given
+        estimate.run(None, state)
+        del self._given
+        return estimate.one(RunError, "estimate") if errors else None, tuple(estimate.each(Claim, "claims"))
 
-    def __reduce__(self) -> Any:
-        return _Told, (self.found,)
-
-
-class _Told(NamedTuple):
-    """That of a result of another process."""
-
-    found: tuple[RunError | None, tuple[Claim, ...]]
+    def __getstate__(self) -> dict[str, Any]:
+        return {"found": self.found}
 
 
 @dataclass(frozen=True)
@@ -119,7 +114,7 @@ class Result:
     frames: Frames | None = None
     output: Path | None = None
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
-    judged: Judged | _Told | None = field(default=None, repr=False, compare=False)
+    judged: Judged | None = field(default=None, repr=False, compare=False)
     probes_file: Path | None = None
     watched: Table | None = None
 

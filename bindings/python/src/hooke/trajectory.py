@@ -15,7 +15,7 @@ from ._look import draw
 from ._memory import Asked, Closing, text
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
-from .files import numbers, opened, run_options, view, watched
+from .files import numbers, opened, run_options, view, view_of
 from .results import Frames, RunError
 from .scene import Scene
 from .state import State
@@ -229,7 +229,7 @@ class Trajectory(Closing):
     def watched(self, watch: str | Iterable[str]) -> dict[str, tuple[str, FloatArray]]:
         """Quantities at every frame, in the grammar of ``hooke.run(watch=...)``: of each the unit and the values (frames,).
         Needs the scene."""
-        found = watched(self._handle, watch)
+        found = view_of(self.path, None, {"watch": watch, "springs": 1, "size": 2000, "beyond": 10**9})
         values: dict[str, tuple[str, FloatArray]] = {}
         for row in range(found.count("watched")):
             series = found.series("watched", row, "value")

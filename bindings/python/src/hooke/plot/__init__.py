@@ -100,10 +100,10 @@ def _faces(system: System) -> list[IntArray]:
 
 
 def over_time(
-    source: Trajectory | Result | Path, watch: str | Iterable[str], ax: Axes | None = None, *, label: str | None = None
+    source: Trajectory | Result | Path, watch: str | Iterable[str], ax: Axes | None = None
 ) -> Axes:
     """Draws quantities of a trajectory, in the grammar of ``hooke.run(watch=...)``, over time: ``over_time(out, "57.y")``.
-    Several have to share a unit. A part after the run diverged is drawn on grey."""
+    Several have to share a unit."""
     path = source.output if isinstance(source, Result) else source
     if path is None:
         raise BadValue("source: this run was not written to a file; run it with output=...")
@@ -114,13 +114,9 @@ def over_time(
     if len(units) > 1:
         raise BadValue(f"watch: {', '.join(found)} have the units {', '.join(sorted(units))}; draw one unit at a time")
     for number, (name, (_, values)) in enumerate(found.items()):
-        ax.plot(trajectory.t, values, label=label or name, linewidth=1.2, **_style(number, marker=""))
-    beyond = trajectory.t[trajectory.beyond]
-    if beyond.size:
-        ax.axvspan(beyond[0], beyond[-1], color="0.92", zorder=0, label="after it diverged")
-    unit = f" [{units.pop()}]" if "" not in units else ""
-    ax.set(xlabel="time [s]", ylabel=(label or next(iter(found)) if len(found) == 1 else "").strip() + unit)
-    if len(found) > 1 or beyond.size:
+        ax.plot(trajectory.t, values, label=name, linewidth=1.2, **_style(number, marker=""))
+    ax.set(xlabel="time [s]", ylabel=f"{'' if len(found) > 1 else next(iter(found))} [{units.pop() or '1'}]".strip())
+    if len(found) > 1:
         _legend(ax)
     return ax
 
