@@ -49,15 +49,20 @@ def write(build: Path, site: Path) -> list[str]:
                 if make(build / "hooke", commands, Path(place)):
                     shutil.copyfile(Path(place, name), playing / name)
                     made.append(name)
+    return made
+
+
+def write_notebooks(build: Path, site: Path) -> None:
+    """Writes the pages of all notebooks."""
     if not importlib.util.find_spec("hooke"):
         sys.path.insert(0, str(build / "python"))
     (site / "notebooks").mkdir(exist_ok=True)
     for path in sorted((ROOT / "examples/notebooks").glob("*.ipynb")):
-        (site / f"notebooks/{path.stem}.md").write_text(notebooks.page(path, playing), "utf-8")
-    return made
+        (site / f"notebooks/{path.stem}.md").write_text(notebooks.page(path, site / "playing"), "utf-8")
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     write(Path(sys.argv[1]).resolve(), Path(sys.argv[1]).resolve() / "docs")
+    write_notebooks(Path(sys.argv[1]).resolve(), Path(sys.argv[1]).resolve() / "docs")
