@@ -20,6 +20,7 @@ import functools
 import itertools
 import math
 import os
+import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
@@ -73,16 +74,13 @@ class RunError(Record, table="estimate.estimate", without=("seconds", "memory_by
 class Judged:
     """The error of a run, and what is said of it, which are found when they are asked for."""
 
-    def __init__(self, estimate: Measurement, state: State, errors: bool):
-        self._given = estimate, state, errors
+    def __init__(self, find: Callable[[], tuple[RunError | None, tuple[Claim, ...]]]):
+        self._find = find
 
     @functools.cached_property
     def found(self) -> tuple[RunError | None, tuple[Claim, ...]]:
         """Both."""
-        estimate, state, errors = self._given
-        estimate.run(None, state)
-        del self._given
-        return estimate.one(RunError, "estimate") if errors else None, tuple(estimate.each(Claim, "claims"))
+        return self._find()
 
     def __getstate__(self) -> dict[str, Any]:
         return {"found": self.found}
@@ -225,22 +223,22 @@ def run(
     once = _Once(problem, scene, output, frames, progress, on_frame, on_step, probe, probe_every, probes)
     start = problem.state() if state is None else state
     asked = want is not None or bool(estimate)
-    plain = isinstance(problem, System) and not problem._callbacks
-    judged = asked or (estimate is None and state is None and plain)
     if want is None and not strict:
         fit(problem, start, wanted)
-    if not judged and watch is None:
-        return once.run(wanted, start)
+    later = estimate is None and state is None and isinstance(problem, System) and not problem._callbacks
+    if not asked and watch is None:
+        return _judged_later(once.run(wanted, start), wanted, None) if later else once.run(wanted, start)
     if asked and state is not None:
         raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
     if output is not None:
         system_of(problem, "output")
     system = posed(problem) if watch is None else system_of(problem, "watch")
     wish = want.strip() if isinstance(want, str) else want
-    chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=judged)
+    chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=asked)
     measurement = Measurement.create("estimate", system, None, chosen)
     if not asked:
-        return once.run(wanted, start, measurement, judged, now=watch is not None)
+        result = once.run(wanted, start, measurement, judged=False)
+        return _judged_later(result, wanted, watch) if later else result
     return _run_to_want(once, measurement, system, wanted, options, want, strict)
 
 
@@ -259,10 +257,7 @@ class _Once:
     probe_every: float | str | None
     probes: Path | None
 
-    def run(
-        self, options: Options, state: State, estimate: Measurement | None = None, judged: bool = True, now: bool = True
-    ) -> Result:
-        """With an `estimate` the result is judged: `now`, or when it is asked for."""
+    def run(self, options: Options, state: State, estimate: Measurement | None = None, judged: bool = True) -> Result:
         integrator = Integrator(self.problem, options)
         integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
@@ -284,10 +279,9 @@ class _Once:
         if estimate is None:
             return result
         lib.hooke_estimate_follow(None, integrator._handle)
-        if not now:
-            return replace(result, judged=Judged(estimate, state.copy(), judged))
-        found = Judged(estimate, state, judged)
-        result = replace(result, judged=found if found.found else None)
+        estimate.run(None, state)
+        found = estimate.one(RunError, "estimate") if judged else None, tuple(estimate.each(Claim, "claims"))
+        result = replace(result, judged=Judged(lambda: found))
         if judged and self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
         return replace(result, watched=estimate.rows("watched")) if estimate.count("watched") > 0 else result
@@ -315,6 +309,19 @@ class _Once:
         text = None if self.scene is None else self.scene.text.encode()
         lib.hooke_trajectory_create(path, system._handle, integrator._handle, text, ctypes.byref(file))
         return _run_to_file(path, file, integrator.run, integrator, state, watchers, self.on_step)
+
+
+def _judged_later(result: Result, options: Options, watch: str | Iterable[str] | None) -> Result:
+    """The result with its error, which the same run once more finds when it is asked for: so it holds no frames for that."""
+    given: Any = {name: options[name] for name in options if options.is_set(name)}
+
+    def find() -> tuple[RunError | None, tuple[Claim, ...]]:
+        with warnings.catch_warnings():  # which were given by the first run
+            warnings.simplefilter("ignore")
+            again = run(result.problem, estimate=True, strict=True, watch=watch, **given)
+        return again.error, again.claims
+
+    return replace(result, judged=Judged(find)) if result.status == "finished" else result
 
 
 def _run_to_want(
