@@ -27,7 +27,7 @@ def test_a_graph_with_positions():
     system, state = scene.system, scene.system.state()
     assert system.masses.tolist() == [1, 2, 1] and system.spring_ends.tolist() == [[0, 1], [1, 2]]
     assert system.tension(state.q, state.v).tolist() == [30, 0]  # k (length / rest - 1)
-    with pytest.raises(hooke.BadValue, match="mass: the node with number 0"):
+    with pytest.raises(hooke.BadValue, match="mass: number 0 of 2 has none"):
         from_networkx(networkx.path_graph(2), networkx.spring_layout(networkx.path_graph(2)), stiffness=1)
     ring = from_networkx(networkx.cycle_graph(5), networkx.circular_layout(range(5)), mass=1, stiffness=1)
     assert ring.system.spring_count == 5

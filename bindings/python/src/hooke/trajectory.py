@@ -230,12 +230,9 @@ class Trajectory(Closing):
         """Quantities at every frame, in the grammar of ``hooke.run(watch=...)``: of each the unit and the values (frames,).
         Needs the scene."""
         found = view_of(self.path, None, {"watch": watch, "springs": 1, "size": 2000, "beyond": 10**9})
-        values: dict[str, tuple[str, FloatArray]] = {}
-        for row in range(found.count("watched")):
-            series = found.series("watched", row, "value")
-            assert series is not None
-            values[found.text("watched", row, "quantity")] = found.text("watched", row, "unit"), series
-        return values
+        rows = [(found.series("watched", row, "value"), row) for row in range(found.count("watched"))]
+        of, unit = ([found.text("watched", row, what) for _, row in rows] for what in ("quantity", "unit"))
+        return {name: (of_it, series) for name, of_it, (series, _) in zip(of, unit, rows) if series is not None}
 
     # pictures
 

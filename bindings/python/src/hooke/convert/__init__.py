@@ -49,11 +49,7 @@ def _column(rows: list[dict[str, Any]], name: str, given: Any = None) -> list[An
 
 
 def from_networkx(
-    graph: Any,
-    pos: str | Mapping[Any, Numbers] = "pos",
-    *,
-    mass: float | None = None,
-    stiffness: float | None = None,
+    graph: Any, pos: str | Mapping[Any, Numbers] = "pos", *, mass: float | None = None, stiffness: float | None = None,
     damping: float = 0.0,
 ) -> Scene:
     """The scene of a graph, with a particle for each node and a spring of the strain law for each edge.
@@ -69,20 +65,15 @@ def from_networkx(
     known = {"nodes": (nodes, {where, "mass", "pinned"}), "edges": (rows, {"stiffness", "damping", "rest_length"})}
     lost = sorted({f"the attribute {key!r} of {what}" for what, (each, taken) in known.items() for row in each for key in row
                    if key not in taken}, key=lambda words: (words.endswith("edges"), words))  # fmt: skip
-    _leave_out(
-        *lost,
-        f"{loops} edges from a node to itself" if loops else None,
-        "directions of edges" if graph.is_directed() else None,
-    )
+    itself = f"{loops} edges from a node to itself" if loops else None
+    _leave_out(*lost, itself, "directions of edges" if graph.is_directed() else None)
     pinned, masses = np.flatnonzero(_column(nodes, "pinned", False)), _column(nodes, "mass", mass)
     scene = Scene("a graph").particles(_points(_column(nodes, where)), mass=masses, pinned=pinned)
     if not edges:
         return scene
     lengths = _column(rows, "rest_length") if any("rest_length" in row for row in rows) else None
-    ends, each = np.array([edge[:2] for edge in edges], np.int64), _column(rows, "damping", damping)
-    return scene.springs(
-        "edges", between=ends, stiffness=_column(rows, "stiffness", stiffness), damping=each, rest_length=lengths
-    )
+    ends, strong, damped = [edge[:2] for edge in edges], _column(rows, "stiffness", stiffness), _column(rows, "damping", damping)
+    return scene.springs("edges", between=np.array(ends), stiffness=strong, damping=damped, rest_length=lengths)
 
 
 def from_meshio(mesh: Any, *, mass: float, stiffness: float, damping: float = 0.0, pinned: Numbers = ()) -> Scene:

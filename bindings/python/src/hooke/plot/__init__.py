@@ -369,7 +369,7 @@ def new_space(order: list[int]) -> Any:
     """New axes in space, named by the `order` of `axis_order`."""
     ax = _new_axes(projection="3d")
     for name, axis in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order):
-        name(f"{'xyz'[axis]} [m]", labelpad=12)
+        name(f"{'xyz'[axis]} [m]", labelpad=17)
     return ax
 
 
@@ -386,7 +386,7 @@ def fit(ax: Any, points: FloatArray) -> None:
     most = max(float((high - low).max()), 1e-9)
     middle, size = (low + high) / 2, np.maximum(1.04 * (high - low), 0.3 * most)  # numbers stand apart, also on short axes
     ax.set(**{f"{name}lim": limits for name, *limits in zip("xyz", middle - size / 2, middle + size / 2)})
-    ax.set_box_aspect((*size,), zoom=0.8)
+    ax.set_box_aspect((*size,), zoom=0.75)
     for axis, share in zip((ax.xaxis, ax.yaxis, ax.zaxis), size / most):
         axis.set_major_locator(MaxNLocator(max(1, round(5 * float(share))), min_n_ticks=1))
 
