@@ -45,6 +45,7 @@ playground: all build/playground/packages
 	cmake --preset playground >build/playground/configure.log
 	cmake --build --preset playground
 	$(PYTHON) bindings/browser/make_page.py build/release build/playground
+	$(PYTHON) docs/make_lecture.py build/playground
 
 windows: build/windows/packages
 	cmake --preset windows >build/windows/configure.log

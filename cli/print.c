@@ -241,6 +241,27 @@ void cli_print_json(const char *format, ...) {
   va_end(args);
 }
 
+void cli_print_json_set(const hooke_options *limits) {
+  struct cli_string copy = {0};
+  const char *before = "{";
+  char *value, *end;
+  if (limits) cli_string_add(&copy, "%s", hooke_options_text(limits, "set"));
+  for (char *path = copy.bytes, *next; path && *path; path = next, before = ", ") {
+    next = path + strcspn(path, "\n");
+    if (*next) *next++ = '\0';
+    value = path + strcspn(path, "=");
+    if (*value) *value++ = '\0';
+    const double number = strtod(value, &end);
+    cli_print_json(before[0] == '{' ? "'set': {%s: " : ", %s: ", path);
+    if (*value && *end == '\0' && isfinite(number))
+      cli_print_json("%g", number);
+    else
+      cli_print_json("%s", value);
+  }
+  if (before[0] == ',') cli_print_json("}, ");
+  free(copy.bytes);
+}
+
 int32_t cli_print_members(const char *before, hooke_measurement *measurement, const char *table,
                           int64_t row) {
   const char *text = hooke_measurement_json(measurement, table, row);

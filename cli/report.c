@@ -135,7 +135,11 @@ static void say(const struct cli_arguments *arguments, const char *style, const 
 }
 
 static int report_json(const struct cli_arguments *arguments, int code, const char *message) {
-  if (arguments->json) cli_print_json("{'error': {'exit': %d, 'message': %s}}\n", code, message);
+  if (arguments->json) {
+    cli_print_json("{");
+    cli_print_json_set(arguments->limits);
+    cli_print_json("'error': {'exit': %d, 'message': %s}}\n", code, message);
+  }
   return code;
 }
 

@@ -41,7 +41,8 @@ TYPESET = """document.addEventListener("DOMContentLoaded", () => {
 
 # The page of `make playground`, where it was made.
 LIVE = HERE.parent / "build/playground/live.html"
-html_extra_path = [str(LIVE)] if LIVE.exists() else []
+LECTURE = LIVE.with_name("lecture.js")
+html_extra_path = [str(path) for path in (LIVE, LECTURE) if path.exists()]
 FRONT = """```{raw} html
 <p>Drag the step to the right until the cloth blows up. This is hooke itself, in the browser
 (<a href="live.html">in a window of its own</a>).</p>
@@ -61,6 +62,19 @@ def navigation(index: str) -> str:
     return "\n\n".join(found)
 
 
+def lecture(text: str) -> str:
+    """Puts the functions of the example in C where the page of the lecture links to them, and the script of its figures."""
+    program = (HERE.parent / "examples/c/lecture.c").read_text("utf-8")
+
+    def function(link: re.Match) -> str:
+        code = re.search(rf"^static void {link[1]}\(.*?^}}$", program, re.MULTILINE | re.DOTALL)[0]
+        return (f"```{{raw}} html\n<details><summary>In C</summary>\n```\n\n```c\n{code}\n```\n\n"
+                f"```{{raw}} html\n</details>\n```\n\n")  # fmt: skip
+
+    text = re.sub(r"In C: \[(\w+)\(\)\]\([^)]*\)(?:[.;] *(?:in )?)?", function, text)
+    return text + ('\n```{raw} html\n<script defer src="lecture.js"></script>\n```\n' if LECTURE.exists() else "")
+
+
 def adapt(app, name, source) -> None:
     """Adds tables of contents, removes the addresses of links to files that are not on the site, and fills in the links
     of the page about the references."""
@@ -73,6 +87,8 @@ def adapt(app, name, source) -> None:
         source[0] = re.sub(r"\(\.\./examples/(notebooks/[\w-]+)\.ipynb\)", r"(\1.md)", source[0])
         pages = re.findall(r"\((notebooks/[\w-]+)\.md\)", source[0])
         source[0] += "\n\n" + "\n".join(["```{toctree}", ":hidden:", "", *pages, "```"]) + "\n"
+    if name == "lecture":
+        source[0] = lecture(source[0])
     if not name.startswith("reference/"):
         if name == "gallery" and LIVE.exists():
             live = r'`\1.json`, <a href="live.html#open=\1">in the playground</a>'

@@ -31,6 +31,7 @@ PICTURES = [
     Picture("rope", 0.2, "A rope that swings down."),
     Picture("cloth-16", 0.5, "A sagging cloth, pinned at two corners."),
     Picture("cloth-64", 0.5, "A fine cloth that sags between two corners."),
+    Picture("three-cloths", 1, "Three cloths side by side; the squares of the left one are skewed."),
     Picture("cloth-damped", 0.5, "A heavily damped cloth, pinned at its upper edge."),
     Picture("cloth-gentle", 0.5, "A soft cloth, pinned at its upper edge, in the middle of its swing."),
     Picture("cloth-stiff", 0.5, "A stiff cloth, pinned at its upper edge."),

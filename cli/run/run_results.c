@@ -259,7 +259,9 @@ static void print_json(const struct cli_run *run) {
   const int32_t outcome = run->outcome;
   double momentum[3];
   hooke_system_momentum(system, velocity_of(run), momentum);
-  cli_print_json("{'status': %s, 'method': %s, ",
+  cli_print_json("{");
+  cli_print_json_set(run->arguments->limits);
+  cli_print_json("'status': %s, 'method': %s, ",
                  outcome == HOOKE_OK         ? "finished"
                  : outcome == HOOKE_DIVERGED ? "diverged"
                                              : "stopped",

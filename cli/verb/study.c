@@ -78,20 +78,24 @@ static void print_order(const hooke_measurement *study, int64_t row, int32_t wid
   cli_print_padded(stdout, width, hooke_measurement_text(study, "orders", row, "method"));
   printf(" %7s %16s", seen, interval);
   cli_rows_print_cell(7, hooke_measurement_number(study, "orders", row, "theory"));
+  cli_rows_print_as(9, hooke_measurement_number(study, "orders", row, "order_step"), "%.2f", NULL, NULL);
   printf(note[0] ? "  " : "\n");
-  if (note[0]) cli_print_wrapped(stdout, width + 35, width + 35, WIDTH + 20, note);
+  if (note[0]) cli_print_wrapped(stdout, width + 45, width + 45, WIDTH + 20, note);
 }
 
 static void print_orders(const hooke_measurement *study, int32_t width) {
   int32_t any = 0;
   for (int64_t row = 0; row < hooke_measurement_row_count(study, "orders"); row++) {
     if (isnan(hooke_measurement_number(study, "orders", row, "theory"))) continue; /* of no fixed step */
-    if (!any) printf("\n%-*s %7s %16s %7s\n", width, "order", "seen", "95 % interval", "theory");
+    if (!any)
+      printf("\n%-*s %7s %16s %7s %9s\n", width, "order", "seen", "95 % interval", "theory", "one step");
     any = 1;
     print_order(study, row, width);
   }
   if (any)
-    printf("95 %% interval: of the slope of a straight line, as if errors scattered about it by chance\n");
+    printf(
+        "95 %% interval: of the slope of a straight line, as if errors scattered about it by chance; one step: "
+        "the slope\nof the error of one step, from the middle of the run, which is one more\n");
 }
 
 /* Legend of the columns, and of the marks that occur. */

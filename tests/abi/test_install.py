@@ -123,7 +123,7 @@ def test_examples(prefix, tmp_path):
     build_examples(prefix, EXAMPLES, tmp_path)
     lines = {}
     scene = prefix / "share/hooke/examples/scenes/rope.json"
-    words = {"plain": [scene, "rk4", "1e-3", "10"]}
+    words = {"plain": [scene, "rk4", "1e-3", "10"], "lecture": ["plane"]}
     for source in sorted(EXAMPLES.glob("*.c")):
         if source.stem != "tether" and (source.stem not in ("study", "plain") or PRESET != "minimal"):
             lines[source.stem] = run(tmp_path / source.stem, *words.get(source.stem, [])).splitlines()

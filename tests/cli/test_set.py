@@ -70,3 +70,12 @@ def test_a_file_and_a_command_have_the_values(hooke, write, tmp_path):
         assert hooke(*words, "--set", "drag=1").code in (2, 3), words
     why = hooke("why", scene, "--set", "run.duration=20", "--set", "line.stretch.stiffness=1MN")
     assert "--set run.duration=20 --set line.stretch.stiffness=1MN" in why.out
+
+
+def test_a_run_and_a_refusal_are_rows_with_their_values(hooke, write):
+    words = [word for value in ["drag=0.5", "gravity=0,-1,0", "run.step=1ms", 'title=a "b"=c'] for word in ("--set", value)]
+    row = {"drag": 0.5, "gravity": "0,-1,0", "run.step": "1ms", "title": 'a "b"=c'}
+    assert hooke("run", write(SCENE), *words, "--json", "--no-estimate").json["set"] == row
+    refused = hooke("run", write(SCENE), *words, "--set", "tie.stifness=2", "--json")
+    assert refused.json["set"] == {**row, "tie.stifness": 2} and refused.json["error"]["exit"] == 3
+    assert "set" not in hooke("run", write(SCENE), "--json", "--no-estimate").json

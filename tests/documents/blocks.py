@@ -11,12 +11,14 @@ from pathlib import Path
 
 import outputs
 
+WORDS = {"prototypes", "loky", "distributed", "mpi4py", "ray"}
 NOT_RUN = {"text", "json"}
 KINDS = {"c", "fortran", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
-    """`word` is the word after the kind in the fence: for C and Python "prototypes", declarations that are not run."""
+    """`word` is the word after the kind in the fence: for C and Python "prototypes", declarations that are not run, or a
+    package of others, that test_many.py runs it with."""
 
     def __init__(self, document, line, kind, text, word=""):
         self.document, self.line, self.kind, self.text, self.word = document, line, kind, text, word
@@ -149,7 +151,7 @@ RUN = {"c": run_c, "fortran": run_fortran, "python": run_python, "console": run_
 
 def runs(block):
     """Whether any part of the block is run."""
-    if block.word == "prototypes":
+    if block.word in WORDS:
         return False
     if block.kind in ("console", "sh"):
         return any(True for _ in conversations(block.text))
@@ -160,6 +162,6 @@ def complaint(block, folder):
     """The fault of a block when it runs in `folder`; None if there is none."""
     if block.kind not in KINDS:
         return f"{block}: mark it as one of {', '.join(sorted(KINDS))}"
-    if block.word not in ("", "prototypes"):
+    if block.word and block.word not in WORDS:
         return f"{block}: there is no word {block.word!r} for a fence"
     return RUN[block.kind](block, folder) if runs(block) else None

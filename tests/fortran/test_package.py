@@ -44,7 +44,8 @@ def test_files(prefix):
 
 
 WORDS = {"own_loop": r"nine tenths of 0\.625 J are gone after \d\.\d\d s", "own_force": r"z = -?\d*\.\d{3} m",
-         "driven_particle": r"at *-?0?\.0000 *0?\.1000 *-?0?\.0000 m", "study": r"recommended: \S+ with steps|no study: "}
+         "driven_particle": r"at *-?0?\.0000 *0?\.1000 *-?0?\.0000 m", "study": r"recommended: \S+ with steps|no study: ",
+         "flow": r"(?s)river +6\.0+ +-0\.488169686858.*linear .*van-der-pol "}
 
 
 def test_examples(prefix, tmp_path):

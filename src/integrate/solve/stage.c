@@ -20,6 +20,9 @@ static const double SLOW = 0.5, FASTEST = 0.1;
 static const double LEAST_SHARE = 1e-4, LEAST_OF_DESCENT = 1e-12, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
 /* One iteration is taken where it leaves no more than this of the residual of the linearised equations. */
 static const double ONE_LEAVES = 1.0;
+/* How far F.dv may turn along a correction. With inertia stiff springs that it stretches sideways are no
+ * obstacle: the next one lets them go. Without, it would lead away from where motion goes. */
+static const double MOST_TURN = 100.0, MOST_TURN_OVERDAMPED = 0.5;
 static const double ARMIJO = 1e-4;
 enum {
   MANY_SLOW = 4,
@@ -287,12 +290,13 @@ static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, in
 }
 
 /* 1 if the guess may move by this share of the correction: where F.dv, which would be 0 at the least of a
- * potential, has turned by no more than half of what it was; or the potential is lower by a part of what its
- * slope promises (Armijo 1966). */
+ * potential, has not turned by far; or the potential is lower by a part of what its slope promises (Armijo
+ * 1966). */
 static int may_move(struct hk_stage *stage, struct iteration *now, double fraction, double left) {
   const double slope = now->size * now->size, a = stage->at.a, of_potential = stage->overdamped ? a : 1.0;
   double slack;
-  if (!stage->descends) return left >= -0.5 * slope && left < INFINITY;
+  const double turn = stage->overdamped ? MOST_TURN_OVERDAMPED : MOST_TURN;
+  if (!stage->descends) return left >= -turn * slope && left < INFINITY;
   const double height =
       hk_descent_potential(&stage->descent, stage->reduced.integrator, a, stage->moved, &slack);
   if (!(height <= now->height - ARMIJO * fraction * of_potential * slope + slack)) return 0;

@@ -16,17 +16,18 @@ enum { MOST_POINTS = 5, FEWEST_POINTS = 3 };
 static const double SMALL = 0.05; /* larger errors, as a fraction of the extent, are not asymptotic */
 static const double BELOW = 0.15, ABOVE = 0.25; /* deviation of an order from the theory without a remark */
 
-/* The finest rows that are clear of the floor, as logarithms of step and error; rows of a method go from
- * coarse to fine. */
-static int32_t collect(const struct hk_study *study, int32_t method, double *x, double *y) {
+/* The finest rows that are clear of the floor, as logarithms of step and error, or error of one step; rows of
+ * a method go from coarse to fine. */
+static int32_t collect(const struct hk_study *study, int32_t method, int32_t of_step, double *x, double *y) {
   const struct hk_reference *r = &study->reference;
   int32_t count = 0;
-  for (int64_t k = study->row_count - 1; k >= 0 && count < MOST_POINTS; k--) {
+  for (int64_t k = study->row_count - 1; k >= 0 && count < (of_step ? FEWEST_POINTS : MOST_POINTS); k--) {
     const struct hk_study_row *row = &study->row[k];
-    if (row->method != method || !(row->trial.error > 0.0)) continue;
-    if (hk_study_is_near_floor(study, row) || row->trial.error > SMALL * r->extent) continue;
+    const double error = of_step ? row->error_step : row->trial.error;
+    if (row->method != method || !(error > 0.0) || error > SMALL * r->extent) continue;
+    if (!of_step && hk_study_is_near_floor(study, row)) continue;
     x[count] = log(row->value);
-    y[count] = log(row->trial.error);
+    y[count] = log(error);
     count++;
   }
   return count;
@@ -114,13 +115,15 @@ static const double T_QUANTILE[MOST_POINTS - 1] = {NAN, 12.7062047361747, 4.3026
 
 void hk_study_fit_order(struct hk_study *study, int32_t method) {
   struct hk_study_order *order = &study->order[method];
-  *order = (struct hk_study_order){.order = NAN, .low = NAN, .high = NAN, .theory = NAN};
+  *order = (struct hk_study_order){NAN, NAN, NAN, NAN, NAN, ""};
   if (hk_study_is_adaptive(study, method)) return;
   order->theory = (double)hk_method_find(study->method[method])->order;
   double x[MOST_POINTS], y[MOST_POINTS];
-  const int32_t count = collect(study, method, x, y);
+  double error;
+  const int32_t steps = collect(study, method, 1, x, y);
+  if (steps >= FEWEST_POINTS) order->order_step = hk_fit_slope(steps, x, y, &error);
+  const int32_t count = collect(study, method, 0, x, y);
   if (count >= FEWEST_POINTS) {
-    double error;
     order->order = hk_fit_slope(count, x, y, &error);
     const double half = T_QUANTILE[count - 2] * error;
     order->low = order->order - half;

@@ -80,6 +80,57 @@ static int32_t repeat_for_time(struct hk_study *study, const hooke_options *opti
   return status;
 }
 
+/* ---- the error of one step ---- */
+
+enum { PARTS = 16 };              /* steps of rk4 for one step of the method */
+static const double KNOWN = 1e-2; /* fraction of the error by which those and half as many may differ */
+static const double CLEAR = 1e2;  /* of what positions can hold: below that, rounding hides the error */
+
+/* The state one step of a row after the middle of the reference, by the row's method or, in `parts`, by rk4;
+ * NULL where that gives up. */
+static int32_t step_on(const struct hk_study *study, const struct hk_study_row *row, int64_t parts,
+                       hooke_state **state) {
+  hooke_options *options = NULL;
+  hooke_integrator *integrator = NULL;
+  int32_t status = hk_study_row_options(study, row->method, row->value, &options);
+  if (status == HOOKE_OK && parts > 1)
+    status = hk_trial_set_value(options, hk_rk4.name, row->value / (double)parts);
+  if (status == HOOKE_OK) status = hooke_options_unset(options, "duration");
+  if (status == HOOKE_OK) status = hooke_options_unset(options, "every");
+  if (status == HOOKE_OK) status = hooke_integrator_create(study->m->system, options, &integrator);
+  if (status == HOOKE_OK) status = hooke_state_create(study->m->system, state);
+  if (status == HOOKE_OK) status = hooke_state_copy(study->reference.frames.middle, *state);
+  if (status == HOOKE_OK) status = hooke_integrator_step(integrator, *state, parts);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+  if (!hk_trial_gave_up(status)) return status;
+  hooke_state_destroy(*state);
+  *state = NULL;
+  return HOOKE_OK;
+}
+
+static int32_t measure_step(const struct hk_study *study, struct hk_study_row *row) {
+  const struct hk_reference *r = &study->reference;
+  const int64_t parts[3] = {1, PARTS, PARTS / 2};
+  hooke_state *by[3] = {NULL, NULL, NULL};
+  int32_t status = HOOKE_OK;
+  row->error_step = NAN;
+  if (study->once || hk_study_is_adaptive(study, row->method) || r->trusted <= r->frames.count / 2)
+    return HOOKE_OK;
+  for (int32_t k = 0; k < 3 && status == HOOKE_OK; k++)
+    status = step_on(study, row, parts[k], &by[k]);
+  if (status == HOOKE_OK && by[0] && by[1] && by[2]) {
+    const double *q = hooke_state_position(by[1]);
+    const double error = hk_frames_apart(&r->frames, q, hooke_state_position(by[0]), NULL),
+                 doubt = hk_frames_apart(&r->frames, q, hooke_state_position(by[2]), NULL);
+    const int known = doubt <= KNOWN * error && error > CLEAR * hk_frames_resolution(&r->frames, q);
+    row->error_step = known ? error : NAN;
+  }
+  for (int32_t k = 0; k < 3; k++)
+    hooke_state_destroy(by[k]);
+  return status;
+}
+
 /* One value of a method, for its error; several threads may do so at a time. */
 static int32_t run_row(const struct hk_study *study, int32_t method, double value,
                        const struct hk_listener *listener, struct hk_study_row *row) {
@@ -88,6 +139,7 @@ static int32_t run_row(const struct hk_study *study, int32_t method, double valu
   *row = (struct hk_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
   int32_t status = hk_study_row_options(study, method, value, &options);
   if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
+  if (status == HOOKE_OK) status = measure_step(study, row);
   row->wall_median = row->trial.wall_seconds;
   hooke_options_destroy(options);
   return status;

@@ -272,6 +272,9 @@ const struct hk_table hk_study_tables[] = {
                          "the energy drift is within ten times of the agreement of energies"),
          HOOKE_COLUMN(struct hk_study_row, timed_alone, FLAG, "",
                       "0: timed while other rows were running, so its time may be too long"),
+         HOOKE_COLUMN(struct hk_study_row, error_step, NUMBER, "m",
+                      "root mean square error of one step from the reference's state in the middle of the "
+                      "run; NaN where that is not known or rounding hides it"),
          OF_TRIAL(error_at, SERIES, "m", "root mean square distance at every frame"),
          OF_TRIAL(error_max_at, SERIES, "m", "largest distance of any free particle at every frame"),
          HOOKE_COLUMN_AS(struct hk_study_row, trial.drift_at, energy_drift_at, SERIES, "J",
@@ -292,7 +295,11 @@ const struct hk_table hk_study_tables[] = {
                       "about a line by chance"),
          HOOKE_COLUMN(struct hk_study_order, high, NUMBER, "", "upper end of that interval"),
          HOOKE_COLUMN(struct hk_study_order, theory, NUMBER, "", "the method's order"),
-         HOOKE_COLUMN(struct hk_study_order, note, TEXT, "", "why they may differ"))},
+         HOOKE_COLUMN(struct hk_study_order, note, TEXT, "", "why they may differ"),
+         HOOKE_COLUMN(
+             struct hk_study_order, order_step, NUMBER, "",
+             "the slope likewise of the error of one step, over the finest three rows that have it, which "
+             "is one more than the order"))},
     {.name = "recommendation",
      .doc = "which run to make for the wanted error",
      .record = 1,

@@ -23,9 +23,10 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
   double *block = hk_new(count, (size_t)(size + 3) * sizeof(double));
   frames->time = block;
   frames->free_place = hk_new(hooke_system_count(system, "free") * (3 / width), sizeof(int64_t));
-  if (block == NULL || frames->free_place == NULL) {
+  const int32_t status = hooke_state_create(system, &frames->middle);
+  if (status != HOOKE_OK || block == NULL || frames->free_place == NULL) {
     hk_frames_release(frames);
-    return HOOKE_NO_MEMORY;
+    return status != HOOKE_OK ? status : HOOKE_NO_MEMORY;
   }
   frames->time = hk_part(&block, count);
   frames->energy = hk_part(&block, count);
@@ -39,6 +40,7 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
 void hk_frames_release(struct hk_frames *frames) {
   hk_free(frames->time);
   hk_free(frames->free_place);
+  hooke_state_destroy(frames->middle);
   hk_watched_series_release(&frames->watched);
   memset(frames, 0, sizeof *frames);
 }
@@ -55,17 +57,21 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
   frames->time[f] = hooke_state_time(state);
   frames->energy[f] = energy_of(frames->system, state);
   hk_watched_series_keep(&frames->watched, f, frames->time[f], q, hooke_state_velocity(state));
+  if (f == frames->count / 2) (void)hooke_state_copy(state, frames->middle);
   if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
 }
 
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest) {
-  const double *reference = frames->position + f * frames->size;
+  return hk_frames_apart(frames, frames->position + f * frames->size, q, largest);
+}
+
+double hk_frames_apart(const struct hk_frames *frames, const double *p, const double *q, double *largest) {
   const int32_t wide = frames->width == 3;
   double sum = 0.0, most = 0.0;
   for (int64_t k = 0; k < frames->free_count; k++) {
     const int64_t i = frames->width * frames->free_place[k];
-    const double dx = q[i] - reference[i], dy = wide ? q[i + 1] - reference[i + 1] : 0.0,
-                 dz = wide ? q[i + 2] - reference[i + 2] : 0.0;
+    const double dx = q[i] - p[i], dy = wide ? q[i + 1] - p[i + 1] : 0.0,
+                 dz = wide ? q[i + 2] - p[i + 2] : 0.0;
     const double square = (dx * dx + dy * dy) + dz * dz;
     sum += square;
     most = fmax(most, square);

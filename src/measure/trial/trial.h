@@ -20,6 +20,7 @@ struct hk_frames {
   double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
   int64_t *free_place, free_count;         /* particles, or coordinates: errors are measured over these */
   struct hk_watched_series watched;        /* empty unless created */
+  hooke_state *middle;                     /* the state at frame count / 2, once it is recorded */
   char zero_passages[HOOKE_PASSAGES_TOLD]; /* of their run: see hooke_integrator_text() */
 };
 
@@ -33,6 +34,8 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
 /* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance
  * too. */
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
+/* The same between p and q. */
+double hk_frames_apart(const struct hk_frames *frames, const double *p, const double *q, double *largest);
 
 /* How large the motion is in the first `count` frames: the diagonal of the box that holds all positions [m],
  * or the largest range of a coordinate; 0 without a motion. */

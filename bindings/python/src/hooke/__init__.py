@@ -12,10 +12,10 @@ A scene is built (`Scene`, `System`) or read from a file (`Scene.load`) or from 
 it, `open` reads the output of a run, `compare` compares several methods with a tight reference, `study` measures
 error against cost and recommends, `limit` finds the largest stable steps, `rest` where a scene is at rest, `cost`
 measures the cost of each ingredient, `check` tells what a scene is without running it, `needs` finds the
-ingredients that a scene can do without, `why` explains a run that blew up, `view` writes a page that plays a
-trajectory, `verify` checks that one reproduces from its scene, `convert` makes scenes of graphs, meshes and other
-libraries' systems, `Integrator` is for time loops of your own. Units
-are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
+ingredients that a scene can do without, `why` explains a run that blew up, `sweep` runs a scene with many values,
+`view` writes a page that plays a trajectory, `verify` checks that one reproduces from its scene, `convert` makes scenes
+of other libraries' objects, `Integrator` is for time loops of your own. Units are SI, positions and velocities are NumPy
+arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -47,6 +47,7 @@ from .results import Frames, Result, RunError, resume, run, why
 from .scene import Scene
 from .state import State
 from .study import Study, compare, study
+from .sweep import Sweep, sweep
 from .system import System
 from .trajectory import Energy, Frame, Trajectory, open
 
@@ -91,6 +92,7 @@ __all__ = [
     "StepWarning",
     "Stopped",
     "Study",
+    "Sweep",
     "System",
     "Trajectory",
     "Transform",
@@ -117,6 +119,7 @@ __all__ = [
     "resume",
     "run",
     "study",
+    "sweep",
     "verify",
     "view",
     "why",

@@ -86,6 +86,10 @@ function slopeLine(method, rows) {
   return [plain("", [at(from.step / 1.4), at(to)], colourOf(method), { role: "slope", borderWidth: 1.5, borderDash: [3, 4] })];
 }
 
+/* Errors of one step, as a thin line. */
+const stepLine = (method, rows) => plain("", rows.filter((row) => row.error_step > 0).map((row) => ({ x: row.step, y: row.error_step })),
+  colourOf(method), { role: "step", borderWidth: 1, pointRadius: 2 });
+
 function drawConvergence() {
   const fixed = study.rows.filter((row) => row.step !== null);
   at("convergence").closest("section").hidden = fixed.length === 0;
@@ -94,7 +98,8 @@ function drawConvergence() {
   const up = errorAxis(fixed);
   const names = methods.filter((method) => fixed.some((row) => row.method === method));
   const lines = names.flatMap((method) => [curve(method, rowsOf(method), "step", across, up.edge),
-    ...slopeLine(method, rowsOf(method))]);
+    ...slopeLine(method, rowsOf(method)), stepLine(method, rowsOf(method))]);
+  up.range[0] = Math.min(up.range[0], ...fixed.map((row) => row.error_step).filter((error) => error > 0));
   const chart = draw("convergence", [...lines, ...levels(across)], logAxis("step [s]", across),
     logAxis("error [m]", up.range), describeRow);
   chart.canvas.dataset.slopes = lines.filter((line) => line.role === "slope").length;

@@ -42,7 +42,8 @@ function writeOrders() {
   writeTable("orders", Object.entries(study.orders).map(([method, order]) => ({ method, ...order })), [METHOD,
     ["observed order", "", ({ order }) => fixed(order)],
     ["95 % interval", "", ({ low, high }) => (low === null ? "\u2013" : `${fixed(low)} to ${fixed(high)}`)],
-    ["theory", "", ({ theory }) => words(theory)], ["", "", ({ note }) => note, "word note"]]);
+    ["theory", "", ({ theory }) => words(theory)], ["of one step", "", ({ order_step: slope }) => fixed(slope)],
+    ["", "", ({ note }) => note, "word note"]]);
 }
 
 /* ---- watched quantities ---- */

@@ -147,7 +147,7 @@ def study(
     source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | None = None
 ) -> Any:
     """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error_max [m]
-    against cost, one marked line a method, and error against step with the observed orders.
+    against cost, one marked line a method, and error against step with the observed orders; errors of one step are dotted.
 
     `cost` is "wall_seconds" [s], "force_evaluations" or "steps". Steps at which a run diverged are marked at the
     upper edge of the second. The grey band is the uncertainty of the reference, and ten times that. `want` [m] draws
@@ -167,6 +167,7 @@ def study(
             continue
         label = f"{method}, order {order:.2f}" if np.isfinite(order) else method
         _ladder(steps, table["step"][rows], table["error_max"][rows], label, style)
+        _ladder(steps, table["step"][rows], table["error_step"][rows], "_", {**style, "marker": ".", "linestyle": ":"})
         _edge(steps, table["step"][rows[np.isnan(table["error_max"][rows])]], style)
     steps.set_xlabel("step [s]")
     _finish(steps, table, getattr(source, "unit", "m"), want, unstepped)
@@ -197,7 +198,7 @@ def _finish(ax: Any, table: _Table, unit: str, want: float | None, lines: Iterab
     ax.xaxis.set_minor_formatter("")
     if table.agreement > 0:
         ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
-        ax.set_ylim(bottom=table.agreement)
+        ax.set_ylim(bottom=np.nanmin([table.agreement, *table["error_step"]]))
     if want is not None:
         ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {want:g} {unit}")
     _legend(ax, lines)
@@ -267,6 +268,26 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     return ax
 
 
+def flow(rate: Any, *results: Result, box: tuple[float, float, float, float], ax: Axes | None = None) -> Axes:
+    """Draws the flow x' = phi(t, x) of two components at t = 0 as arrows in `box`, (left, right, low, high), and the frames of
+    results of it as marked lines."""
+    ax = _new_axes() if ax is None else ax
+    left, right, low, high = box
+    place = np.stack(np.meshgrid(np.linspace(left, right, 20), np.linspace(low, high, 14)))
+    speed = np.zeros_like(place)
+    for i, j in np.ndindex(*place.shape[1:]):
+        rate(0.0, place[:, i, j], speed[:, i, j])
+    ax.quiver(*place, *speed, color="0.7", angles="xy")
+    for result in results:
+        frames = result.frames
+        if frames is None:
+            raise BadValue("results: a result without frames; give run() frames=True")
+        ax.plot(*frames.q.T, marker=".", label=str(result.options["method"]))
+    ax.set(xlim=(left, right), ylim=(low, high), xlabel="x", ylabel="y", aspect="equal")
+    ax.legend(fontsize="small")
+    return ax
+
+
 _MARKERS = "osD^v<>PX*"
 
 
@@ -298,6 +319,7 @@ class _Table:
         with h5py.File(source, "r") as file:
             group = file["study"]
             self._columns = {name: group[name][:] for name in group if isinstance(group[name], h5py.Dataset)}
+            self._columns.setdefault("error_step", np.full(len(group["method"]), np.nan))  # of an older version
             for name in ("method", "status"):
                 self._columns[name] = np.array([_text(word) for word in self._columns[name]])
             names = (_text(word) for word in group["orders/method"][:])
