@@ -229,7 +229,9 @@ static void print_json_want(const struct cli_run *run) {
   if (!is_wanted(run)) return;
   cli_print_json("'want': {'wanted': %g, 'met': ", number_of(run, "wanted"));
   cli_print_json(isnan(met) ? "null" : met == 1.0 ? "true" : "false");
-  cli_print_json(", 'seconds': %g}, ", number_of(run, "seconds"));
+  cli_print_json(", 'seconds': %g", number_of(run, "seconds"));
+  const char *wants = hooke_measurement_json(run->estimate, "wants", -1);
+  printf(", \"wants\": %s}, ", wants ? wants : "[]");
 }
 
 int cli_want_exit_code(const struct cli_run *run) {

@@ -14,10 +14,21 @@ enum { WIDTH = 110, LABEL = 14 };
 
 /* ---- the table ---- */
 
-static void print_head(int32_t width) {
+enum { TITLE = 24 };
+
+/* With the unit of errors. */
+static const char *title(const hooke_measurement *needs, const char *format, char text[TITLE]) {
+  text[0] = '\0';
+  cli_append(text, TITLE, format, hooke_measurement_text(needs, "needs", 0, "error_unit"));
+  return text;
+}
+
+static void print_head(const hooke_measurement *needs, int32_t width) {
   printf("%-*s %10s %12s %10s %10s %10s\n", width, "without", "change", "evaluations", "ns a", "wall time",
          "largest");
-  printf("%-*s %10s %12s %10s %10s %10s\n", width, "", "[m]", "of forces", "step", "[s]", "step [s]");
+  char unit[TITLE];
+  printf("%-*s %10s %12s %10s %10s %10s\n", width, "", title(needs, "[%s]", unit), "of forces", "step", "[s]",
+         "step [s]");
 }
 
 static double number(const hooke_measurement *needs, const char *table, int64_t row, const char *what) {
@@ -50,7 +61,7 @@ static void print_row(const hooke_measurement *needs, int64_t row, int32_t width
 static void print_table(const hooke_measurement *needs) {
   static const char full[] = "nothing (the full scene)";
   const int32_t width = cli_rows_width(needs, "rows", "without", strlen(full));
-  print_head(width);
+  print_head(needs, width);
   printf("%-*s %10s", width, full, "");
   print_costs(needs, "full", 0);
   printf("\n");
@@ -63,9 +74,10 @@ static void print_table(const hooke_measurement *needs) {
 static void print_degrees(const hooke_measurement *needs) {
   const int32_t width = cli_rows_width(needs, "degrees", "quantity", strlen("by degree"));
   const int64_t rows = hooke_measurement_row_count(needs, "degrees");
+  char unit[TITLE];
   if (rows == 0) return;
   printf("\n%-*s %10s %10s %10s %10s\n", width, "by degree", "factor", "change", "largest", "work");
-  printf("%-*s %10s %10s %10s\n", width, "", "", "[m]", "step [s]");
+  printf("%-*s %10s %10s %10s\n", width, "", "", title(needs, "[%s]", unit), "step [s]");
   for (int64_t row = 0; row < rows; row++) {
     const double beyond = number(needs, "degrees", row, "beyond");
     cli_print_padded(stdout, width, hooke_measurement_text(needs, "degrees", row, "quantity"));
@@ -79,7 +91,8 @@ static void print_degrees(const hooke_measurement *needs) {
     cli_rows_print_cell(10, number(needs, "degrees", row, "work"));
     if (!isnan(beyond)) {
       printf("  by %.4g:", beyond);
-      cli_rows_print_as(0, number(needs, "degrees", row, "error_beyond"), "%.3g m", "none", NULL);
+      cli_rows_print_as(0, number(needs, "degrees", row, "error_beyond"), title(needs, "%%.3g %s", unit),
+                        "none", NULL);
     }
     printf("\n");
   }
@@ -101,8 +114,10 @@ static void print_parts(const hooke_measurement *needs) {
   static const char *const wanted[] = {"wanted", "wanted_second", "wanted_third"};
   static const char *const numbers[] = {"change", "change_fine", "order", "error"};
   const int32_t width = cli_rows_width(needs, "parts", "part", strlen("part"));
-  printf("%-*s %14s %12s %12s %8s %12s %14s\n", width, "part", "cells N", "N to 2N [m]", "2N to 4N [m]",
-         "order", "left [m]", "want asks for");
+  char head[3][TITLE];
+  printf("%-*s %14s %12s %12s %8s %12s %14s\n", width, "part", "cells N",
+         title(needs, "N to 2N [%s]", head[0]), title(needs, "2N to 4N [%s]", head[1]), "order",
+         title(needs, "left [%s]", head[2]), "want asks for");
   for (int64_t part = 0; part < hooke_measurement_row_count(needs, "parts"); part++) {
     const char *note = hooke_measurement_text(needs, "parts", part, "note");
     cli_print_padded(stdout, width, hooke_measurement_text(needs, "parts", part, "part"));
@@ -121,8 +136,12 @@ static void print_parts(const hooke_measurement *needs) {
 static void print_words(const struct cli_results *results) {
   const hooke_measurement *needs = results->found;
   const double spread = cli_number(needs, "needs", "spread");
-  cli_say("%s, %g m wanted\n", cli_setup_title(results->arguments, &results->setup),
-          cli_number(needs, "needs", "want"));
+  const char *want = cli_arguments_text(results->arguments, "want");
+  cli_say("%s, ", cli_setup_title(results->arguments, &results->setup));
+  if (strcmp(hooke_measurement_text(needs, "needs", 0, "error_unit"), "m") != 0)
+    cli_say("%s wanted\n", want);
+  else
+    cli_say("%g m wanted\n", cli_number(needs, "needs", "want"));
   cli_claims_print(results->arguments, needs, LABEL, results->command);
   if (isnan(cli_number(needs, "full", "step_error"))) return;
   printf("\n");

@@ -465,7 +465,8 @@ static const struct cli_verb_row rows[] = {
      "it had never stopped; only --threads, --final, --watch, --force, --no-why, --json and --quiet may be "
      "given with it"},
     {"want", 0, "LENGTH",
-     "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
+     "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4, or a list "
+     "such as tip=2mm,line:max.tension=1%,energy=0.1J), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"probe", 0, "Q,Q",
      "quantities to write over the run into the file of --probes, such as 57.y,line:50.x,energy"},

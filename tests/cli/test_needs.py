@@ -41,7 +41,7 @@ RESTING = pathlib.Path(__file__).parent / "scenes" / "needs" / "balanced-mass.js
 WATCH = ("--want", "3mm", "--watch", "cloth")
 COST = {"wall_seconds", "springs", "step_limit", "unlimited", "particles", "step", "rtol", "atol", "force_evaluations",
         "steps", "step_error"}
-WHOLE = {"want", "method", "method_picked", "duration", "judged_until", "runs", "watched", "spread", "note", "claims"}
+WHOLE = {"want", "error_unit", "method", "method_picked", "duration", "judged_until", "runs", "watched", "spread", "note", "claims"}
 BLUE, RED = "#7fb2e5", "#b00020"  # of the full scene, of the lean one
 GREEN, ORANGE = "#1b7f4d", "#c2410c"  # unneeded and needed ingredients
 LOOK = """

@@ -25,6 +25,7 @@ struct hk_option_row {
   int32_t above_low;    /* 1: `low` itself is not allowed */
   int32_t whole;        /* 1: whole numbers only */
   int32_t particles;    /* 1: numbers of particles, which a scene may also name */
+  int32_t wants;        /* 1: of a number: a text with a "=" is taken as a list, for its reader */
   int32_t required;
   int64_t min_count, max_count; /* of HOOKE_OPTION_NUMBERS; max_count 0: any, -1: words alone */
   int32_t columns;              /* in a scene numbers come in rows of this many ([[x,y,z],...]); 0: flat */

@@ -133,6 +133,7 @@ void hk_option_describe(const struct hk_option_row *row, char *text, int64_t siz
 const char *hk_option_allowed(const struct hk_option_row *row, char text[HOOKE_OPTION_ALLOWED]) {
   hk_option_describe(row, text, HOOKE_OPTION_ALLOWED);
   if (row->unit && row->unit[0]) hk_append(text, HOOKE_OPTION_ALLOWED, " [%s]", row->unit);
+  if (row->wants) hk_append(text, HOOKE_OPTION_ALLOWED, ", or a list QUANTITY=VALUE,...");
   return text;
 }
 

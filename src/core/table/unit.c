@@ -39,6 +39,7 @@ static const struct {
     {"MB", "MB", "", 0, 0},         {"MB", "GB", "", 3, 0},
     {"MB", "kB", "", -3, 0},        {"GB", "GB", "", 0, 0},
     {"GB", "TB", "", 3, 0},         {"GB", "MB", "", -3, 0},
+    {"J", "J", "Mkmun", 0, 0},
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 

@@ -30,8 +30,9 @@ static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
 static const double SHORT = 2.0, MOST_RUNS = 10.0; /* most work of a refined run [s], or times the first */
 
 static const struct hk_option_row rows[] = {
-    HOOKE_OPTION("want", HOOKE_OPTION_POSITIVE("m"), NULL,
-                 "error that no free particle may exceed at any frame; only estimates if not given"),
+    HOOKE_OPTION(
+        "want", HOOKE_OPTION_WANT, NULL,
+        "error that no free particle may exceed at any frame; only estimates if not given" HOOKE_WANT_FORMS),
     HOOKE_OPTION("callbacks", .type = HOOKE_OPTION_FLAG, "false",
                  "repeats runs for the estimate even if they call callbacks of forces or drives"),
     HOOKE_OPTION(
@@ -44,7 +45,9 @@ static const struct hk_option_row rows[] = {
 static const struct hk_option_table options = {"estimate", HOOKE_OPTION_ROWS(rows)};
 
 static void clear(struct hk_estimate *e) {
-  e->error = e->rms = e->known_until = e->order = e->last_error = e->last_from = NAN;
+  e->rms = e->known_until = e->last_error = e->last_from = NAN;
+  for (int32_t n = 0; n < HOOKE_ERRORS; n++)
+    e->error[n] = e->order[n] = NAN;
   e->by = NULL;
   e->reason[0] = '\0';
 }
@@ -54,14 +57,14 @@ static int32_t create(hooke_measurement *m) {
   if (e == NULL) return HOOKE_NO_MEMORY;
   e->measurement = m;
   e->system = m->system;
-  e->want = hooke_options_number(m->options, "want");
   e->callbacks = hooke_options_number(m->options, "callbacks") != 0.0;
   e->only_watches = hooke_options_number(m->options, "error") == 0.0;
   e->watched.system = m->system;
   e->first = e->rise = e->heat_excess = NAN;
   clear(e);
   const char *watch = hooke_options_text(m->options, "watch");
-  return watch[0] ? hk_watched_read(&e->watched, "watch", watch) : HOOKE_OK;
+  const int32_t status = watch[0] ? hk_watched_read(&e->watched, "watch", watch) : HOOKE_OK;
+  return status == HOOKE_OK ? hk_wants_read(&e->wants, &e->watched, m->options) : status;
 }
 
 static void forget_run(struct hk_estimate *e) {
@@ -88,15 +91,16 @@ static void destroy(void *object) {
 
 /* ---- picking ---- */
 
-/* Picks for the error `want` of the whole run, and sets the result in `run`. */
-static int32_t pick(struct hk_estimate *e, double want, hooke_options *run) {
+/* Picks for what is wanted of the whole run, and sets the result in `run`. */
+static int32_t pick(struct hk_estimate *e, hooke_options *run) {
   hk_pick_release(&e->pick);
   const double begun = hk_clock_seconds();
-  int32_t status = hk_pick_run(&e->pick, e->system, run, want, e->only != NULL, &e->only,
+  int32_t status = hk_pick_run(&e->pick, e->system, run, &e->wants, e->wants.most, e->only != NULL, &e->only,
                                e->measurement->progress, e->measurement->progress_ctx);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
-    status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", e->only);
+    status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here%s", e->only,
+                     e->wants.list ? ", or its frames do not tell what is wanted" : "");
   if (status == HOOKE_OK) status = hk_trial_set_value(run, e->pick.best.method, e->pick.best.value);
   hk_pick_say_reversal(&e->pick, e->reversal, sizeof e->reversal);
   if (status != HOOKE_OK) hk_pick_release(&e->pick);
@@ -110,13 +114,13 @@ int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_opti
   const struct hk_method *only = NULL;
   if (status == HOOKE_OK) status = hk_run_options_require(run, "run");
   if (status != HOOKE_OK) return status;
-  if (isnan(e->want)) return hk_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
+  if (e->wants.count == 0) return hk_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
   if (method && (status = hk_method_take(method, &only)) != HOOKE_OK) return status;
   e->only = only ? only->name : NULL;
   e->refined = 0;
   e->first = NAN;
   e->before = INFINITY;
-  return pick(e, e->want, run);
+  return pick(e, run);
 }
 
 /* ---- watching the run ---- */
@@ -139,7 +143,7 @@ static int is_whole_reference(const struct hk_estimate *e) {
 
 /* No limit is needed: the method has none, nothing is wanted, or the pick examined the same frames. */
 static int is_checked(const struct hk_estimate *e, const hooke_integrator *it) {
-  return it->method->adaptive || isnan(e->want) || (e->picked && is_whole_reference(e));
+  return it->method->adaptive || e->wants.count == 0 || (e->picked && is_whole_reference(e));
 }
 
 static int32_t refuse_system(void) {
@@ -171,6 +175,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   if (status != HOOKE_OK || e->only_watches) return status;
   choose_kept(e, it, &count);
   status = hk_frames_create(e->system, count, &e->kept);
+  if (status == HOOKE_OK) status = hk_frames_watch(&e->kept, e->wants.list, &e->wants);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status != HOOKE_OK) return status;
@@ -239,46 +244,75 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 
 /* 1 if nobody can know that the want is met. */
 static int is_out_of_reach(const struct hk_estimate *e) {
-  return is_whole_reference(e) && !(e->pick.reference.agreement < e->want);
+  return is_whole_reference(e) && !(e->pick.reference.wanted_agreement < e->wants.most);
 }
 
 /* Distances of the kept frames from trusted ones of the reference at the same times; returns how many there
  * are. */
-static int64_t compare(const struct hk_estimate *e, double *most, double *rms) {
+static int64_t compare(const struct hk_estimate *e, struct hk_distance *from) {
   const struct hk_reference *r = &e->pick.reference;
   const double *time = r->frames.time, *kept = e->kept.time, near = 1e-9 * e->duration;
   int64_t count = 0;
-  *most = *rms = 0.0;
+  *from = (struct hk_distance){.rms = 0.0};
   for (int64_t f = 0, k = 0; f < e->kept.recorded; f++) {
     double far;
     while (k < r->trusted && time[k] - time[0] < kept[f] - kept[0] - near)
       k++;
     if (k == r->trusted) break;
     if (time[k] - time[0] > kept[f] - kept[0] + near) continue;
-    *rms = fmax(*rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
-    *most = fmax(*most, far);
+    from->rms = fmax(from->rms, hk_frames_distance(&r->frames, k, e->kept.position + f * e->kept.size, &far));
+    hk_wants_spread(&e->wants, &e->kept.watched, f, &r->frames.watched, k, far, from->of);
     count++;
   }
   return count;
+}
+
+static double agreement(const struct hk_estimate *e, int32_t n) {
+  const struct hk_reference *r = &e->pick.reference;
+  return n == 0 ? r->agreement : r->wanted_agreement * (e->bound[n - 1] / e->wants.most);
+}
+
+/* The want that is the farthest off, and by how many times what is wanted. */
+static int32_t find_worst(const struct hk_estimate *e, double *most) {
+  int32_t worst = 0;
+  *most = 0.0;
+  for (int32_t k = 0; k < e->wants.count; k++) {
+    if (!(e->error[1 + k] / e->bound[k] > *most)) continue;
+    *most = e->error[1 + k] / e->bound[k];
+    worst = k;
+  }
+  return worst;
+}
+
+/* The pick saw other frames, and a displaced start: its error is that of the want that is the farthest off.
+ */
+static void raise_worst(struct hk_estimate *e, double error) {
+  double most;
+  const int32_t k = find_worst(e, &most);
+  error *= e->bound[k] / e->wants.most;
+  if (error > e->error[1 + k]) e->error[1 + k] = error;
+  if (e->wants.want[k].width == 0) e->error[0] = fmax(e->error[0], e->error[1 + k]);
 }
 
 /* The picked run was compared with the reference at frames of the pick; 0 of another one that has few of
  * them. */
 static int measure_by_reference(struct hk_estimate *e) {
   const struct hk_reference *r = &e->pick.reference;
-  double most, rms;
-  const int64_t count = compare(e, &most, &rms);
+  struct hk_distance from;
+  const int64_t count = compare(e, &from);
   if (!e->picked && count < LEAST_COMPARED && count < e->kept.recorded) return 0;
   if (r->trusted > 1) {
-    if (e->picked) most = fmax(most, e->pick.best.error), rms = fmax(rms, e->pick.best.rms);
-    e->error = most + r->agreement;
-    e->rms = fmin(e->error, rms + r->agreement);
+    for (int32_t n = 0; n <= e->wants.count; n++)
+      hk_estimate_know(e, n, from.of[n] + agreement(e, n));
+    if (e->picked) raise_worst(e, e->pick.best.error + r->wanted_agreement);
+    if (e->picked) from.rms = fmax(from.rms, e->pick.best.rms);
+    e->rms = fmin(e->error[0], from.rms + r->agreement);
     e->known_until = e->begin + hk_pick_trusted(&e->pick);
     e->by = "reference";
   }
   if (is_out_of_reach(e))
-    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g%s alone", r->agreement,
-             hk_metres(e->system));
+    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g%s alone",
+             r->wanted_agreement, hk_wants_unit(&e->wants, e->system));
   if (r->trusted == r->frames.count) return 1;
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a fiftieth of the wanted error%s",
@@ -305,15 +339,15 @@ static const char *find_obstacle(const struct hk_estimate *e, const hooke_state 
 static int32_t measure_again(struct hk_estimate *e) {
   if (is_whole_reference(e) && measure_by_reference(e)) return HOOKE_OK;
   int32_t status = hk_estimate_by_runs(e);
-  if (status == HOOKE_OK && !isnan(e->error)) status = hk_estimate_by_other_method(e);
+  if (status == HOOKE_OK && !isnan(e->error[0])) status = hk_estimate_by_other_method(e);
   /* a pick from the beginning alone: its error is over more frames */
-  if (e->picked && e->pick.met && e->pick.best.error > e->error) e->error = e->pick.best.error;
-  if (status == HOOKE_OK && isnan(e->error)) status = hk_estimate_last_slice(e);
+  if (e->picked && e->pick.met) raise_worst(e, e->pick.best.error);
+  if (status == HOOKE_OK && isnan(e->error[0])) status = hk_estimate_last_slice(e);
   return status;
 }
 
 static void explain_want(struct hk_estimate *e) {
-  if (!isnan(e->want) && !hk_soundness_holds(&e->soundness))
+  if (e->wants.count > 0 && !hk_soundness_holds(&e->soundness))
     hk_print(e->reason, sizeof e->reason,
              isinf(e->soundness.least_limit) ? "its energy grows by itself"
                                              : "its step is above 0.9 of the stable one");
@@ -322,7 +356,7 @@ static void explain_want(struct hk_estimate *e) {
 }
 
 static void forget_overflow(struct hk_estimate *e) {
-  if (!isinf(e->error + e->rms)) return;
+  if (!isinf(e->error[0] + e->rms)) return;
   clear(e);
   hk_print(e->reason, sizeof e->reason, "distances are beyond the range of numbers");
 }
@@ -346,6 +380,7 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
     return HOOKE_OK;
   }
   const double begun = hk_clock_seconds();
+  hk_wants_bounds(&e->wants, &e->kept.watched, e->kept.recorded, e->bound);
   status = measure_again(e);
   forget_overflow(e);
   if (status == HOOKE_OK)
@@ -382,18 +417,26 @@ int32_t hk_estimate_saw_all(const struct hk_estimate *e) {
          fabs(e->course.until - e->begin - e->duration) <= near;
 }
 
-double hk_estimate_met(const struct hk_estimate *e) {
-  if (isnan(e->want)) return NAN;
-  if (is_out_of_reach(e) && e->error - 2.0 * e->pick.reference.agreement <= e->want) return NAN;
-  if (e->error > e->want || (!isnan(e->error) && !hk_soundness_holds(&e->soundness))) return 0.0;
+double hk_estimate_meets(const struct hk_estimate *e, int32_t want) {
+  const double error = e->error[1 + want], bound = e->bound[want];
+  if (is_out_of_reach(e) && error - 2.0 * agreement(e, 1 + want) <= bound) return NAN;
+  if (error > bound || (!isnan(error) && !hk_soundness_holds(&e->soundness))) return 0.0;
   if (e->soundness.unknown_limit) return NAN;
-  return e->error <= e->want && hk_estimate_knows_all(e) ? 1.0 : NAN;
+  return error <= bound && hk_estimate_knows_all(e) ? 1.0 : NAN;
+}
+
+double hk_estimate_met(const struct hk_estimate *e) {
+  double met = e->wants.count > 0 ? 1.0 : NAN;
+  for (int32_t k = 0; k < e->wants.count && met != 0.0; k++)
+    if (hk_estimate_meets(e, k) != 1.0) met = hk_estimate_meets(e, k);
+  return met;
 }
 
 /* Next finer step or tolerance of the same method. */
 static double finer(const struct hk_estimate *e) {
-  const double value = hk_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
-  double factor = pow(AIM * e->want / e->error, 1.0 / order);
+  double most;
+  const double value = hk_estimate_value(e->options), seen = e->order[1 + find_worst(e, &most)];
+  double factor = pow(AIM / most, 1.0 / (isnan(seen) ? 1.0 : seen));
   factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
   return fmin(value * factor, hk_soundness_limit_share * e->soundness.least_limit);
 }
@@ -415,13 +458,15 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
   struct hk_estimate *e = m->object;
   int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_refine");
   if (status != HOOKE_OK) return status;
+  double most;
+  (void)find_worst(e, &most);
   const int32_t known = e->options != NULL && !is_out_of_reach(e) && !isnan(hk_estimate_met(e)) &&
-                        e->error <= LEAST_GAIN * e->before;
+                        most <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
     return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->reason);
   status = set_finer(e, run);
   e->refined++;
-  e->before = e->error;
+  e->before = most;
   e->picked = 0;
   return status;
 }

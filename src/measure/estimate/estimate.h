@@ -8,20 +8,24 @@
 #include "measure/recommend/soundness.h"
 #include "measure/measurement.h"
 
+/* Errors and distances: those of all free particles [m], then those of the wants. */
+enum { HOOKE_ERRORS = 1 + HOOKE_WANTS };
+
 struct hk_estimate {
   const hooke_measurement *measurement;
   const hooke_system *system;
-  double want;         /* [m], NaN: none */
-  int32_t callbacks;   /* 1: runs are repeated even if callbacks take part */
-  struct hk_pick pick; /* with a system, after its run */
-  int32_t picked;      /* 1: the next run is the picked one, not a refined one */
-  const char *only;    /* the only method allowed; NULL: any */
-  double first;        /* counted work of the first run [s] */
-  double before;       /* error before refinement [m]; infinity at first */
-  int32_t refined;     /* number of refinements */
+  struct hk_wants wants;
+  double bound[HOOKE_WANTS]; /* of these, by the largest values of the run */
+  int32_t callbacks;         /* 1: runs are repeated even if callbacks take part */
+  struct hk_pick pick;       /* with a system, after its run */
+  int32_t picked;            /* 1: the next run is the picked one, not a refined one */
+  const char *only;          /* the only method allowed; NULL: any */
+  double first;              /* counted work of the first run [s] */
+  double before;             /* largest error over its bound before refinement; infinity at first */
+  int32_t refined;           /* number of refinements */
 
-  struct hk_watched_list watched;
-  int32_t only_watches; /* 1: it is not asked for the error */
+  struct hk_watched_list watched; /* and what is wanted */
+  int32_t only_watches;           /* 1: it is not asked for the error */
 
   /* the run */
   hooke_options *options;             /* copy of the integrator's */
@@ -40,7 +44,8 @@ struct hk_estimate {
   double late_after; /* its earliest time [s]; NaN once recorded */
 
   /* results */
-  double error, rms, known_until, order; /* the order of the error in the step or tolerance */
+  double error[HOOKE_ERRORS], order[HOOKE_ERRORS]; /* NaN: not known; orders in the step or tolerance */
+  double rms, known_until;
   const char *by;
   double last_error, last_from; /* what the last piece of the run made; NaN: not measured */
   double rise, heat_excess, spent;
@@ -56,8 +61,11 @@ void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *c
 
 /* 1 if its error is known to the end of the run. */
 int32_t hk_estimate_knows_all(const struct hk_estimate *estimate);
-/* 1 if the run meets the wanted error, 0 if not, NaN if that is unknown or none is wanted. */
+/* 1 if the run meets what is wanted, 0 if not, NaN if that is unknown or nothing is wanted; and one want. */
 double hk_estimate_met(const struct hk_estimate *estimate);
+double hk_estimate_meets(const struct hk_estimate *estimate, int32_t want);
+/* Sets an error, to which it adds what is not known of the value itself. */
+void hk_estimate_know(struct hk_estimate *estimate, int32_t number, double error);
 
 /* 1 if extremes of what is watched are over the whole run. */
 int32_t hk_estimate_saw_all(const struct hk_estimate *estimate);
@@ -104,10 +112,10 @@ int32_t hk_estimate_by_other_method(struct hk_estimate *estimate);
  * there was no time for a slice. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_estimate_heat(struct hk_estimate *estimate);
 
-/* Distances of a run from this one over frames [m]: of the farthest free particle, and root mean square. NaN
- * if it did not finish. */
+/* Distances of a run from this one over frames, and the root mean square over free particles [m]. NaN if it
+ * did not finish. */
 struct hk_distance {
-  double most, rms;
+  double of[HOOKE_ERRORS], rms;
 };
 /* Runs, within the work that is left, and compares the first `frames` of the kept ones. */
 int32_t hk_estimate_compare(struct hk_estimate *estimate, const struct hk_rerun *rerun, int64_t frames,

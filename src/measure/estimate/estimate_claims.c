@@ -1,6 +1,7 @@
 /* What an estimate says of the error of a run. */
 #include "measure/estimate/estimate.h"
 
+#include "core/print.h"
 #include "model/generalized.h"
 #include "model/particles.h"
 
@@ -24,31 +25,48 @@ static const char *source_of(const char *by) {
   return sources[k][1];
 }
 
+static enum hk_claim_of of_known(const struct hk_estimate *e) {
+  return hk_estimate_knows_all(e) ? HOOKE_OF_WHOLE : HOOKE_OF_PART;
+}
+
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
   if (e->only_watches) return;
   const char *m = hk_metres(e->system), *what = e->system->generalized ? "number" : "particle";
   if (e->by)
-    hk_claim(claims, "error", hk_estimate_knows_all(e) ? HOOKE_OF_WHOLE : HOOKE_OF_PART, e->by,
+    hk_claim(claims, "error", of_known(e), e->by,
              "the error is at most %.3g%s until t = %.6g s, of any %s (root mean square %.2g%s), %s",
-             e->error, m, e->known_until, what, e->rms, m, source_of(e->by));
+             e->error[0], m, e->known_until, what, e->rms, m, source_of(e->by));
   else
     hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "", "the error is not known: %s", e->reason);
+}
+
+/* Each of a list. */
+static void tell_each(const struct hk_estimate *e, struct hk_claims *claims) {
+  for (int32_t k = 0; k < e->wants.count && e->wants.list && e->by; k++) {
+    const char *name = e->wants.want[k].name, *unit = hk_want_unit(&e->wants, k), *blank = unit[0] ? " " : "";
+    if (isnan(e->error[1 + k]))
+      hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "",
+               "of %s it is not known: other runs do not tell it, or its value (a period takes eight frames)",
+               name);
+    else
+      hk_claim(claims, "error", of_known(e), e->by, "of %s it is at most %.3g%s%s, where %.3g%s%s are wanted",
+               name, e->error[1 + k], blank, unit, e->bound[k], blank, unit);
+  }
 }
 
 static void tell_want(const struct hk_estimate *e, struct hk_claims *claims) {
   const double met = hk_estimate_met(e);
   const char *by = e->by ? e->by : "", *reason = e->by ? e->reason : "", *joint = reason[0] ? ": " : "";
-  const char *m = hk_metres(e->system);
-  if (isnan(e->want)) return;
+  char want[32] = "quantities";
+  if (e->wants.count == 0) return;
+  if (!e->wants.list) hk_print(want, sizeof want, "%.6g%s", e->wants.most, hk_metres(e->system));
   if (met == 1.0)
-    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "that is within the wanted %.6g%s", e->want, m);
+    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "that is within the wanted %s", want);
   else if (met == 0.0)
-    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "the wanted %.6g%s are not met%s%s", e->want, m, joint,
-             reason);
+    hk_claim(claims, "want", HOOKE_OF_WHOLE, by, "the wanted %s are not met%s%s", want, joint, reason);
   else
     hk_claim(claims, "want", HOOKE_OF_UNKNOWN, by,
-             "nobody knows for all of the run whether the wanted %.6g%s are met%s%s", e->want, m, joint,
-             reason);
+             "nobody knows for all of the run whether the wanted %s are met%s%s", want, joint, reason);
 }
 
 /* Energy that no part of the scene accounts for. */
@@ -85,6 +103,7 @@ static void tell_watched(const struct hk_estimate *e, struct hk_claims *claims) 
 void hk_estimate_claim(const hooke_measurement *measurement, struct hk_claims *claims) {
   const struct hk_estimate *e = measurement->object;
   tell_error(e, claims);
+  tell_each(e, claims);
   tell_want(e, claims);
   if (!isnan(e->last_error))
     hk_claim(

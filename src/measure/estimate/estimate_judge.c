@@ -61,12 +61,13 @@ static int32_t judge_whole(struct hk_estimate *e, int32_t *judged) {
   if (isnan(step)) return status;
   const struct hk_rerun rerun = {judge, step, e->duration, e->apart, OTHER, 0.7, 0.3, NULL, NULL, NULL};
   status = hk_estimate_compare(e, &rerun, e->kept.count, &from);
-  *judged = !isnan(from.most);
-  if (from.most > e->error) {
-    e->error = from.most;
+  *judged = !isnan(from.of[0]);
+  if (from.of[0] > e->error[0]) {
     e->rms = fmax(e->rms, from.rms);
     e->by = "other-method";
   }
+  for (int32_t n = 0; n <= e->wants.count; n++)
+    if (from.of[n] > e->error[n]) hk_estimate_know(e, n, from.of[n]);
   return status;
 }
 
@@ -95,7 +96,9 @@ static int32_t find_first_value(const struct hk_estimate *e, const char *judge, 
 
 static void contradict(struct hk_estimate *e, const char *judge) {
   hk_print(e->reason, sizeof e->reason, "another method, %s, says otherwise", judge);
-  e->error = e->rms = e->known_until = NAN;
+  for (int32_t n = 0; n <= e->wants.count; n++)
+    e->error[n] = NAN;
+  e->rms = e->known_until = NAN;
   e->by = NULL;
 }
 
@@ -111,9 +114,9 @@ static int32_t judge_beginning(struct hk_estimate *e) {
     const struct hk_rerun rerun = {judge, value, duration, fmin(e->apart, duration), OTHER, 0.7, 0.1,
                                    NULL,  NULL,  NULL};
     status = hk_estimate_compare(e, &rerun, frames, &from);
-    if (status != HOOKE_OK || isnan(from.most) || from.most <= APART * e->error) break;
-    if (k == 0) first = from.most;
-    if (k == HALVINGS && from.most > 0.5 * first) contradict(e, judge);
+    if (status != HOOKE_OK || isnan(from.of[0]) || from.of[0] <= APART * e->error[0]) break;
+    if (k == 0) first = from.of[0];
+    if (k == HALVINGS && from.of[0] > 0.5 * first) contradict(e, judge);
     value *= hooke_method_is_adaptive(judge) ? TIGHTER : 0.5;
   }
   return status;

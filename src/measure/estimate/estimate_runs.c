@@ -17,13 +17,21 @@ static const double LONG = 10.0;                /* [s] of counted work */
 static const double FACTOR = 10.0, POWER = 0.7; /* of tolerances, and how errors scale with them */
 static const double LEAST_POWER = 0.5, MOST_POWER = 1.5, LOOSEST = 0.1, TIGHTEST = 1e-14;
 static const double ORDERS_APART = 0.4, LEAST_ORDER = 0.05, ORDERS_ABOVE = 1.0;
-static const double LOST = 0.1; /* of the size of a motion: beyond, a distance alone tells no error */
+static const double SMALL = 1e-3; /* of a bound: no order is needed below, where the first is assumed */
+static const double LOST = 0.1;   /* of the size of a motion: beyond, a distance alone tells no error */
 /* safety factors: where the order is the expected one, and where it is another or not seen */
 static const double SURE = 1.25, SURE_TOLERANCE = 1.5, UNSURE = 3.0;
 static const double MOST_WORK = 4.0, MOMENT = 0.01; /* of other runs in all, in times of the run, or [s] */
 
 static const char TOO_LONG[] =
     "the run is too long, or its tolerance too tight, for a finer one, and coarser ones do not tell";
+
+static struct hk_distance no_distance(void) {
+  struct hk_distance none = {.rms = NAN};
+  for (int32_t n = 0; n < HOOKE_ERRORS; n++)
+    none.of[n] = NAN;
+  return none;
+}
 
 double hk_estimate_value(const hooke_options *options) {
   const int32_t adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
@@ -85,10 +93,14 @@ int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun,
       .on_progress = tell, .on_start = start_from, .most_work = e->left, .ctx = &run};
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
-  *distance = (struct hk_distance){NAN, NAN};
+  *distance = no_distance();
   int32_t status = make_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &e->kept, frames, options, &listener);
-  if (status == HOOKE_OK) *distance = (struct hk_distance){trial.error_max, trial.error};
+  if (status == HOOKE_OK && !isnan(trial.error_max)) {
+    *distance = (struct hk_distance){.rms = trial.error};
+    for (int64_t f = 0; f < frames; f++)
+      hk_wants_spread(&e->wants, &e->kept.watched, f, &trial.watched, f, trial.error_max_at[f], distance->of);
+  }
   e->left -= trial.work;
   hk_trial_release(&trial);
   hooke_options_destroy(options);
@@ -123,7 +135,7 @@ static int32_t run_level(struct hk_estimate *e, double factor, double done, doub
   double other = factor * value;
   if (!adaptive && factor > 1.0) other = hk_estimate_fit_step(e, other);
   if (adaptive && other > LOOSEST * (1.0 + 1e-9)) other = NAN;
-  *level = (struct level){other / value, {NAN, NAN}};
+  *level = (struct level){other / value, no_distance()};
   if (isnan(other)) return HOOKE_OK;
   const struct hk_rerun rerun = {.method = method_of(e)->name,
                                  .value = other,
@@ -158,14 +170,23 @@ static double noise(const struct hk_estimate *e) {
   return hold * (128.0 + 0.1 * e->steps * sqrt(e->steps));
 }
 
-static void know(struct hk_estimate *e, const struct hk_distance *from, double factor, const char *by) {
-  e->error = factor * from->most;
-  e->rms = factor * from->rms;
-  e->known_until = e->begin + e->duration;
-  e->by = by;
+void hk_estimate_know(struct hk_estimate *e, int32_t n, double error) {
+  e->error[n] = error + (n > 0 ? hk_want_doubt(&e->wants, n - 1, &e->kept.watched) : 0.0);
 }
 
-static void say(struct hk_estimate *e, const char *reason) {
+static void know(struct hk_estimate *e, int32_t n, const struct hk_distance *from, double order,
+                 double factor) {
+  e->order[n] = order;
+  hk_estimate_know(e, n, factor * from->of[n]);
+  if (n > 0) return;
+  e->rms = factor * from->rms;
+  e->known_until = e->begin + e->duration;
+  e->by = method_of(e)->adaptive ? "tolerance" : "half-step";
+}
+
+/* Of particles; what else is not known has no reason of its own. */
+static void say(struct hk_estimate *e, int32_t n, const char *reason) {
+  if (n > 0) return;
   hk_print(e->reason, sizeof e->reason, "%s", reason);
 }
 
@@ -180,67 +201,64 @@ static int is_expected(const struct hk_estimate *e, double seen) {
 
 /* 1 if another step, `near`, gives another motion, as far as its size tells, where no order is seen. */
 static int is_lost(const struct hk_estimate *e, const struct level *near, const struct level *far) {
-  if (isnan(far->factor) || !isnan(far->from.most)) return 0;
+  if (isnan(far->factor) || !isnan(far->from.of[0])) return 0;
   /* the motion is at least as large as its first frame, which mostly tells without a pass over all */
-  return near->from.most > LOST * hk_frames_extent(&e->kept, 1) &&
-         near->from.most > LOST * hk_frames_extent(&e->kept, e->kept.recorded);
+  return near->from.of[0] > LOST * hk_frames_extent(&e->kept, 1) &&
+         near->from.of[0] > LOST * hk_frames_extent(&e->kept, e->kept.recorded);
 }
 
 /* From the run `near`, at half the step, and `far`, at twice the step or unknown. */
-static void judge_by_finer(struct hk_estimate *e, const struct level *near, const struct level *far) {
-  const int32_t adaptive = method_of(e)->adaptive;
-  const char *by = adaptive ? "tolerance" : "half-step";
+static void judge_by_finer(struct hk_estimate *e, int32_t n, const struct level *near,
+                           const struct level *far) {
+  const int32_t adaptive = method_of(e)->adaptive, is_length = n == 0 || e->wants.want[n - 1].width == 0;
+  const double one = near->from.of[n], other = far->from.of[n];
   double order = expected_order(e), safety = UNSURE;
   if (!adaptive && is_lost(e, near, far)) {
-    say(e, "half the step gives another motion, and twice the step none");
+    say(e, n, "half the step gives another motion, and twice the step none");
     return;
   }
-  if (far->from.most > 0.0 && near->from.most > noise(e)) {
-    const double seen = order_seen(far->factor, near->factor, far->from.most / near->from.most);
+  if (!is_length && one <= SMALL * e->bound[n - 1]) {
+    order = fmin(order, 1.0);
+  } else if (other > 0.0 && one > (is_length ? noise(e) : 0.0)) {
+    const double seen = order_seen(far->factor, near->factor, other / one);
     if (is_expected(e, seen)) safety = adaptive ? SURE_TOLERANCE : SURE;
     if (!adaptive && seen < LEAST_ORDER) {
-      say(e, "half the step gives another motion");
+      say(e, n, "half the step gives another motion");
       return;
     }
     if (!adaptive && seen > order + ORDERS_ABOVE) {
-      say(e, "twice the step loses the motion, and so may this step");
+      say(e, n, "twice the step loses the motion, and so may this step");
       return;
     }
     if (!adaptive) order = fmin(order, seen);
   }
-  e->order = adaptive ? POWER : order;
-  know(e, &near->from, safety / fabs(expm1(order * log(near->factor))), by);
+  know(e, n, &near->from, adaptive ? POWER : order, safety / fabs(expm1(order * log(near->factor))));
 }
 
 /* From runs at twice the step and at four times, if the order is seen. */
-static void judge_by_coarser(struct hk_estimate *e, const struct level *near, const struct level *far) {
-  const double order = expected_order(e);
-  if (!(near->from.most > 0.0 && far->from.most > 0.0 &&
-        is_expected(e, order_seen(far->factor, near->factor, far->from.most / near->from.most)))) {
-    say(e, TOO_LONG);
+static void judge_by_coarser(struct hk_estimate *e, int32_t n, const struct level *near,
+                             const struct level *far) {
+  const double order = expected_order(e), one = near->from.of[n], other = far->from.of[n];
+  if (!(one > 0.0 && other > 0.0 && is_expected(e, order_seen(far->factor, near->factor, other / one)))) {
+    say(e, n, TOO_LONG);
     return;
   }
-  e->order = order;
-  know(e, &near->from, UNSURE / expm1(order * log(near->factor)),
-       method_of(e)->adaptive ? "tolerance" : "half-step");
+  know(e, n, &near->from, order, UNSURE / expm1(order * log(near->factor)));
 }
 
 int32_t hk_estimate_by_runs(struct hk_estimate *e) {
   const double ratio = method_of(e)->adaptive ? FACTOR : 2.0;
   const int32_t tightest = method_of(e)->adaptive && hk_estimate_value(e->options) < TIGHTEST * FACTOR;
-  const int32_t finer = (e->work <= LONG || !isnan(e->want)) && !tightest;
+  const int32_t finer = (e->work <= LONG || e->wants.count > 0) && !tightest;
   struct level near, far;
   e->left = MOST_WORK * fmax(e->work, MOMENT);
   int32_t status = run_level(e, finer ? 1.0 / ratio : ratio, 0.0, 0.6, &near);
-  if (status == HOOKE_OK && !isnan(near.from.most))
+  if (status == HOOKE_OK && !isnan(near.from.of[0]))
     status = run_level(e, finer ? ratio : ratio * ratio, 0.6, 0.1, &far);
   if (status != HOOKE_OK) return status;
-  if (isnan(near.from.most))
-    say(e, finer ? "a finer run did not come to its end" : TOO_LONG);
-  else if (finer)
-    judge_by_finer(e, &near, &far);
-  else
-    judge_by_coarser(e, &near, &far);
+  if (isnan(near.from.of[0])) say(e, 0, finer ? "a finer run did not come to its end" : TOO_LONG);
+  for (int32_t n = 0; n <= e->wants.count && !isnan(near.from.of[0]) && (n == 0 || !isnan(e->error[0])); n++)
+    (finer ? judge_by_finer : judge_by_coarser)(e, n, &near, &far);
   return HOOKE_OK;
 }
 

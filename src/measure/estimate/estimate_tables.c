@@ -21,6 +21,15 @@ HOOKE_READER(const char *, unit, struct hk_estimate, hk_watched_unit(&it->watche
 HOOKE_READER(double, from, struct hk_estimate, it->course.from)
 HOOKE_READER(double, until, struct hk_estimate, it->course.until)
 
+/* ---- what is wanted ---- */
+
+HOOKE_COUNTER(count_wants, struct hk_estimate, it->options ? it->wants.count : 0)
+HOOKE_READER(const char *, wanted_quantity, struct hk_estimate, it->wants.want[row].name)
+HOOKE_READER(const char *, wanted_unit, struct hk_estimate, hk_want_unit(&it->wants, (int32_t)row))
+HOOKE_READER(double, bound, struct hk_estimate, it->bound[row])
+HOOKE_READER(double, wanted_error, struct hk_estimate, it->error[1 + row])
+HOOKE_READER(double, meets, struct hk_estimate, hk_estimate_meets(it, (int32_t)row))
+
 /* ---- the tables ---- */
 
 const struct hk_table hk_estimate_tables[] = {
@@ -29,7 +38,7 @@ const struct hk_table hk_estimate_tables[] = {
      .record = 1,
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_AS(
-             struct hk_estimate, error, estimate, NUMBER, "m",
+             struct hk_estimate, error[0], estimate, NUMBER, "m",
              "error of the run: distance of the farthest free particle, at any frame, from where it should be"),
          HOOKE_COLUMN(struct hk_estimate, rms, NUMBER, "m",
                       "its root mean square over free particles, at the worst frame"),
@@ -41,7 +50,7 @@ const struct hk_table hk_estimate_tables[] = {
              struct hk_estimate, by, TEXT, "",
              "half-step, tolerance (of runs of the method at other steps or tolerances), other-method or "
              "reference; none without an estimate"),
-         HOOKE_COLUMN_AS(struct hk_estimate, want, wanted, NUMBER, "m", "wanted error"),
+         HOOKE_COLUMN_AS(struct hk_estimate, wants.most, wanted, NUMBER, "m", "wanted error; 1 of a list"),
          HOOKE_COLUMN_BY(met, FLAG, "", "1 if the run meets it"),
          HOOKE_COLUMN_AS(
              struct hk_estimate, rise, energy_rise, NUMBER, "",
@@ -86,4 +95,14 @@ const struct hk_table hk_estimate_tables[] = {
          HOOKE_COLUMN_BY(from, NUMBER, "s", "time from which on smallest and largest values are known"),
          HOOKE_COLUMN_BY(until, NUMBER, "s",
                          "time until which they are known: the end of the run, or where it stopped"))},
+    {.name = "wants",
+     .doc = "what is wanted, one by one",
+     .count = count_wants,
+     HOOKE_TABLE_COLUMNS(HOOKE_COLUMN_BY_AS(wanted_quantity, quantity, TEXT, "",
+                                            "quantity as written, or particles: all free ones"),
+                         HOOKE_COLUMN_BY_AS(wanted_unit, unit, TEXT, "", "its unit"),
+                         HOOKE_COLUMN_BY_AS(bound, wanted, NUMBER, "of the quantity",
+                                            "largest error that is wanted, at any frame"),
+                         HOOKE_COLUMN_BY_AS(wanted_error, error, NUMBER, "of the quantity", "its error"),
+                         HOOKE_COLUMN_BY_AS(meets, met, FLAG, "", "1 if the run meets it"))},
     {.name = NULL}};

@@ -4,7 +4,6 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "measure/quantity/watched.h"
 #include "measure/recommend/pick.h"
 
 #include <math.h>
@@ -12,11 +11,15 @@
 #include <string.h>
 
 static const struct hk_option_row needs_rows[] = {
-    HOOKE_OPTION("want", HOOKE_OPTION_POSITIVE("m"), NULL,
-                 "error that one can live with, the largest distance of any watched particle", .required = 1),
-    HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
-                 "what is looked at: a part, a group, or particle "
-                 "numbers or names such as 0,7-9,tip; all free particles if not given"),
+    HOOKE_OPTION(
+        "want", HOOKE_OPTION_WANT, NULL,
+        "error that one can live with, the largest distance of any watched particle" HOOKE_WANT_FORMS,
+        .required = 1),
+    HOOKE_OPTION(
+        "watch", .type = HOOKE_OPTION_TEXT, NULL,
+        "what is looked at: a part, a group, or particle "
+        "numbers or names such as 0,7-9,tip, or coordinates and lengths such as tip.y,group:max.length; "
+        "all free particles if not given"),
     HOOKE_OPTION("keep", .type = HOOKE_OPTION_TEXT, NULL,
                  "names of groups and parts, separated by commas, that are neither left out nor changed"),
     HOOKE_OPTION("refine", .type = HOOKE_OPTION_FLAG, "false",
@@ -34,6 +37,10 @@ static int32_t read_times(struct hk_needs *needs) {
   const int32_t status = hk_step_times(needs->m->run, &needs->duration, &needs->every);
   if (status != HOOKE_OK) return status;
   needs->judged = needs->frame_count = hk_schedule_frames(needs->duration, needs->every);
+  needs->path_time = hk_new(needs->frame_count, sizeof(double));
+  if (needs->path_time == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t f = 0; f < needs->frame_count; f++)
+    needs->path_time[f] = hk_needs_time(needs, f);
   return hk_step_unit(needs->duration, needs->every, &needs->unit);
 }
 
@@ -56,15 +63,17 @@ static int32_t read_watch(struct hk_needs *needs) {
   const char *text = hooke_options_text(needs->m->options, "watch");
   uint8_t *mark = hk_new(system->particle_count, 1);
   if (mark == NULL) return HOOKE_NO_MEMORY;
-  int32_t status = HOOKE_OK;
-  if (text[0] == '\0') {
-    for (int64_t p = 0; p < system->particle_count; p++)
-      mark[p] = system->constrained[p] == 0;
-  } else {
+  int32_t status = HOOKE_OK, all = text[0] == '\0';
+  if (!all) {
     status = hk_watched_mark_particles(system, "watch", text, mark);
+    all = status == HOOKE_BAD_VALUE && strchr(text, '.') && !needs->wants.list;
+    if (all) status = hk_wants_of_each(&needs->wants, &needs->watched, text);
+    needs->want = needs->wants.most;
   }
-  for (int64_t p = 0; p < system->particle_count; p++)
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (all) mark[p] = system->constrained[p] == 0;
     needs->watch_count += mark[p];
+  }
   needs->watch = hk_new(needs->watch_count, sizeof *needs->watch);
   if (status == HOOKE_OK && needs->watch == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK && needs->watch_count == 0) {
@@ -117,8 +126,10 @@ static int32_t read_keep(struct hk_needs *needs) {
 static int32_t prepare(struct hk_needs *needs) {
   int32_t status = hk_options_check_required(needs->m->options);
   if (status != HOOKE_OK) return status;
-  needs->want = hooke_options_number(needs->m->options, "want");
-  status = read_times(needs);
+  needs->watched.system = needs->m->system;
+  status = hk_wants_read(&needs->wants, &needs->watched, needs->m->options);
+  needs->want = needs->wants.most;
+  if (status == HOOKE_OK) status = read_times(needs);
   if (status == HOOKE_OK) status = read_method(needs);
   if (status == HOOKE_OK) status = read_watch(needs);
   if (status == HOOKE_OK) status = read_keep(needs);
@@ -143,6 +154,8 @@ static void destroy(void *object) {
   hk_free(needs->row);
   hk_free(needs->part);
   hk_free(needs->watch);
+  hk_free(needs->path_time);
+  hk_watched_release(&needs->watched);
   hk_free(needs->kept);
   hk_free(needs->largest_force);
   hk_free(needs);

@@ -4,6 +4,7 @@
 #define HOOKE_MEASURE_NEEDS_NEEDS_H
 
 #include "measure/measurement.h"
+#include "measure/quantity/wants.h"
 #include "measure/recommend/soundness.h"
 #include "model/variant/variant.h"
 
@@ -21,10 +22,11 @@ struct hk_needs_cost {
 
 extern const struct hk_needs_cost hk_needs_no_cost; /* all of it unknown */
 
-/* Watched positions at every frame: count numbers a frame. */
+/* Watched positions at every frame: count numbers a frame; and the quantities of a list of wants. */
 struct hk_needs_path {
   int64_t recorded;
   double *position;
+  struct hk_watched_series values;
 };
 
 struct hk_needs_row {
@@ -76,11 +78,14 @@ struct hk_needs_lean {
 };
 
 struct hk_needs {
-  const hooke_measurement *m;         /* a picked method is set in its `run` */
-  double want, duration, every, unit; /* unit: largest step that frames allow [s] */
+  const hooke_measurement *m;     /* a picked method is set in its `run` */
+  struct hk_watched_list watched; /* of the list of what is wanted */
+  struct hk_wants wants;
+  double want, duration, every, unit; /* as in `wants`, as are errors; largest step that frames allow [s] */
   int32_t method_picked;
   int64_t watch_count, *watch; /* particles */
   uint8_t *kept;               /* by group: 1: neither left out nor changed */
+  double *path_time;           /* of the frames [s] */
   int64_t frame_count, judged; /* frames; those up to which differences due to the step stay small */
 
   struct hk_needs_cost full;
@@ -88,7 +93,7 @@ struct hk_needs {
   struct hk_needs_path
       by_step[2];   /* of the full system by its step, made when needed; [1]: from a displaced start */
   double own_error; /* error of `path` itself [m] */
-  double moved;     /* largest distance from the start along `path` [m] */
+  double moved;     /* largest distance of a particle from the start along `path` [m] */
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
@@ -130,10 +135,10 @@ void hk_needs_drop_row(struct hk_needs *needs, int64_t row);
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path);
 void hk_needs_path_release(struct hk_needs_path *path);
-/* Largest distance of any watched particle over the frames [m]. */
+/* Largest distance of any watched particle over the frames [m], or what a list is held against. */
 double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_path *a,
                          const struct hk_needs_path *b);
-/* The same distance, from the positions at the first frame. */
+/* Largest distance of a particle from its position at the first frame [m]. */
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path);
 /* Time of a frame since the start [s]. */
 double hk_needs_time(const struct hk_needs *needs, int64_t frame);
@@ -151,7 +156,8 @@ struct hk_needs_trial {
 struct hk_needs_recorder {
   struct hk_needs *needs;
   const struct hk_needs_trial *trial;
-  struct hk_needs_path *path; /* NULL: only the time is needed */
+  struct hk_needs_path *path;   /* NULL: only the time is needed */
+  struct hk_watched_list moved; /* what is watched, in its system */
   double last_step;
   double share_begun, fraction; /* of the measurement: before this run, and for it */
   int32_t displaced;            /* 1: it starts from a displaced start */
@@ -184,6 +190,16 @@ int32_t hk_needs_compare(struct hk_needs *needs, const struct hk_needs_trial *tr
 double hk_needs_step_limit(struct hk_needs *needs, const hooke_system *system);
 /* Sets the step or tolerances of a cost in options of a run. */
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
+
+/* ---- needs_values.c ---- */
+
+/* The watched quantities in the system of a trial, where some may be missing. Must be released. */
+int32_t hk_needs_move_watched(const struct hk_needs *needs, const struct hk_needs_trial *trial,
+                              struct hk_watched_list *moved);
+/* Records them at the last recorded frame. */
+void hk_needs_keep_values(const struct hk_needs *needs, const struct hk_needs_trial *trial,
+                          const struct hk_watched_list *moved, const hooke_state *state,
+                          struct hk_needs_path *path);
 
 /* ---- needs_degree.c ---- */
 

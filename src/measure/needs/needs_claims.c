@@ -13,6 +13,11 @@
 
 enum { CELLS_SIZE = 64 };
 
+/* After an error. */
+static const char *unit_of(const struct hk_needs *needs) {
+  return hk_wants_unit(&needs->wants, needs->m->system);
+}
+
 static int32_t judges_all(const struct hk_needs *needs) {
   return hk_needs_judged_until(needs) >= needs->duration * (1.0 - 1e-9);
 }
@@ -85,9 +90,9 @@ static void tell_left_out(const struct hk_needs *needs, struct hk_claims *claims
     hk_print(springs, sizeof springs, ", with %.0f springs instead of %.0f", needs->lean.cost.springs,
              needs->full.springs);
   hk_claim(claims, "lean", of_judged(needs), "runs",
-           "%s can be left out%s: %s; the scene is then at most %.3g m off%s%s",
+           "%s can be left out%s: %s; the scene is then at most %.3g%s off%s%s",
            count == 1 ? "one ingredient" : "these ingredients", count == 1 ? "" : " together", names,
-           needs->lean.error, where, springs);
+           needs->lean.error, unit_of(needs), where, springs);
   tell_saving(needs, claims);
 }
 
@@ -103,8 +108,8 @@ static void tell_changes(const struct hk_needs *needs, struct hk_claims *claims,
     hk_claim(claims, "softened", of_judged(needs), "runs", "and it has %s", what);
     return;
   }
-  hk_claim(claims, "lean", of_judged(needs), "runs", "with %s the scene is at most %.3g m off", what,
-           needs->lean.error);
+  hk_claim(claims, "lean", of_judged(needs), "runs", "with %s the scene is at most %.3g%s off", what,
+           needs->lean.error, unit_of(needs));
   tell_saving(needs, claims);
 }
 
@@ -135,8 +140,8 @@ static void tell_degrees(const struct hk_needs *needs, struct hk_claims *claims)
     if (!degree->tried || !(gain > LEAST_GAIN)) continue;
     print_degree(degree, degree->factor, what, sizeof what);
     if (isfinite(gain)) hk_print(larger, sizeof larger, "a step %.3g times larger", gain);
-    hk_claim(claims, "degree", of_judged(needs), "runs", "%s: %.2g m of %.6g m (tried), %s", what,
-             degree->error, needs->want, larger);
+    hk_claim(claims, "degree", of_judged(needs), "runs", "%s: %.2g%s of %.6g%s (tried), %s", what,
+             degree->error, needs->wants.list ? "" : " m", needs->want, unit_of(needs), larger);
   }
   if (untried > 0)
     hk_claim(claims, "untried", HOOKE_OF_UNKNOWN, "runs",
@@ -171,12 +176,12 @@ static void tell_part(const struct hk_needs *needs, const struct hk_needs_part *
   const char *noun = strcmp(has, "1") == 0 ? "cell" : "cells";
   if (isfinite(part->factor) && !isnan(part->error))
     hk_claim(claims, "resolution", of_judged(needs), "Richardson",
-             "%s has %s %s, which leaves %.3g m; an error of at most %.6g m asks for %s", part->name, has,
-             noun, part->error, needs->want, wanted);
+             "%s has %s %s, which leaves %.3g%s; an error of at most %.6g%s asks for %s", part->name, has,
+             noun, part->error, unit_of(needs), needs->want, unit_of(needs), wanted);
   else if (isfinite(part->factor))
     hk_claim(claims, "resolution", of_judged(needs), "Richardson",
-             "%s has %s %s, which are enough for an error of at most %.6g m: %s", part->name, has, noun,
-             needs->want, part->note);
+             "%s has %s %s, which are enough for an error of at most %.6g%s: %s", part->name, has, noun,
+             needs->want, unit_of(needs), part->note);
   else
     hk_claim(claims, "resolution", HOOKE_OF_UNKNOWN, "Richardson",
              "what resolution %s needs is not known%s%s", part->name, part->note[0] ? ": " : "", part->note);
@@ -192,8 +197,8 @@ static void tell_full(const struct hk_needs *needs, struct hk_claims *claims) {
              method, how);
   else
     hk_claim(claims, "full", of_judged(needs), "half-step",
-             "by %s%s the time step puts the full scene off by at most %.2g m", method, how,
-             needs->full.step_error);
+             "by %s%s the time step puts the full scene off by at most %.2g%s", method, how,
+             needs->full.step_error, unit_of(needs));
 }
 
 void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *claims) {

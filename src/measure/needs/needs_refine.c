@@ -42,9 +42,9 @@ static int32_t run_at(struct hk_needs *needs, int64_t part, double scale, struct
 static void extrapolate(const struct hk_needs *needs, double step_error, struct hk_needs_part *part) {
   if (part->change <= RESOLVED * step_error || part->change_fine <= RESOLVED * step_error) {
     hk_print(part->note, sizeof part->note,
-             "the changes are within the error of the step, %.3g m: the "
+             "the changes are within the error of the step, %.3g%s: the "
              "resolution is fine enough, and its order cannot be seen",
-             step_error);
+             step_error, hk_wants_unit(&needs->wants, needs->m->system));
     if (part->change <= needs->want) part->factor = 1.0;
     return;
   }

@@ -26,8 +26,9 @@ int32_t hk_needs_tell_pick(double done, const char *what, void *ctx) {
 static int32_t refuse_pick(const struct hk_pick *pick) {
   if (pick->best.method == NULL)
     return hk_fail(HOOKE_UNSUITED, "method", "no method has a step that is stable here");
-  return hk_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
-                 pick->want, pick->best.method, pick->best.value, pick->best.error);
+  const char *m = hk_wants_unit(pick->wants, pick->system);
+  return hk_fail(HOOKE_BAD_VALUE, "want", "%g%s is not reached: the closest run, %s at %g, is %g%s off",
+                 pick->want, m, pick->best.method, pick->best.value, pick->best.error, m);
 }
 
 /* Without a method in the options of the run, chooses as 'run --want' would. */
@@ -35,8 +36,8 @@ static int32_t pick_method(struct hk_needs *needs) {
   struct hk_pick pick;
   if (hooke_options_is_set(needs->m->run, "method")) return HOOKE_OK;
   needs->under_way = "picking a method";
-  int32_t status = hk_pick_run(&pick, needs->m->system, needs->m->run, HOOKE_NEEDS_STEP_SHARE * needs->want,
-                               0, NULL, hk_needs_tell_pick, needs);
+  int32_t status = hk_pick_run(&pick, needs->m->system, needs->m->run, &needs->wants,
+                               HOOKE_NEEDS_STEP_SHARE * needs->want, 0, NULL, hk_needs_tell_pick, needs);
   if (status == HOOKE_OK && !pick.met) status = refuse_pick(&pick);
   if (status == HOOKE_OK) status = hk_trial_set_value(needs->m->run, pick.best.method, pick.best.value);
   needs->method_picked = status == HOOKE_OK;
@@ -47,9 +48,10 @@ static int32_t pick_method(struct hk_needs *needs) {
 static int32_t refuse_full(const struct hk_needs *needs) {
   return hk_fail(
       HOOKE_BAD_VALUE, "want",
-      "%s, %g m: no step that was tried holds the full scene by %s to a tenth of it over a time worth "
+      "%s, %g%s: no step that was tried holds the full scene by %s to a tenth of it over a time worth "
       "judging; take a larger want, a shorter duration or another method",
-      "the want", needs->want, hooke_options_text(needs->m->run, "method"));
+      "the want", needs->want, hk_wants_unit(&needs->wants, needs->m->system),
+      hooke_options_text(needs->m->run, "method"));
 }
 
 static void say_how_it_moves(struct hk_needs *needs) {
@@ -59,7 +61,7 @@ static void say_how_it_moves(struct hk_needs *needs) {
              "nothing moves: the watched positions stay within %.2g m of where they begin, under a "
              "thousandth of what is wanted; whether a motion needs what changes nothing here cannot be told",
              needs->moved);
-  } else if (needs->moved <= needs->want) {
+  } else if (needs->moved <= needs->want && !needs->wants.list) {
     hk_print(needs->note, sizeof needs->note,
              "the watched positions move by %.2g m in all, less than is wanted, so that a scene which "
              "stands still would do; take a smaller want to learn what moves them",
@@ -76,7 +78,8 @@ int32_t hk_needs_run_full(struct hk_needs *needs) {
   needs->under_way = "the full scene";
   if (status == HOOKE_OK) status = hk_needs_measure(needs, &trial, &needs->full, &needs->path);
   needs->pieces_done++;
-  const double least = 1.0 + LEAST_JUDGED * (double)needs->frame_count;
+  const double frames = (double)needs->frame_count,
+               least = needs->wants.whole ? frames : 1.0 + LEAST_JUDGED * frames;
   if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))
     status = refuse_full(needs);
   if (status == HOOKE_OK) {
@@ -106,7 +109,9 @@ static void judge(const struct hk_needs *needs, const struct hk_needs_path *path
   row->needed = !(row->error + beyond <= needs->want);
   if (row->needed == 0.0 && hk_needs_rests(needs)) row->needed = NAN;
   if (beyond > 0.0)
-    hk_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
+    hk_print(row->note, sizeof row->note, "its time step may put it off by %.2g%s", row->cost.step_error,
+             hk_wants_unit(&needs->wants, needs->m->system));
+  if (isnan(row->error)) hk_print(row->note, sizeof row->note, "it is without what is wanted");
 }
 
 /* What only the exact start does without is needed. */

@@ -21,7 +21,7 @@ int32_t hk_needs_tell(struct hk_needs *needs, double fraction) {
 }
 
 int32_t hk_needs_rests(const struct hk_needs *needs) {
-  return needs->moved <= RESTS * needs->want;
+  return needs->moved <= RESTS * needs->want * needs->wants.length;
 }
 
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) {
@@ -32,11 +32,14 @@ int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {
   path->recorded = 0;
   path->position = hk_new(needs->frame_count, (size_t)(3 * needs->watch_count + 1) * sizeof *path->position);
-  return path->position ? HOOKE_OK : HOOKE_NO_MEMORY;
+  const int32_t status = hk_watched_series_create(needs->wants.list, needs->frame_count, &path->values);
+  path->values.time = needs->path_time;
+  return path->position ? status : HOOKE_NO_MEMORY;
 }
 
 void hk_needs_path_release(struct hk_needs_path *path) {
   hk_free(path->position);
+  hk_watched_series_release(&path->values);
   memset(path, 0, sizeof *path);
 }
 
@@ -55,11 +58,25 @@ static double distance_at(const struct hk_needs *needs, const struct hk_needs_pa
   return sqrt(most);
 }
 
+/* Relative wants are so of the full system, once that was run. */
+static void find_bounds(const struct hk_needs *needs, const struct hk_needs_path *path,
+                        double bound[HOOKE_WANTS]) {
+  const struct hk_needs_path *full = needs->path.position ? &needs->path : path;
+  hk_wants_bounds(&needs->wants, &full->values, full->recorded, bound);
+}
+
+static double error_at(const struct hk_needs *needs, const double bound[HOOKE_WANTS],
+                       const struct hk_needs_path *a, const struct hk_needs_path *b, int64_t frame) {
+  const double far = distance_at(needs, a, frame, b, frame);
+  return needs->wants.list ? hk_wants_error(&needs->wants, bound, &a->values, &b->values, frame, far) : far;
+}
+
 double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_path *a,
                          const struct hk_needs_path *b) {
-  double most = 0.0;
+  double most = 0.0, bound[HOOKE_WANTS];
+  find_bounds(needs, a, bound);
   for (int64_t f = 0; f < needs->judged && f < a->recorded && f < b->recorded; f++) {
-    const double distance = distance_at(needs, a, f, b, f);
+    const double distance = error_at(needs, bound, a, b, f);
     if (!(distance <= most)) most = distance;
     if (isnan(most)) break;
   }
@@ -80,8 +97,10 @@ double hk_needs_time(const struct hk_needs *needs, int64_t frame) {
 int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound) {
   int64_t frames = 0;
+  double limit[HOOKE_WANTS];
+  find_bounds(needs, a, limit);
   while (frames < needs->judged && frames < a->recorded && frames < b->recorded &&
-         distance_at(needs, a, frames, b, frames) <= bound) {
+         error_at(needs, limit, a, b, frames) <= bound) {
     frames++;
   }
   return frames;
@@ -121,6 +140,7 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
     else
       memcpy(row + 3 * k, q + 3 * needs->watch[k], 3 * sizeof(double));
   }
+  hk_needs_keep_values(needs, recorder->trial, &recorder->moved, state, path);
   return 0;
 }
 
@@ -134,11 +154,12 @@ static void see_start(hooke_state *state, void *ctx) {
   const struct hk_needs_recorder *recorder = ctx;
   const hooke_system *full = recorder->needs->m->system, *own = recorder->trial->system;
   const struct hk_variant_map *map = recorder->trial->map;
+  const double length = DISPLACEMENT * recorder->needs->want * recorder->needs->wants.length;
   uint64_t random = SEED;
   for (int64_t p = 0; p < full->particle_count && recorder->displaced; p++) {
     const int64_t to = map ? map->to[p] : p;
     for (int64_t a = 0; a < 3; a++) {
-      const double way = DISPLACEMENT * recorder->needs->want * hk_random_normal(&random);
+      const double way = length * hk_random_normal(&random);
       if (to >= 0 && own->inverse_mass[to] > 0.0) hooke_state_position(state)[3 * to + a] += way;
     }
   }
@@ -177,12 +198,14 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   recorder->needs->runs++;
   *finished = 0;
   int32_t status = judge_begin(recorder, options);
+  if (status == HOOKE_OK) status = hk_needs_move_watched(recorder->needs, recorder->trial, &recorder->moved);
   if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, &taken);
   cost->wall_seconds = taken.wall_seconds;
   cost->force_evaluations = taken.force_evaluations;
   cost->work = taken.work;
   cost->atol = isnan(cost->rtol) ? NAN : taken.atol;
   cost->steps = recorder->last_step;
+  hk_watched_release(&recorder->moved);
   *finished = status == HOOKE_OK;
   const int32_t judged = judge_end(recorder, *finished);
   if (judged != HOOKE_OK) return judged;

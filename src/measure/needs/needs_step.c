@@ -206,7 +206,7 @@ static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int3
 static void hand_over(struct hk_needs_path *from, struct hk_needs_path *to) {
   hk_needs_path_release(to);
   *to = *from;
-  from->position = NULL;
+  *from = (struct hk_needs_path){0};
 }
 
 /* The full system, and all variants against it, are judged up to where the best step can be trusted, with a

@@ -86,6 +86,8 @@ HOOKE_READER(double, wanted, struct hk_needs, hk_needs_cells(&it->part[row], 0, 
 HOOKE_READER(double, wanted_second, struct hk_needs, hk_needs_cells(&it->part[row], 1, it->part[row].factor))
 HOOKE_READER(double, wanted_third, struct hk_needs, hk_needs_cells(&it->part[row], 2, it->part[row].factor))
 
+HOOKE_READER(const char *, error_unit, struct hk_needs, it->wants.list ? "wants" : "m")
+
 /* ---- the tables ---- */
 
 const struct hk_table hk_needs_tables[] = {
@@ -93,7 +95,9 @@ const struct hk_table hk_needs_tables[] = {
      .doc = "what was asked and how it was judged",
      .record = 1,
      HOOKE_TABLE_COLUMNS(
-         HOOKE_COLUMN(struct hk_needs, want, NUMBER, "m", "the wanted error"),
+         HOOKE_COLUMN(struct hk_needs, want, NUMBER, "m", "the wanted error; 1 of a list"),
+         HOOKE_COLUMN_BY(error_unit, TEXT, "",
+                         "unit of errors: m, or \"wants\": they are parts of what a list wants"),
          HOOKE_COLUMN_BY(method, TEXT, "", "method of all runs"),
          HOOKE_COLUMN(struct hk_needs, method_picked, FLAG, "", "no method was given, so one was picked"),
          HOOKE_COLUMN(struct hk_needs, duration, NUMBER, "s", "duration of the run"),

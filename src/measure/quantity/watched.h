@@ -107,9 +107,10 @@ double hk_watched_period(int64_t count, const double *time, const double *value)
 struct hk_watched_series {
   const struct hk_watched_list *list; /* NULL: nothing is watched */
   int64_t frames;
-  double *value;  /* one quantity after another, `frames` each; NaN where missing */
-  double *figure; /* by quantity: difference from another run */
-  double *now;    /* by quantity: of one frame */
+  const double *time; /* of the frames, where it is given */
+  double *value;      /* one quantity after another, `frames` each; NaN where missing */
+  double *figure;     /* by quantity: difference from another run */
+  double *now;        /* by quantity: of one frame */
 };
 
 /* Allocates space for so many frames, all NaN. HOOKE_NO_MEMORY. */

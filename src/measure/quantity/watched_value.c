@@ -179,7 +179,7 @@ int32_t hk_watched_series_create(const struct hk_watched_list *list, int64_t fra
   double *block = hk_new(list->count, ((size_t)frames + 2) * sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   double *figure = block + list->count * frames;
-  *series = (struct hk_watched_series){list, frames, block, figure, figure + list->count};
+  *series = (struct hk_watched_series){list, frames, NULL, block, figure, figure + list->count};
   hk_watched_series_clear(series);
   return HOOKE_OK;
 }

@@ -25,7 +25,7 @@ static const double BEGINNING = 0.1;    /* duration studied if the reference rea
 static const double LONGER = 4.0;       /* from one budget to the next while it came to nothing */
 static const double LIMITS_SHARE = 0.1; /* of LEAST_WORK, for the limit of bodies at the start */
 static const double REVERSED = 2.0;     /* ratio of times that is worth telling */
-enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, MOST_BUDGETS = 2 };
+enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, MOST_OF_PERIODS = 1000, MOST_BUDGETS = 2 };
 
 /* Counted work that all of it may take, as far as that is known [s]. */
 static double most_work_of(const struct hk_pick *pick) {
@@ -49,8 +49,9 @@ static int32_t choose_frames(struct hk_pick *pick) {
   if (status == HOOKE_OK) status = hk_step_unit(pick->duration, every, &unit);
   if (status != HOOKE_OK) return status;
   const double units = round(pick->duration / unit);
+  const double most = pick->wants->whole ? MOST_OF_PERIODS : MOST_FRAMES;
   double apart = 1.0;
-  while (units / apart > MOST_FRAMES || fmod(units, apart) != 0.0)
+  while (units / apart > most || fmod(units, apart) != 0.0)
     if (++apart > units) apart = units;
   const double parts = ceil(FEWEST_FRAMES * apart / units);
   every = parts > 1.0 ? apart * unit / parts : apart * unit;
@@ -134,7 +135,9 @@ static int32_t make_reference(struct hk_pick *pick, double budget) {
   const double every = hooke_options_number(pick->run, "every");
   const struct hk_reference_request request = {.run = pick->run,
                                                .frame_count = hk_schedule_frames(duration, every),
-                                               .digits = DIGITS * pick->want,
+                                               .digits = DIGITS * pick->want * pick->wants->length,
+                                               .wants = pick->wants,
+                                               .watched = pick->wants->list,
                                                .enough = 1,
                                                .counted = 1,
                                                .budget = budget,
@@ -322,7 +325,7 @@ static int32_t run_row(struct search *s, double value, double displacement, doub
   if (looker.status != HOOKE_OK) status = looker.status;
   s->pick->work += trial.work;
   *result =
-      (struct result){.row = {s->method, value, trial.error_max, trial.error, trial.work, trial.wall_seconds},
+      (struct result){.row = {s->method, value, trial.wanted, trial.error, trial.work, trial.wall_seconds},
                       .late = trial.status && strcmp(trial.status, "stopped") == 0};
   if (status == HOOKE_OK && looker.soundness.time) status = judge(s, &looker.soundness, result);
   hk_soundness_release(&looker.soundness);
@@ -443,14 +446,14 @@ static int32_t begin(struct hk_pick *pick, const char *method, struct search *s)
   *s = (struct search){.pick = pick,
                        .method = method,
                        .adaptive = hooke_method_is_adaptive(method),
-                       .most = pick->want * pick->fraction - pick->reference.agreement,
+                       .most = pick->want * pick->fraction - pick->reference.wanted_agreement,
                        .meets = NAN,
                        .fails = NAN,
                        .error_meets = NAN,
                        .error_fails = NAN};
   s->order = s->adaptive ? 1.0 : (double)hk_method_find(method)->order;
   const int32_t status = find_largest(s);
-  s->first = s->adaptive ? s->most / pick->reference.extent : s->largest;
+  s->first = s->adaptive ? s->most * pick->wants->length / pick->reference.extent : s->largest;
   return status;
 }
 
@@ -626,9 +629,11 @@ static int32_t search_methods(struct hk_pick *pick) {
   return status;
 }
 
-int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
-                    int32_t count, const char *const *methods, hooke_progress *progress, void *ctx) {
+int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run,
+                    const struct hk_wants *wants, double want, int32_t count, const char *const *methods,
+                    hooke_progress *progress, void *ctx) {
   *pick = (struct hk_pick){.system = system,
+                           .wants = wants,
                            .want = want,
                            .method_count = count,
                            .methods = methods,

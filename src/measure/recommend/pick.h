@@ -18,21 +18,22 @@
 
 /* A row that was run: a method with a step or tolerance. */
 struct hk_pick_row {
-  const char *method; /* NULL: none */
-  double value;       /* step [s] or rtol */
-  double error,
-      rms;     /* largest distance of a free particle, and root mean square, over the judged frames [m] */
-  double work; /* counted, for the studied duration [s] */
+  const char *method;  /* NULL: none */
+  double value;        /* step [s] or rtol */
+  double error, rms;   /* what the want is held against, and the root mean square of distances [m], over the
+                        * judged frames */
+  double work;         /* counted, for the studied duration [s] */
   double wall_seconds; /* as measured, once */
 };
 
 struct hk_pick {
   const hooke_system *system;
-  hooke_options *run;        /* options of the runs: duration and frames as studied */
-  double want;               /* over the whole run [m] */
-  double duration, fraction; /* of the run [s]; studied part of it */
-  double unit;               /* largest step that fits frames and duration [s] */
-  int32_t method_count;      /* methods allowed; 0: any */
+  hooke_options *run;           /* options of the runs: duration and frames as studied */
+  const struct hk_wants *wants; /* what errors are of */
+  double want;                  /* over the whole run, as in `wants` */
+  double duration, fraction;    /* of the run [s]; studied part of it */
+  double unit;                  /* largest step that fits frames and duration [s] */
+  int32_t method_count;         /* methods allowed; 0: any */
   const char *const *methods;
   struct hk_reference reference;
   struct hk_pick_row best;   /* the cheapest that meets the want, or else the closest */
@@ -44,11 +45,12 @@ struct hk_pick {
   void *ctx;
 };
 
-/* Picks among `count` methods, which have to outlive the pick (0: any that is built). `run` has the duration
- * and all other options of methods. Must be released in either case. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY;
- * HOOKE_STOPPED, with the best row so far. */
-int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
-                    int32_t count, const char *const *methods, hooke_progress *progress, void *ctx);
+/* Picks for `want` of what is wanted, which has to outlive the pick, among `count` methods, which have to
+ * outlive the pick (0: any that is built). `run` has the duration and all other options of methods. Must be
+ * released in either case. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; HOOKE_STOPPED, with the best row so far. */
+int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run,
+                    const struct hk_wants *wants, double want, int32_t count, const char *const *methods,
+                    hooke_progress *progress, void *ctx);
 void hk_pick_release(struct hk_pick *pick);
 
 /* Time up to which the reference can be trusted, from the start of the run [s]. */

@@ -42,8 +42,8 @@ static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ense
 /* 1 if `row` is preferred to `other` of the same method: of those that meet the want the cheaper, otherwise
  * the finer. */
 static int is_better(const struct hk_study_row *row, const struct hk_study_row *other, double want) {
-  const int meets = row->trial.error_max <= want;
-  if (other == NULL || meets != (other->trial.error_max <= want)) return other == NULL || meets;
+  const int meets = row->trial.wanted <= want;
+  if (other == NULL || meets != (other->trial.wanted <= want)) return other == NULL || meets;
   return meets ? row->trial.wall_seconds < other->trial.wall_seconds : row->value < other->value;
 }
 
@@ -51,7 +51,7 @@ static int is_better(const struct hk_study_row *row, const struct hk_study_row *
  * finest; NaN without one. */
 static double choose_value(const struct hk_study *study, int32_t method) {
   const struct hk_study_recommendation *r = &study->recommendation;
-  const double want = hooke_options_number(study->m->options, "want");
+  const double want = study->wants.most;
   const struct hk_study_row *best = NULL;
   if (r->made && r->met && r->method == method) return r->value;
   for (int64_t k = 0; k < study->row_count; k++) {
@@ -71,7 +71,7 @@ static int32_t find_quantities(const struct hk_study *study, struct hk_watched_l
 }
 
 static int32_t create(const struct hk_study *study, struct hk_ensemble *ensemble) {
-  const double want = hooke_options_number(study->m->options, "want");
+  const double want = study->wants.most * study->wants.length;
   const struct hk_reference *r = &study->reference;
   ensemble->members = (int64_t)hooke_options_number(study->m->options, "ensemble");
   ensemble->noise = isnan(want) ? SHARE * r->extent : NOISE * want;

@@ -63,10 +63,10 @@ static double largest_speed(const struct hk_frames *frames) {
 /* 1, 0 or NaN, from a trial against a reference that is known to its agreement. */
 static double judge(const struct hk_study *study, const struct hk_reference *r,
                     const struct hk_trial *trial) {
-  const double want = study->recommendation.want, error = trial->error_max;
+  const double want = study->recommendation.want, error = trial->wanted;
   if (strcmp(trial->status, "finished") != 0) return 0.0;
-  if (r->trusted < 2 || error - r->agreement > want) return r->trusted < 2 ? NAN : 0.0;
-  return r->trusted >= study->reference.trusted && error + r->agreement <= want ? 1.0 : NAN;
+  if (r->trusted < 2 || error - r->wanted_agreement > want) return r->trusted < 2 ? NAN : 0.0;
+  return r->trusted >= study->reference.trusted && error + r->wanted_agreement <= want ? 1.0 : NAN;
 }
 
 /* The recommended run on a slightly changed system; NaN if the work was too little for it or its reference.
@@ -75,9 +75,13 @@ static int32_t try_change(struct hk_study *study, const hooke_system *changed, d
                           double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;
   const struct hk_listener listener = {.on_progress = hk_study_tell_row, .most_work = work, .ctx = study};
+  struct hk_watched_list list = study->watched;
+  struct hk_wants wants = study->wants;
   const struct hk_reference_request request = {.run = study->m->run,
                                                .frame_count = study->reference.frames.count,
-                                               .digits = best->want / 10.0,
+                                               .digits = best->want * wants.length / 10.0,
+                                               .wants = &wants,
+                                               .watched = &list,
                                                .enough = 1,
                                                .counted = 1,
                                                .budget = work,
@@ -85,6 +89,8 @@ static int32_t try_change(struct hk_study *study, const hooke_system *changed, d
   struct hk_reference reference;
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
+  list.system = changed; /* which has the same numbers and names */
+  if (wants.list) wants.list = &list;
   study->late = 0;
   study->row_deadline = study->deadline;
   int32_t status = hk_reference_create(changed, &request, &reference);
@@ -95,7 +101,7 @@ static int32_t try_change(struct hk_study *study, const hooke_system *changed, d
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &reference.frames, judged, options, &listener);
   if (status == HOOKE_OK && strcmp(trial.status, "stopped") != 0) {
     *holds = judge(study, &reference, &trial);
-    *error = trial.error_max;
+    *error = trial.wanted;
   }
   hk_trial_release(&trial);
   hooke_options_destroy(options);
@@ -177,10 +183,10 @@ static int64_t frames_until(const struct hk_reference *r, double until) {
 /* Its error over the first `frames`. */
 static void keep(struct hk_study *study, const struct hk_study_row *row, int64_t frames) {
   struct hk_study_recommendation *r = &study->recommendation;
-  const int finished = row->trial.error_max >= 0.0;
+  const int finished = row->trial.wanted >= 0.0;
   r->error = finished ? 0.0 : NAN;
   for (int64_t f = 0; f < frames && finished; f++)
-    r->error = fmax(r->error, row->trial.error_max_at[f]);
+    r->error = fmax(r->error, row->trial.wanted_at[f]);
   r->until = hk_reference_time(&study->reference, frames, study->duration);
   r->method = row->method;
   r->value = row->value;
@@ -214,7 +220,7 @@ static void keep_closest_row(struct hk_study *study) {
   const struct hk_study_row *closest = NULL;
   for (int64_t k = 0; k < study->row_count; k++) {
     const struct hk_study_row *row = &study->row[k];
-    if (row->trial.error_max >= 0.0 && (closest == NULL || row->trial.error_max < closest->trial.error_max))
+    if (row->trial.wanted >= 0.0 && (closest == NULL || row->trial.wanted < closest->trial.wanted))
       closest = row;
   }
   if (closest) keep(study, closest, study->reference.trusted);
@@ -223,17 +229,17 @@ static void keep_closest_row(struct hk_study *study) {
 static void explain(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
   const int picked = r->method >= 0;
-  const char *m = hk_metres(study->m->system);
+  const char *m = hk_wants_unit(&study->wants, study->m->system);
   if (!picked) keep_closest_row(study);
   if (study->budget_spent && (r->method < 0 || (!picked && study->late))) {
     hk_print(r->note, sizeof r->note, "the budget of %g s ended before a run was found; give a larger one",
              study->budget);
   } else if (r->method < 0) {
     explain_no_rows(study);
-  } else if (r->want <= study->reference.agreement) {
+  } else if (r->want <= study->reference.wanted_agreement) {
     hk_print(r->note, sizeof r->note,
              "%.3g%s is below %.3g%s, to which the reference itself is known; want more than that", r->want,
-             m, study->reference.agreement, m);
+             m, study->reference.wanted_agreement, m);
   } else if (!picked) {
     hk_print(r->note, sizeof r->note,
              "no run of these methods is clear of its stability limit; the closest row is %.3g%s off",
@@ -282,8 +288,8 @@ static int32_t pick_once(struct hk_study *study, double want, int32_t *met) {
   struct hk_pick pick;
   study->late = 0;
   study->row_deadline = study->deadline;
-  int32_t status = hk_pick_run(&pick, study->m->system, study->m->run, want, study->method_count,
-                               study->method, tell_pick, study);
+  int32_t status = hk_pick_run(&pick, study->m->system, study->m->run, &study->wants, want,
+                               study->method_count, study->method, tell_pick, study);
   if (status == HOOKE_STOPPED && study->late) {
     study->budget_spent = 1;
     status = HOOKE_OK;

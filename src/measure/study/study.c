@@ -34,8 +34,8 @@ static const struct hk_option_row study_rows[] = {
         "rtol of the error-controlled methods, coarse to fine; from 1e-3 down by tenths if not given",
         .low = 1e-14, .high = 0.1, .min_count = 1),
     HOOKE_OPTION(
-        "want", HOOKE_OPTION_POSITIVE("m"), NULL,
-        "error that one can live with, the largest distance of any free particle, for a recommendation"),
+        "want", HOOKE_OPTION_WANT, NULL,
+        "error that one can live with, the largest distance of any free particle, for a recommendation" HOOKE_WANT_FORMS),
     HOOKE_OPTION("budget", HOOKE_OPTION_POSITIVE("s"), NULL,
                  "time that the study may take; no limit if not given"),
     HOOKE_OPTION("watch", .type = HOOKE_OPTION_TEXT, NULL,
@@ -80,7 +80,8 @@ static int32_t read_watch(struct hk_study *study) {
     return hk_fail(HOOKE_BAD_VALUE, "ensemble",
                    "1 is not allowed: one start has no spread; allowed: 0 (none), or at least 2");
   }
-  return text[0] ? hk_watched_read(&study->watched, "watch", text) : HOOKE_OK;
+  const int32_t status = text[0] ? hk_watched_read(&study->watched, "watch", text) : HOOKE_OK;
+  return status == HOOKE_OK ? hk_wants_read(&study->wants, &study->watched, study->m->options) : status;
 }
 
 static int32_t create(hooke_measurement *m) {
@@ -120,12 +121,13 @@ static int compare_rows(const void *a, const void *b) {
 
 static int32_t make_reference(struct hk_study *study) {
   const struct hk_listener listener = {.on_progress = hk_study_tell_reference, .ctx = study};
-  const double want = hooke_options_number(study->m->options, "want");
+  const struct hk_wants *wants = &study->wants;
   const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
   const struct hk_reference_request request = {
       .run = study->m->run,
       .frame_count = hk_schedule_frames(study->duration, study->every),
-      .digits = isnan(want) ? NAN : want / 10.0,
+      .digits = wants->most * wants->length / 10.0,
+      .wants = wants,
       .brief = study->once,
       .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
       .listener = &listener,
@@ -163,7 +165,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (study->row_count > 0) qsort(study->row, (size_t)study->row_count, sizeof *study->row, compare_rows);
   for (int32_t k = 0; k < study->method_count; k++)
     hk_study_fit_order(study, k);
-  const double want = hooke_options_number(study->m->options, "want");
+  const double want = study->wants.most;
   study->deadline = study->begun + study->budget;
   if (status == HOOKE_OK && !isnan(want)) status = hk_study_find_cheapest(study, want);
   study->budget = budget;

@@ -4,7 +4,6 @@
 #define HOOKE_MEASURE_STUDY_STUDY_H
 
 #include "measure/measurement.h"
-#include "measure/quantity/watched.h"
 #include "measure/trial/method_list.h"
 #include "measure/trial/reference.h"
 
@@ -31,7 +30,7 @@ enum hk_study_change { HOOKE_STUDY_STIFFNESS, HOOKE_STUDY_START, HOOKE_STUDY_CHA
 struct hk_study_margin {
   /* step over the largest stable one, predicted at the start; NaN: error-controlled, or unknown */
   double limit_share;
-  /* largest error with the change [m]; NaN: unknown, or a run did not finish */
+  /* largest error with the change; NaN: unknown, or a run did not finish */
   double error[HOOKE_STUDY_CHANGES];
   double holds[HOOKE_STUDY_CHANGES]; /* 1: the wanted error is met with the change; 0: not; NaN: unknown */
 };
@@ -40,7 +39,7 @@ struct hk_study_recommendation {
   int32_t made, met;
   int32_t method;
   double want, value, atol, atol_velocity, wall_seconds, wall_median, force_evaluations;
-  double error; /* largest distance of any particle [m], */
+  double error; /* that the want is held against, */
   double until; /* up to this time after the start [s] */
   struct hk_study_margin margin;
   char note[512];
@@ -84,7 +83,8 @@ struct hk_study {
   int64_t row_count, row_capacity;
   struct hk_study_row *row;
   struct hk_study_recommendation recommendation;
-  struct hk_watched_list watched;
+  struct hk_watched_list watched; /* and what is wanted */
+  struct hk_wants wants;
   struct hk_ensemble *ensemble; /* NULL: none was computed */
 
   double
@@ -147,7 +147,7 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 
 /* Time up to which errors are known [s]; NaN without a reference. */
 double hk_study_trusted_until(const struct hk_study *study);
-/* The error of the recommendation [m] less what the reference is known to, 0 at least; NaN if not known. */
+/* The error of the recommendation less what the reference is known to, 0 at least; NaN if not known. */
 double hk_study_least_error(const struct hk_study *study);
 /* 1 if there is a recommendation: a run that meets the want or, in a complete study, the closest one. */
 int32_t hk_study_recommends(const struct hk_study *study);

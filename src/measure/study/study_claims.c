@@ -21,7 +21,8 @@ struct teller {
   int32_t all;         /* 1: that is the whole run */
   enum hk_claim_of of; /* what claims of the recommendation are true of, else of errors */
   char where[48];      /* " up to 9 s" where that is a part */
-  const char *m;       /* after a length */
+  const char *m;       /* after a length, and */
+  const char *want;    /* after what is wanted */
   const char *forces;  /* that are evaluated */
 };
 
@@ -57,11 +58,11 @@ static void tell_closest(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
   char run[SETTING_SIZE];
   say(t, "recommendation", isnan(r->error) ? HOOKE_OF_UNKNOWN : t->of, "reference",
-      "no run is recommended for an error of at most %.6g%s%s: %s", r->want, t->m, t->where, r->note);
+      "no run is recommended for an error of at most %.6g%s%s: %s", r->want, t->want, t->where, r->note);
   if (r->method < 0) return;
   say(t, "closest", t->of, "reference",
       "the closest is %s: its error%s is %.3g%s%s, with %.0f evaluations of the %s", name_run(t->study, run),
-      t->where, r->error, t->m, r->error <= r->want ? ", but nothing is known of its margin" : "",
+      t->where, r->error, t->want, r->error <= r->want ? ", but nothing is known of its margin" : "",
       r->force_evaluations, t->forces);
   tell_time(t);
 }
@@ -78,7 +79,7 @@ static void tell_change(const struct teller *t, const char *key, const char *cha
         "%s: no longer, a run did not come to its end or was not judged", change);
   else
     say(t, key, t->of, "reference", "%s: %s, its error%s is %.3g%s then", change,
-        held == 1.0 ? "still at most that" : "no longer", t->where, error, t->m);
+        held == 1.0 ? "still at most that" : "no longer", t->where, error, t->want);
 }
 
 static void tell_margin(const struct teller *t) {
@@ -86,7 +87,7 @@ static void tell_margin(const struct teller *t) {
   const double fraction = r->margin.limit_share;
   say(t, "margin", t->of, "reference",
       "that error%s lies between %.3g and %.3g%s, by what the reference is known to", t->where,
-      hk_study_least_error(t->study), r->error + t->study->reference.agreement, t->m);
+      hk_study_least_error(t->study), r->error + t->study->reference.wanted_agreement, t->want);
   if (t->study->m->system->generalized) return;
   if (fraction > 0.0 && !isinf(fraction))
     say(t, "stability", HOOKE_OF_PART, "limit", "its step is %.2g of the largest stable one at the start",
@@ -110,7 +111,7 @@ static void tell_recommendation(const struct teller *errors) {
   say(t, "recommendation", t->of, "reference",
       "the cheapest run found whose error is at most %.6g%s%s is %s: its error is %.3g%s, with %.0f evaluations of "
       "the %s%s",
-      r->want, t->m, t->all ? " over the whole run" : t->where, name_run(t->study, run), r->error, t->m,
+      r->want, t->want, t->all ? " over the whole run" : t->where, name_run(t->study, run), r->error, t->want,
       r->force_evaluations, t->forces, t->all ? "" : "; of what comes later nothing is known");
   tell_time(t);
   if (r->note[0]) say(t, "machine", HOOKE_OF_WHOLE, "clock", "%s", r->note);
@@ -228,6 +229,7 @@ void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *clai
   struct teller t = {.study = study,
                      .claims = claims,
                      .m = hk_metres(system),
+                     .want = hk_wants_unit(&study->wants, system),
                      .forces = hk_is_first_order(system) ? "rate" : "forces"};
   stand_until(&t, hk_study_trusted_until(study));
   tell_recommendation(&t);

@@ -165,7 +165,7 @@ void hk_study_prepare_guesses(struct hk_study *study) {
 }
 
 static int32_t tell(struct hk_study *study, double spent, double ahead) {
-  if (!isnan(hooke_options_number(study->m->options, "want"))) ahead += SHARE_OF_SEARCH * (spent + ahead);
+  if (!isnan(study->wants.most)) ahead += SHARE_OF_SEARCH * (spent + ahead);
   ahead = fmax(0.0, fmin(ahead, study->budget - spent));
   const double done = spent > 0.0 ? spent / (spent + ahead) : 0.0;
   study->told = fmax(study->told, done);

@@ -191,12 +191,12 @@ static struct cost predict(const struct hk_study *study, int32_t method, double 
 /* The least counted work of a row that meets the want [s]; infinity without one, or where the caller has
  * chosen the rows. */
 static double least_work(const struct hk_study *study) {
-  const double want = hooke_options_number(study->m->options, "want");
   double least = INFINITY;
   if (hk_study_chosen_ladder(study)) return INFINITY;
   for (int64_t k = 0; k < study->row_count; k++) {
     const struct hk_trial *trial = &study->row[k].trial;
-    if (trial->error_max <= want && strcmp(trial->status, "finished") == 0) least = fmin(least, trial->work);
+    if (trial->wanted <= study->wants.most && strcmp(trial->status, "finished") == 0)
+      least = fmin(least, trial->work);
   }
   return least;
 }
@@ -371,7 +371,7 @@ static void plan_level(struct hk_study *study, int32_t number, struct level *lev
 /* A search needs time for a run as fine as the reference. */
 static double end_of_rows(const struct hk_study *study) {
   const double end = study->begun + study->budget, left = end - hk_clock_seconds();
-  if (isnan(hooke_options_number(study->m->options, "want")) || isinf(end)) return end;
+  if (isnan(study->wants.most) || isinf(end)) return end;
   const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_work);
   return end - fmin(search, MOST_SEARCH * left);
 }

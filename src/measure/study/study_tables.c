@@ -84,12 +84,13 @@ HOOKE_READER(const char *, command, struct hk_study,
 
 /* fmax() would take an unknown number for 0. */
 double hk_study_least_error(const struct hk_study *study) {
-  const double least = study->recommendation.error - study->reference.agreement;
+  const double least = study->recommendation.error - study->reference.wanted_agreement;
   return isnan(study->recommendation.error) ? NAN : fmax(0.0, least);
 }
 
 HOOKE_READER(double, error_low, struct hk_study, hk_study_least_error(it))
-HOOKE_READER(double, error_high, struct hk_study, it->recommendation.error + it->reference.agreement)
+HOOKE_READER(const char *, unit_of_errors, struct hk_study, it->wants.list ? "wants" : "m")
+HOOKE_READER(double, error_high, struct hk_study, it->recommendation.error + it->reference.wanted_agreement)
 
 /* ---- watched quantities ---- */
 
@@ -306,15 +307,18 @@ const struct hk_table hk_study_tables[] = {
      .count = count_recommendations,
      HOOKE_TABLE_IN(struct hk_study, recommendation),
      HOOKE_TABLE_COLUMNS(
-         HOOKE_COLUMN(struct hk_study_recommendation, want, NUMBER, "m",
-                      "the wanted error, a distance that no free particle exceeds"),
+         HOOKE_COLUMN(
+             struct hk_study_recommendation, want, NUMBER, "m",
+             "the wanted error, a distance that no free particle exceeds; of a list 1, and errors are parts of it"),
+         HOOKE_COLUMN_BY_AS(unit_of_errors, error_unit, TEXT, "",
+                         "unit of errors: m, or \"wants\": they are parts of what a list wants"),
          HOOKE_COLUMN_BY_AS(
              recommended_method, method, TEXT, "",
              "method of the cheapest run that meets the wanted error, else of the closest run"),
          HOOKE_COLUMN_BY_AS(recommended_step, step, NUMBER, "s", "its step"),
          HOOKE_COLUMN_BY_AS(recommended_rtol, rtol, NUMBER, "", "its relative tolerance"),
          HOOKE_COLUMN(struct hk_study_recommendation, error, NUMBER, "m",
-                      "its error: the largest distance of any free particle"),
+                      "its error: the largest distance of any free particle, or what a list is held against"),
          HOOKE_COLUMN(struct hk_study_recommendation, until, NUMBER, "s",
                       "time up to which that holds; before the end where nobody knows the motion that long"),
          HOOKE_COLUMN(struct hk_study_recommendation, wall_seconds, NUMBER, "s",
@@ -369,7 +373,9 @@ const struct hk_table hk_study_tables[] = {
                          "twice the largest difference in it between the two runs of the "
                          "reference, the floor of its errors"),
          HOOKE_COLUMN_BY_AS(
-             watched_value, value, SERIES, "of the quantity",
+             watched_value,
+             value, SERIES,
+             "of the quantity",
              "the reference's values at every frame; of a period those of the quantity that it is of"))},
     {.name = "watched_errors",
      .group = "watched",

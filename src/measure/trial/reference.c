@@ -73,17 +73,23 @@ static void find_extent(struct hk_reference *r, const hooke_state *state) {
 
 /* ---- agreement ---- */
 
+/* Of one unit of what is wanted [m]. */
+static double length_of(const struct hk_reference *r) {
+  return r->frames.wants ? r->frames.wants->length : 1.0;
+}
+
 /* Number of initial frames whose distance, with the safety factor, is at most `digits`. */
 static void trust(struct hk_reference *r, const struct hk_trial *check, double digits) {
+  const double scale = SAFETY * length_of(r);
   r->digits = digits;
-  r->agreement = r->energy_agreement = 0.0;
+  r->agreement = r->wanted_agreement = r->energy_agreement = 0.0;
   for (r->trusted = 0; r->trusted < r->checked; r->trusted++) {
-    const double apart = SAFETY * check->error_max_at[r->trusted];
-    if (!(apart <= digits)) break;
-    r->agreement = fmax(r->agreement, apart);
+    if (!(scale * check->wanted_at[r->trusted] <= digits)) break;
+    r->agreement = fmax(r->agreement, SAFETY * check->error_max_at[r->trusted]);
+    r->wanted_agreement = fmax(r->wanted_agreement, SAFETY * check->wanted_at[r->trusted]);
     r->energy_agreement = fmax(r->energy_agreement, SAFETY * fabs(check->drift_at[r->trusted]));
   }
-  if (r->trusted < 2) r->agreement = NAN;
+  if (r->trusted < 2) r->agreement = r->wanted_agreement = NAN;
   if (r->trusted < 2 || r->frames.system->generalized) r->energy_agreement = NAN;
 }
 
@@ -94,7 +100,7 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
   r->checked = 0;
   watch->apart = 0.0;
   while (r->checked < r->frames.recorded && !isnan(check->error_max_at[r->checked]))
-    watch->apart = fmax(watch->apart, SAFETY * check->error_max_at[r->checked++]);
+    watch->apart = fmax(watch->apart, SAFETY * length_of(r) * check->wanted_at[r->checked++]);
   trust(r, check, isnan(wanted) ? fallback : wanted);
   r->coarse = r->trusted < 2 && r->digits < fallback;
   if (r->coarse) trust(r, check, fallback);
@@ -198,7 +204,7 @@ static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *
   next.trusted = next.checked = 0;
   int32_t status = hk_frames_create(r->frames.system, r->frames.count, &next.frames);
   if (status == HOOKE_OK)
-    status = hk_watched_series_create(watch->request->watched, r->frames.count, &next.frames.watched);
+    status = hk_frames_watch(&next.frames, watch->request->watched, watch->request->wants);
   if (status == HOOKE_OK) status = agree(watch, &next, tolerance, check);
   if (status != HOOKE_OK) {
     hk_frames_release(&next.frames);
@@ -259,6 +265,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
                              .growth_probability = NAN,
                              .growth_seen = NAN,
                              .agreement = NAN,
+                             .wanted_agreement = NAN,
                              .energy_agreement = NAN,
                              .coarse = 1};
   int32_t status = hooke_state_create(system, &state);
@@ -266,8 +273,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
   if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK) find_extent(r, state);
   hooke_state_destroy(state);
-  if (status == HOOKE_OK)
-    status = hk_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
+  if (status == HOOKE_OK) status = hk_frames_watch(&r->frames, request->watched, request->wants);
   if (status == HOOKE_OK && hk_reference_is_halved(r))
     status = hk_reference_find_longest(&watch, r, r->method);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);

@@ -18,6 +18,8 @@ struct hk_reference {
   /* twice the largest distance of a particle between the two over trusted frames, and of what rounding may do
    * to one [m]; at most `digits`; NaN if nothing after the start is trusted */
   double agreement;
+  double wanted_agreement; /* twice the largest difference there of what is wanted (hk_trial.wanted); NaN
+                              likewise */
   double energy_agreement; /* twice the largest difference of their energies there [J]; NaN likewise */
   int64_t checked;         /* frames at which the two were compared: all, or as many as the budget allowed */
   int64_t trusted;         /* of these, initial frames that agree to the digits */
@@ -37,7 +39,8 @@ struct hk_reference {
 struct hk_reference_request {
   const hooke_options *run; /* duration, every */
   int64_t frame_count;
-  double digits; /* accuracy of a trusted frame [m]; NaN: 1e-6 of the extent */
+  double digits; /* accuracy of a trusted frame [m], of `wants` by their length; NaN: 1e-6 of the extent */
+  const struct hk_wants *wants; /* of `watched`; NULL: the distance of the farthest particle */
   /* 1: no tighter than needed to trust all frames, beginning loosely, and no growth. 0: down to 1e-9 of the
    * extent, while there is time */
   int32_t enough;

@@ -37,6 +37,14 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
   return HOOKE_OK;
 }
 
+int32_t hk_frames_watch(struct hk_frames *frames, const struct hk_watched_list *list,
+                        const struct hk_wants *wants) {
+  const int32_t status = hk_watched_series_create(list, frames->count, &frames->watched);
+  frames->watched.time = frames->time;
+  frames->wants = wants;
+  return status;
+}
+
 void hk_frames_release(struct hk_frames *frames) {
   hk_free(frames->time);
   hk_free(frames->free_place);
@@ -113,6 +121,7 @@ static const struct hk_trial none = {.step = NAN,
                                      .error = NAN,
                                      .error_max = NAN,
                                      .error_final = NAN,
+                                     .wanted = NAN,
                                      .energy_drift = NAN,
                                      .force_evaluations = NAN,
                                      .steps = NAN,
@@ -121,11 +130,12 @@ static const struct hk_trial none = {.step = NAN,
 
 static int32_t make_space(const struct hk_frames *reference, struct hk_trial *trial) {
   *trial = none;
-  double *block = hk_new(reference->count, 3 * sizeof(double));
+  double *block = hk_new(reference->count, 4 * sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   trial->error_at = hk_part(&block, reference->count);
   trial->error_max_at = hk_part(&block, reference->count);
   trial->drift_at = hk_part(&block, reference->count);
+  trial->wanted_at = hk_part(&block, reference->count);
   const int32_t status = hk_watched_series_create(reference->watched.list, reference->count, &trial->watched);
   if (status != HOOKE_OK) hk_trial_release(trial);
   return status;
@@ -187,6 +197,19 @@ static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   trial->error_max = fmax(trial->error_max, trial->error_max_at[f]);
   trial->error_final = trial->error_at[f];
   trial->energy_drift = fmax(trial->energy_drift, fabs(trial->drift_at[f]));
+}
+
+/* Of every frame that it came to. */
+static void judge_wants(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames) {
+  const struct hk_wants *wants = hk_wants_is_list(reference->wants) ? reference->wants : NULL;
+  double bound[HOOKE_WANTS];
+  if (wants) hk_wants_bounds(wants, &reference->watched, reference->recorded, bound);
+  for (int64_t f = 0; f < frames && !isnan(trial->error_max_at[f]); f++) {
+    double error = trial->error_max_at[f];
+    if (wants) error = hk_wants_error(wants, bound, &trial->watched, &reference->watched, f, error);
+    trial->wanted_at[f] = error;
+    if (!(error <= trial->wanted) && !isnan(trial->wanted)) trial->wanted = error;
+  }
 }
 
 /* What rounding may have displaced a particle by so far [m]: by chance in every step, but always in the same
@@ -262,15 +285,17 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   hooke_integrator *integrator = NULL;
   int32_t status = trial->error_at ? HOOKE_OK : make_space(reference, trial);
   if (status != HOOKE_OK) return status;
-  trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
+  trial->error = trial->error_max = trial->error_final = trial->energy_drift = trial->wanted = 0.0;
   for (int64_t f = 0; f < reference->count; f++)
-    trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = NAN;
+    trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = trial->wanted_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
+  trial->watched.time = reference->time; /* not that of the last run */
   status = run_once(&run, reference->system, options, &integrator);
+  judge_wants(trial, reference, frames);
   const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
   if (too_long) status = HOOKE_STOPPED;
   if (status != HOOKE_OK || frames < 2)
-    trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
+    trial->error = trial->error_max = trial->error_final = trial->energy_drift = trial->wanted = NAN;
   if (integrator == NULL) return status;
   keep_counts(&run);
   hooke_integrator_destroy(integrator);

@@ -5,7 +5,7 @@
 
 #include "hooke/measurement.h"
 #include "integrate/integrator.h"
-#include "measure/quantity/watched.h"
+#include "measure/quantity/wants.h"
 
 /* The frames of a run, kept for judging other runs: memory is bounded by the number of frames, not of steps.
  */
@@ -20,12 +20,16 @@ struct hk_frames {
   double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
   int64_t *free_place, free_count;         /* particles, or coordinates: errors are measured over these */
   struct hk_watched_series watched;        /* empty unless created */
+  const struct hk_wants *wants;            /* of its `watched`; NULL: the largest distance is the error */
   hooke_state *middle;                     /* the state at frame count / 2, once it is recorded */
   char zero_passages[HOOKE_PASSAGES_TOLD]; /* of their run: see hooke_integrator_text() */
 };
 
 /* Allocates `count` frames of a committed system. HOOKE_NO_MEMORY. */
 int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames);
+/* Lets them record what is watched and wanted (each NULL: nothing). HOOKE_NO_MEMORY. */
+int32_t hk_frames_watch(struct hk_frames *frames, const struct hk_watched_list *list,
+                        const struct hk_wants *wants);
 void hk_frames_release(struct hk_frames *frames);
 
 /* Records the next frame; those beyond `count` are ignored. */
@@ -60,12 +64,14 @@ struct hk_trial {
   double step, rtol, atol, atol_velocity; /* NaN if the method does not take it */
   /* NaN unless finished, with a judged frame after the start; no distance is below what rounding may do */
   double error, error_max, error_final, energy_drift;
+  double wanted;   /* the error that a want is held against (quantity/wants.h), or error_max */
   double rounding; /* by how much it may have displaced a particle [m] */
   double force_evaluations, steps, linear_iterations, wall_seconds;
-  double work;                                /* counted (measure/counted_work) [s] */
-  int64_t frames;                             /* that it came to */
-  double *error_at, *error_max_at, *drift_at; /* one a frame of the reference, NaN where missing */
-  struct hk_watched_series watched;           /* quantities watched by the reference, with their errors */
+  double work;    /* counted (measure/counted_work) [s] */
+  int64_t frames; /* that it came to */
+  double *error_at, *error_max_at, *drift_at,
+      *wanted_at;                   /* one a frame of the reference, NaN where missing */
+  struct hk_watched_series watched; /* quantities watched by the reference, with their errors */
 };
 
 void hk_trial_release(struct hk_trial *trial);

@@ -118,7 +118,7 @@ def needs(
 ) -> Needs:
     """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds the change of
     the watched positions and the savings; then leaves out together everything that is not needed for errors of at
-    most `want` [m], and checks the lean system against the full one.
+    most `want` [m], or within a list as of ``hooke.run``, and checks the lean system against the full one.
 
     `watch` is the name of a part or of a group, or particle numbers; None: all free particles. Steps and
     tolerances are found. ``refine=True`` does the reverse: it runs each part at once, twice and four times its

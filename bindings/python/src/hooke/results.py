@@ -97,7 +97,8 @@ class Result:
     is said of it, which ``print(result)`` shows; both are found when they are first asked for. `watched` is a table of
     what was watched, a row a quantity, with the columns `quantity`, `unit`, `value` (at the end), `minimum`,
     `at_minimum`, `maximum`, `at_maximum`, and `from` and `until`: the time [s] that smallest and largest are known for,
-    the whole run unless it ended early.
+    the whole run unless it ended early. `wants` is a table of what was wanted: `quantity`,
+    `unit`, `wanted`, `error`, `met`.
     """
 
     status: str
@@ -115,6 +116,7 @@ class Result:
     judged: Judged | None = field(default=None, repr=False, compare=False)
     probes_file: Path | None = None
     watched: Table | None = None
+    wants: Table | None = None
 
     @property
     def error(self) -> RunError | None:
@@ -207,10 +209,11 @@ def run(
     at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
 
     ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance such that no frame has a larger error,
-    runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice. The
-    result's `error` holds it. Without `want` it is estimated when it is first asked for, with a few times the work of
-    the run; ``estimate=True`` does it at once, and writes it into `output`, ``estimate=False`` never. A run from a
-    `state` has none, and one with callbacks for forces or drives not without ``estimate=True``.
+    runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice. A list,
+    ``want="tip=2mm,line:max.tension=1%,energy=0.1J"``, bounds the errors of watched quantities, also in % of their
+    largest value. The result's `error` holds it. Without `want` it is estimated when it is first asked for, with a few
+    times the work of the run; ``estimate=True`` does it at once, and writes it into `output`, ``estimate=False`` never.
+    A run from a `state` has none, and one with callbacks for forces or drives not without ``estimate=True``.
 
     ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the
     largest over all steps, in the result's `watched`.
@@ -284,7 +287,8 @@ class _Once:
         result = replace(result, judged=Judged(lambda: found))
         if judged and self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
-        return replace(result, watched=estimate.rows("watched")) if estimate.count("watched") > 0 else result
+        watched, wants = (estimate.rows(table) if estimate.count(table) > 0 else None for table in ("watched", "wants"))
+        return replace(result, watched=watched, wants=wants)
 
     @contextlib.contextmanager
     def _probing(self, integrator: Integrator) -> Iterator[None]:

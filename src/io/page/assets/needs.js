@@ -1,7 +1,7 @@
 "use strict";
 /* The diagrams of needs. */
 
-const { full, lean, want } = data;
+const { full, lean, want } = data, UNIT = `[${data.error_unit}]`;
 for (const cost of [full, ...data.rows, ...(lean ? [lean, lean.full] : [])])
   if (cost.unlimited) cost.step_limit = "none";
 const ran = full.wall_seconds !== null;
@@ -104,8 +104,8 @@ function drawChanges() {
     || value > want * 1e-9));
   const bars = rows.map((row) => ({ label: row.without, value: row.error, text: changeText(row), kind: kindOf(row),
     lines: [`change ${changeText(row)}, ${KINDS[kindOf(row)][0]}`, ...(row.note ? [row.note] : [])] }));
-  drawBars("changes", bars, KINDS, logAxis("change of the watched positions [m]", range),
-    { value: want, text: `wanted: ${words(want)} m`, colour: INK });
+  drawBars("changes", bars, KINDS, logAxis(`change of what is watched ${UNIT}`, range),
+    { value: want, text: `wanted: ${words(want)} ${data.error_unit}`, colour: INK });
 }
 
 /* ---- costs ---- */

@@ -10,7 +10,7 @@ function cellsOf(part, what) {
 
 /* ---- tables ---- */
 
-const COLUMNS = [["error", "change", "[m]"], ["wall_seconds", "wall time", "[s]"], ["per_step", "a step", "[ns]"],
+const COLUMNS = [["error", "change", UNIT], ["wall_seconds", "wall time", "[s]"], ["per_step", "a step", "[ns]"],
   ["step_limit", "stable", "[s]"], ["step", "step", "[s]"], ["rtol", "rtol", ""], ["steps", "steps", ""],
   ["force_evaluations", "force", "evaluations"], ["springs", "springs", ""], ["particles", "particles", ""]];
 const COUNTS = new Set(["steps", "force_evaluations", "springs", "particles"]);
@@ -32,9 +32,9 @@ function writeRows() {
 
 function writeParts() {
   writeTable("parts", data.parts, [["part", "", (part) => part.part, "word"],
-    ["cells N", "", (part) => cellsOf(part, "cells")], ["N to 2N", "[m]", (part) => exact(part.change)],
-    ["2N to 4N", "[m]", (part) => exact(part.change_fine)], ["order", "", (part) => exact(part.order)],
-    ["left", "[m]", (part) => exact(part.error)], ["the want", "asks for", (part) => cellsOf(part, "wanted")],
+    ["cells N", "", (part) => cellsOf(part, "cells")], ["N to 2N", UNIT, (part) => exact(part.change)],
+    ["2N to 4N", UNIT, (part) => exact(part.change_fine)], ["order", "", (part) => exact(part.order)],
+    ["left", UNIT, (part) => exact(part.error)], ["the want", "asks for", (part) => cellsOf(part, "wanted")],
     ["", "", (part) => part.note, "word note"]]);
 }
 
@@ -47,7 +47,7 @@ function writePictured() {
 
 function writeAbout() {
   at("about-head").textContent = "The scene";
-  facts("about", { "wanted [m]": want, particles: data.particles, watched: data.watched, springs: ran ? full.springs : "",
+  facts("about", { [`wanted ${UNIT}`]: want, particles: data.particles, watched: data.watched, springs: ran ? full.springs : "",
     method: data.method, "step [s]": full.step, rtol: full.rtol === null ? "" : words(full.rtol), "duration [s]": data.duration,
     "judged until [s]": ran ? data.judged_until : "", runs: data.runs, date: data.date });
 }

@@ -3,7 +3,7 @@
 
 const study = data;
 const floor = study.reference.agreement;
-const recommended = study.recommendation;
+const recommended = study.recommendation && study.recommendation.error_unit === "m" ? study.recommendation : null;
 const want = recommended ? recommended.want : null;
 /* As far as errors are known: where they are not known to the end, `met` is null. */
 const meets = recommended !== null && recommended.met !== false && recommended.error !== null;
