@@ -40,6 +40,11 @@ int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli
 int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
                       const char *method);
 
+/* Makes step, `every` and duration fit one another, as hooke_step_fit() does, and reports each change in a
+ * line; with --strict nothing is changed. That there is no step is reported, or with `may_lack` left to what
+ * comes. */
+int cli_setup_fit(const struct cli_arguments *arguments, struct cli_setup *setup, int32_t may_lack);
+
 /* Checks that `output` (NULL: none) is another file than `input`, which is called `what` in the message. */
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
                           const char *output);

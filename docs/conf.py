@@ -83,6 +83,10 @@ def adapt(app, name, source) -> None:
             title, rest = source[0].split("\n\n", 1)
             source[0] = f"{title}\n\n{FRONT}\n{rest}"
         source[0] += "\n\n" + navigation(source[0]) + "\n"
+    if name == "notebooks" and (Path(app.srcdir) / "notebooks").exists():
+        source[0] = re.sub(r"\(\.\./examples/(notebooks/[\w-]+)\.ipynb\)", r"(\1.md)", source[0])
+        pages = re.findall(r"\((notebooks/[\w-]+)\.md\)", source[0])
+        source[0] += "\n\n" + "\n".join(["```{toctree}", ":hidden:", "", *pages, "```"]) + "\n"
     if name == "lecture":
         source[0] = lecture(source[0])
     if not name.startswith("reference/"):

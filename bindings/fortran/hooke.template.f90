@@ -23,7 +23,7 @@ module hooke
   use hooke_handles
   implicit none
   private
-  public :: hooke_real, hooke_long, hooke_message, hooke_status_name, hooke_system_warnings
+  public :: hooke_real, hooke_long, hooke_message, hooke_status_name, hooke_system_warnings, hooke_step_fit
 
   ! Named options, with their types, units, bounds and defaults.
   type, extends(hooke_handle) :: hooke_options
@@ -131,6 +131,19 @@ contains
     if (missing(status, system)) return
     called%it => warning
     call accept(c_system_warnings(system%address(), c_funloc(call_warning), c_loc(called)), status)
+  end subroutine
+
+  ! Makes step, every and duration of a run fit one another; each change is told.
+  subroutine hooke_step_fit(system, q, run, told, status)
+    class(hooke_system), intent(in) :: system
+    real(c_double), intent(in), contiguous, target :: q(:, :)
+    class(hooke_options), intent(inout) :: run
+    class(hooke_warning), target, intent(inout) :: told
+    integer, intent(out), optional :: status
+    type(called_object), target :: called
+    if (missing(status, system, run)) return
+    called%it => told
+    call accept(c_step_fit(system%address(), q, run%address(), c_funloc(call_warning), c_loc(called)), status)
   end subroutine
 
   subroutine state_refresh(self)

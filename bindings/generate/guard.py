@@ -14,7 +14,7 @@ NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_
 # Texts, arrays, callbacks and places for results that may be NULL, by the names of their parameters; and those that need
 # the function's name as well.
 OPTIONAL = {"folder", "run", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first", "observer", "product",
-            "progress", "rest_length", "stiffness", "velocity", "warning"}
+            "progress", "rest_length", "stiffness", "told", "velocity", "warning"}
 OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"), ("hooke_measurement_label", "text"),
                ("hooke_measurement_json", "table"), ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"),
                ("hooke_system_members", "particles"), ("hooke_system_add_members", "particles"),

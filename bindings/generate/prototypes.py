@@ -1,10 +1,12 @@
 """Writes the generated modules of the Python package: python bindings/generate/prototypes.py FOLDER makes
-FOLDER/_prototypes.py, with the prototypes of all public functions, and FOLDER/parts.py (parts.py)"""
+FOLDER/_prototypes.py, with the prototypes of all public functions, FOLDER/parts.py (parts.py) and FOLDER/_keywords.py
+(keywords.py)"""
 
 import sys
 from pathlib import Path
 
 import headers
+import keywords
 import parts
 
 INTRO = '''"""Every function of the library with the types of its result and arguments; made from the headers in include/hooke by
@@ -71,3 +73,4 @@ def module(public):
 if __name__ == "__main__":
     headers.write(Path(sys.argv[1]) / "_prototypes.py", module(headers.public()))
     headers.write(Path(sys.argv[1]) / "parts.py", parts.module())
+    headers.write(Path(sys.argv[1]) / "_keywords.py", keywords.module())

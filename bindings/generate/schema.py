@@ -1,9 +1,11 @@
-"""Writes examples/scene.schema.json from scene.template.json and the option tables of the library, of the build in
-build/release if no other is in PYTHONPATH: python bindings/generate/schema.py"""
+"""Writes examples/scene.schema.json, from scene.template.json and the option tables of the library, and options.json
+(keywords.py), of the build in build/release if no other is in PYTHONPATH: python bindings/generate/schema.py"""
 
 import json
 import sys
 from pathlib import Path
+
+import keywords
 
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATE = Path(__file__).with_name("scene.template.json")
@@ -166,3 +168,4 @@ def laid_out(value, indent=0, lead=0):
 if __name__ == "__main__":
     sys.path.append(str(ROOT / "build/release/python"))
     SCHEMA.write_text(laid_out(schema()) + "\n", encoding="utf-8")
+    keywords.TABLES.write_text(laid_out(keywords.tables()) + "\n", encoding="utf-8")

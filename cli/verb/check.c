@@ -1,6 +1,5 @@
 /* hooke check: validates a scene and reports its size, memory and step limits, without running it. */
 #include "measured.h"
-#include "fit.h"
 #include "os.h"
 #include "print.h"
 #include "report.h"
@@ -232,7 +231,7 @@ static int check_and_tell(struct check *check) {
 static int do_check(const struct cli_arguments *arguments) {
   struct check check = {.arguments = arguments};
   int code = cli_setup_load(arguments, &check.setup);
-  if (code == HOOKE_EXIT_DONE) code = cli_fit_run(arguments, &check.setup, 1);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_fit(arguments, &check.setup, 1);
   if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check);
   hooke_measurement_destroy(check.found);
   hooke_measurement_destroy(check.cost);

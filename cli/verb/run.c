@@ -1,7 +1,6 @@
 /* hooke run: integrates a scene and reports the result. */
 #include "blow_up.h"
 #include "command.h"
-#include "fit.h"
 #include "os.h"
 #include "probes.h"
 #include "report.h"
@@ -371,7 +370,7 @@ static int run_and_tell(struct cli_run *run) {
 static int make_ready(struct cli_run *run) {
   int code = cli_setup_load(run->arguments, &run->setup);
   if (code == HOOKE_EXIT_DONE) code = cli_want_pick(run);
-  if (code == HOOKE_EXIT_DONE && !run->resumed) code = cli_fit_run(run->arguments, &run->setup, 0);
+  if (code == HOOKE_EXIT_DONE && !run->resumed) code = cli_setup_fit(run->arguments, &run->setup, 0);
   if (code != HOOKE_EXIT_DONE) return code;
   const int told =
       !run->arguments->quiet && cli_arguments_text(run->arguments, "want"); /* else by the integrator */

@@ -1,7 +1,6 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
 #include "measured.h"
 #include "command.h"
-#include "fit.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
@@ -181,7 +180,7 @@ static int find_out(struct why *why) {
   if (why->record && !cli_arguments_has_run(arguments) && !added) {
     status = read_output(why);
   } else {
-    int code = cli_fit_run(arguments, &why->setup, 0);
+    int code = cli_setup_fit(arguments, &why->setup, 0);
     if (code == HOOKE_EXIT_DONE)
       code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
     if (code != HOOKE_EXIT_DONE) return code;

@@ -277,6 +277,15 @@ HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *metho
  * predicted where the scene begins. It does not with obstacles, curves or springs that follow time. Other
  * options of a run stay as they are. HOOKE_BAD_VALUE for options of another kind; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_step_settle(const hooke_system *system, hooke_options *run);
+/* Makes step, `every` and duration of the options `run` fit one another, for a method of fixed step. A
+ * missing step becomes the largest that fits, up to half of hooke_step_bound() at q (3n), or a thousandth of
+ * the duration where nothing is known to limit it. A given one becomes up to 10 % less, or else `every` and
+ * duration its nearest whole multiples. `told` (or NULL) hears each change in a sentence; its `kind` is the
+ * name of the option. Options without a duration stay as they are. HOOKE_UNSUITED where no step is certain to
+ * be stable, or 1e8 of them are too few; HOOKE_STOPPED if `told` returned anything but 0; and what
+ * hooke_step_bound() returns. */
+HOOKE_API int32_t hooke_step_fit(const hooke_system *system, const double *q, hooke_options *run,
+                                 hooke_warning *told, void *ctx);
 
 #ifdef __cplusplus
 }

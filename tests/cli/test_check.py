@@ -302,7 +302,7 @@ def test_why_no_step_can_be_chosen_is_a_warning_of_check(hooke, write):
     lack, never = check.json["warnings"]
     assert check.code == 0 and lack == "the run has no step, which forward-euler takes"
     assert never.startswith("forward-euler, the method of the run, is stable at no step")
-    sentence = "no step: forward-euler is certain to be stable here at no step; give one with --step, or take another method"
+    sentence = "no step: forward-euler is certain to be stable here at no step; give one, or take another method"
     assert (run.code, run.err) == (2, f"hooke run: {sentence}\n")
 
 

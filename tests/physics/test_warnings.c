@@ -3,6 +3,7 @@
 #include "run.h"
 #include "small.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -107,4 +108,38 @@ TEST(test_once_a_run) {
   owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(warned.count, 2);
+}
+
+/* The oscillator of 10 rad/s is stable up to 0.2 s. */
+TEST(test_a_step_that_fits) {
+  owned_system *system = small_oscillator(10.0);
+  owned_state *state = start_state(system);
+  const double *q = hooke_state_position(state);
+  const struct {
+    const char *words, *kind;
+    double step, duration;
+    int64_t told;
+  } cases[] = {
+      {"method=verlet duration=1", "step", 0.1, 1.0, 1},
+      {"method=verlet duration=1 every=0.09", "duration", 0.09, 0.99, 2},
+      {"method=verlet duration=1 step=0.08", "step", 1.0 / 13.0, 1.0, 1},
+      {"method=verlet duration=1 step=0.3", "duration", 0.3, 0.9, 1},
+      {"method=verlet duration=1 step=0.05", "", 0.05, 1.0, 0},
+      {"method=cvode-adams duration=1", "", 0.0, 1.0, 0},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct warned warned = {.count = 0};
+    owned_options *run = options_with("run", "%s", cases[k].words);
+    check_ok(hooke_step_fit(system, q, run, note, &warned));
+    assert_int_equal(warned.count, cases[k].told);
+    assert_string_equal(warned.kind, cases[k].kind);
+    check_close(hooke_options_number(run, "duration"), cases[k].duration, 1e-12);
+    if (cases[k].step > 0.0) check_close(hooke_options_number(run, "step"), cases[k].step, 1e-12);
+  }
+  struct warned warned = {.answer = 1};
+  owned_options *run = options_with("run", "method=verlet duration=1");
+  assert_int_equal(hooke_step_fit(system, q, run, note, &warned), HOOKE_STOPPED);
+  owned_options *unstable = options_with("run", "method=forward-euler duration=1");
+  assert_int_equal(hooke_step_fit(system, q, unstable, NULL, NULL), HOOKE_UNSUITED);
+  assert_true(isnan(hooke_options_number(unstable, "step")));
 }

@@ -71,8 +71,25 @@ def test_a_trajectory_is_shown_by_the_viewer(scene, strange_path):
     result = scene.run(output=strange_path)
     with hooke.open(strange_path) as trajectory:
         assert 'id="data"' in page_in(trajectory._repr_html_())
-    assert 'id="data"' in page_in(result._repr_html_())
-    assert scene.run()._repr_html_() is None
+    words, _, frame = result._repr_html_().rpartition("</p>")
+    assert 'id="data"' in page_in(frame) and words.startswith("<p>the error is at most ")
+    assert scene.run(estimate=False)._repr_html_() is None
+
+
+@needs_pages
+def test_what_is_to_be_run_is_shown_and_stays_open(scene):
+    assert 'id="data"' in page_in(scene._repr_html_())
+    open_scene = hooke.Scene(STRANGE, gravity=(0, -9.81, 0)).particles([[0, 0, 0], [1, 0, 0]], mass=1)
+    assert 'id="data"' in page_in(open_scene._repr_html_()) and not open_scene.system.is_committed
+    open_scene.springs(between=[[0, 1]], stiffness=1)
+    assert hooke.System()._repr_html_() is None
+
+
+@needs_pages
+def test_a_diverged_run_without_a_file_plays_why(scene):
+    with pytest.warns(hooke.StepWarning):
+        result = scene.run(step=1.0, every=1.0, duration=100.0)
+    assert "diverged" in page_in(result._repr_html_())
 
 
 @needs_pages
@@ -106,7 +123,8 @@ def test_others_show_their_rows(scene, tmp_path):
 
 def test_every_kind_of_result_is_tried():
     shown = {name for name, kind in vars(hooke).items() if isinstance(kind, type) and hasattr(kind, "_repr_html_")}
-    assert shown == {"Study", "Limit", "Needs", "Why", "Result", "Trajectory", "Cost", "Check", "Rest", "Modes"}
+    assert shown == {"Study", "Limit", "Needs", "Why", "Result", "Trajectory", "Cost", "Check", "Rest", "Modes",
+                     "Scene", "System"}
 
 
 def test_rows_become_a_data_frame(scene):

@@ -2,6 +2,7 @@
 
 import gc
 import json
+import pickle
 import sys
 import warnings
 
@@ -178,7 +179,7 @@ def test_a_state_of_another_system_is_refused(system):
 
 def test_a_step_that_does_not_fit_is_refused(system):
     with pytest.raises(hooke.BadValue, match="step"):
-        hooke.run(system, method="symplectic-euler", step=0.3, duration=1)
+        hooke.run(system, method="symplectic-euler", step=0.3, duration=1, strict=True)
 
 
 def test_a_force_given_to_run(scene):
@@ -314,17 +315,23 @@ def test_what_is_watched_is_a_table():
         hooke.run(build_oscillator(), state=start, **{**options, "watch": "1.reaction"})
 
 
-def test_an_error_is_estimated_where_that_is_asked_for(tmp_path):
+def test_an_error_is_estimated_when_it_is_asked_for(tmp_path):
     options = {"method": "symplectic-euler", "step": 1e-3, "duration": 1.0, "output": tmp_path / "out.h5"}
-    assert hooke.run(build_oscillator(), **options).error is None
+    assert hooke.run(build_oscillator(), estimate=False, **options).error is None
+    later = hooke.run(build_oscillator(), **options)
+    later.state.q += 1  # which is the caller's
     assert hooke.open(tmp_path / "out.h5").error is None
     result = hooke.run(build_oscillator(), estimate=True, **options)
+    assert repr(later.error) == repr(result.error) == repr(pickle.loads(pickle.dumps(later)).error)
     kept = hooke.open(tmp_path / "out.h5").error
     assert kept is not None and repr(kept) == repr(result.error)
     frames = hooke.open(tmp_path / "out.h5")
     truly = np.abs(frames.q[:, 1, 0] - 1 - 0.25 * np.cos(np.sqrt(40) * frames.t)).max()
     assert truly <= result.error.estimate < 1.3 * truly and result.error.met is None
     assert result.error.heat_excess == 0
+    pushed = build_oscillator()
+    pushed.set_force(lambda t, q, v, force: None)
+    assert hooke.run(pushed, **options).error is None and hooke.run(pushed, estimate=True, **options).error is not None
 
 
 @pytest.mark.parametrize(

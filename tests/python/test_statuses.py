@@ -45,7 +45,7 @@ def test_bad_value_carries_the_message_of_the_library(system):
         lambda system: system.add_particles([[0, 0]], mass=1),
         lambda system: system.add_particles([[0, 0, 0]], mass=[1, 2]),
         lambda system: system.add_particles([[0, 0, 0]], [[1, 1, 1], [2, 2, 2]], mass=1),
-        lambda system: system.add_particles([["0", "0", "0"]], mass=1),
+        lambda system: system.add_particles([["0", "0", "up"]], mass=1),
         lambda system: system.pin(6),
         lambda system: system.pin(0.5),
         lambda system: system.pin(-1),

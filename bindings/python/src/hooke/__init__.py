@@ -13,8 +13,9 @@ it, `open` reads the output of a run, `compare` compares several methods with a 
 error against cost and recommends, `limit` finds the largest stable steps, `rest` where a scene is at rest, `cost`
 measures the cost of each ingredient, `check` tells what a scene is without running it, `needs` finds the
 ingredients that a scene can do without, `why` explains a run that blew up, `sweep` runs a scene with many values,
-`view` writes a page that plays a trajectory, `verify` checks that one reproduces from its scene, `Integrator` is for
-time loops of your own. Units are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
+`view` writes a page that plays a trajectory, `verify` checks that one reproduces from its scene, `convert` makes scenes
+of other libraries' objects, `Integrator` is for time loops of your own. Units are SI, positions and velocities are NumPy
+arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations
@@ -29,11 +30,12 @@ except ModuleNotFoundError as missing:
         "hooke needs NumPy, which this Python has not: pip install numpy (Debian: python3-numpy)", name=missing.name
     ) from None
 
+from .why import Why  # isort: skip  # before the function that has the name of its module
 from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from .cost import Check, Cost, check, cost
 from .files import Verification, verify, view, write_xdmf
-from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
+from .integrator import FitWarning, Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
 from .modes import Modes, modes
 from .needs import Needs, needs
@@ -48,7 +50,6 @@ from .study import Study, compare, study
 from .sweep import Sweep, sweep
 from .system import System
 from .trajectory import Energy, Frame, Trajectory, open
-from .why import Why
 
 __version__: str = build_facts()["version"]
 
@@ -64,6 +65,7 @@ __all__ = [
     "Energy",
     "Error",
     "FirstOrder",
+    "FitWarning",
     "Frame",
     "Frames",
     "IOFailed",
@@ -101,6 +103,7 @@ __all__ = [
     "build_facts",
     "check",
     "compare",
+    "convert",
     "cost",
     "describe",
     "limit",
@@ -130,6 +133,6 @@ def __dir__() -> list[str]:
 
 def __getattr__(name: str) -> Any:
     # matplotlib is an extra, and slow to import
-    if name in ("plot", "animation"):
+    if name in ("plot", "animation", "convert"):
         return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -20,6 +20,12 @@ def draw(what: str, *arguments: Any, **options: Any) -> Any:
     return getattr(importlib.import_module(f"{__package__}.{module}"), name)(*arguments, **options)
 
 
+def still(problem: Any) -> str | None:
+    """A scene or a system as a notebook shows it."""
+    shown: str | None = draw("notebook.still", problem)
+    return shown
+
+
 @contextlib.contextmanager
 def shown(progress: Shown, fills: bool = True) -> Iterator[Callable[..., Any] | None]:
     """The function that receives progress: a bar of tqdm if `progress` is True, which is full at the end if `fills`."""

@@ -3,10 +3,10 @@ without running it."""
 
 from __future__ import annotations
 
-from typing import Any
-
+from ._keywords import CheckKeywords, CostKeywords
 from ._look import WorkProgress
 from ._measurement import Found, Measurement
+from ._signature import Unpack, takes
 from .results import Runnable, measured
 from .state import State
 
@@ -25,20 +25,19 @@ class Cost(Found, kind="cost"):
         return f"Cost({self.outcome}, {self.method}, {len(self.rows)} ingredients)"
 
 
+@takes(CostKeywords)
 def cost(
     problem: Runnable,
     state: State | None = None,
     *,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[CostKeywords],
 ) -> Cost:
     """Measures the cost of each ingredient of a scene (or the path of one) or of a system: compares it with the same
     scene without the ingredient, at `state` (at the start, if None).
 
-    The keywords `options` are those of ``hooke.describe("cost")``, and those of a run: ``predict=True`` skips the timing;
-    after `budget` [s] (2 by default) no further ingredient is measured. Of many groups the `groups` largest are measured
-    (64 by default); the numbers of the others stay NaN. ``progress(fraction, what)`` receives progress and stops the work
-    by returning a non-zero number.
+    ``predict=True`` skips the timing. Of many groups the `groups` largest are measured; the numbers of the others stay NaN.
+    ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
     return Cost(*measured("cost", problem, options, progress, lambda _: state))
 
@@ -51,8 +50,9 @@ class Check(Found, kind="check", rows="step_limit"):
         return f"Check({self.particles} particles, {self.springs} springs)"
 
 
-def check(problem: Runnable, state: State | None = None, **options: Any) -> Check:
+@takes(CheckKeywords)
+def check(problem: Runnable, state: State | None = None, **options: Unpack[CheckKeywords]) -> Check:
     """Checks a scene (or the path of one) or a system at `state` (at the start, if None): what it has, the step up to which
-    each method is certain to be stable, the memory of a run, and what is seldom meant in it. The keywords `options` are
-    those of ``hooke.describe("check")``, and those of a run."""
+    each method is certain to be stable, the memory of a run, and what is seldom meant in it. A step, `every` and duration are
+    chosen and adjusted as `hooke.run` does."""
     return Check(*measured("check", problem, options, None, lambda _: state))

@@ -9,15 +9,17 @@ import importlib
 import os
 import pathlib
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, Union
 
 import numpy as np
 
+from ._keywords import VerifyKeywords, ViewKeywords
 from ._library import lib
 from ._look import WorkProgress
 from ._measurement import Claim, Measurement, Record, said
 from ._memory import Handle, double_pointer
+from ._signature import Unpack, takes
 from ._status import BadValue
 from ._types import FloatArray, Path, Table
 from .options import Options
@@ -71,20 +73,20 @@ class Written(Protocol):
 Source = Union[Path, Written]
 
 
+@takes(ViewKeywords)
 def view(
     trajectory: Source | Sequence[Source],
     output: Path | None = None,
     *,
     title: str | None = None,
-    **options: Any,
+    **options: Unpack[ViewKeywords],
 ) -> pathlib.Path:
     """Writes a trajectory as one HTML page that plays it, to open in a browser, offline, and returns its path.
 
     `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a
     run; `output` the page, by default the file's name with ``.html``; `title` is its heading (by default the
     scene's). Several trajectories play on one page, `output`, side by side or over one another, at the same time and
-    seen from the same angle. Keywords: the maximum number of `frames`, of those `beyond` divergence and of `springs`,
-    and the maximum `size` of the page [MB]; the page states what is omitted.
+    seen from the same angle. The page states what is omitted.
     """
     if isinstance(trajectory, str) or not isinstance(trajectory, Sequence):
         trajectory = [trajectory]
@@ -92,7 +94,7 @@ def view(
     if output is None and len(sources) != 1:
         raise BadValue("output: is required for several trajectories")
     page = pathlib.Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")
-    views = [_view(source, title, options) for source in sources]
+    views = [view_of(source, title, options) for source in sources]
     for other in views[1:]:
         lib.hooke_view_add(views[0].handle, other.handle)
     lib.hooke_measurement_write(views[0].handle, os.fsencode(page))
@@ -126,7 +128,8 @@ def _file_of(trajectory: Source) -> pathlib.Path:
     return pathlib.Path(os.fspath(output))
 
 
-def _view(source: pathlib.Path, title: str | None, options: dict[str, Any]) -> Measurement:
+def view_of(source: Path, title: str | None, options: Mapping[str, object]) -> Measurement:
+    """What a page shows of a trajectory."""
     record, chosen = opened(source), Options._of("view").set(**options)
     made = Measurement.made(record, lib.hooke_view_create, record, chosen._handle)
     made.label(title=title)
@@ -157,19 +160,19 @@ class Verification(Record, table="verify.verify", also=("claims",)):
         return f"Verification({self.verdict}, balance {self.balance}, {self.difference or 'no difference'})"
 
 
+@takes(VerifyKeywords)
 def verify(
     path: Path,
     *,
     memory: float | None = None,
     outside: bool = False,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[VerifyKeywords],
 ) -> Verification:
     """Repeats a slice of a trajectory from the contents of its file and compares it with its frames to the bit;
     compares every frame with its check value, computes the energy balance and estimates the error.
 
-    Keywords: `slice` (from, to) [s], `all`, `budget` [s] of work if neither is given, `bits` for the bits alone;
-    `memory` and `outside` as in `Scene.load`; ``progress(share, what)`` receives progress, True for a bar. A file
+    `memory` and `outside` are as in `Scene.load`; ``progress(share, what)`` receives progress, True for a bar. A file
     that does not reproduce is a result, not an error.
     """
     given, limits = Options._of("verify").set(**options), limits_of(memory, outside)

@@ -10,10 +10,12 @@ from typing import Any, Callable, NamedTuple, Optional
 import numpy as np
 
 from . import _callback
+from ._keywords import RunKeywords
 from ._library import lib
 from ._look import WorkProgress
 from ._memory import Asked, Closing, Handle, double_pointer, doubles, index_pointer, indices, text
 from ._prototypes import OBSERVER, WARNING
+from ._signature import Unpack, takes
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from ._types import FloatArray, Path
 from .options import Options
@@ -77,6 +79,10 @@ class PassageWarning(RuntimeWarning):
     """A spring passed through length zero, where its force turns round; the text says which, when, and what to do."""
 
 
+class FitWarning(UserWarning):
+    """The step, `every` or the duration of a run was chosen or adjusted, so that they fit one another; the text says how."""
+
+
 class Integrator(Closing):
     """A method with its options, made for one system or first- or second-order problem; several may share a system.
 
@@ -86,7 +92,10 @@ class Integrator(Closing):
     ``with`` block, releases its memory.
     """
 
-    def __init__(self, problem: System | FirstOrder | SecondOrder, options: Options | None = None, **keywords: Any):
+    @takes(RunKeywords)
+    def __init__(
+        self, problem: System | FirstOrder | SecondOrder, options: Options | None = None, **keywords: Unpack[RunKeywords]
+    ):
         chosen = (options.copy() if options is not None else Options.for_run()).set(**keywords)
         self._problem = problem  # its callbacks are called by the library
         self._handle = problem._integrator(chosen)
@@ -208,7 +217,7 @@ class Integrator(Closing):
             self._running = False
         return code
 
-    def why(self, budget: float | None = None, progress: WorkProgress | bool | None = None) -> Why:
+    def why(self, budget: float | str | None = None, progress: WorkProgress | bool | None = None) -> Why:
         """Explains the last run, which has to have ended early: "diverged", "step-limit" or `SolverFailed`; with
         `budget` and `progress` as for `hooke.why`."""
         return Why(self._handle, self._problem, self._title, budget, progress)
@@ -237,7 +246,7 @@ class Integrator(Closing):
             for attach, observer, *how in watched:
                 during.enter_context(_callback.attached(attach, self._handle, _observer(observer, state), *how))
             with contextlib.suppress(NotBuilt, Unsuited):
-                during.enter_context(_callback.attached(lib.hooke_integrator_on_warning, self._handle, WARNING(_warn)))
+                during.enter_context(_callback.attached(lib.hooke_integrator_on_warning, self._handle, _WARN))
             during.enter_context(_callback.interruptible(self._handle))
             outcome = self._outcome(self._call(function, (state._handle,)))
         sentence = text(lib.hooke_integrator_text(self._handle, b"zero_passages"))
@@ -282,5 +291,16 @@ def _observer(function: Observer | None, state: State) -> Any:
     return OBSERVER(observer)
 
 
-def _warn(_kind: bytes, sentence: bytes, *_: Any) -> int:
-    return _callback.guarded(warnings.warn, text(sentence), StepWarning, _callback.outside())
+def _warn(kind: bytes, sentence: bytes, *_: Any) -> int:
+    category = FitWarning if kind in (b"step", b"every", b"duration") else StepWarning
+    return _callback.guarded(warnings.warn, text(sentence), category, _callback.outside())
+
+
+_WARN = WARNING(_warn)
+
+
+def fit(problem: Any, state: State, options: Options) -> None:
+    """Has the step, `every` and the duration of a run of a system fit one another; each change is a `FitWarning`."""
+    if isinstance(problem, System):
+        place = lib.hooke_state_position(state._handle)
+        lib.hooke_step_fit(problem._committed(), place, options._handle, _WARN, None)

@@ -8,9 +8,11 @@ from typing import Any, Union
 
 import numpy as np
 
+from ._keywords import LimitKeywords
 from ._library import lib
 from ._look import WorkProgress, draw
 from ._measurement import Measurement, Paged, Record
+from ._signature import Unpack, takes
 from ._types import ComplexArray, FloatArray, Path
 from .files import opened
 from .results import Runnable, measured
@@ -80,26 +82,25 @@ class Limit(Paged, kind="limit"):
         return f"Limit({self.outcome}, {len(self.rows)} methods, {len(self.modes)} modes)"
 
 
+@takes(LimitKeywords)
 def limit(
     problem: Runnable,
     at: Place | None = None,
     methods: str | Iterable[str] | None = None,
     *,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[LimitKeywords],
 ) -> Limit:
     """Finds the largest stable step of each of `methods` (all of fixed step, if None) on a scene (or the path of one)
     or a system: predicted from the eigenvalues of the scene linearised `at` its positions (at the start, if None) and
     at rest, and then measured by running the method, unless `predict` is True.
 
-    `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that
-    and the number of a frame. The keywords `options` are those of ``hooke.describe("limit")``, and those of a run:
-    ``along=True`` predicts at every frame of the run and returns the smallest limits and their times;
-    ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress (``progress=True``
-    shows a bar, with tqdm) and stops the work by returning a non-zero number.
+    `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
+    the number of a frame. With ``along=True`` it predicts at every frame of the run and returns the smallest limits and
+    their times; ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress
+    (``progress=True`` shows a bar, with tqdm) and stops the work by returning a non-zero number.
     """
-    options["methods"] = methods
-    return Limit(*measured("limit", problem, options, progress, lambda system: state_at(system, at)))
+    return Limit(*measured("limit", problem, {**options, "methods": methods}, progress, lambda system: state_at(system, at)))
 
 
 def state_at(system: System, at: Place | None) -> State:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ._keywords import ModesKeywords
 from ._look import WorkProgress
 from ._measurement import Measurement, Paged
+from ._signature import Unpack, takes
 from ._types import FloatArray
 from .limit import Place, state_at
 from .results import Runnable, measured
@@ -33,14 +35,14 @@ class Modes(Paged, kind="modes"):
         return f"Modes({len(self.rows)} modes)"
 
 
+@takes(ModesKeywords)
 def modes(
     problem: Runnable, at: Place | None = None, count: int | None = None, *, progress: WorkProgress | bool | None = None,
-    **options: object,
+    **options: Unpack[ModesKeywords],
 ) -> Modes:
     """Finds the `count` (6) lowest modes of a scene (or the path of one) or a system `at` a state, as in `hooke.limit`: at
     the start, if None. Modes without stiffness are counted and named (`zero_modes`, `translations`, `rotations`,
     `mechanisms`), and not among them. The stiffness is that of the state as it is, compressed springs and slack ones
     included; `residual` [N] is the force that is left there. ``progress(fraction, what)`` receives progress and stops the
     work by returning a non-zero number."""
-    options["count"] = count
-    return Modes(*measured("modes", problem, options, progress, lambda system: state_at(system, at)))
+    return Modes(*measured("modes", problem, {**options, "count": count}, progress, lambda system: state_at(system, at)))

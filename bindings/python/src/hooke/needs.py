@@ -6,14 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from ._keywords import NeedsKeywords
 from ._library import lib
 from ._look import WorkProgress, draw
 from ._measurement import Measurement, Paged, Record
 from ._memory import Closing, Handle, double_pointer, rows
+from ._signature import Unpack, takes
 from ._status import BadCall
 from ._types import FloatArray, Path
 from .options import Options
-from .results import Runnable, measured
+from .results import Length, Runnable, measured
 from .system import System, write_scene
 
 
@@ -105,20 +107,20 @@ class Needs(Paged, Closing, kind="needs"):
         return f"Needs({self.outcome}, want={self.want!r}, {len(self.rows)} rows, {len(self.left_out)} left out)"
 
 
+@takes(NeedsKeywords)
 def needs(
     problem: Runnable,
-    want: float | str,
+    want: Length,
     watch: Any = None,
     *,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[NeedsKeywords],
 ) -> Needs:
     """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds the change of
     the watched positions and the savings; then leaves out together everything that is not needed for errors of at
     most `want` [m], or within a list as of ``hooke.run``, and checks the lean system against the full one.
 
-    `watch` is the name of a part or of a group, or particle numbers; None: all free particles. The keywords `options`
-    are those of ``hooke.describe("needs")``, and those of a run: duration [s], every [s], method, ...; steps and
+    `watch` is the name of a part or of a group, or particle numbers; None: all free particles. Steps and
     tolerances are found. ``refine=True`` does the reverse: it runs each part at once, twice and four times its
     resolution, and finds the resolution for the wanted error. ``progress(fraction, what)`` receives progress
     (``progress=True`` shows a bar, with tqdm) and stops the work by returning a non-zero number, with the results so

@@ -54,7 +54,7 @@ class Row(NamedTuple):
 
 
 _TABLES: dict[str, dict[str, Row]] = {}  #: the rows of the tables that were read, by their names
-_LISTS = ("methods", "watch")  #: texts that are lists of words
+_LISTS = ("methods", "watch", "probe")  #: texts that are lists of words
 
 
 def _of_table(what: str) -> classmethod[Options, [], Options]:
@@ -178,8 +178,9 @@ class Options(Owner, MutableMapping[str, Any]):
         elif np.ndim(value) == 0:
             plain(value, name)
             lib.hooke_options_set_number(self._handle, key, as_number(name, value))
-        elif not isinstance(value, np.ndarray) and any(isinstance(item, str) for item in value):
-            words = ",".join(item if isinstance(item, str) else repr(as_number(name, item)) for item in value)
+        elif has_words(value):
+            flat = [item for row in value for item in (row if np.ndim(row) else [row])]
+            words = ",".join(item if isinstance(item, str) else repr(as_number(name, item)) for item in flat)
             lib.hooke_options_set_text(self._handle, key, words.encode())
         else:
             numbers, columns = doubles(value, name), name in self._rows and self._rows[name].columns
@@ -252,6 +253,21 @@ def describe(what: str) -> str:
 def option_name(keyword: str) -> str:
     """The option of a keyword: ``from_`` means ``from``, which Python reserves."""
     return keyword[:-1] if keyword.endswith("_") else keyword
+
+
+def has_words(value: Any) -> bool:
+    """Whether words, such as numbers with units, are among the numbers of a list, or of its rows."""
+    leaves = (item for row in value for item in (row if isinstance(row, (list, tuple)) else [row]))
+    return not isinstance(value, np.ndarray) and any(isinstance(item, str) for item in leaves)
+
+
+def in_units(table: str, key: str, value: Any) -> Any:
+    """Numbers with units as those of an option; others as they are."""
+    if not (isinstance(value, str) or (isinstance(value, (list, tuple)) and has_words(value))):
+        return value
+    chosen = Options._of(table)
+    chosen[key] = value
+    return np.reshape(chosen[key], np.shape(value))  # type: ignore[arg-type]
 
 
 def as_number(name: str, value: Any) -> float:

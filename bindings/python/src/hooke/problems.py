@@ -17,8 +17,8 @@ from .options import Options
 from .state import State, restored
 
 if TYPE_CHECKING:
-    from .rest import Rest
-    from .results import Result
+    from .rest import rest as _rest
+    from .results import run as _run
 
 #: rate(t, x, rate): writes x' into its last argument, arrays (size,).
 Rate = Callable[[float, Table, Table], Optional[int]]
@@ -33,21 +33,13 @@ class Problem(Owner):
 
     _what: str  #: what it is, for messages
     _shown: dict[str, Any]  #: how `State` shows its states, where it has no particles
-    #: hooke.run, which is above all problems and so sets this itself.
-    _run_by: Callable[..., Result]
-    _rest_by: Callable[..., Rest]  #: hooke.rest, likewise
+    if TYPE_CHECKING:  # functions above all problems, which make themselves methods
+        run = _run
+        rest = _rest
 
     def _posed(self) -> tuple[Handle, list[Any]]:
         """It as a system of the library, and the callbacks of that (see `Posed`)."""
         raise NotImplementedError
-
-    def run(self, **options: Any) -> Result:
-        """Runs it; see `hooke.run`."""
-        return Problem._run_by(self, **options)
-
-    def rest(self, **options: Any) -> Rest:
-        """Finds where it is at rest; see `hooke.rest`."""
-        return Problem._rest_by(self, **options)
 
 
 class FirstOrder(Problem):

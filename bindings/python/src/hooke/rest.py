@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from ._keywords import RestKeywords
 from ._look import WorkProgress
 from ._measurement import Measurement, Paged
+from ._signature import Unpack, takes
 from ._types import FloatArray
 from .limit import Place, state_at
 from .problems import Problem
@@ -32,13 +32,13 @@ def rest(
     at: Place | None = None,
     *,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[RestKeywords],
 ) -> Rest:
     """Finds where a scene (or the path of one) or a system is at rest, from `at` (the start, if None), a place as
-    `hooke.limit` has it. The keywords `options` are those of ``hooke.describe("rest")``: `watch` names quantities.
+    `hooke.limit` has it. `watch` names quantities.
     ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
     return Rest(*measured("rest", problem, options, progress, lambda system: state_at(system, at)))
 
 
-Problem._rest_by = rest
+Problem.rest = takes(RestKeywords)(rest)

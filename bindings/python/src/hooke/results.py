@@ -16,24 +16,28 @@ from __future__ import annotations
 import contextlib
 import copy
 import ctypes
+import functools
 import itertools
 import math
 import os
-from collections.abc import Iterator, Mapping
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
 from ._callback import stop_value
+from ._keywords import RunKeywords
 from ._library import lib
 from ._look import WorkProgress, draw, shown
 from ._measurement import Claim, Measurement, Record, said
 from ._prototypes import PROBES, TRAJECTORY
+from ._signature import Unpack, takes
 from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
 from .files import numbers, opened, read_probes, run_options, view, write_companion
-from .integrator import BLOWN_UP, Integrator, Observer
+from .integrator import BLOWN_UP, Integrator, Observer, fit
 from .options import Options
 from .problems import FirstOrder, SecondOrder
 from .problems import Problem as Base
@@ -67,18 +71,34 @@ class RunError(Record, table="estimate.estimate", without=("seconds", "memory_by
     """The error of a run; a number that is not known is NaN. `met` is None if that is unknown or no error was wanted."""
 
 
+class Judged:
+    """The error of a run, and what is said of it, which are found when they are asked for."""
+
+    def __init__(self, find: Callable[[], tuple[RunError | None, tuple[Claim, ...]]]):
+        self._find = find
+
+    @functools.cached_property
+    def found(self) -> tuple[RunError | None, tuple[Claim, ...]]:
+        """Both."""
+        return self._find()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"found": self.found}
+
+
 @dataclass(frozen=True)
 class Result:
     """The result of a run.
 
-    `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
-    the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
-    returned by the callback that stopped the run, `output` the file that was written, `probes_file` that of probes.
-    `integrator` is kept if the run blew up, for `hooke.why`. `error` is the error of the run, if that was requested, and
-    `claims` what is said of it, which ``print(result)`` shows. `watched` is a table of what was watched, a row a quantity,
-    with the columns `quantity`, `unit`, `value` (at the end), `minimum`, `at_minimum`, `maximum`, `at_maximum`, and `from` and
-    `until`: the time [s] that smallest and largest are known for, the whole run unless it ended early. `wants` is one of what
-    was wanted: `quantity`, `unit`, `wanted`, `error`, `met`.
+    `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has the
+    details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value returned by the
+    callback that stopped the run, `output` the file that was written, `probes_file` that of probes. `integrator` is kept
+    if the run blew up, for `hooke.why`. `error` is the error of the run, None if there is no estimate, and `claims` what
+    is said of it, which ``print(result)`` shows; both are found when they are first asked for. `watched` is a table of
+    what was watched, a row a quantity, with the columns `quantity`, `unit`, `value` (at the end), `minimum`,
+    `at_minimum`, `maximum`, `at_maximum`, and `from` and `until`: the time [s] that smallest and largest are known for,
+    the whole run unless it ended early. `wants` is a table of what was wanted: `quantity`,
+    `unit`, `wanted`, `error`, `met`.
     """
 
     status: str
@@ -93,11 +113,20 @@ class Result:
     frames: Frames | None = None
     output: Path | None = None
     integrator: Integrator | None = field(default=None, repr=False, compare=False)
-    error: RunError | None = None
-    claims: tuple[Claim, ...] = ()
+    judged: Judged | None = field(default=None, repr=False, compare=False)
     probes_file: Path | None = None
     watched: Table | None = None
     wants: Table | None = None
+
+    @property
+    def error(self) -> RunError | None:
+        """The error of the run, as runs at other steps or tolerances tell it, which are made now; None without an estimate."""
+        return self.judged.found[0] if self.judged is not None else None
+
+    @property
+    def claims(self) -> tuple[Claim, ...]:
+        """What is said of the run, the most important first."""
+        return self.judged.found[1] if self.judged is not None else ()
 
     @property
     def diagnosis(self) -> str:
@@ -144,6 +173,8 @@ class Result:
         )
 
     def _repr_html_(self) -> str | None:
+        if self.output is None and self.integrator is not None:
+            return self.integrator.why()._repr_html_()
         words: str = draw("notebook.paragraphs", self.diagnosis or said(self.claims))
         return (words + (draw("notebook.embed", lambda page: view(self, page)) if self.output is not None else "")) or None
 
@@ -159,40 +190,47 @@ def run(
     on_frame: Observer | None = None,
     on_step: tuple[int, Observer] | None = None,
     want: Length | None = None,
-    estimate: bool = False,
-    watch: str | None = None,
-    probe: str | None = None,
+    estimate: bool | None = None,
+    strict: bool = False,
+    watch: str | Iterable[str] | None = None,
+    probe: str | Iterable[str] | None = None,
     probe_every: float | str | None = None,
     probes: Path | None = None,
-    **options: Any,
+    **options: Unpack[RunKeywords],
 ) -> Result:
     """Runs a scene (or the path of one), a system, or a first- or second-order problem, and returns the `Result`.
 
-    The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s],
-    checkpoint [s], rtol, atol [m], atol_velocity [m/s], ...; they override the scene's own. `state` is the start (it
-    is changed; by default the initial state), `output` the HDF5 file to write (with its ``.xdmf`` companion for
-    ParaView; with `checkpoint` also ``<output>.checkpoint``, until the run has finished, for `hooke.resume`),
-    ``frames=True`` keeps all frames in memory, `force` is the callback force of this run (see `System.set_force`),
-    ``progress(fraction, state)`` is called at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame`
-    and `on_step` see `Integrator.run`.
+    The keywords `options`, listed below, override the scene's own. A missing step is chosen, and step, `every` and
+    duration that do not fit one another are adjusted, as ``hooke run`` does, each with a `FitWarning`, unless the run
+    is `strict`. Numbers may have units: ``step="1 ms"``. `state` is the start (it is changed; by default the initial
+    state), `output` the HDF5 file to write (with its ``.xdmf`` companion for ParaView; with `checkpoint` also
+    ``<output>.checkpoint``, until the run has finished, for `hooke.resume`), ``frames=True`` keeps all frames in
+    memory, `force` is the callback force of this run (see `System.set_force`), ``progress(fraction, state)`` is called
+    at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
 
     ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance such that no frame has a larger error,
     runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice. A list,
-    ``want="tip=2mm,line:max.tension=1%,energy=0.1J"``, bounds the errors of watched quantities, also in % of their largest value.
-    ``estimate=True`` estimates the error of the run after it. The result's `error` holds it.
+    ``want="tip=2mm,line:max.tension=1%,energy=0.1J"``, bounds the errors of watched quantities, also in % of their
+    largest value. The result's `error` holds it. Without `want` it is estimated when it is first asked for, with a few
+    times the work of the run; ``estimate=True`` does it at once, and writes it into `output`, ``estimate=False`` never.
+    A run from a `state` has none, and one with callbacks for forces or drives not without ``estimate=True``.
 
-    ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the largest
-    over all steps, in the result's `watched`.
+    ``watch="1.y,0.reaction,rope:max.tension"`` tells the values of quantities at the end, and the smallest and the
+    largest over all steps, in the result's `watched`.
 
-    ``probe="57.y,energy"`` writes these quantities, in the grammar of `watch`, into the file `probes` (.csv or .h5) while
-    the run goes: a line every `probe_every` [s], which is that of frames if None. The result's `probes` reads them.
+    ``probe="57.y,energy"`` writes these quantities, in the grammar of `watch`, into the file `probes` (.csv or .h5)
+    while the run goes: a line every `probe_every` [s], which is that of frames if None. The result's `probes` reads
+    them.
     """
     scene, problem, wanted = resolve(problem, force, options)
     once = _Once(problem, scene, output, frames, progress, on_frame, on_step, probe, probe_every, probes)
     start = problem.state() if state is None else state
-    asked = want is not None or estimate
+    asked = want is not None or bool(estimate)
+    if want is None and not strict:
+        fit(problem, start, wanted)
+    later = estimate is None and state is None and isinstance(problem, System) and not problem._callbacks
     if not asked and watch is None:
-        return once.run(wanted, start)
+        return _judged_later(once.run(wanted, start), wanted, None) if later else once.run(wanted, start)
     if asked and state is not None:
         raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
     if output is not None:
@@ -202,8 +240,9 @@ def run(
     chosen = Options._of("estimate").set(want=wish, callbacks=True, watch=watch, error=asked)
     measurement = Measurement.create("estimate", system, None, chosen)
     if not asked:
-        return once.run(wanted, start, measurement, judged=False)
-    return _run_to_want(once, measurement, system, wanted, options, want)
+        result = once.run(wanted, start, measurement, judged=False)
+        return _judged_later(result, wanted, watch) if later else result
+    return _run_to_want(once, measurement, system, wanted, options, want, strict)
 
 
 def _settled(problem: Problem, options: Options) -> Integrator:
@@ -225,7 +264,7 @@ class _Once:
     progress: Progress | bool | None
     on_frame: Observer | None
     on_step: tuple[int, Observer] | None
-    probe: str | None
+    probe: str | Iterable[str] | None
     probe_every: float | str | None
     probes: Path | None
 
@@ -252,14 +291,12 @@ class _Once:
             return result
         lib.hooke_estimate_follow(None, integrator._handle)
         estimate.run(None, state)
-        watched = estimate.rows("watched") if estimate.count("watched") > 0 else None
-        result = replace(result, watched=watched, claims=tuple(estimate.each(Claim, "claims")))
-        if not judged:
-            return result
-        if self.output is not None and status == "finished":
+        found = estimate.one(RunError, "estimate") if judged else None, tuple(estimate.each(Claim, "claims"))
+        result = replace(result, judged=Judged(lambda: found))
+        if judged and self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
-        wants = estimate.rows("wants") if estimate.count("wants") > 0 else None
-        return replace(result, error=estimate.one(RunError, "estimate"), wants=wants)
+        watched, wants = (estimate.rows(table) if estimate.count(table) > 0 else None for table in ("watched", "wants"))
+        return replace(result, watched=watched, wants=wants)
 
     @contextlib.contextmanager
     def _probing(self, integrator: Integrator) -> Iterator[None]:
@@ -286,8 +323,21 @@ class _Once:
         return _run_to_file(path, file, integrator.run, integrator, state, watchers, self.on_step)
 
 
+def _judged_later(result: Result, options: Options, watch: str | Iterable[str] | None) -> Result:
+    """The result with its error, which the same run once more finds when it is asked for: so it holds no frames for that."""
+    given: Any = {name: options[name] for name in options if options.is_set(name)}
+
+    def find() -> tuple[RunError | None, tuple[Claim, ...]]:
+        with warnings.catch_warnings():  # which were given by the first run
+            warnings.simplefilter("ignore")
+            again = run(result.problem, estimate=True, strict=True, watch=watch, **given)
+        return again.error, again.claims
+
+    return replace(result, judged=Judged(find)) if result.status == "finished" else result
+
+
 def _run_to_want(
-    once: _Once, estimate: Measurement, system: System, options: Options, given: dict[str, Any], want: Length | None
+    once: _Once, estimate: Measurement, system: System, options: Options, given: RunKeywords, want: Length | None, strict: bool
 ) -> Result:
     """Runs; with a wanted error, picks a method and its step or tolerance, keeping a method that is among those `given`,
     and repeats until the error is met or nothing finer is known to help."""
@@ -298,6 +348,8 @@ def _run_to_want(
         method = given.get("method")
         with estimate.listening(None):
             lib.hooke_estimate_pick(estimate.handle, None if method is None else method.encode(), options._handle)
+        if not strict:
+            fit(system, system.state(), options)
     watched = replace(once, problem=system)
     while True:
         result = watched.run(options, system.state(), estimate)
@@ -354,11 +406,12 @@ def resume(
     return _result(status, integrator, state, output, None)
 
 
+@takes(RunKeywords)
 def why(
     what: Runnable | Result | SolverFailed,
-    budget: float | None = None,
+    budget: float | str | None = None,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[RunKeywords],
 ) -> Why | None:
     """Explains a run that blew up: the `Result` of one, the `SolverFailed` that it raised, or anything that
     `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
@@ -373,10 +426,12 @@ def why(
             raise BadCall("this run was not pickled with its result, run it again: hooke.why(scene, **result.options)")
         return what.integrator.why(budget, progress) if what.integrator is not None else None
     scene, problem, wanted = resolve(what, None, options)
+    state = problem.state()
+    fit(problem, state, wanted)
     integrator = _settled(problem, wanted)
     integrator._title = scene.title if scene is not None else ""
     with contextlib.suppress(SolverFailed):
-        integrator.run(problem.state())
+        integrator.run(state)
     return integrator.why(budget, progress) if integrator.outcome in BLOWN_UP else None
 
 
@@ -402,7 +457,7 @@ def _result(
 
 
 def resolve(
-    problem: Runnable, force: Force | None, options: Mapping[str, Any]
+    problem: Runnable, force: Force | None, options: Mapping[str, object]
 ) -> tuple[Scene | None, Problem, Options]:
     """The scene (if there is one), the problem, and the options of a run of it."""
     scene, given = None, Options.for_run()
@@ -417,18 +472,22 @@ def resolve(
 
 
 def measured(
-    kind: str, problem: Runnable, given: dict[str, Any], progress: Any, at: Any = None, force: Force | None = None
+    kind: str, problem: Runnable, keywords: Mapping[str, object], progress: Any, at: Any = None, force: Force | None = None
 ) -> tuple[Measurement, Scene | None, System, int]:
     """A measurement of a kind, done `at` a state of a system, with its scene, its system and the status. The keywords
-    `given` are options of the kind, or of its runs, which may be in several threads."""
-    chosen = Options._of(kind)
+    are options of the kind, or of its runs, which may be in several threads."""
+    chosen, given = Options._of(kind), dict(keywords)
     chosen.set(**{name: given.pop(name) for name in list(given) if name in chosen})
     scene, found, options = resolve(problem, force, given)
     system, threads = posed(found) if kind == "study" else system_of(found, kind), options["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
+    state = at and at(system)
+    if kind == "check":
+        with contextlib.suppress(Unsuited):
+            fit(system, state or system.state(), options)
     made = Measurement.create(kind, system, options, chosen)
-    return made, scene, system, made.run(progress, at and at(system))
+    return made, scene, system, made.run(progress, state)
 
 
 def _all(watchers: list[Observer]) -> Observer:
@@ -499,4 +558,4 @@ def _arrays(state: State) -> list[Table]:
     return [np.asarray(state.t), *([state.x] if state._v is None else [state.q, state.v])]
 
 
-Base._run_by = run
+Base.run = takes(RunKeywords)(run)

@@ -10,8 +10,11 @@ from typing import Any, Callable
 
 import numpy as np
 
+from ._keywords import RunKeywords
 from ._library import lib
+from ._look import still
 from ._memory import Asked, Handle, indices, text
+from ._signature import Unpack, takes
 from ._status import BadCall, BadValue, placed
 from ._types import IntArray, Numbers, Path
 from .options import Options, option_name
@@ -150,9 +153,9 @@ class Scene(Parts, Problem):
                 self._changed().setdefault("names", {})[name] = operator.index(number)
         return self
 
-    def run_defaults(self, **options: Any) -> Scene:
-        """Sets default options of runs of the scene: method, step [s], duration [s], every [s], ..., as
-        ``hooke.describe("run")`` lists them. Returns the scene."""
+    @takes(RunKeywords)
+    def run_defaults(self, **options: Unpack[RunKeywords]) -> Scene:
+        """Sets default options of runs of the scene, and returns the scene."""
         with placed("run"):
             self._run.copy().set(**options)  # all of them or none
         self._run.set(**options)
@@ -210,6 +213,8 @@ class Scene(Parts, Problem):
     def __reduce__(self) -> Any:
         return Scene.parse, (self._system._written(self.title, self.run_options),)
 
+    _repr_html_ = still
+
     def __repr__(self) -> str:
         return f"Scene({self.title!r}, {self._system!r})"
 
@@ -255,12 +260,10 @@ class Scene(Parts, Problem):
         return number
 
     def _in_part(self, part: str, name: str) -> range:
-        handle, key = self._system._handle, part.encode()
-        before, count = (int(lib.hooke_system_part_count(handle, key, what)) for what in (b"before", b"particles"))
-        if count < 0:
+        if part not in self._part_names():
             known = ", ".join(f'"{other}"' for other in self._part_names()) or "there are none"
             raise BadValue(f'{name}: there is no part called "{part}"; allowed: {known}')
-        return range(before, before + count)
+        return self._system.part(part)
 
     def _number_in_part(self, part: str, number: Any, name: str) -> int:
         particles = self._in_part(part, name)

@@ -7,12 +7,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ._keywords import StudyKeywords
 from ._library import lib
 from ._look import WorkProgress, draw
 from ._measurement import Measurement, Paged, Record
 from ._memory import Closing
+from ._signature import Unpack, takes
 from ._types import FloatArray, Path
-from .results import Runnable, measured
+from .options import Options
+from .results import Length, Runnable, measured
 from .system import Force
 
 
@@ -105,11 +108,12 @@ class Study(Paged, Closing, kind="study"):
         margin = self._handle.one(Margin, "margin")
         return self._handle.one(Recommendation, "recommendation", margin=margin)
 
-    def recommend(self, want: float) -> Recommendation:
-        """Recommends the cheapest run found whose error_max is at most `want` [m], as ``hooke.run(want=...)`` picks
+    def recommend(self, want: Length) -> Recommendation:
+        """Recommends the cheapest run found whose error_max is at most `want` [m] ("1mm"), as ``hooke.run(want=...)`` picks
         it among the methods of the study, and measures it."""
+        wish = Options._of("study").set(want=want)["want"]
         with self._handle.listening(self._progress):
-            lib.hooke_study_recommend(self._handle.handle, want)
+            lib.hooke_study_recommend(self._handle.handle, wish)
         found = self.recommendation
         assert found is not None
         return found
@@ -136,6 +140,7 @@ class Study(Paged, Closing, kind="study"):
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"
 
 
+@takes(StudyKeywords)
 def study(
     problem: Runnable,
     methods: str | Iterable[str] | None = None,
@@ -143,30 +148,36 @@ def study(
     output: Path | None = None,
     force: Force | None = None,
     progress: WorkProgress | bool | None = None,
-    **options: Any,
+    **options: Unpack[StudyKeywords],
 ) -> Study:
     """Runs a scene (or the path of one), a system or a first- or second-order problem by each of `methods` (all that this
-    build has, if None) over a
-    ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the `Study`.
+    build has, if None) over a ladder of steps or tolerances, judges every run by a reference that checks itself, and returns
+    the `Study`.
 
-    The keywords `options` are those of ``hooke.describe("study")``: ladders of your own (`steps` [s], `tolerances`, from
-    coarse to fine), `want` [m], which requests a recommendation, a `budget` [s], an `ensemble`, ...; and those of a run:
-    duration [s], every [s], threads, ... `watch` names quantities whose errors are reported, too:
-    "57.y" (a particle), "part:0.y", "group:3.length", ".strain" or ".tension" (a spring), "energy", "kinetic",
-    "potential", "period:57.y". `output` is a file to write (see `Study.write`), `force` is the callback force of these
-    runs, ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the study by
-    returning a non-zero number. ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
+    `steps` [s] and `tolerances` are ladders of your own, `want` [m] requests a recommendation. `output` is a file to
+    write (see `Study.write`), `force` is the callback force of these runs, ``progress(fraction, what)`` receives progress
+    (``progress=True`` shows a bar, with tqdm) and stops the study by returning a non-zero number. ``hooke study --report
+    FILE.html`` makes a page with diagrams of the same study.
     """
-    options["methods"] = methods
-    made = Study(*measured("study", problem, options, progress, force=force))
+    made = Study(*measured("study", problem, {**options, "methods": methods}, progress, force=force))
     made._progress = progress
     if output is not None:
         made.write(output)
     return made
 
 
-def compare(problem: Runnable, methods: str | Iterable[str] | None = None, **options: Any) -> Study:
+@takes(StudyKeywords)
+def compare(
+    problem: Runnable,
+    methods: str | Iterable[str] | None = None,
+    *,
+    output: Path | None = None,
+    force: Force | None = None,
+    progress: WorkProgress | bool | None = None,
+    **options: Unpack[StudyKeywords],
+) -> Study:
     """A first look: a `study` with one row a method, run once with the step [s] or the tolerances of the run, against a
     reference that ends where its two runs part. The keywords are those of `study`; an HDF5 file as `output` has
     every motion, too, for which the runs are made again (`hooke.plot.cloth` and `hooke.plot.error` draw it)."""
-    return study(problem, methods, once=True, **options)
+    options["once"] = True
+    return study(problem, methods, output=output, force=force, progress=progress, **options)

@@ -10,12 +10,13 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
+from ._look import still
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, rows, text
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT
 from ._queries import Queries
 from ._status import BadCall, BadValue, Unsuited
 from ._types import FloatArray, IntArray, Path
-from .options import Options
+from .options import Options, in_units
 from .problems import Problem
 from .state import State
 
@@ -216,7 +217,20 @@ class System(Queries):
         lib.hooke_system_drive_callback(self._handle, *_numbered(particles), callback, None)
         self._callbacks.append(callback)
 
+    def part(self, name: str) -> range:
+        """The numbers of the particles of a part."""
+        of = self._handle, name.encode()
+        before, count = (int(lib.hooke_system_part_count(*of, what)) for what in (b"before", b"particles"))
+        if count < 0:
+            raise BadValue(f'part: there is no part called "{name}"')
+        return range(before, before + count)
+
     # copies
+
+    @property
+    def text(self) -> str:
+        """The text of the scene that the system is to the bit, which it commits; a TypeError says why there is none."""
+        return self._written()
 
     def _written(self, title: str = "", run: Options | None = None) -> str:
         """The text of the scene that the committed system is to the bit; a TypeError says why there is none."""
@@ -286,6 +300,8 @@ class System(Queries):
             self._final = True
         return self._handle
 
+    _repr_html_ = still
+
     def __repr__(self) -> str:
         return f"System({self.particle_count} particles, {self.spring_count} springs)"
 
@@ -318,6 +334,9 @@ def write_scene(path: Path, system: System, title: str, run: Options) -> None:
 
 def particle_keys(position: Any, velocity: Any, mass: Any, gravity_factor: Any = ()) -> dict[str, Any]:
     """The keys of a scene's particles, as copies of what the caller may change."""
+    position, velocity, mass = (
+        in_units("particles", key, value) for key, value in (("position", position), ("velocity", velocity), ("mass", mass))
+    )
     q = np.atleast_2d(doubles(position, "position"))
     keys: dict[str, Any] = {"position": doubles(q, "position", (len(q), 3)).copy()}
     if velocity is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, TypeVar, overload
 
 import numpy as np
@@ -15,7 +15,7 @@ from ._look import draw
 from ._memory import Asked, Closing, text
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
-from .files import numbers, opened, run_options, view
+from .files import numbers, opened, run_options, view, view_of
 from .results import Frames, RunError
 from .scene import Scene
 from .state import State
@@ -225,6 +225,14 @@ class Trajectory(Closing):
             raise BadValue(f"{self.path}: the forces of its callback are not known; take `System.reaction` of its system")
         state = self.state(frame)
         return self.system.reaction(state.q, state.v, state.t)
+
+    def watched(self, watch: str | Iterable[str]) -> dict[str, tuple[str, FloatArray]]:
+        """Quantities at every frame, in the grammar of ``hooke.run(watch=...)``: of each the unit and the values (frames,).
+        Needs the scene."""
+        found = view_of(self.path, None, {"watch": watch, "springs": 1, "size": 2000, "beyond": 10**9})
+        rows = [(found.series("watched", row, "value"), row) for row in range(found.count("watched"))]
+        of, unit = ([found.text("watched", row, what) for _, row in rows] for what in ("quantity", "unit"))
+        return {name: (of_it, series) for name, of_it, (series, _) in zip(of, unit, rows) if series is not None}
 
     # pictures
 

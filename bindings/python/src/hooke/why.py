@@ -59,7 +59,7 @@ class Why(Paged, kind="why", rows="advice"):
     _untitled = "a run that blew up"
 
     def __init__(
-        self, run: Handle, problem: Problem, title: str, budget: float | None, progress: WorkProgress | bool | None
+        self, run: Handle, problem: Problem, title: str, budget: float | str | None, progress: WorkProgress | bool | None
     ):
         chosen = Options.for_why().set(budget=budget)
         found = Measurement.made(run, lib.hooke_why_create, run, chosen._handle)

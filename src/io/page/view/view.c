@@ -188,7 +188,21 @@ static double time_of(const struct hk_view *view, int64_t frame) {
 HOOKE_READER(double, time_first, struct hk_view, time_of(it, 0))
 HOOKE_READER(double, time_last, struct hk_view, time_of(it, it->frame[it->frames - 1]))
 
+HOOKE_COUNTER(count_watched, struct hk_view, it->watched.count)
+HOOKE_COUNTER(shown, struct hk_view, it->frames)
+HOOKE_READER(const char *, unit, struct hk_view, hk_watched_unit(&it->watched.item[row]))
+HOOKE_READER(const double *, value, struct hk_view, hk_watched_series_of(&it->course, row))
+
 static const struct hk_table tables[] = {
+    {.name = "watched",
+     .doc = "the watched quantities",
+     .count = count_watched,
+     HOOKE_TABLE_AT(struct hk_view, watched.item),
+     .length = shown,
+     HOOKE_TABLE_COLUMNS(
+         HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
+         HOOKE_COLUMN_BY(unit, TEXT, "", "its unit"),
+         HOOKE_COLUMN_BY(value, SERIES, "of the quantity", "its values at the frames shown"))},
     {.name = "view",
      .doc = "what the page shows of the trajectory",
      .record = 1,

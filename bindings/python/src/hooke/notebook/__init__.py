@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import Error, Scene, run, view
 from .._status import plain
 from .._types import Table
 
@@ -29,6 +30,24 @@ def embed(write: Callable[[Path], Any], height: int = 720) -> str:
         source = html.escape(page.read_text("utf-8"))
     style = f"width:100%;height:{height}px;border:0"
     return f'<iframe srcdoc="{source}" style="{style}" sandbox="allow-scripts allow-downloads"></iframe>'
+
+
+def still(problem: Any) -> str | None:
+    """A frame with a scene or a system at its start; None if it is not committed and has no text. A scene stays open."""
+    scene = problem if isinstance(problem, Scene) else None
+    system = problem if scene is None else scene.system
+    try:
+        if not system.is_committed:
+            if scene is None:
+                return None
+            scene = Scene.parse(scene.text)
+        with tempfile.TemporaryDirectory() as folder:
+            method = "symplectic-euler" if system.dynamics == "inertial" else "rk4"
+            path, shown = Path(folder, "start.h5"), scene or system
+            run(shown, method=method, step=1e-9, every=1e-9, duration=1e-9, output=path, estimate=False)
+            return embed(lambda page: view(path, page, title=scene.title if scene else "system"), 480)
+    except Error:
+        return None  # what cannot be shown is told of in words
 
 
 def paragraphs(lines: str) -> str:

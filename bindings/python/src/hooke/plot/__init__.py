@@ -1,24 +1,29 @@
 """Pictures of results, with matplotlib (``pip install "libhooke[plot]"``). Every function draws into `ax`,
-or into new axes, and returns the axes."""
+or into new axes, and returns the axes. Colours are those of Okabe and Ito, which all eyes tell apart."""
 
 from __future__ import annotations
 
+import json
 import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from .. import BadValue, Limit, Needs, Result, Study, Trajectory
-from .._types import FloatArray, Path, Table
-from ._pictures import Line3DCollection
+from .. import BadValue, Limit, Needs, Result, Scene, Study, System, Trajectory
+from .._types import FloatArray, IntArray, Path, Table
+from ._pictures import Line3DCollection, LogLocator, MaxNLocator, Poly3DCollection, to_rgb
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: An HDF5 file of a run or of `hooke.compare`, a `Trajectory`, a `Result`, or positions (n, 3) and springs (m, 2).
-Source = Union[Path, Trajectory, Result, tuple[Any, Any]]
+#: An HDF5 file of a run or of `hooke.compare`, a `Trajectory`, a `Result`, a `Scene` or `System`, which is committed, or
+#: positions (n, 3) and springs (m, 2).
+Source = Union[Path, Trajectory, Result, Scene, System, tuple[Any, Any]]
 
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _AXES = {"x": 0, "y": 1, "z": 2}
+_FAINT = 0.55  # of white, in the colour of what is farthest
 
 
 def cloth(
@@ -28,28 +33,91 @@ def cloth(
     run: str = "all",
     frame: int = -1,
     up: str = "y",
-    color: str = "tab:blue",
-    linewidth: float = 0.5,
+    color: str = COLOURS[0],
+    linewidth: float = 0.8,
     label: str | None = None,
+    surface: bool = True,
 ) -> Any:
-    """Draws the springs of a cloth, or of any other system, in space.
+    """Draws a cloth, or any other system, in space: cloths and meshes as surfaces, the lighter the more they face the eye,
+    unless `surface` is False, and other springs as lines, which are the fainter the farther they are from the eye.
 
-    `source` is a file that a run or `hooke.compare` wrote, a `Trajectory`, a `Result`, or a pair of positions (n, 3)
-    [m] and spring ends (m, 2). In a file, `run` is "all" (the run, or the reference) or one of the compared methods,
-    and `frame` counts the frames that were written, from the end if negative. `up` is the axis drawn upwards.
+    `source` is a file that a run or `hooke.compare` wrote, a `Trajectory`, a `Result`, a `Scene` or `System` at its start,
+    or a pair of positions (n, 3) [m] and spring ends (m, 2). In a file, `run` is "all" (the run, or the reference) or one
+    of the compared methods, and `frame` counts the frames that were written, from the end if negative. `up` is the axis
+    drawn upwards.
     """
-    q, springs, time = _frame(source, run, frame)
+    q, springs, time, system = _frame(source, run, frame)
     order = axis_order(up)
-    points = np.asarray(q, float)[:, order]
+    points, ends = np.asarray(q, float)[:, order], np.asarray(springs, int)
     if ax is None:
         ax = new_space(order)
         if time is not None:
             ax.set_title(f"t = {time:g} s")
-    ax.add_collection3d(
-        Line3DCollection(points[np.asarray(springs, int)], colors=color, linewidths=linewidth, label=label),
-        autolim=False,
-    )
     fit(ax, points)
+    faces = _faces(system) if surface and system is not None else []
+    inside = np.isin(ends, [particle for each in faces for particle in np.unique(each)]).all(axis=1)
+    elevation, azimuth = np.deg2rad([ax.elev, ax.azim])
+    eye = [np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)]
+    for each in faces:
+        corner = points[each]
+        normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        light = np.abs(normal @ eye) / np.maximum(np.linalg.norm(normal, axis=1), 1e-300)  # from the eye, on both sides
+        look = {"facecolors": _paled(color, 0.2 + light), "edgecolors": color, "linewidths": 0.4 * linewidth}
+        ax.add_collection3d(Poly3DCollection(corner, label=label, **look), autolim=False)
+    lines = points[ends[~inside]]
+    if len(lines):
+        away = -lines.mean(axis=1) @ eye
+        far = np.argsort(-away)
+        faint = (away[far] - away.min()) / max(np.ptp(away), 1e-300)
+        drawn = Line3DCollection(lines[far], colors=_paled(color, faint), linewidths=linewidth, label=None if faces else label)
+        ax.add_collection3d(drawn, autolim=False)
+    return ax
+
+
+def _paled(color: Any, faint: FloatArray) -> FloatArray:
+    """A colour mixed with white, by 0 to 1 of the most that is mixed."""
+    share = _FAINT * faint[:, None]
+    paled: FloatArray = (1 - share) * np.asarray(to_rgb(color)) + share
+    return paled
+
+
+def _faces(system: System) -> list[IntArray]:
+    """The faces of cloths (k, 4) and of meshes (k, 3), as particles; none of a system that no scene holds."""
+    try:
+        parts = json.loads(system.text).get("parts", [])
+    except TypeError:
+        return []
+    found: list[IntArray] = []
+    for number, part in enumerate(parts):
+        first = system.part(part.get("name") or f"{part['kind']}{number}").start
+        if part["kind"] == "cloth":
+            across, down = part["size"]
+            corner = first + (across * np.arange(down - 1)[:, None] + np.arange(across - 1)).ravel()
+            found.append(corner[:, None] + [0, 1, across + 1, across])
+        elif part["kind"] == "mesh":
+            found.append(first + np.reshape(part["triangles"], (-1, 3)))
+    return found
+
+
+def over_time(
+    source: Trajectory | Result | Path, watch: str | Iterable[str], ax: Axes | None = None
+) -> Axes:
+    """Draws quantities of a trajectory, in the grammar of ``hooke.run(watch=...)``, over time: ``over_time(out, "57.y")``.
+    Several have to share a unit."""
+    path = source.output if isinstance(source, Result) else source
+    if path is None:
+        raise BadValue("source: this run was not written to a file; run it with output=...")
+    trajectory = path if isinstance(path, Trajectory) else Trajectory(path)
+    ax = _new_axes() if ax is None else ax
+    found = trajectory.watched(watch)
+    units = {unit for unit, _ in found.values()}
+    if len(units) > 1:
+        raise BadValue(f"watch: {', '.join(found)} have the units {', '.join(sorted(units))}; draw one unit at a time")
+    for number, (name, (_, values)) in enumerate(found.items()):
+        ax.plot(trajectory.t, values, label=name, linewidth=1.2, **_style(number, marker=""))
+    ax.set(xlabel="time [s]", ylabel=f"{'' if len(found) > 1 else next(iter(found))} [{units.pop() or '1'}]".strip())
+    if len(found) > 1:
+        _legend(ax)
     return ax
 
 
@@ -64,14 +132,14 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
         reference = table["reference"].attrs["method"]
         time, values = table["series/time"][:], np.abs(table[f"series/{series}"][:])
     ax = _new_axes() if ax is None else ax
-    for method, row in zip(methods, values):
+    for number, (method, row) in enumerate(zip(methods, values)):
         shown = row > 0  # a logarithm has no zero, and NaN is past the end
-        ax.plot(time[shown], row[shown], label=method)
+        ax.plot(time[shown], row[shown], label=method, **_style(number, markevery=max(1, len(time) // 8)))
     ax.set_yscale("log")
     ax.set_xlabel("time [s]")
     ax.set_ylabel({"error": "error [m]", "energy_drift": "energy error [J]"}[series])
     ax.set_title(f"against {reference}" if reference else "")
-    ax.legend()
+    _legend(ax)
     return ax
 
 
@@ -88,29 +156,52 @@ def study(
     table = _Table(source)
     axes = _two_axes(sharey=True) if axes is None else axes
     costs, steps = axes
+    work_precision(source, costs, cost=cost, want=want)
+    costs.get_legend().remove()
+    unstepped = []
+    for number, method in enumerate(dict.fromkeys(table["method"])):
+        rows, style = np.flatnonzero(table["method"] == method), _style(number)
+        order = table.orders.get(method, np.nan)
+        if not np.isfinite(table["step"][rows]).any():
+            unstepped += [line for line in costs.lines if line.get_label() == method]
+            continue
+        label = f"{method}, order {order:.2f}" if np.isfinite(order) else method
+        _ladder(steps, table["step"][rows], table["error_max"][rows], label, style)
+        _ladder(steps, table["step"][rows], table["error_step"][rows], "_", {**style, "marker": ".", "linestyle": ":"})
+        _edge(steps, table["step"][rows[np.isnan(table["error_max"][rows])]], style)
+    steps.set_xlabel("step [s]")
+    _finish(steps, table, getattr(source, "unit", "m"), want, unstepped)
+    return axes
+
+
+def work_precision(
+    source: Study | Path, ax: Axes | None = None, *, cost: str = "wall_seconds", want: float | None = None
+) -> Axes:
+    """Draws error_max [m] against cost of a study, or of the file that one wrote, one marked line a method; with `cost` and
+    `want` as for `study`."""
+    table = _Table(source)
+    ax = _new_axes() if ax is None else ax
     for number, method in enumerate(dict.fromkeys(table["method"])):
         rows = np.flatnonzero(table["method"] == method)
-        style = {"color": f"C{number % 10}", "marker": _MARKERS[number % len(_MARKERS)], "markersize": 4}
-        _ladder(costs, table[cost][rows], table["error_max"][rows], method, style)
-        if np.isfinite(table["step"][rows]).any():
-            order = table.orders.get(method, np.nan)
-            label = f"{method}, order {order:.2f}" if np.isfinite(order) else method
-            _ladder(steps, table["step"][rows], table["error_max"][rows], label, style)
-            _ladder(steps, table["step"][rows], table["error_step"][rows], "_", {**style, "marker": ".", "linestyle": ":"})
-            _edge(steps, table["step"][rows[np.isnan(table["error_max"][rows])]], style)
-    costs.set_xlabel({"wall_seconds": "wall time [s]"}.get(cost, cost.replace("_", " ")))
-    steps.set_xlabel("step [s]")
-    for ax in (costs, steps):
-        ax.set_xscale("log")
-        ax.set_yscale("log")
-        ax.set_ylabel("error [m]" if getattr(source, "unit", "m") else "error")
-        if table.agreement > 0:
-            ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
-            ax.set_ylim(bottom=np.nanmin([table.agreement, *table["error_step"]]))
-        if want is not None:
-            ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8)
-        ax.legend(fontsize="small")
-    return axes
+        _ladder(ax, table[cost][rows], table["error_max"][rows], method, _style(number))
+    ax.set_xlabel({"wall_seconds": "wall time [s]"}.get(cost, cost.replace("_", " ")))
+    _finish(ax, table, getattr(source, "unit", "m"), want)
+    return ax
+
+
+def _finish(ax: Any, table: _Table, unit: str, want: float | None, lines: Iterable[Any] = ()) -> None:
+    ax.set(xscale="log", yscale="log", ylabel=f"error [{unit}]" if unit else "error")
+    low, high = ax.get_xlim()
+    if high < 100 * low:  # few powers of ten: some numbers between them
+        ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter("")
+    if table.agreement > 0:
+        ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
+        ax.set_ylim(bottom=np.nanmin([table.agreement, *table["error_step"]]))
+    if want is not None:
+        ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {want:g} {unit}")
+    _legend(ax, lines)
 
 
 def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
@@ -128,7 +219,7 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
     plane, reach = axes
     angle = np.linspace(0, np.pi / 2, 181)
     for number, row in enumerate(found.rows):
-        style = {"color": f"C{number % 10}", "label": row["method"], "linewidth": 1.5}
+        style = {**_style(number, marker=""), "label": row["method"], "linewidth": 1.5}
         if not np.isfinite(found.step_of_mode(row["method"], 1.0, 0.5)):
             continue
         if row["by_eigenvalue"]:
@@ -148,7 +239,7 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
         (reach, 0, 0, ("h \u03c9, step times frequency", "h d, step times decay")),
     ):
         ax.set(xlim=(left, left + 4.2), ylim=(bottom, 3.2), xlabel=names[0], ylabel=names[1], aspect="equal")
-        ax.legend(fontsize="small")
+    _legend(reach)
     reach.set_xlim(0, 3.2)
     plane.set_title(f"h = {step:.4g} s")
     return axes
@@ -164,8 +255,8 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     length = np.clip(np.where(np.isnan(rows["error"]), high, rows["error"]), low, high)
     place = np.arange(len(rows))
     for label, color, which in (
-        ("needed", "tab:red", rows["needed"]),
-        ("not needed, and left out", "tab:green", ~rows["needed"] & rows["left_out"]),
+        ("needed", COLOURS[1], rows["needed"]),
+        ("not needed, and left out", COLOURS[2], ~rows["needed"] & rows["left_out"]),
         ("not needed, but kept", "0.7", ~rows["needed"] & ~rows["left_out"]),
     ):
         if which.any():
@@ -173,7 +264,7 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     ax.axvline(found.want, color="0.2", linestyle="--", linewidth=1, label="wanted")
     ax.set(xscale="log", xlim=(low, high), xlabel="change of the watched positions [m]")
     ax.set_yticks(place, list(rows["without"]))
-    ax.legend(fontsize="small")
+    _legend(ax)
     return ax
 
 
@@ -198,6 +289,20 @@ def flow(rate: Any, *results: Result, box: tuple[float, float, float, float], ax
 
 
 _MARKERS = "osD^v<>PX*"
+
+
+def _style(number: int, **options: Any) -> dict[str, Any]:
+    """The look of a line: a colour and a mark, which together tell 70 apart, and dashes from the eighth on."""
+    dashes = ("-", "--", ":", "-.")[number // len(COLOURS) % 4]
+    marker = _MARKERS[number % len(_MARKERS)]
+    return {"color": COLOURS[number % len(COLOURS)], "linestyle": dashes, "marker": marker, "markersize": 4, **options}
+
+
+def _legend(ax: Any, lines: Iterable[Any] = ()) -> None:
+    """Beside the axes in a figure of this module, which makes room for it, within them in others; with `lines` of others."""
+    beside = {"loc": "upper left", "bbox_to_anchor": (1.01, 1), "borderaxespad": 0}
+    handles = [*ax.get_legend_handles_labels()[0], *lines]
+    ax.legend(handles=handles, fontsize="small", frameon=False, **(beside if ax.figure.get_layout_engine() is not None else {}))
 
 
 class _Table:
@@ -232,16 +337,21 @@ def _ladder(ax: Any, x: FloatArray, error: FloatArray, label: str, style: dict[s
 
 def _edge(ax: Any, x: FloatArray, style: dict[str, Any]) -> None:
     height = np.full(x.size, 0.98)
-    ax.plot(x, height, transform=ax.get_xaxis_transform(), linestyle="", **{**style, "marker": "x"})
+    ax.plot(x, height, transform=ax.get_xaxis_transform(), **{**style, "linestyle": "", "marker": "x"})
 
 
-def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | None]:
+def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | None, System | None]:
+    if isinstance(source, Scene):
+        source = source.system
+    if isinstance(source, System):
+        state = source.state()
+        return state.q, source.spring_ends, None, source
     if isinstance(source, Result):
-        return source.state.q, source.system.spring_ends, source.state.t
+        return source.state.q, source.system.spring_ends, source.state.t, source.system
     if isinstance(source, Trajectory):
-        return source[frame].q, source.springs, source[frame].t
+        return source[frame].q, source.springs, source[frame].t, None if source.scene is None else source.system
     if not isinstance(source, (str, os.PathLike)):
-        return (*source, None)
+        return (*source, None, None)
     if run == "all":
         with Trajectory(source) as trajectory:
             return _frame(trajectory, run, frame)
@@ -253,7 +363,8 @@ def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | 
         if not -written.size <= frame < written.size:
             raise IndexError(f"frame {frame}: {os.fspath(source)!r} has {written.size} frames of {run!r}")
         number = written[frame]
-        return position["value"][number], file["connectivity/springs"][:], float(position["time"][number])
+        system = Scene.load(source).system if "scene" in file.get("hooke", ()) else None
+        return position["value"][number], file["connectivity/springs"][:], float(position["time"][number]), system
 
 
 def _two_axes(**options: Any) -> Any:
@@ -265,7 +376,7 @@ def _two_axes(**options: Any) -> Any:
 def _new_axes(**options: Any) -> Any:
     import matplotlib.pyplot as plt
 
-    return plt.figure().add_subplot(**options)
+    return plt.figure(layout="constrained").add_subplot(**options)
 
 
 def axis_order(up: str) -> list[int]:
@@ -280,7 +391,7 @@ def new_space(order: list[int]) -> Any:
     """New axes in space, named by the `order` of `axis_order`."""
     ax = _new_axes(projection="3d")
     for name, axis in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order):
-        name(f"{'xyz'[axis]} [m]")
+        name(f"{'xyz'[axis]} [m]", labelpad=17)
     return ax
 
 
@@ -294,11 +405,12 @@ def fit(ax: Any, points: FloatArray) -> None:
     if drawn is not None:
         low, high = np.minimum(low, drawn[0]), np.maximum(high, drawn[1])
     ax._hooke_limits = low, high
-    margin = max(float((high - low).max()), 1e-9) * 0.02
-    ax.set_xlim(low[0] - margin, high[0] + margin)
-    ax.set_ylim(low[1] - margin, high[1] + margin)
-    ax.set_zlim(low[2] - margin, high[2] + margin)
-    ax.set_box_aspect(high - low + 2 * margin)
+    most = max(float((high - low).max()), 1e-9)
+    middle, size = (low + high) / 2, np.maximum(1.04 * (high - low), 0.3 * most)  # numbers stand apart, also on short axes
+    ax.set(**{f"{name}lim": limits for name, *limits in zip("xyz", middle - size / 2, middle + size / 2)})
+    ax.set_box_aspect((*size,), zoom=0.75)
+    for axis, share in zip((ax.xaxis, ax.yaxis, ax.zaxis), size / most):
+        axis.set_major_locator(MaxNLocator(max(1, round(5 * float(share))), min_n_ticks=1))
 
 
 def _text(value: Any) -> str:
