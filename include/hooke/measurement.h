@@ -277,6 +277,7 @@ HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *metho
  * predicted where the scene begins. It does not with obstacles, curves or springs that follow time. Other
  * options of a run stay as they are. HOOKE_BAD_VALUE for options of another kind; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_step_settle(const hooke_system *system, hooke_options *run);
+
 /* Makes step, `every` and duration of the options `run` fit one another, for a method of fixed step. A
  * missing step becomes the largest that fits, up to half of hooke_step_bound() at q (3n), or a thousandth of
  * the duration where nothing is known to limit it. A given one becomes up to 10 % less, or else `every` and
