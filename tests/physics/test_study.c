@@ -113,7 +113,8 @@ TEST(orders_are_those_of_the_theory) {
       const double theory = hooke_measurement_number(study, "orders", at, "theory");
       check_between(theory, 1.0, 4.0);
       check_between(order, theory - 0.15, theory + 0.25);
-      check_between(hooke_measurement_number(study, "orders", at, "order_step"), theory + 0.85, theory + 1.25);
+      check_between(hooke_measurement_number(study, "orders", at, "order_step"), theory + 0.85,
+                    theory + 1.25);
       check_between(order, hooke_measurement_number(study, "orders", at, "low"),
                     hooke_measurement_number(study, "orders", at, "high"));
       assert_string_equal(hooke_measurement_text(study, "orders", at, "note"), "");

@@ -311,7 +311,7 @@ const struct hk_table hk_study_tables[] = {
              struct hk_study_recommendation, want, NUMBER, "m",
              "the wanted error, a distance that no free particle exceeds; of a list 1, and errors are parts of it"),
          HOOKE_COLUMN_BY_AS(unit_of_errors, error_unit, TEXT, "",
-                         "unit of errors: m, or \"wants\": they are parts of what a list wants"),
+                            "unit of errors: m, or \"wants\": they are parts of what a list wants"),
          HOOKE_COLUMN_BY_AS(
              recommended_method, method, TEXT, "",
              "method of the cheapest run that meets the wanted error, else of the closest run"),
