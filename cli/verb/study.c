@@ -95,7 +95,7 @@ static void print_orders(const hooke_measurement *study, int32_t width) {
   if (any)
     printf(
         "95 %% interval: of the slope of a straight line, as if errors scattered about it by chance; one step: "
-        "the slope\nof the error of one step, from the middle of the run, which is one more\n");
+        "the slope\nof the error of one step, from two fifths of the run, which is one more\n");
 }
 
 /* Legend of the columns, and of the marks that occur. */

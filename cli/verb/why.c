@@ -47,7 +47,9 @@ static int32_t find_bound(struct why *why, hooke_state *state) {
 static int32_t run_again(struct why *why) {
   hooke_integrator *integrator = NULL;
   struct cli_watch watch;
-  int32_t status = hooke_integrator_create(why->setup.system, why->setup.options, &integrator);
+  int32_t status = hooke_step_settle(why->setup.system, why->setup.options);
+  if (status == HOOKE_OK)
+    status = hooke_integrator_create(why->setup.system, why->setup.options, &integrator);
   if (status != HOOKE_OK) return status;
   cli_watch_start(&watch, why->arguments);
   hooke_integrator_on_progress(integrator, HOOKE_BETWEEN_LOOKS, see_run, &watch);

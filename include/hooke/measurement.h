@@ -274,8 +274,9 @@ HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *metho
 
 /* Sets `verlet_damping` of a run from auto to explicit where steps that solve for damping are not needed:
  * where the step is at most twice the one up to which auto is explicit, and at most 0.8 of the limit that is
- * predicted where the scene begins. It does not with obstacles, curves or springs that follow time. Other
- * options of a run stay as they are. HOOKE_BAD_VALUE for options of another kind; HOOKE_NO_MEMORY. */
+ * predicted where the scene begins, also if dampers turn until they act together. It does not with obstacles,
+ * curves or springs that follow time. Other options of a run stay as they are. HOOKE_BAD_VALUE for options of
+ * another kind; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_step_settle(const hooke_system *system, hooke_options *run);
 
 /* Makes step, `every` and duration of the options `run` fit one another, for a method of fixed step. A

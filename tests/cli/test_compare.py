@@ -12,7 +12,7 @@ pytestmark = pytest.mark.everything
 
 ROW = ["method", "step", "rtol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
        "wall_seconds", "status", "atol", "linear_iterations", "wall_median", "repeats", "near_floor", "near_energy_floor",
-       "timed_alone", "error_step"]
+       "error_step", "timed_alone"]
 
 
 def rows_of(value):

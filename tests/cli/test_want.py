@@ -5,6 +5,7 @@ tests more."""
 import math
 import shlex
 import time
+from pathlib import Path
 
 import h5py
 import pytest
@@ -12,6 +13,7 @@ from wants import ENDS, WANTS, complaints, cost, estimate_complaints, is_of_the_
 
 pytestmark = pytest.mark.everything
 
+ROPE = str(Path(__file__).parents[2] / "examples/scenes/rope.json")
 SCENES = ["six-particles", "rope", "stiff-spring", "mesh", "cloth-damped", "cantilever", "cloth-gentle", "pendulum", "cable", "swung-rope"]
 ASKED = ["1cm", "1mm"]
 # The examples with one want here, since `make test-long PART=want` studies them with every one.
@@ -175,3 +177,33 @@ def test_the_judge_of_studies():
     assert len(study_complaints(0, met, 0, 9e-4, 1e-3, known=False)) == 1
     assert len(study_complaints(0, met, 4, math.nan, 1e-3)) == 1
     assert len(study_complaints(0, none, None, math.nan, 1e-3)) == 1
+
+
+@pytest.mark.parametrize("duration", ["0.137", "1.111"])
+def test_runs_of_any_length(hooke, duration):
+    """Of which no number of steps between two frames is a divisor."""
+    assert hooke("run", ROPE, "--want", "1mm", "--duration", duration, "--every", "0.02").code == 0
+
+
+def test_motion_between_a_hundred_frames_counts(hooke, write, tmp_path):
+    """An oscillator whose period is a hundredth of the run."""
+    omega = 100 * math.pi
+    spring = {"between": [[0, 1]], "stiffness": omega**2, "law": "length", "rest_length": 1}
+    scene = write({"hooke": 1, "particles": {"position": [[0, 0, 0], [1.1, 0, 0]], "mass": [1, 1], "pinned": [0]},
+                   "springs": [{"name": "s", **spring}]}, duration=2, every=0.002)  # fmt: skip
+    answer = hooke("run", scene, "--want", "1mm", "--method", "verlet", "-o", "out.h5", "--json")
+    with h5py.File(tmp_path / "out.h5") as file:
+        step, values = file["particles/all/position/time"], file["particles/all/position/value"][:, 1, 0]
+        off = max(abs(x - 1 - 0.1 * math.cos(omega * t)) for t, x in zip(step, values))
+    assert answer.code == 0 and 1e-5 < off <= answer.json["error"]["estimate"] < 1e-3
+    answer = hooke("run", scene, "--want", "1mm", "--method", "verlet", "--every", "0.0005", "--json")
+    assert answer.code == 0 and " at 1001 of 4001 frames (" in answer.json["claims"][0]["text"]
+
+
+def test_damping_is_explicit_only_where_dampers_may_turn(hooke, write, tmp_path):
+    """Two perpendicular dampers that turn until they act together."""
+    particles = {"position": [[-1, 0, 0], [0, -1, 0], [0, 0, 0]], "mass": [1, 1, 1], "pinned": [0, 1]}
+    dampers = {"name": "s", "between": [[0, 2], [1, 2]], "stiffness": 1, "damping": 50, "law": "length"}
+    scene = {"hooke": 1, "gravity": [20, 20, 0], "particles": particles, "springs": [dampers]}
+    answer = hooke("run", write(scene, method="verlet", step=0.03, duration=6, every=0.3), "--json")
+    assert answer.code == 0 and answer.json["status"] == "finished"

@@ -218,6 +218,8 @@ TEST(damped_cables_are_solved_for) {
 
 /* ---- explicit steps by the prediction ---- */
 
+#if HOOKE_HAVE_LAPACK
+
 /* A particle of 1 kg between four springs along x and y, two a direction: of their stiffness k and damping c
  * the bound of all directions counts four, and each mode has two. */
 static const double K = 30.0, C = 1.5;
@@ -250,7 +252,8 @@ static void check_settles(const hooke_system *system, double step, const char *a
 }
 
 TEST(runs_settle_on_explicit_damping) {
-  const double certain = 0.8 * step_of_springs(4.0), most = 0.8 * step_of_springs(2.0);
+  const double certain = 0.8 * step_of_springs(4.0), k = 2.0 * K / (0.8 * 0.8), c = 4.0 * C,
+               most = 4.0 / (c + sqrt(c * c + 4.0 * k)); /* dampers may turn until all act together */
   owned_system *system = cross_of("", 0), *floor = cross_of("", 1),
                *winch =
                    cross_of("rest_scale.motion=harmonic rest_scale.amplitude=0.1 rest_scale.frequency=1", 0);
@@ -263,6 +266,7 @@ TEST(runs_settle_on_explicit_damping) {
   check_settles(floor, 0.997 * most, NULL, "auto");
   check_settles(winch, 0.997 * most, NULL, "auto");
 }
+#endif
 
 struct heard {
   int64_t above;

@@ -74,11 +74,13 @@ def test_the_same_bits_on_executors_of_others(path, name):
 
 
 def test_what_is_in_the_file_is_not_run_again(path, tmp_path):
-    output, asked = tmp_path / "rows.jsonl", []
+    output = tmp_path / "rows.jsonl"
 
     def run(scene, **options):
-        asked.append(scene.run_options["step"])
-        return {"x": len(asked), "y": np.float64("nan"), "z": np.arange(2)}
+        run.asked.append(scene.run_options["step"])
+        return {"x": len(run.asked), "y": np.float64("nan"), "z": np.arange(2)}
+
+    run.asked = asked = []
 
     def sweep(**more):
         return hooke.sweep(path, VARY, output=output, run=run, **more)
@@ -259,3 +261,23 @@ def rows_of(output):
     """The whole rows in the file; all lines are but those that a kill cut off."""
     lines = output.read_text().splitlines() if output.exists() else []
     return [json.loads(line) for line in lines if line.endswith("}")]
+
+
+def test_a_function_is_another_with_other_values(path, tmp_path):
+    def made(gain):
+        return lambda scene, **options: {"gain": gain}
+
+    rows = [hooke.sweep(path, {"run.step": [1e-3]}, run=made(gain), output=tmp_path / "rows")[0] for gain in (1, 2, 1)]
+    assert [row["gain"] for row in rows] == [1, 2, 1] and len((tmp_path / "rows").read_text().splitlines()) == 2
+
+
+def test_rows_begin_at_one_state(path):
+    state = hooke.Scene.load(path).system.state()
+    rows = hooke.sweep(path, {"edges.stiffness": [10, 20]}, state=state, duration=0.1)
+    assert [row["time"] for row in rows] == [0.1, 0.1] and state.t == 0
+
+
+def test_one_file_of_all_rows_is_refused(path, tmp_path):
+    with pytest.raises(hooke.BadValue, match="probes"):
+        hooke.sweep(path, {"run.step": [1e-3, 5e-4]}, probe="2.y", probes=str(tmp_path / "all.csv"))
+    assert hooke.sweep(path, {"run.step": [1e-3]}, estimate=True, duration=0.1)[0]["error.estimate"] > 0

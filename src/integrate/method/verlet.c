@@ -219,17 +219,19 @@ static void add_rows(const hooke_system *system, double t, int32_t kinds, double
   }
 }
 
-/* The largest step [s] that is stable for certain, at any positions. HOOKE_NO_MEMORY. */
-static int32_t find_bound(const hooke_system *system, double *bound) {
+/* The largest step [s] that is stable for certain, at any positions, and that which damping alone allows.
+ * HOOKE_NO_MEMORY. */
+static int32_t find_bound(const hooke_system *system, double *bound, double *damped) {
   const int64_t n = system->particle_count;
   double *stiffness = hk_new(2 * n, sizeof(double)), *damping = stiffness ? stiffness + n : NULL;
   if (stiffness == NULL) return HOOKE_NO_MEMORY;
   add_rows(system, HOOKE_STIFFEST, HOOKE_LOOPED, stiffness, damping);
   add_rows(system, 0.0, ~(HOOKE_UNIFORM | HOOKE_LOOPED), stiffness, damping);
-  *bound = INFINITY;
+  *bound = *damped = INFINITY;
   for (int64_t p = 0; p < n; p++) {
     const double w = system->inverse_mass[p], k = w * stiffness[p], c = w * damping[p];
     if (k > 0.0 || c > 0.0) *bound = fmin(*bound, 4.0 / (c + sqrt(c * c + 4.0 * k)));
+    if (c > 0.0) *damped = fmin(*damped, 2.0 / c);
   }
   hk_free(stiffness);
   return HOOKE_OK;
@@ -248,11 +250,11 @@ static int32_t depends_on_state(const hooke_system *system) {
   return depends;
 }
 
-static int32_t find_explicit_step(const hooke_system *system, double *step) {
+static int32_t find_explicit_step(const hooke_system *system, double *step, double *damped) {
   const int solves = hk_system_is_damped(system, ~HOOKE_UNIFORM) && !hk_system_is_not_linear(system);
-  *step = solves ? 0.0 : INFINITY;
+  *step = *damped = solves ? 0.0 : INFINITY;
   if (isinf(*step) || depends_on_state(system)) return HOOKE_OK;
-  const int32_t status = find_bound(system, step);
+  const int32_t status = find_bound(system, step, damped);
   *step *= MARGIN;
   return status;
 }
@@ -272,12 +274,13 @@ static int32_t choose(hooke_integrator *it) {
   if (it->system->mover_count > 0) return predict_always(it, asked, "rigid bodies yet");
   if (hk_system_is_not_linear(it->system))
     return predict_always(it, asked, "forces that are not linear in velocities");
-  double most = 0.0;
+  double most = 0.0, damped;
   if (!hk_system_is_damped(it->system, ~HOOKE_UNIFORM)) {
     if (it->by_tiles) it->by_tiles |= HOOKE_MOTION_KEEPS;
     return HOOKE_OK;
   }
-  const int32_t status = strcmp(asked, "auto") == 0 ? find_explicit_step(it->system, &most) : HOOKE_OK;
+  const int32_t status =
+      strcmp(asked, "auto") == 0 ? find_explicit_step(it->system, &most, &damped) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   it->explicit_damping = strcmp(asked, "explicit") == 0 || it->schedule.step <= most;
   if (!it->explicit_damping) it->by_tiles = 0;

@@ -133,7 +133,8 @@ static void choose_kept(struct hk_estimate *e, const hooke_integrator *it, int64
   const double intervals = (double)(it->schedule.frames - 1);
   const double steps = it->method->adaptive ? INFINITY : (double)it->schedule.steps;
   const double bytes = (double)(3 * hooke_system_particle_count(e->system) + 1) * sizeof(double);
-  const double many = fmin(fmin(MOST_KEPT, FEW_BYTES / bytes), steps / STEPS_APART);
+  const double longer = e->wants.whole ? INFINITY : steps / STEPS_APART; /* a period needs all */
+  const double many = fmin(fmin(MOST_KEPT, FEW_BYTES / bytes), longer);
   const double apart = ceil(intervals / fmax(1.0, fmax(many, fmin(KEPT, KEPT_BYTES / bytes))));
   e->apart = fmin(apart * e->every, e->duration);
   *count = hk_schedule_frames(e->duration, e->apart);
@@ -170,6 +171,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   e->begin = hooke_state_time(state);
   e->duration = it->schedule.duration;
   e->every = it->schedule.every;
+  e->frames = frames;
   e->frames_apart = 1 + (frames - 1) / MOST_SEEN;
   e->frames_seen = 0;
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
@@ -266,6 +268,7 @@ static int64_t compare(const struct hk_estimate *e, struct hk_distance *from) {
     hk_wants_spread(&e->wants, &e->kept.watched, f, &r->frames.watched, k, far, from->of);
     count++;
   }
+  if (r->trusted < r->frames.count) hk_wants_forget_periods(&e->wants, from->of);
   return count;
 }
 
@@ -304,6 +307,7 @@ static int measure_by_reference(struct hk_estimate *e) {
   const int64_t count = compare(e, &from);
   if (!e->picked && count < LEAST_COMPARED && count < e->kept.recorded) return 0;
   if (r->trusted > 1) {
+    e->compared = count;
     for (int32_t n = 0; n <= e->wants.count; n++)
       hk_estimate_know(e, n, from.of[n] + agreement(e, n));
     if (e->picked) raise_worst(e, e->pick.best.error + r->wanted_agreement);

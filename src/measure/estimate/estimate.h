@@ -40,8 +40,9 @@ struct hk_estimate {
   struct hk_soundness soundness;
   int64_t frames_apart; /* of the states that the soundness records */
   int64_t frames_seen;
-  hooke_state *late; /* at about the beginning of its last slice */
-  double late_after; /* its earliest time [s]; NaN once recorded */
+  int64_t frames, compared; /* of the run, and those at which errors were found */
+  hooke_state *late;        /* at about the beginning of its last slice */
+  double late_after;        /* its earliest time [s]; NaN once recorded */
 
   /* results */
   double error[HOOKE_ERRORS], order[HOOKE_ERRORS]; /* NaN: not known; orders in the step or tolerance */

@@ -32,10 +32,13 @@ static enum hk_claim_of of_known(const struct hk_estimate *e) {
 static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
   if (e->only_watches) return;
   const char *m = hk_metres(e->system), *what = e->system->generalized ? "number" : "particle";
+  char at[64] = "";
+  if (e->compared < e->frames && hk_estimate_knows_all(e))
+    hk_print(at, sizeof at, " at %lld of %lld frames", (long long)e->compared, (long long)e->frames);
   if (e->by)
     hk_claim(claims, "error", of_known(e), e->by,
-             "the error is at most %.3g%s until t = %.6g s, of any %s (root mean square %.2g%s), %s",
-             e->error[0], m, e->known_until, what, e->rms, m, source_of(e->by));
+             "the error is at most %.3g%s until t = %.6g s, of any %s%s (root mean square %.2g%s), %s",
+             e->error[0], m, e->known_until, what, at, e->rms, m, source_of(e->by));
   else
     hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "", "the error is not known: %s", e->reason);
 }
@@ -49,8 +52,9 @@ static void tell_each(const struct hk_estimate *e, struct hk_claims *claims) {
                "of %s it is not known: other runs do not tell it, or its value (a period takes eight frames)",
                name);
     else
-      hk_claim(claims, "error", of_known(e), e->by, "of %s it is at most %.3g%s%s, where %.3g%s%s are wanted",
-               name, e->error[1 + k], blank, unit, e->bound[k], blank, unit);
+      hk_claim(claims, "error", of_known(e), e->by,
+               "of %s it is at most %.3g%s%s until then, where %.3g%s%s are wanted", name, e->error[1 + k],
+               blank, unit, e->bound[k], blank, unit);
   }
 }
 

@@ -181,6 +181,7 @@ static void know(struct hk_estimate *e, int32_t n, const struct hk_distance *fro
   if (n > 0) return;
   e->rms = factor * from->rms;
   e->known_until = e->begin + e->duration;
+  e->compared = e->kept.recorded;
   e->by = method_of(e)->adaptive ? "tolerance" : "half-step";
 }
 

@@ -28,15 +28,25 @@ static int32_t may_solve(const hooke_system *system, const struct hk_method *met
   return method && method->explicit_step && system->mover_count == 0 && system->generalized == NULL;
 }
 
+/* The step at which 4 (h/stiff)^2 + 4 h/damped = 4: stiffness as at the start, dampers in any direction,
+ * which may turn until they act together. */
+static double meet(double stiff, double damped) {
+  const double c = 2.0 / damped, root = 2.0 / stiff;
+  return 4.0 / (c + sqrt(c * c + 4.0 * root * root));
+}
+
 /* The largest explicit steps of verlet: for certain, and by the prediction at the start. */
 static int32_t find_steps(const hooke_system *system, const struct hk_method *method, double *certain,
                           double *most) {
-  int32_t status = method->explicit_step(system, certain);
+  double damped, limit = 0.0, of_stiffness = 0.0;
+  int32_t status = method->explicit_step(system, certain, &damped);
   *most = *certain;
   if (status != HOOKE_OK || !(*certain > 0.0) || isinf(*certain) || may_stiffen(system)) return status;
   struct hk_budget endless = hk_budget_of(INFINITY, NULL, NULL);
-  double limit = 0.0;
-  status = hk_limit_sure(system, hk_start_position(system), NULL, hk_symplectic_euler.name, &endless, &limit);
+  const double *q = hk_start_position(system);
+  status = hk_limit_sure(system, q, NULL, hk_symplectic_euler.name, &endless, &limit);
+  if (status == HOOKE_OK) status = hk_limit_sure(system, q, NULL, hk_verlet.name, &endless, &of_stiffness);
+  limit = fmin(limit, meet(SHARE * of_stiffness, damped) / SHARE);
   *most = fmax(*certain, fmin(FARTHEST * *certain, SHARE * limit));
   return status;
 }
@@ -56,10 +66,10 @@ int32_t hooke_step_settle(const hooke_system *system, hooke_options *run) {
   if (status != HOOKE_OK) return status;
   const struct hk_method *method = hk_method_find(hooke_options_text(run, "method"));
   const double step = hooke_options_number(run, "step");
-  double certain, most;
+  double certain, most, damped;
   if (!may_solve(system, method) || strcmp(hooke_options_text(run, "verlet_damping"), "auto") != 0)
     return HOOKE_OK;
-  status = method->explicit_step(system, &certain);
+  status = method->explicit_step(system, &certain, &damped);
   if (status != HOOKE_OK || !(step > certain && step <= FARTHEST * certain)) return status;
   status = find_steps(system, method, &certain, &most);
   if (status != HOOKE_OK || step > most) return status;

@@ -45,12 +45,20 @@ static int32_t read_name(struct hk_watched_list *list, struct hk_want *want) {
   return HOOKE_OK;
 }
 
+/* Ends a text before the blanks before `end`. */
+static void trim(char *text, char *end) {
+  while (end > text && end[-1] == ' ')
+    end--;
+  *end = '\0';
+}
+
 /* "energy=0.1J", or a length; the text is modified. */
 static int32_t read_want(struct hk_watched_list *list, char *text, struct hk_want *want) {
+  trim(text, text + strlen(text));
   char *value = strrchr(text, '=');
   hk_print(want->name, sizeof want->name, "%s", value ? text : "particles");
   if (value == NULL) return read_bound(text, "m", want);
-  want->name[value - text] = '\0';
+  trim(want->name, want->name + (value - text));
   const int32_t status = read_name(list, want);
   if (status != HOOKE_OK) return status;
   return read_bound(value + 1 + strspn(value + 1, " "), hk_watched_unit(&list->item[want->at[0]]), want);
@@ -119,6 +127,11 @@ const char *hk_want_unit(const struct hk_wants *wants, int32_t number) {
 
 static int32_t is_period(const struct hk_wants *wants, const struct hk_want *want) {
   return want->width > 0 && wants->list->item[want->at[0]].is_period;
+}
+
+void hk_wants_forget_periods(const struct hk_wants *wants, double most[1 + HOOKE_WANTS]) {
+  for (int32_t k = 0; k < wants->count; k++)
+    if (is_period(wants, &wants->want[k])) most[1 + k] = NAN;
 }
 
 /* Of every frame, or of every other one. */

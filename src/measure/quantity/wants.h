@@ -54,6 +54,8 @@ void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_serie
  * where unknown. */
 void hk_wants_spread(const struct hk_wants *wants, const struct hk_watched_series *a, int64_t i,
                      const struct hk_watched_series *b, int64_t j, double far, double most[1 + HOOKE_WANTS]);
+/* Makes those of periods NaN: where the last frames are not among those that were compared. */
+void hk_wants_forget_periods(const struct hk_wants *wants, double most[1 + HOOKE_WANTS]);
 /* By how much the value itself is not known: of a period, for interpolation between the frames. */
 double hk_want_doubt(const struct hk_wants *wants, int32_t number, const struct hk_watched_series *series);
 /* The largest difference over the wants, at a frame of both. NaN if one is unknown. */

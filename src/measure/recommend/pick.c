@@ -21,12 +21,13 @@ static const double REFERENCE_RUNS = 5.0, REFERENCE_SHARE = 0.75; /* of it, at m
 static const double QUICK = 0.5,
                     SLOWER = 4.0; /* of LEAST_WORK / RUNS: first cap of quick runs; to the next */
 static const double QUICK_TOLERANCE = 1e-2;
-static const double DIGITS = 0.02;      /* of the wanted error: accuracy of the reference */
-static const double BEGINNING = 0.1;    /* duration studied if the reference reached no frame */
-static const double LONGER = 4.0;       /* from one budget to the next while it came to nothing */
-static const double LIMITS_SHARE = 0.1; /* of LEAST_WORK, for the limit of bodies at the start */
-static const double REVERSED = 2.0;     /* ratio of times that is worth telling */
-enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, MOST_OF_PERIODS = 1000, MOST_BUDGETS = 2 };
+static const double DIGITS = 0.02;          /* of the wanted error: accuracy of the reference */
+static const double FRAMES_BYTES = 1 << 24; /* beyond MANY_FRAMES */
+static const double BEGINNING = 0.1;        /* duration studied if the reference reached no frame */
+static const double LONGER = 4.0;           /* from one budget to the next while it came to nothing */
+static const double LIMITS_SHARE = 0.1;     /* of LEAST_WORK, for the limit of bodies at the start */
+static const double REVERSED = 2.0;         /* ratio of times that is worth telling */
+enum { FEWEST_FRAMES = 25, MOST_FRAMES = 1000, MANY_FRAMES = 100, MOST_BUDGETS = 2 };
 
 /* Counted work that all of it may take, as far as that is known [s]. */
 static double most_work_of(const struct hk_pick *pick) {
@@ -43,17 +44,21 @@ static int32_t allows(const struct hk_pick *pick, const char *method) {
 /* ---- the studied duration ---- */
 
 /* A number of frames between FEWEST_FRAMES and MOST_FRAMES, such that the steps that fit the run fit them,
- * too. */
+ * too. The last frame comes sooner where no such number divides the run. */
 static int32_t choose_frames(struct hk_pick *pick) {
   double every, unit;
   int32_t status = hk_step_times(pick->run, &pick->duration, &every);
   if (status == HOOKE_OK) status = hk_step_unit(pick->duration, every, &unit);
   if (status != HOOKE_OK) return status;
   const double units = round(pick->duration / unit);
-  const double most = pick->wants->whole ? MOST_OF_PERIODS : MOST_FRAMES;
-  double apart = 1.0;
-  while (units / apart > most || fmod(units, apart) != 0.0)
-    if (++apart > units) apart = units;
+  const double bytes = 3.0 * (double)pick->system->particle_count * sizeof(double);
+  const double most =
+      pick->wants->whole ? MOST_FRAMES : fmax(MANY_FRAMES, fmin(MOST_FRAMES, FRAMES_BYTES / bytes));
+  const double least = ceil(units / most);
+  double apart = least;
+  while (fmod(units, apart) != 0.0 && units / apart >= FEWEST_FRAMES)
+    apart++;
+  if (units / apart < FEWEST_FRAMES) apart = least;
   const double parts = ceil(FEWEST_FRAMES * apart / units);
   every = parts > 1.0 ? apart * unit / parts : apart * unit;
   pick->unit = fmin(unit, every);

@@ -129,6 +129,7 @@ static int32_t make_reference(struct hk_study *study) {
       .digits = wants->most * wants->length / 10.0,
       .wants = wants,
       .brief = study->once,
+      .keeps_state = !study->once,
       .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
       .listener = &listener,
       .watched = &study->watched};

@@ -14,7 +14,7 @@ struct hk_study_row {
   int32_t method; /* index into the study's methods */
   double value;   /* step [s] or rtol */
   struct hk_trial trial;
-  double error_step; /* of one step from the middle of the reference [m]; NaN: not known */
+  double error_step; /* of one step from a state within the reference [m]; NaN: not known */
   double wall_median;
   int32_t repeats;
   int32_t timed_alone; /* 0: timed while other rows were running */

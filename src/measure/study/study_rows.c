@@ -86,7 +86,7 @@ enum { PARTS = 16 };              /* steps of rk4 for one step of the method */
 static const double KNOWN = 1e-2; /* fraction of the error by which those and half as many may differ */
 static const double CLEAR = 1e2;  /* of what positions can hold: below that, rounding hides the error */
 
-/* The state one step of a row after the middle of the reference, by the row's method or, in `parts`, by rk4;
+/* The state one step of a row after a state within the reference, by the row's method or, in `parts`, by rk4;
  * NULL where that gives up. */
 static int32_t step_on(const struct hk_study *study, const struct hk_study_row *row, int64_t parts,
                        hooke_state **state) {
@@ -99,7 +99,7 @@ static int32_t step_on(const struct hk_study *study, const struct hk_study_row *
   if (status == HOOKE_OK) status = hooke_options_unset(options, "every");
   if (status == HOOKE_OK) status = hooke_integrator_create(study->m->system, options, &integrator);
   if (status == HOOKE_OK) status = hooke_state_create(study->m->system, state);
-  if (status == HOOKE_OK) status = hooke_state_copy(study->reference.frames.middle, *state);
+  if (status == HOOKE_OK) status = hooke_state_copy(study->reference.frames.within, *state);
   if (status == HOOKE_OK) status = hooke_integrator_step(integrator, *state, parts);
   hooke_integrator_destroy(integrator);
   hooke_options_destroy(options);
@@ -115,7 +115,7 @@ static int32_t measure_step(const struct hk_study *study, struct hk_study_row *r
   hooke_state *by[3] = {NULL, NULL, NULL};
   int32_t status = HOOKE_OK;
   row->error_step = NAN;
-  if (study->once || hk_study_is_adaptive(study, row->method) || r->trusted <= r->frames.count / 2)
+  if (study->once || hk_study_is_adaptive(study, row->method) || r->trusted <= hk_frames_within(&r->frames))
     return HOOKE_OK;
   for (int32_t k = 0; k < 3 && status == HOOKE_OK; k++)
     status = step_on(study, row, parts[k], &by[k]);

@@ -271,11 +271,11 @@ const struct hk_table hk_study_tables[] = {
                          "the error is within ten times of the agreement, or of what rounding may do"),
          HOOKE_COLUMN_BY(near_energy_floor, FLAG, "",
                          "the energy drift is within ten times of the agreement of energies"),
+         HOOKE_COLUMN(struct hk_study_row, error_step, NUMBER, "m",
+                      "root mean square error of one step from the reference's state at two fifths of the "
+                      "run; NaN where that is not known or rounding hides it"),
          HOOKE_COLUMN(struct hk_study_row, timed_alone, FLAG, "",
                       "0: timed while other rows were running, so its time may be too long"),
-         HOOKE_COLUMN(struct hk_study_row, error_step, NUMBER, "m",
-                      "root mean square error of one step from the reference's state in the middle of the "
-                      "run; NaN where that is not known or rounding hides it"),
          OF_TRIAL(error_at, SERIES, "m", "root mean square distance at every frame"),
          OF_TRIAL(error_max_at, SERIES, "m", "largest distance of any free particle at every frame"),
          HOOKE_COLUMN_AS(struct hk_study_row, trial.drift_at, energy_drift_at, SERIES, "J",

@@ -197,14 +197,20 @@ static int is_lost(const struct hk_reference_watch *watch, const struct hk_refer
   return watch->request->brief && !is_all(r) && (!hk_reference_is_halved(r) || tolerance <= TIGHT);
 }
 
+/* Beside positions. */
+static int32_t keep_more(const struct hk_reference_request *request, struct hk_frames *frames) {
+  const int32_t status = hk_frames_watch(frames, request->watched, request->wants);
+  return status == HOOKE_OK && request->keeps_state ? hooke_state_create(frames->system, &frames->within)
+                                                    : status;
+}
+
 /* Runs a level, which may replace the best one so far. */
 static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *r, double tolerance,
                          struct hk_trial *check) {
   struct hk_reference next = *r;
   next.trusted = next.checked = 0;
   int32_t status = hk_frames_create(r->frames.system, r->frames.count, &next.frames);
-  if (status == HOOKE_OK)
-    status = hk_frames_watch(&next.frames, watch->request->watched, watch->request->wants);
+  if (status == HOOKE_OK) status = keep_more(watch->request, &next.frames);
   if (status == HOOKE_OK) status = agree(watch, &next, tolerance, check);
   if (status != HOOKE_OK) {
     hk_frames_release(&next.frames);
@@ -273,7 +279,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
   if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK) find_extent(r, state);
   hooke_state_destroy(state);
-  if (status == HOOKE_OK) status = hk_frames_watch(&r->frames, request->watched, request->wants);
+  if (status == HOOKE_OK) status = keep_more(request, &r->frames);
   if (status == HOOKE_OK && hk_reference_is_halved(r))
     status = hk_reference_find_longest(&watch, r, r->method);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);

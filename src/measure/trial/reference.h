@@ -48,7 +48,8 @@ struct hk_reference_request {
   int32_t counted; /* 1: the budget is one of counted work, which is the same on any machine */
   double budget;   /* [s], infinity for none */
   const struct hk_watched_list
-      *watched; /* recorded at every frame, with the difference of the two; NULL: nothing */
+      *watched;        /* recorded at every frame, with the difference of the two; NULL: nothing */
+  int32_t keeps_state; /* 1: of hk_frames_within() */
   const struct hk_listener *listener; /* receives progress as a fraction of the whole reference */
 };
 

@@ -23,10 +23,9 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
   double *block = hk_new(count, (size_t)(size + 3) * sizeof(double));
   frames->time = block;
   frames->free_place = hk_new(hooke_system_count(system, "free") * (3 / width), sizeof(int64_t));
-  const int32_t status = hooke_state_create(system, &frames->middle);
-  if (status != HOOKE_OK || block == NULL || frames->free_place == NULL) {
+  if (block == NULL || frames->free_place == NULL) {
     hk_frames_release(frames);
-    return status != HOOKE_OK ? status : HOOKE_NO_MEMORY;
+    return HOOKE_NO_MEMORY;
   }
   frames->time = hk_part(&block, count);
   frames->energy = hk_part(&block, count);
@@ -48,7 +47,7 @@ int32_t hk_frames_watch(struct hk_frames *frames, const struct hk_watched_list *
 void hk_frames_release(struct hk_frames *frames) {
   hk_free(frames->time);
   hk_free(frames->free_place);
-  hooke_state_destroy(frames->middle);
+  hooke_state_destroy(frames->within);
   hk_watched_series_release(&frames->watched);
   memset(frames, 0, sizeof *frames);
 }
@@ -65,7 +64,7 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
   frames->time[f] = hooke_state_time(state);
   frames->energy[f] = energy_of(frames->system, state);
   hk_watched_series_keep(&frames->watched, f, frames->time[f], q, hooke_state_velocity(state));
-  if (f == frames->count / 2) (void)hooke_state_copy(state, frames->middle);
+  if (frames->within && f == hk_frames_within(frames)) (void)hooke_state_copy(state, frames->within);
   if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
 }
 
@@ -210,6 +209,7 @@ static void judge_wants(struct hk_trial *trial, const struct hk_frames *referenc
     trial->wanted_at[f] = error;
     if (!(error <= trial->wanted) && !isnan(trial->wanted)) trial->wanted = error;
   }
+  if (wants && wants->whole && frames < reference->count) trial->wanted = NAN;
 }
 
 /* What rounding may have displaced a particle by so far [m]: by chance in every step, but always in the same

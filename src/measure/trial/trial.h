@@ -18,10 +18,10 @@ struct hk_frames {
   double *energy;      /* count [J]; NaN of a problem of coordinates */
   double *position;    /* count x size [m] */
   double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
-  int64_t *free_place, free_count;         /* particles, or coordinates: errors are measured over these */
-  struct hk_watched_series watched;        /* empty unless created */
-  const struct hk_wants *wants;            /* of its `watched`; NULL: the largest distance is the error */
-  hooke_state *middle;                     /* the state at frame count / 2, once it is recorded */
+  int64_t *free_place, free_count;  /* particles, or coordinates: errors are measured over these */
+  struct hk_watched_series watched; /* empty unless created */
+  const struct hk_wants *wants;     /* of its `watched`; NULL: the largest distance is the error */
+  hooke_state *within;              /* the state at frame hk_frames_within(), once recorded, where kept */
   char zero_passages[HOOKE_PASSAGES_TOLD]; /* of their run: see hooke_integrator_text() */
 };
 
@@ -34,6 +34,11 @@ void hk_frames_release(struct hk_frames *frames);
 
 /* Records the next frame; those beyond `count` are ignored. */
 void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
+
+/* A frame at two fifths, where what is periodic in the run has no turning point. */
+static inline int64_t hk_frames_within(const struct hk_frames *frames) {
+  return 2 * frames->count / 5;
+}
 
 /* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance
  * too. */

@@ -20,12 +20,14 @@ from typing import Any, Callable, Union
 import numpy as np
 
 from ._look import WorkProgress, draw, shown
+from ._measurement import Found
 from ._queries import build_facts
 from ._status import BadValue, Error, SolverFailed
 from ._types import Path
 from .results import Result
 from .results import run as run_scene
 from .scene import Scene
+from .state import State
 
 #: Values by paths such as "run.step" or "cloth.structural.stiffness": their combinations, or those of each row.
 Vary = Union[Mapping[str, Iterable[Any]], Iterable[Mapping[str, Any]], Any]
@@ -75,8 +77,9 @@ class _Work:
     options: dict[str, Any]
 
     def __call__(self, values: dict[str, Any]) -> dict[str, Any]:
+        own = {name: value.copy() if isinstance(value, State) else value for name, value in self.options.items()}
         try:
-            return _told(self.run(Scene.parse(self.text, folder=self.folder, set=values), **self.options))
+            return _told(self.run(Scene.parse(self.text, folder=self.folder, set=values), **own))
         except (OSError, MemoryError) as error:
             return {"status": "unavailable", "reason": str(error)}
         except TypeError:  # a mistake of the call
@@ -93,8 +96,10 @@ class _Work:
 
 def _told(found: Any) -> dict[str, Any]:
     """The row of a run or a measurement: numbers, texts, and those of its records."""
-    if isinstance(found, Mapping):
-        return {"status": "finished", "reason": "", **found}
+    if found is None or isinstance(found, Mapping):
+        return {"status": "finished", "reason": "", **(found or {})}
+    if not isinstance(found, (Result, Found)):
+        raise TypeError(f"run: it returned {found!r}; allowed: a result, a measurement, a dict, or None")
     if not isinstance(found, Result):
         values = {**vars(found), "recommendation": getattr(found, "recommendation", None), "claims": str(found)}
         return {"status": values.pop("outcome"), "reason": "", **_flat(values)}
@@ -114,6 +119,8 @@ def _flat(values: Mapping[str, Any]) -> dict[str, Any]:
             told[name] = value
         elif hasattr(value, "_fields"):
             told.update(_flat({f"{name}.{field}": getattr(value, field) for field in value._fields}))
+        elif name == "watched" and isinstance(value, Mapping):
+            told.update(_flat(value))
     return {name: value for name, value in told.items() if name[0] != "_"}
 
 
@@ -123,12 +130,17 @@ def _dump(document: Any, other: Callable[[Any], str] = str) -> bytes:
     return json.dumps(json.loads(text, parse_constant=lambda _: None)).encode()
 
 
-def _known(function: Any) -> str:
-    """What tells a function, or a callable object, from another one, in every process."""
+def _known(thing: Any) -> str:
+    """What tells a function, with what it holds, or an object from another one, in every process; what cannot be told is
+    another one in each."""
     try:
-        return inspect.getsource(function)
-    except (OSError, TypeError):
-        return getattr(function, "__qualname__", None) or repr(pickle.dumps(function))
+        if not inspect.isfunction(thing) and not inspect.ismethod(thing):
+            return repr(pickle.dumps(thing))
+        held = [cell.cell_contents for cell in thing.__closure__ or () if cell.cell_contents is not thing]
+        held += [thing.__defaults__, thing.__kwdefaults__, getattr(thing, "__self__", None)]
+        return f"{inspect.getsource(thing)} {_dump(held, _known).decode()}"
+    except Exception:
+        return repr(thing)
 
 
 @contextlib.contextmanager
@@ -241,8 +253,13 @@ def sweep(
     for path in paths:
         if path.startswith("run.") and path[4:] in options:
             raise BadValue(f"{path}: it is varied, and an option of all runs; give one of them")
+    if error and run is not run_scene:
+        raise BadValue("error: it is that of hooke.run; leave it out where another function runs")
+    if options.get("probes") is not None and len(rows) > 1:
+        raise BadValue("probes: all rows would write one file; allowed: watch, or a function of your own")
     options |= {"watch": watch} if watch is not None else {}
-    options |= {"estimate": error} if error or run is run_scene else {}
+    if run is run_scene:
+        options.setdefault("estimate", error)
     work = _Work(*_text(scene), run, options)
     mine = list(zip(work.keys(rows), rows))[only]
     table = File(output) if output is not None and File(output).suffix in (".csv", ".parquet") else None
@@ -258,7 +275,7 @@ def sweep(
                     break
         except BrokenExecutor as broken:
             known = sum(key in done for key, _ in mine)
-            raise Error(f"a worker was ended; {known} of {len(mine)} rows are done, and the same call does the rest") from broken
+            raise Error(f"a worker was ended; {known} of {len(mine)} rows are done, and the same call with another executor does the rest") from broken
     made = Sweep(paths, [done[key] for key, _ in mine if key in done])
     if table:
         part = table.with_suffix(".part")

@@ -191,6 +191,8 @@ def work_precision(
 
 def _finish(ax: Any, table: _Table, unit: str, want: float | None, lines: Iterable[Any] = ()) -> None:
     ax.set(xscale="log", yscale="log", ylabel=f"error [{unit}]" if unit else "error")
+    if want is not None:  # before the limits are set
+        ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {want:g} {unit}")
     low, high = ax.get_xlim()
     if high < 100 * low:  # few powers of ten: some numbers between them
         ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -199,8 +201,6 @@ def _finish(ax: Any, table: _Table, unit: str, want: float | None, lines: Iterab
     if table.agreement > 0:
         ax.axhspan(table.agreement / 1e3, table.agreement * 10, color="0.92", zorder=0)
         ax.set_ylim(bottom=np.nanmin([table.agreement, *table["error_step"]]))
-    if want is not None:
-        ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {want:g} {unit}")
     _legend(ax, lines)
 
 
@@ -269,7 +269,7 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
 
 
 def flow(rate: Any, *results: Result, box: tuple[float, float, float, float], ax: Axes | None = None) -> Axes:
-    """Draws the flow x' = phi(t, x) of two components at t = 0 as arrows in `box`, (left, right, low, high), and the frames of
+    """Draws the flow x' = phi(t, x) of two components at t = 0 as arrows of one length in `box`, (left, right, low, high), and the frames of
     results of it as marked lines."""
     ax = _new_axes() if ax is None else ax
     left, right, low, high = box
@@ -277,14 +277,17 @@ def flow(rate: Any, *results: Result, box: tuple[float, float, float, float], ax
     speed = np.zeros_like(place)
     for i, j in np.ndindex(*place.shape[1:]):
         rate(0.0, place[:, i, j], speed[:, i, j])
-    ax.quiver(*place, *speed, color="0.7", angles="xy")
-    for result in results:
+    size = np.hypot(*speed)
+    ax.quiver(*place, *speed / np.where(size > 0, size, 1), color="0.7", angles="xy")
+    for number, result in enumerate(results):
         frames = result.frames
         if frames is None:
             raise BadValue("results: a result without frames; give run() frames=True")
-        ax.plot(*frames.q.T, marker=".", label=str(result.options["method"]))
+        label = "{method}, {step:g} s".format(**result.options) if result.options["step"] else str(result.options["method"])
+        ax.plot(*frames.q.T, label=label, **_style(number))
     ax.set(xlim=(left, right), ylim=(low, high), xlabel="x", ylabel="y", aspect="equal")
-    ax.legend(fontsize="small")
+    if results:
+        ax.legend(fontsize="small")
     return ax
 
 
