@@ -77,7 +77,7 @@ def test_planted(kind, text, folder):
         ("c", PROGRAM % "hooke_abi() != HOOKE_ABI"),
         ("fortran", "use hooke\nif (hooke_abi() < 0) error stop\nend\n"),
         ("python", "import hooke\n"),
-        ("console", "$ hooke --version\nhooke 0.2.0\n...\n$ git clone something\n"),
+        ("console", "$ hooke --version\nhooke ...\n...\n$ git clone something\n"),
         ("sh", "hooke no-such-verb # exit 2\nhooke \\\n  --version | cat\n"),
         ("text", "anything\n"),
         ("c prototypes", "int32_t hooke_abi(void);\n"),
