@@ -86,7 +86,7 @@ struct hk_method {
   /* the second where bodies move or damping is not linear, unless it is of unknown kind */
   struct hk_stability stability, with_bodies;
   /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none
-   * does. NULL: steps of all sizes cost the same */
+   * does; and the one that damping alone allows, in any direction. NULL: steps of all sizes cost the same */
   int32_t (*explicit_step)(const hooke_system *system, double *step, double *damped);
   /* before there is a motion: what depends on the system and the options, `by_tiles` among it; or NULL */
   int32_t (*choose)(hooke_integrator *integrator);

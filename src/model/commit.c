@@ -91,19 +91,19 @@ void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   }
 }
 
-static int32_t mark_loaded(const hooke_system *system, uint8_t *acted) {
-  const int64_t count = system->rest->member_count[hk_force_number(&hk_force_loads)];
-  struct hk_group columns = {.force = &hk_force_loads, .count = count};
-  int32_t *particle = columns.particle[0] = hk_new(count, sizeof *particle);
-  if (particle == NULL) return HOOKE_NO_MEMORY;
-  hk_force_loads.recall(system, 0, &columns);
-  for (int64_t k = 0; k < count; k++)
-    acted[particle[k]] = 1;
-  hk_free(particle);
-  return HOOKE_OK;
+/* Of all members of a force. */
+static int32_t mark_members(const hooke_system *system, const struct hk_force_row *row, uint8_t *acted) {
+  struct hk_group all = {.force = row, .count = system->rest->member_count[hk_force_number(row)]};
+  const int32_t status = hk_group_allocate(&all, "");
+  if (status == HOOKE_OK) row->recall(system, 0, &all);
+  for (int32_t e = 0; e < row->member_particles && status == HOOKE_OK; e++)
+    for (int64_t k = 0; k < all.count; k++)
+      acted[all.particle[e][k]] = 1;
+  hk_group_release(&all);
+  return status;
 }
 
-/* For movers: forces without elements act on all particles, but for loads. */
+/* For movers: forces without elements act on those of their members, or on all particles. */
 static int32_t find_acted(hooke_system *system) {
   uint8_t *acted = hk_new(system->particle_count, sizeof *acted);
   if (acted == NULL) return HOOKE_NO_MEMORY;
@@ -111,8 +111,8 @@ static int32_t find_acted(hooke_system *system) {
   hk_system_mark_touched(system, acted);
   for (int32_t k = 0; k < system->force_row_count && status == HOOKE_OK; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (row == &hk_force_loads)
-      status = mark_loaded(system, acted);
+    if (row->elements == NULL && row->recall)
+      status = mark_members(system, row, acted);
     else if (row->add && (row->elements == NULL || row->kind == HOOKE_UNIFORM))
       memset(acted, 1, (size_t)system->particle_count);
   }

@@ -35,27 +35,26 @@ static double meet(double stiff, double damped) {
   return 4.0 / (c + sqrt(c * c + 4.0 * root * root));
 }
 
-/* The largest explicit steps of verlet: for certain, and by the prediction at the start. */
-static int32_t find_steps(const hooke_system *system, const struct hk_method *method, double *certain,
-                          double *most) {
-  double damped, limit = 0.0, of_stiffness = 0.0;
-  int32_t status = method->explicit_step(system, certain, &damped);
-  *most = *certain;
-  if (status != HOOKE_OK || !(*certain > 0.0) || isinf(*certain) || may_stiffen(system)) return status;
+/* The largest explicit step of verlet by the prediction at the start, no less than the `certain` one. */
+static int32_t predict(const hooke_system *system, double certain, double damped, double *most) {
+  double limit = 0.0, of_stiffness = 0.0;
+  *most = certain;
+  if (!(certain > 0.0) || isinf(certain) || may_stiffen(system)) return HOOKE_OK;
   struct hk_budget endless = hk_budget_of(INFINITY, NULL, NULL);
   const double *q = hk_start_position(system);
-  status = hk_limit_sure(system, q, NULL, hk_symplectic_euler.name, &endless, &limit);
+  int32_t status = hk_limit_sure(system, q, NULL, hk_symplectic_euler.name, &endless, &limit);
   if (status == HOOKE_OK) status = hk_limit_sure(system, q, NULL, hk_verlet.name, &endless, &of_stiffness);
   limit = fmin(limit, meet(SHARE * of_stiffness, damped) / SHARE);
-  *most = fmax(*certain, fmin(FARTHEST * *certain, SHARE * limit));
+  *most = fmax(certain, fmin(FARTHEST * certain, SHARE * limit));
   return status;
 }
 
 int32_t hk_step_cheapest(const hooke_system *system, const char *name, double *step) {
   const struct hk_method *method = hk_method_find(name);
-  double certain = 0.0, most = 0.0;
+  double certain = 0.0, damped, most = 0.0;
   if (!may_solve(system, method)) return HOOKE_OK;
-  const int32_t status = find_steps(system, method, &certain, &most);
+  int32_t status = method->explicit_step(system, &certain, &damped);
+  if (status == HOOKE_OK) status = predict(system, certain, damped, &most);
   if (most > *step / STEPS_OF_SOLVE) *step = fmin(*step, most);
   return status;
 }
@@ -71,7 +70,7 @@ int32_t hooke_step_settle(const hooke_system *system, hooke_options *run) {
     return HOOKE_OK;
   status = method->explicit_step(system, &certain, &damped);
   if (status != HOOKE_OK || !(step > certain && step <= FARTHEST * certain)) return status;
-  status = find_steps(system, method, &certain, &most);
+  status = predict(system, certain, damped, &most);
   if (status != HOOKE_OK || step > most) return status;
   return hooke_options_set_text(run, "verlet_damping", "explicit");
 }

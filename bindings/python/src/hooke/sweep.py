@@ -275,7 +275,8 @@ def sweep(
                     break
         except BrokenExecutor as broken:
             known = sum(key in done for key, _ in mine)
-            raise Error(f"a worker was ended; {known} of {len(mine)} rows are done, and the same call with another executor does the rest") from broken
+            done_so_far = f"a worker was ended; {known} of {len(mine)} rows are done"
+            raise Error(f"{done_so_far}, and the same call with another executor does the rest") from broken
     made = Sweep(paths, [done[key] for key, _ in mine if key in done])
     if table:
         part = table.with_suffix(".part")

@@ -269,8 +269,8 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
 
 
 def flow(rate: Any, *results: Result, box: tuple[float, float, float, float], ax: Axes | None = None) -> Axes:
-    """Draws the flow x' = phi(t, x) of two components at t = 0 as arrows of one length in `box`, (left, right, low, high), and the frames of
-    results of it as marked lines."""
+    """Draws the flow x' = phi(t, x) of two components at t = 0 as arrows of one length in `box`, (left, right, low, high), and
+    the frames of results of it as marked lines."""
     ax = _new_axes() if ax is None else ax
     left, right, low, high = box
     place = np.stack(np.meshgrid(np.linspace(left, right, 20), np.linspace(low, high, 14)))
