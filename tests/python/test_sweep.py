@@ -247,7 +247,7 @@ def test_kills_lose_and_double_nothing(tmp_path, path):
         elif workers:
             os.kill(int(chance.choice(workers)), signal.SIGKILL)
         told = started.communicate(timeout=60)[1].decode()
-        broken += "the same call does the rest" in told
+        broken += "the same call with another executor does the rest" in told
         after = rows_of(output)
         assert after[: len(before)] == before and not {row["run.step"] for row in before} & set(map(float, begun.read_text().split()))
         if len(after) == ROWS:

@@ -136,8 +136,9 @@ def _known(thing: Any) -> str:
     try:
         if not inspect.isfunction(thing) and not inspect.ismethod(thing):
             return repr(pickle.dumps(thing))
-        held = [cell.cell_contents for cell in thing.__closure__ or () if cell.cell_contents is not thing]
-        held += [thing.__defaults__, thing.__kwdefaults__, getattr(thing, "__self__", None)]
+        function: Any = getattr(thing, "__func__", thing)
+        held = [cell.cell_contents for cell in function.__closure__ or () if cell.cell_contents is not thing]
+        held += [function.__defaults__, function.__kwdefaults__, getattr(thing, "__self__", None)]
         return f"{inspect.getsource(thing)} {_dump(held, _known).decode()}"
     except Exception:
         return repr(thing)
