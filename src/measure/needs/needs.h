@@ -104,6 +104,7 @@ struct hk_needs {
   struct hk_needs_degree *degree;
   struct hk_variant unchanged; /* of the lean system before numbers are changed */
   double trial_work;           /* counted, of comparisons by the step of the full system [s] */
+  double most_work;            /* counted, after which a run counts as one that does not finish [s]; 0: any */
 
   struct hk_needs_lean lean;
   hooke_options *lean_run;

@@ -190,8 +190,11 @@ static int32_t judge_end(struct hk_needs_recorder *recorder, int32_t finished) {
 
 int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
                           struct hk_needs_cost *cost) {
-  const struct hk_listener listener = {
-      .on_progress = see_progress, .on_frame = see_frame, .on_start = see_start, .ctx = recorder};
+  const struct hk_listener listener = {.on_progress = see_progress,
+                                       .on_frame = see_frame,
+                                       .on_start = see_start,
+                                       .most_work = recorder->needs->most_work,
+                                       .ctx = recorder};
   struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN, .atol = NAN};
   struct hk_frames none = {.system = recorder->trial->system};
   if (recorder->path) recorder->path->recorded = 0;
@@ -206,8 +209,8 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   cost->atol = isnan(cost->rtol) ? NAN : taken.atol;
   cost->steps = recorder->last_step;
   hk_watched_release(&recorder->moved);
-  *finished = status == HOOKE_OK;
+  *finished = status == HOOKE_OK && !taken.too_long;
   const int32_t judged = judge_end(recorder, *finished);
   if (judged != HOOKE_OK) return judged;
-  return hk_trial_gave_up(status) ? HOOKE_OK : status;
+  return taken.too_long || hk_trial_gave_up(status) ? HOOKE_OK : status;
 }

@@ -331,6 +331,10 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
     if (r->error > want) aim *= AIM * want / r->error;
     status = pick_once(study, aim, &met);
   }
+  if (status == HOOKE_BAD_VALUE && study->wants.list) { /* no run tells whether it is met */
+    hk_print(r->note, sizeof r->note, "%s", hooke_last_error());
+    return HOOKE_OK;
+  }
   if (status != HOOKE_OK) return status;
   if (r->met) return find_margin(study);
   explain(study);
