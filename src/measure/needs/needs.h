@@ -91,9 +91,10 @@ struct hk_needs {
   struct hk_needs_cost full;
   struct hk_needs_path path; /* of the full system */
   struct hk_needs_path
-      by_step[2];   /* of the full system by its step, made when needed; [1]: from a displaced start */
-  double own_error; /* error of `path` itself [m] */
-  double moved;     /* largest distance of a particle from the start along `path` [m] */
+      by_step[2]; /* of the full system by its step, made when needed; [1]: from a displaced start */
+  struct hk_want_found found[HOOKE_WANTS]; /* of the lean system */
+  double own_error;                        /* error of `path` itself [m] */
+  double moved; /* largest distance of a particle from the start along `path` [m] */
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
@@ -141,6 +142,8 @@ double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_pat
                          const struct hk_needs_path *b);
 /* Largest distance of a particle from its position at the first frame [m]. */
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path);
+/* The errors of the lean system, one by one. */
+void hk_needs_find_each(struct hk_needs *needs);
 /* Time of a frame since the start [s]. */
 double hk_needs_time(const struct hk_needs *needs, int64_t frame);
 /* Number of frames up to which this distance stays within `bound`. */

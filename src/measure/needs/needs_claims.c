@@ -206,6 +206,8 @@ void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *clai
   const int ran = !isnan(needs->full.step_error),
             refine = hooke_options_number(needs->m->options, "refine") != 0.0;
   if (ran && needs->lean.system) tell_lean(needs, claims);
+  if (ran && needs->lean.path.position)
+    hk_wants_claim(&needs->wants, needs->found, of_judged(needs), "runs", " then", claims);
   if (ran) tell_degrees(needs, claims);
   for (int64_t part = 0; part < needs->part_count; part++)
     tell_part(needs, &needs->part[part], claims);

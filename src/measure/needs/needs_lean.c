@@ -287,6 +287,7 @@ int32_t hk_needs_find(struct hk_needs *needs) {
   if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
   if (status == HOOKE_OK) status = hk_needs_run_degrees(needs);
   if (status == HOOKE_OK) status = find_lean(needs);
+  if (status == HOOKE_OK && needs->lean.path.position) hk_needs_find_each(needs);
   if (status < 0) hk_needs_forget(needs);
   return status;
 }

@@ -190,8 +190,13 @@ static void keep(struct hk_study *study, const struct hk_study_row *row, int64_t
   struct hk_study_recommendation *r = &study->recommendation;
   const int finished = row->trial.wanted >= 0.0;
   r->error = finished ? 0.0 : NAN;
-  for (int64_t f = 0; f < frames && finished; f++)
+  double far = r->error;
+  for (int64_t f = 0; f < frames && finished; f++) {
     r->error = fmax(r->error, row->trial.wanted_at[f]);
+    far = fmax(far, row->trial.error_max_at[f]);
+  }
+  hk_wants_find(&study->wants, &row->trial.watched, &study->reference.frames.watched,
+                study->reference.frames.recorded, frames, far, r->found);
   r->until = hk_reference_time(&study->reference, frames, study->duration);
   r->method = row->method;
   r->value = row->value;

@@ -77,6 +77,8 @@ int32_t hk_study_knows_met(const struct hk_study *study) {
 }
 
 HOOKE_COUNTER(count_recommendations, struct hk_study, hk_study_recommends(it))
+HOOKE_COUNTER(count_found, struct hk_study,
+              hk_study_recommends(it) && it->recommendation.method >= 0 ? it->wants.count : 0)
 HOOKE_READER(const char *, command, struct hk_study,
              it->recommendation.met ? it->m->label[HOOKE_LABEL_COMMAND] : NULL)
 
@@ -301,6 +303,7 @@ const struct hk_table hk_study_tables[] = {
              struct hk_study_order, order_step, NUMBER, "",
              "the slope likewise of the error of one step, over the finest three rows that have it, which "
              "is one more than the order"))},
+    {HOOKE_WANTS_TABLE, .count = count_found, HOOKE_TABLE_AT(struct hk_study, recommendation.found)},
     {.name = "recommendation",
      .doc = "which run to make for the wanted error",
      .record = 1,
