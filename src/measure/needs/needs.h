@@ -41,6 +41,7 @@ struct hk_needs_row {
 };
 
 enum hk_needs_property {
+  HOOKE_NEEDS_SINGLE,    /* stiffness of a spring */
   HOOKE_NEEDS_STIFFNESS, /* of a group */
   HOOKE_NEEDS_DAMPING,   /* of a group */
   HOOKE_NEEDS_MASS,      /* of a particle */
@@ -51,7 +52,8 @@ enum hk_needs_property {
 struct hk_needs_degree {
   char name[HOOKE_NEEDS_NAME], quantity[HOOKE_NEEDS_NAME + 16]; /* "cloth.shear", "cloth.shear.stiffness" */
   enum hk_needs_property property;
-  int64_t number;              /* of the group or the particle */
+  int64_t number;              /* of the spring, the group or the particle */
+  int64_t group;               /* of the spring */
   int32_t up, tried;           /* 1: larger is asked for; 0: not tried, within the work allowed */
   int32_t displaced;           /* 1: by runs from a displaced start */
   double factor, error;        /* the farthest that holds; 1: none that was tried does [m] */
@@ -224,6 +226,9 @@ int64_t hk_needs_next_changed(const struct hk_needs *needs, int64_t k);
 
 /* ---- needs_lean.c, needs_soften.c ---- */
 
+/* The limit of a system at its start, with what carries the mode: the caller destroys it in either case. */
+int32_t hk_needs_look(struct hk_needs *needs, const hooke_system *system, hooke_measurement **limit);
+
 /* The recommended run of a candidate's variant; its error is NaN if it has none. */
 int32_t hk_needs_try_lean(struct hk_needs *needs, struct hk_needs_lean *candidate);
 /* Makes it the lean system. */
@@ -242,6 +247,8 @@ int32_t hk_needs_run_full(struct hk_needs *needs);
 /* 1 if the motion is too small to show anything. */
 int32_t hk_needs_rests(const struct hk_needs *needs);
 int32_t hk_needs_run_rows(struct hk_needs *needs);
+/* Runs a row of a part that is coarser than half with more cells; `finer` is 0 for other rows. */
+int32_t hk_needs_run_finer(struct hk_needs *needs, struct hk_needs_row *row, int32_t *finer);
 /* Number of finished rows; the others are queued behind them. */
 int64_t hk_needs_known_rows(const struct hk_needs *needs);
 /* Computes the table of ingredients, then the lean system; or the resolution of every part. A failure leaves

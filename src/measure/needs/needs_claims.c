@@ -54,7 +54,8 @@ static const double LEAST_GAIN = 1.1; /* in step: less is in the table alone */
 
 /* "soft 200 times softer" */
 static void print_degree(const struct hk_needs_degree *degree, double factor, char *text, size_t size) {
-  static const char *const words[][2] = {[HOOKE_NEEDS_STIFFNESS] = {"softer", "stiffer"},
+  static const char *const words[][2] = {[HOOKE_NEEDS_SINGLE] = {"softer", "stiffer"},
+                                         [HOOKE_NEEDS_STIFFNESS] = {"softer", "stiffer"},
                                          [HOOKE_NEEDS_DAMPING] = {"less damped", "more damped"},
                                          [HOOKE_NEEDS_MASS] = {"lighter", "heavier"},
                                          [HOOKE_NEEDS_DRAG] = {"weaker", "stronger"}};

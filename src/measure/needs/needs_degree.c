@@ -5,6 +5,8 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "core/utf8.h"
+#include "measure/limit/limit.h"
+#include "model/force/spring.h"
 #include "model/medium.h"
 
 #include <math.h>
@@ -14,8 +16,15 @@ static const double MOST = 1e9;        /* largest factor tried */
 static const double RATIO = 1.2;       /* of the first factor that is too much to the one offered */
 static const double BELOW_LIMIT = 0.9; /* step of a trial that is not stable at that of the full system */
 static const double LIGHT = 0.1; /* of the mean mass: particles below it are asked how heavy they may be */
-static const double MOST_STEPS = 2.0;    /* of a trial, of those of the full run */
-enum { MOST_LIGHT = 8, MOST_WORK = 40 }; /* particles; work of all trials, of that of the full run */
+static const double MOST_OF_MODE = 0.5,
+                    STIFF = 2.0;      /* a spring's share; its stiffness, of its group's mean */
+static const double SOFT = 1e-6;      /* as good as left out */
+static const double MOST_STEPS = 2.0; /* of a trial, of those of the full run */
+enum {
+  MOST_LIGHT = 8,
+  MOST_SINGLE = 8,
+  MOST_WORK = 40
+}; /* particles; work of all trials, of that of the full run */
 
 /* ---- what is asked ---- */
 
@@ -72,20 +81,83 @@ static int32_t is_scalable(const struct hk_group *group) {
          !(group->from_part && group->force == &hk_force_anchor);
 }
 
-static int32_t add_group(struct hk_needs *needs, int64_t g, int32_t damping) {
-  const hooke_system *system = needs->m->system;
-  const struct hk_group *group = &system->group[g];
-  char name[HOOKE_NEEDS_NAME];
+static void name_group(const struct hk_needs *needs, int64_t g, char name[HOOKE_NEEDS_NAME]) {
+  const struct hk_group *group = &needs->m->system->group[g];
   if (group->name[0])
-    hk_print(name, sizeof name, "%s", group->name);
+    hk_print(name, HOOKE_NEEDS_NAME, "%s", group->name);
   else
-    hk_print(name, sizeof name, "%s[%lld]", group->force->name,
-             (long long)(g - hk_system_first_group(system, group->force)));
+    hk_print(name, HOOKE_NEEDS_NAME, "%s[%lld]", group->force->name,
+             (long long)(g - hk_system_first_group(needs->m->system, group->force)));
+}
+
+static int32_t add_group(struct hk_needs *needs, int64_t g, int32_t damping) {
+  const struct hk_group *group = &needs->m->system->group[g];
+  char name[HOOKE_NEEDS_NAME];
+  name_group(needs, g, name);
   int32_t status = HOOKE_OK;
   if (!damping) return add(needs, HOOKE_NEEDS_STIFFNESS, g, 0, name, "stiffness");
   for (int up = is_unneeded(needs, "damping", -1); up < 2 && group->damped && status == HOOKE_OK; up++)
     status = add(needs, HOOKE_NEEDS_DAMPING, g, up, name, "damping");
   return status;
+}
+
+/* The group of a spring that may have stiffness of its own: one far stiffer than the others, in a group that
+ * no part adds, not kept or left out; NULL for others. */
+static const struct hk_group *group_of(const struct hk_needs *needs, int64_t spring, int64_t *first) {
+  const hooke_system *system = needs->m->system;
+  int64_t g = hk_system_first_group(system, &hk_force_springs);
+  for (*first = 0; *first + system->group[g].count <= spring; g++)
+    *first += system->group[g].count;
+  const struct hk_group *group = &system->group[g];
+  double sum = 0.0;
+  for (int64_t s = *first; s < *first + group->count; s++)
+    sum += log(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa);
+  const double mean = exp(sum / (double)group->count),
+               own = hk_springs_find(system->springs, spring, HOOKE_AS_GIVEN).kappa;
+  const int32_t may = own > STIFF * mean && !group->from_part && !group->curve && !needs->kept[g];
+  return may && is_scalable(group) && !is_unneeded(needs, "", g) ? group : NULL;
+}
+
+static int32_t add_single(struct hk_needs *needs, const struct hk_participation *mode,
+                          struct hk_variant *variant, int32_t *more) {
+  const struct hk_limiting *most = &mode->spring[0];
+  char name[HOOKE_NEEDS_NAME];
+  int64_t first = 0;
+  *more = mode->spring_count > 0 && most->stiffness_share >= MOST_OF_MODE;
+  const struct hk_group *group = *more ? group_of(needs, most->spring, &first) : NULL;
+  if (!(*more = group != NULL && variant->single[HOOKE_KAPPA][most->spring] == 1.0)) return HOOKE_OK;
+  name_group(needs, group - needs->m->system->group, name);
+  hk_append(name, sizeof name, ":%lld", (long long)(most->spring - first));
+  variant->single[HOOKE_KAPPA][most->spring] = SOFT;
+  const int32_t status = add(needs, HOOKE_NEEDS_SINGLE, most->spring, 0, name, "stiffness");
+  if (status == HOOKE_OK) needs->degree[needs->degree_count - 1].group = group - needs->m->system->group;
+  return status;
+}
+
+/* Springs of groups that have most of the mode that limits the step, one after another: each is all but left
+ * out to find the next one. */
+static int32_t add_singles(struct hk_needs *needs) {
+  const hooke_system *system = needs->m->system;
+  struct hk_variant variant;
+  int64_t several = 0;
+  for (int64_t g = 0; g < system->group_count; g++)
+    several += !system->group[g].from_part && system->group[g].count > 1;
+  if (several == 0 || !(needs->full.step > 0.0) || !HOOKE_HAVE_LAPACK) return HOOKE_OK;
+  int32_t status = hk_variant_create(system, &variant), more = 1;
+  for (int k = 0; k < MOST_SINGLE && more && status == HOOKE_OK; k++) {
+    hooke_measurement *limit = NULL;
+    hooke_system *made = NULL;
+    struct hk_variant_map map;
+    status = hk_variant_make(system, &variant, &made, &map);
+    if (status == HOOKE_OK) status = hk_needs_look(needs, made, &limit);
+    more = status == HOOKE_OK;
+    if (more) status = add_single(needs, &((struct hk_limit *)limit->object)->participation, &variant, &more);
+    hooke_measurement_destroy(limit);
+    hk_variant_map_release(&map);
+    hooke_system_destroy(made);
+  }
+  hk_variant_release(&variant);
+  return status == HOOKE_STOPPED || status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
 /* The lightest ones of no part and no body. */
@@ -115,6 +187,7 @@ static int32_t list(struct hk_needs *needs) {
   const hooke_system *system = needs->m->system;
   int32_t status = HOOKE_OK;
   if (!system->overdamped) status = add_masses(needs);
+  if (status == HOOKE_OK) status = add_singles(needs);
   for (int64_t k = 0; k < 2 * system->group_count && status == HOOKE_OK; k++) {
     const int64_t g = k % system->group_count;
     if (!needs->kept[g] && is_scalable(&system->group[g]) && is_first(system, g) &&
@@ -130,10 +203,11 @@ static int32_t list(struct hk_needs *needs) {
 void hk_needs_scale(const struct hk_needs *needs, const struct hk_needs_degree *degree, double factor,
                     struct hk_variant *variant) {
   const hooke_system *system = needs->m->system;
+  if (degree->property == HOOKE_NEEDS_SINGLE) variant->single[HOOKE_KAPPA][degree->number] *= factor;
   const int what = degree->property == HOOKE_NEEDS_STIFFNESS ? HOOKE_KAPPA : HOOKE_GAMMA;
   if (degree->property == HOOKE_NEEDS_DRAG) variant->drag *= factor;
   if (degree->property == HOOKE_NEEDS_MASS) variant->mass[degree->number] *= factor;
-  if (degree->property > HOOKE_NEEDS_DAMPING) return;
+  if (degree->property != HOOKE_NEEDS_STIFFNESS && degree->property != HOOKE_NEEDS_DAMPING) return;
   for (int64_t g = 0; g < system->group_count; g++)
     if (is_alike(&system->group[g], &system->group[degree->number])) variant->factor[what][g] *= factor;
 }
@@ -176,7 +250,7 @@ static int32_t try_factor(struct hk_needs *needs, const struct hk_needs_degree *
 /* `holds`: 1, 0, or -1 where it was not run. */
 static int32_t take_rung(struct hk_needs *needs, struct hk_needs_degree *degree, double times,
                          int32_t *holds) {
-  const int32_t relieves = degree->property == HOOKE_NEEDS_STIFFNESS || degree->property == HOOKE_NEEDS_MASS;
+  const int32_t relieves = degree->property <= HOOKE_NEEDS_STIFFNESS || degree->property == HOOKE_NEEDS_MASS;
   const double factor = degree->up ? times : 1.0 / times;
   double error = NAN, limit;
   const int32_t status = try_factor(needs, degree, factor, &error, relieves ? NULL : &limit);
@@ -203,7 +277,7 @@ static double between(double low, double high) {
 }
 
 static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
-  const int32_t may_vanish = !degree->up && degree->property != HOOKE_NEEDS_STIFFNESS;
+  const int32_t may_vanish = !degree->up && degree->property > HOOKE_NEEDS_STIFFNESS;
   double good = 1.0, bad = INFINITY;
   int32_t status = HOOKE_OK, holds = 0;
   degree->factor = 1.0;

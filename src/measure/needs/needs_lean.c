@@ -110,7 +110,9 @@ static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
     status = hk_needs_take(needs, &candidate);
   }
   hk_needs_release(&candidate);
-  return status;
+  int32_t finer = 0;
+  if (status == HOOKE_OK && !row->left_out) status = hk_needs_run_finer(needs, row, &finer);
+  return finer && status == HOOKE_OK ? add_row(needs, row) : status;
 }
 
 static int32_t begin_with_everything(struct hk_needs *needs) {
