@@ -130,7 +130,8 @@ def test_needs_of_a_list_are_those_of_its_length_in_parts_of_it():
 
 
 @pytest.mark.parametrize("want, message", [
-    ("1.x=1N", "unit"), ("9=1mm", "particle"), ("energy=0", "> 0"), ("s0:0.tension=1%,1%", "no unit"),
+    ("1.x=1N", "unit"), ("9=1mm", "particle"), ("energy=0", "> 0"), ("s0:0.tension=1%,1%", "1% of what"), ("1%", "tip=1%"),
+    ("1=1mm,", "comma"), ("99=1mm", "particles 0 to 1"),
     ("1.q=1", "nothing to watch"), (",".join(["1.x=1mm"] * 17), "too much"),
 ])  # fmt: skip
 def test_a_bad_want_says_what_is_allowed(want, message):

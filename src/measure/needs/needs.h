@@ -226,9 +226,6 @@ int64_t hk_needs_next_changed(const struct hk_needs *needs, int64_t k);
 
 /* ---- needs_lean.c, needs_soften.c ---- */
 
-/* The limit of a system at its start, with what carries the mode: the caller destroys it in either case. */
-int32_t hk_needs_look(struct hk_needs *needs, const hooke_system *system, hooke_measurement **limit);
-
 /* The recommended run of a candidate's variant; its error is NaN if it has none. */
 int32_t hk_needs_try_lean(struct hk_needs *needs, struct hk_needs_lean *candidate);
 /* Makes it the lean system. */

@@ -5,7 +5,6 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "core/utf8.h"
-#include "measure/limit/limit.h"
 #include "model/force/spring.h"
 #include "model/medium.h"
 
@@ -16,9 +15,7 @@ static const double MOST = 1e9;        /* largest factor tried */
 static const double RATIO = 1.2;       /* of the first factor that is too much to the one offered */
 static const double BELOW_LIMIT = 0.9; /* step of a trial that is not stable at that of the full system */
 static const double LIGHT = 0.1; /* of the mean mass: particles below it are asked how heavy they may be */
-static const double MOST_OF_MODE = 0.5,
-                    STIFF = 2.0;      /* a spring's share; its stiffness, of its group's mean */
-static const double SOFT = 1e-6;      /* as good as left out */
+static const double STIFF = 4.0; /* of the mean of its group: springs above it are asked one by one */
 static const double MOST_STEPS = 2.0; /* of a trial, of those of the full run */
 enum {
   MOST_LIGHT = 8,
@@ -101,63 +98,29 @@ static int32_t add_group(struct hk_needs *needs, int64_t g, int32_t damping) {
   return status;
 }
 
-/* The group of a spring that may have stiffness of its own: one far stiffer than the others, in a group that
- * no part adds, not kept or left out; NULL for others. */
-static const struct hk_group *group_of(const struct hk_needs *needs, int64_t spring, int64_t *first) {
-  const hooke_system *system = needs->m->system;
-  int64_t g = hk_system_first_group(system, &hk_force_springs);
-  for (*first = 0; *first + system->group[g].count <= spring; g++)
-    *first += system->group[g].count;
-  const struct hk_group *group = &system->group[g];
-  double sum = 0.0;
-  for (int64_t s = *first; s < *first + group->count; s++)
-    sum += log(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa);
-  const double mean = exp(sum / (double)group->count),
-               own = hk_springs_find(system->springs, spring, HOOKE_AS_GIVEN).kappa;
-  const int32_t may = own > STIFF * mean && !group->from_part && !group->curve && !needs->kept[g];
-  return may && is_scalable(group) && !is_unneeded(needs, "", g) ? group : NULL;
-}
-
-static int32_t add_single(struct hk_needs *needs, const struct hk_participation *mode,
-                          struct hk_variant *variant, int32_t *more) {
-  const struct hk_limiting *most = &mode->spring[0];
-  char name[HOOKE_NEEDS_NAME];
-  int64_t first = 0;
-  *more = mode->spring_count > 0 && most->stiffness_share >= MOST_OF_MODE;
-  const struct hk_group *group = *more ? group_of(needs, most->spring, &first) : NULL;
-  if (!(*more = group != NULL && variant->single[HOOKE_KAPPA][most->spring] == 1.0)) return HOOKE_OK;
-  name_group(needs, group - needs->m->system->group, name);
-  hk_append(name, sizeof name, ":%lld", (long long)(most->spring - first));
-  variant->single[HOOKE_KAPPA][most->spring] = SOFT;
-  const int32_t status = add(needs, HOOKE_NEEDS_SINGLE, most->spring, 0, name, "stiffness");
-  if (status == HOOKE_OK) needs->degree[needs->degree_count - 1].group = group - needs->m->system->group;
-  return status;
-}
-
-/* Springs of groups that have most of the mode that limits the step, one after another: each is all but left
- * out to find the next one. */
+/* Springs that are far stiffer than the others of their group, one by one, where no part adds it. */
 static int32_t add_singles(struct hk_needs *needs) {
   const hooke_system *system = needs->m->system;
-  struct hk_variant variant;
-  int64_t several = 0;
-  for (int64_t g = 0; g < system->group_count; g++)
-    several += !system->group[g].from_part && system->group[g].count > 1;
-  if (several == 0 || !(needs->full.step > 0.0) || !HOOKE_HAVE_LAPACK) return HOOKE_OK;
-  int32_t status = hk_variant_create(system, &variant), more = 1;
-  for (int k = 0; k < MOST_SINGLE && more && status == HOOKE_OK; k++) {
-    hooke_measurement *limit = NULL;
-    hooke_system *made = NULL;
-    struct hk_variant_map map;
-    status = hk_variant_make(system, &variant, &made, &map);
-    if (status == HOOKE_OK) status = hk_needs_look(needs, made, &limit);
-    more = status == HOOKE_OK;
-    if (more) status = add_single(needs, &((struct hk_limit *)limit->object)->participation, &variant, &more);
-    hooke_measurement_destroy(limit);
-    hk_variant_map_release(&map);
-    hooke_system_destroy(made);
+  int32_t status = HOOKE_OK;
+  int64_t first = 0, found = 0;
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
+    const struct hk_group *group = &system->group[g];
+    double sum = 0.0;
+    if (group->from_part || group->curve || needs->kept[g] || is_unneeded(needs, "", g)) continue;
+    for (int64_t s = first; s < first + group->count; s++)
+      sum += log(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa);
+    const double stiff = STIFF * exp(sum / (double)group->count);
+    for (int64_t s = first; s < first + group->count && status == HOOKE_OK; s++) {
+      char name[HOOKE_NEEDS_NAME];
+      if (!(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa > stiff) || ++found > MOST_SINGLE)
+        continue;
+      name_group(needs, g, name);
+      hk_append(name, sizeof name, ":%lld", (long long)(s - first));
+      status = add(needs, HOOKE_NEEDS_SINGLE, s, 0, name, "stiffness");
+      if (status == HOOKE_OK) needs->degree[needs->degree_count - 1].group = g;
+    }
   }
-  hk_variant_release(&variant);
-  return status == HOOKE_STOPPED || status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
+  return status;
 }
 
 /* The lightest ones of no part and no body. */

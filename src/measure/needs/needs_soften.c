@@ -23,53 +23,56 @@ struct mode {
   const struct hk_participation *participation;
 };
 
-/* Of a spring, by its ends, since what is left out has moved its number. */
-static double share_of_spring(const struct hk_needs *needs, int64_t number, const struct mode *mode) {
-  const struct hk_spring spring = hk_springs_find(needs->m->system->springs, number, HOOKE_AS_GIVEN);
-  double share = 0.0;
-  for (int64_t k = 0; k < mode->participation->spring_count; k++) {
-    const struct hk_limiting *at = &mode->participation->spring[k];
-    if (at->first == mode->map->to[spring.head] && at->second == mode->map->to[spring.tail])
-      share += at->stiffness_share;
-  }
-  return share;
-}
-
-/* Share of a number in the mode, by names, since what is left out has moved the numbers of groups. */
+/* Share of a number in the mode, by names and by ends, since what is left out has moved the numbers of groups
+ * and springs. Those of single springs are not of their group. */
 static double share_of(const struct hk_needs *needs, const struct hk_needs_degree *degree,
                        const struct mode *mode) {
   const struct hk_participation *all = mode->participation;
   const int32_t damps = degree->property == HOOKE_NEEDS_DAMPING;
+  const int64_t *to = mode->map->to;
   double share = 0.0;
   if (degree->property == HOOKE_NEEDS_DRAG) return all->force_share[hk_force_number(&hk_force_drag)];
+  if (degree->property == HOOKE_NEEDS_SINGLE) {
+    const struct hk_spring own = hk_springs_find(needs->m->system->springs, degree->number, HOOKE_AS_GIVEN);
+    for (int64_t k = 0; k < all->spring_count; k++)
+      if (all->spring[k].first == to[own.head] && all->spring[k].second == to[own.tail])
+        share += all->spring[k].stiffness_share;
+    return share;
+  }
   for (int64_t k = 0; k < all->particle_count && degree->property == HOOKE_NEEDS_MASS; k++)
-    if (all->particle[k].particle == mode->map->to[degree->number]) share += all->particle[k].share;
+    if (all->particle[k].particle == to[degree->number]) share += all->particle[k].share;
   if (degree->property == HOOKE_NEEDS_MASS) return share;
-  if (degree->property == HOOKE_NEEDS_SINGLE) return share_of_spring(needs, degree->number, mode);
   const struct hk_group *group = &needs->m->system->group[degree->number];
   for (int64_t g = 0; g < all->group_count; g++)
     if (mode->system->group[g].force == group->force &&
         strcmp(hk_participation_group_name(mode->system, g), group->name ? group->name : "") == 0)
       share += all->group_share[g];
   share *= damps ? 1.0 - all->stiffness_share : all->stiffness_share;
-  for (int64_t k = 0; k < needs->degree_count && !damps; k++) /* which have numbers of their own */
+  for (int64_t k = 0; k < needs->degree_count && !damps; k++)
     if (needs->degree[k].property == HOOKE_NEEDS_SINGLE && needs->degree[k].group == degree->number)
-      share -= share_of_spring(needs, needs->degree[k].number, mode);
+      share -= share_of(needs, &needs->degree[k], mode);
   return share;
 }
 
-int32_t hk_needs_look(struct hk_needs *needs, const hooke_system *system, hooke_measurement **limit) {
+static int32_t look(struct hk_needs *needs, const struct mode *seen, double *share) {
   hooke_options *options = NULL;
+  hooke_measurement *limit = NULL;
   hooke_state *state = NULL;
-  *limit = NULL;
+  struct mode mode = *seen;
   int32_t status = hk_options_create(hk_limit_kind.options, &options);
   if (status == HOOKE_OK)
     status = hooke_options_set_text(options, "methods", hooke_options_text(needs->m->run, "method"));
   if (status == HOOKE_OK)
-    status = hk_measurement_create(&hk_limit_kind, NULL, system, needs->m->run, options, limit);
-  if (status == HOOKE_OK) status = hooke_state_create(system, &state);
-  if (status == HOOKE_OK) status = hk_limit_look((*limit)->object, hooke_state_position(state), NULL, 0.0);
+    status = hk_measurement_create(&hk_limit_kind, NULL, mode.system, needs->m->run, options, &limit);
+  if (status == HOOKE_OK) status = hooke_state_create(mode.system, &state);
+  if (status == HOOKE_OK) status = hk_limit_look(limit->object, hooke_state_position(state), NULL, 0.0);
+  if (status == HOOKE_OK) {
+    mode.participation = &((struct hk_limit *)limit->object)->participation;
+    for (int64_t k = 0; k < needs->degree_count; k++)
+      share[k] = mode.participation->group_share ? share_of(needs, &needs->degree[k], &mode) : 0.0;
+  }
   hooke_state_destroy(state);
+  hooke_measurement_destroy(limit);
   hooke_options_destroy(options);
   return status;
 }
@@ -127,13 +130,7 @@ static int32_t find_shares(struct hk_needs *needs, const double *factor, double 
   status = hk_variant_make(needs->m->system, &variant, &made, &map);
   hk_variant_release(&variant);
   if (status != HOOKE_OK) return status;
-  hooke_measurement *limit = NULL;
-  status = hk_needs_look(needs, made, &limit);
-  for (int64_t k = 0; k < needs->degree_count && status == HOOKE_OK; k++) {
-    const struct mode mode = {made, &map, &((struct hk_limit *)limit->object)->participation};
-    share[k] = mode.participation->group_share ? share_of(needs, &needs->degree[k], &mode) : 0.0;
-  }
-  hooke_measurement_destroy(limit);
+  status = look(needs, &(struct mode){.system = made, .map = &map}, share);
   hk_variant_map_release(&map);
   hooke_system_destroy(made);
   return status;

@@ -229,10 +229,12 @@ void hk_wants_claim(const struct hk_wants *wants, const struct hk_want_found fou
   for (int32_t k = 0; k < wants->count && wants->list; k++) {
     const char *unit = found[k].unit, *blank = unit[0] ? " " : "";
     if (isnan(found[k].error))
-      hk_claim(claims, "each", HOOKE_OF_UNKNOWN, by, "of %s it is not known", found[k].name);
+      hk_claim(claims, "error", HOOKE_OF_UNKNOWN, by,
+               "of %s it is not known: other runs do not tell it, or its value (a period takes eight frames)",
+               found[k].name);
     else
-      hk_claim(claims, "each", of, by, "of %s it is %.3g%s%s%s, where %.3g%s%s are wanted", found[k].name,
-               found[k].error, blank, unit, where, found[k].wanted, blank, unit);
+      hk_claim(claims, "error", of, by, "of %s it is at most %.3g%s%s%s, where %.3g%s%s are wanted",
+               found[k].name, found[k].error, blank, unit, where, found[k].wanted, blank, unit);
   }
 }
 

@@ -67,7 +67,7 @@ struct hk_want_found {
 void hk_wants_find(const struct hk_wants *wants, const struct hk_watched_series *a,
                    const struct hk_watched_series *b, int64_t recorded, int64_t frames, double far,
                    struct hk_want_found found[HOOKE_WANTS]);
-/* The claims "each", of a list, with `where` after "it is". */
+/* The claims "error" of a list, with `where` after the errors. */
 void hk_wants_claim(const struct hk_wants *wants, const struct hk_want_found found[HOOKE_WANTS],
                     enum hk_claim_of of, const char *by, const char *where, struct hk_claims *claims);
 

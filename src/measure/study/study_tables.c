@@ -303,7 +303,6 @@ const struct hk_table hk_study_tables[] = {
              struct hk_study_order, order_step, NUMBER, "",
              "the slope likewise of the error of one step, over the finest three rows that have it, which "
              "is one more than the order"))},
-    {HOOKE_WANTS_TABLE, .count = count_found, HOOKE_TABLE_AT(struct hk_study, recommendation.found)},
     {.name = "recommendation",
      .doc = "which run to make for the wanted error",
      .record = 1,
@@ -435,4 +434,5 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN_BY(bias, NUMBER, "",
                          "the mean less the reference's, in standard errors of that difference; below 2 "
                          "in size none is seen"))},
+    {HOOKE_WANTS_TABLE, .count = count_found, HOOKE_TABLE_AT(struct hk_study, recommendation.found)},
     {.name = NULL}};
