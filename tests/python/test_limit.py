@@ -221,8 +221,9 @@ def swinging(light, damping=0.0):
     groups = [{"name": "all", "between": [[2 * k, 2 * k + 1] for k in range(6)], "stiffness": 100, "damping": damping}]
     positions = [[k, -y, 0] for k in range(6) for y in (0, 1)]
     return {"hooke": 1, "gravity": [0, -9.81, 0], "springs": groups,
+            "run": {"method": "verlet", "duration": 1, "every": 0.02},
             "particles": {"position": positions, "mass": [one for each in mass for one in (1.0, each)],
-                          "pinned": list(range(0, 12, 2))}, "run": {"method": "verlet", "duration": 1, "every": 0.02}}  # fmt: skip
+                          "pinned": list(range(0, 12, 2))}}  # fmt: skip
 
 
 def fall(mass, t, stiffness=100.0):

@@ -634,8 +634,8 @@ static int32_t require_judge(const struct hk_pick *pick) {
     return hk_fail(
         HOOKE_BAD_VALUE, "want",
         "%s: no run tells whether it is within %.3g %s: two references, by %s and %s, have to agree to a "
-                   "fiftieth of that, and differ by %.2g at the first frame that could tell",
-                   wants->want[r->parted].name, bound[r->parted], hk_want_unit(wants, r->parted), r->method, r->check,
+        "fiftieth of that, and differ by %.2g at the first frame that could tell",
+        wants->want[r->parted].name, bound[r->parted], hk_want_unit(wants, r->parted), r->method, r->check,
         r->parted_by);
   hk_wants_bounds(wants, &r->frames.watched, r->trusted, known);
   for (int32_t k = 0; k < wants->count; k++)
