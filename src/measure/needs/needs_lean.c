@@ -206,7 +206,7 @@ static int32_t compare_times(struct hk_needs *needs) {
   int32_t status = hooke_options_copy(needs->m->run, &options), finished;
   for (int k = 0; k < 2 * TURNS && spent < TURNS_TAKE && status == HOOKE_OK; k++) {
     struct hk_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
-    struct hk_needs_cost again;
+    struct hk_needs_cost again = *cost[k % 2];
     status = hk_needs_set_step(cost[k % 2], options);
     if (status == HOOKE_OK) status = hk_needs_run_once(&recorder, options, &finished, &again);
     if (status != HOOKE_OK) break;
