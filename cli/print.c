@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDED_DIGITS = 6, SAID_SIZE = 16384 };
+enum { ROUNDED_DIGITS = 6, SAID_SIZE = 16384, DEEPEST_LIST = 8 };
 
 const char *cli_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]) {
   snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", ROUNDED_DIGITS, value);
@@ -241,22 +241,72 @@ void cli_print_json(const char *format, ...) {
   va_end(args);
 }
 
+static char *past_list(char *at, char last, int shown, int depth);
+
+/* Past a value of JSON that is no object, which is printed if it is `shown`; NULL: it is none. */
+static char *past_value(char *at, int shown, int depth) {
+  static const char *const WORDS[] = {"true", "false", "null"};
+  char *end;
+  at += strspn(at, " ");
+  if (*at == '[') return depth > 0 ? past_list(at + 1, ']', shown, depth - 1) : NULL;
+  for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; k++) {
+    if (strncmp(at, WORDS[k], strlen(WORDS[k])) != 0) continue;
+    if (shown) fputs(WORDS[k], stdout);
+    return at + strlen(WORDS[k]);
+  }
+  if (*at == '"') {
+    end = at + 1 + strcspn(at + 1, "\"\\");
+    if (*end != '"') return NULL;
+    *end = '\0';
+    if (shown) write_string(at + 1);
+    *end = '"';
+    return end + 1;
+  }
+  const double number = strtod(at, &end);
+  if (end == at || !isfinite(number) || strspn(at, "+-.0123456789eE") < (size_t)(end - at)) return NULL;
+  if (shown) cli_print_json("%g", number);
+  return end;
+}
+
+/* The same for values between commas, up to `last`. */
+static char *past_list(char *at, char last, int shown, int depth) {
+  const char *before = "[";
+  at += strspn(at, " ");
+  if (shown && *at == last) fputs(before, stdout);
+  for (int more = *at != last; more; before = ", ") {
+    if (shown) fputs(before, stdout);
+    at = past_value(at, shown, depth);
+    if (at) at += strspn(at, " ");
+    if (!at || (*at != ',' && *at != last)) return NULL;
+    more = *at != last;
+    at += more;
+  }
+  if (shown) fputs("]", stdout);
+  return at + 1;
+}
+
+/* As the library takes it: a value of JSON, values between commas as an array, or a text. */
+static void print_set(char *value) {
+  const char *end = past_value(value, 0, DEEPEST_LIST);
+  if (end && *end == '\0')
+    past_value(value, 1, DEEPEST_LIST);
+  else if (past_list(value, '\0', 0, DEEPEST_LIST))
+    past_list(value, '\0', 1, DEEPEST_LIST);
+  else
+    write_string(value);
+}
+
 void cli_print_json_set(const hooke_options *limits) {
   struct cli_string copy = {0};
   const char *before = "{";
-  char *value, *end;
   if (limits) cli_string_add(&copy, "%s", hooke_options_text(limits, "set"));
   for (char *path = copy.bytes, *next; path && *path; path = next, before = ", ") {
     next = path + strcspn(path, "\n");
     if (*next) *next++ = '\0';
-    value = path + strcspn(path, "=");
+    char *value = path + strcspn(path, "=");
     if (*value) *value++ = '\0';
-    const double number = strtod(value, &end);
     cli_print_json(before[0] == '{' ? "'set': {%s: " : ", %s: ", path);
-    if (*value && *end == '\0' && isfinite(number))
-      cli_print_json("%g", number);
-    else
-      cli_print_json("%s", value);
+    print_set(value);
   }
   if (before[0] == ',') cli_print_json("}, ");
   free(copy.bytes);

@@ -73,9 +73,13 @@ def test_a_file_and_a_command_have_the_values(hooke, write, tmp_path):
 
 
 def test_a_run_and_a_refusal_are_rows_with_their_values(hooke, write):
-    words = [word for value in ["drag=0.5", "gravity=0,-1,0", "run.step=1ms", 'title=a "b"=c'] for word in ("--set", value)]
-    row = {"drag": 0.5, "gravity": "0,-1,0", "run.step": "1ms", "title": 'a "b"=c'}
+    values = ["drag=0.5", "gravity=0,-1,0", "run.step=1ms", 'title=a "b"=c', 'line.pinned=["start",4]', "run.every=null"]
+    words = [word for value in values for word in ("--set", value)]
+    row = {"drag": 0.5, "gravity": [0, -1, 0], "run.step": "1ms", "title": 'a "b"=c', "line.pinned": ["start", 4], "run.every": None}
     assert hooke("run", write(SCENE), *words, "--json", "--no-estimate").json["set"] == row
     refused = hooke("run", write(SCENE), *words, "--set", "tie.stifness=2", "--json")
     assert refused.json["set"] == {**row, "tie.stifness": 2} and refused.json["error"]["exit"] == 3
     assert "set" not in hooke("run", write(SCENE), "--json", "--no-estimate").json
+    for value, shown in [("[[1,0],[0x1]]", "[[1,0],[0x1]]"), ("[1,]", "[1,]"), ("[ ]", []), ("true", True), ("nan", "nan"), ("[" * 9, "[" * 9),
+                         ("[[1, 0], [0, 1]]", [[1, 0], [0, 1]])]:  # fmt: skip
+        assert hooke("run", write(SCENE), "--set", f"tie.stifness={value}", "--json").json["set"] == {"tie.stifness": shown}

@@ -7,6 +7,7 @@ the same exception again (see `_status.checker`).
 from __future__ import annotations
 
 import contextlib
+import contextvars
 import ctypes
 import math
 import operator
@@ -14,6 +15,7 @@ import os
 import signal
 import sys
 import threading
+import warnings
 from collections.abc import Iterator
 from sys import getrefcount
 from typing import Any, Callable
@@ -57,15 +59,31 @@ def guarded(function: Callable[..., Any], *arguments: Any) -> int:
     return _STOP if pending.exception is not None else answer
 
 
-def outside() -> int:
-    """The stacklevel of a warning that should point at the line that called this package."""
-    frame, level = sys._getframe(1), 1  # warnings.warn counts from `guarded`, which calls it
-    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
+#: Who hears the warnings of this thread's runs, in place of everyone.
+_heard: contextvars.ContextVar[list[str] | None] = contextvars.ContextVar("heard", default=None)
+_INSIDE = os.path.dirname(__file__), contextlib.__file__
+
+
+def warn(sentence: str, category: type[Warning]) -> None:
+    """A warning that points at the line that called this package."""
+    heard, frame, level = _heard.get(), sys._getframe(1), 2
+    if heard is not None:
+        heard.append(sentence)
+        return
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_INSIDE):
         frame, level = frame.f_back, level + 1
-    return level + 1
+    warnings.warn(sentence, category, level)
 
 
-_FOLDER = os.path.dirname(__file__)
+@contextlib.contextmanager
+def hearing() -> Iterator[list[str]]:
+    """A context in which warnings of this package are a list, of this thread alone."""
+    heard: list[str] = []
+    before = _heard.set(heard)
+    try:
+        yield heard
+    finally:
+        _heard.reset(before)
 
 
 # The arrays of a call are one block of the library, and those of the next call are there again. So each call gets new

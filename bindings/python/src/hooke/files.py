@@ -8,12 +8,12 @@ import ctypes
 import importlib
 import os
 import pathlib
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, Union
 
 import numpy as np
 
+from ._callback import warn
 from ._keywords import VerifyKeywords, ViewKeywords
 from ._library import lib
 from ._look import WorkProgress
@@ -118,7 +118,7 @@ def write_companion(path: bytes) -> None:
     try:
         write_xdmf(os.fsdecode(path))
     except BadValue as trouble:
-        warnings.warn(f"no .xdmf is written: {trouble}", stacklevel=4)
+        warn(f"no .xdmf is written: {trouble}", UserWarning)
 
 
 def _file_of(trajectory: Source) -> pathlib.Path:

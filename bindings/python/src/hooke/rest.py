@@ -41,4 +41,4 @@ def rest(
     return Rest(*measured("rest", problem, options, progress, lambda system: state_at(system, at)))
 
 
-Problem.rest = takes(RestKeywords)(rest)
+rest = Problem.rest = takes(RestKeywords)(rest)

@@ -16,18 +16,16 @@ from __future__ import annotations
 import contextlib
 import copy
 import ctypes
-import functools
 import itertools
 import math
 import os
-import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
-from ._callback import stop_value
+from ._callback import hearing, stop_value
 from ._keywords import RunKeywords
 from ._library import lib
 from ._look import WorkProgress, draw, shown
@@ -48,8 +46,8 @@ from .why import Why
 
 #: Problems that are no scene: a system, or a first- or second-order problem.
 Problem = Union[System, FirstOrder, SecondOrder]
-#: Problems that can be run: those, a scene or the path of one.
-Runnable = Union[Path, Scene, Problem]
+#: Problems that can be run: those, a scene, or the path or the document of one.
+Runnable = Union[Path, Mapping[str, Any], Scene, Problem]
 #: progress(fraction, state): called at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
 #: A length: a number [m], or text with a unit, such as "1mm".
@@ -71,19 +69,20 @@ class RunError(Record, table="estimate.estimate", without=("seconds", "memory_by
     """The error of a run; a number that is not known is NaN. `met` is None if that is unknown or no error was wanted."""
 
 
+@dataclass
 class Judged:
-    """The error of a run, and what is said of it, which are found when they are asked for."""
+    """The error of a run, and what is said of it, if they were `found`; the same run with these `options` finds them."""
 
-    def __init__(self, find: Callable[[], tuple[RunError | None, tuple[Claim, ...]]]):
-        self._find = find
+    found: tuple[RunError | None, tuple[Claim, ...]] | None = None
+    options: dict[str, Any] = field(default_factory=dict)
 
-    @functools.cached_property
-    def found(self) -> tuple[RunError | None, tuple[Claim, ...]]:
+    def of(self, problem: Problem) -> tuple[RunError | None, tuple[Claim, ...]]:
         """Both."""
-        return self._find()
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"found": self.found}
+        if self.found is None:
+            with hearing():  # the first run gave its warnings
+                again = run(problem, estimate=True, strict=True, **self.options)
+            self.found = again.error, again.claims
+        return self.found
 
 
 @dataclass(frozen=True)
@@ -121,12 +120,12 @@ class Result:
     @property
     def error(self) -> RunError | None:
         """The error of the run, as runs at other steps or tolerances tell it, which are made now; None without an estimate."""
-        return self.judged.found[0] if self.judged is not None else None
+        return self.judged.of(self.problem)[0] if self.judged is not None else None
 
     @property
     def claims(self) -> tuple[Claim, ...]:
         """What is said of the run, the most important first."""
-        return self.judged.found[1] if self.judged is not None else ()
+        return self.judged.of(self.problem)[1] if self.judged is not None else ()
 
     @property
     def diagnosis(self) -> str:
@@ -155,7 +154,10 @@ class Result:
             raise AttributeError(str(missing)) from None
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**vars(self), "problem": kept(self.problem), "integrator": None}
+        problem, judged = kept(self.problem), self.judged
+        if judged is not None and judged.found is None and vars(problem)["_gone"]:
+            judged = None
+        return {**vars(self), "problem": problem, "judged": judged, "integrator": None}
 
     def __copy__(self) -> Result:
         return replace(self)
@@ -292,7 +294,7 @@ class _Once:
         lib.hooke_estimate_follow(None, integrator._handle)
         estimate.run(None, state)
         found = estimate.one(RunError, "estimate") if judged else None, tuple(estimate.each(Claim, "claims"))
-        result = replace(result, judged=Judged(lambda: found))
+        result = replace(result, judged=Judged(found))
         if judged and self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
         watched, wants = (estimate.rows(table) if estimate.count(table) > 0 else None for table in ("watched", "wants"))
@@ -324,16 +326,9 @@ class _Once:
 
 
 def _judged_later(result: Result, options: Options, watch: str | Iterable[str] | None) -> Result:
-    """The result with its error, which the same run once more finds when it is asked for: so it holds no frames for that."""
-    given: Any = {name: options[name] for name in options if options.is_set(name)}
-
-    def find() -> tuple[RunError | None, tuple[Claim, ...]]:
-        with warnings.catch_warnings():  # which were given by the first run
-            warnings.simplefilter("ignore")
-            again = run(result.problem, estimate=True, strict=True, watch=watch, **given)
-        return again.error, again.claims
-
-    return replace(result, judged=Judged(find)) if result.status == "finished" else result
+    """The result with its error, which is found when it is asked for."""
+    given = {"watch": watch, **{name: options[name] for name in options if options.is_set(name)}}
+    return replace(result, judged=Judged(options=given)) if result.status == "finished" else result
 
 
 def _run_to_want(
@@ -364,6 +359,7 @@ def _run_to_want(
             return result
 
 
+@takes()
 def resume(
     output: Path,
     problem: Runnable | None = None,
@@ -463,6 +459,10 @@ def resolve(
     scene, given = None, Options.for_run()
     if isinstance(problem, (str, os.PathLike)):
         problem = Scene.load(problem)
+    elif isinstance(problem, Mapping):
+        problem = Scene.parse(problem)
+    elif not isinstance(problem, Base):
+        raise TypeError(f"a scene, its path or document, or a system is needed, this is {problem!r}")
     if isinstance(problem, Scene):
         scene, given = problem, problem.run_options.copy()
         problem = scene.system
@@ -558,4 +558,4 @@ def _arrays(state: State) -> list[Table]:
     return [np.asarray(state.t), *([state.x] if state._v is None else [state.q, state.v])]
 
 
-Base.run = takes(RunKeywords)(run)
+run = Base.run = takes(RunKeywords)(run)
