@@ -18,6 +18,8 @@ from typing import Any, TypedDict, TypeVar, Union
 from ._signature import takes
 from ._types import IntArray, Numbers, Particle, Path, Pins
 
+__all__ = ["Curve", "Springs", "Transform"]
+
 Quantity = Union[float, str]  #: a number, or one with a unit: "200g"
 S = TypeVar("S", bound="Parts")
 '''

@@ -12,6 +12,8 @@ from ._memory import Asked, Handle, address_of, double_pointer, index_pointer, r
 from ._types import FloatArray, IntArray
 from .problems import Problem
 
+__all__ = ["Blocks", "BodyMotion", "Derived", "Material", "build_facts"]
+
 _DOUBLE = np.dtype(np.float64)
 
 

@@ -10,6 +10,8 @@ from ._signature import Unpack, takes
 from .results import Runnable, measured
 from .state import State
 
+__all__ = ["Check", "Cost", "check", "cost"]
+
 
 class Cost(Found, kind="cost"):
     """The cost of a scene, as a whole and by ingredients.

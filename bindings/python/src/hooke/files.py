@@ -25,6 +25,8 @@ from ._types import FloatArray, Path, Table
 from .options import Options
 from .scene import limits_of
 
+__all__ = ["Verification", "verify", "view", "write_xdmf"]
+
 
 def opened(path: Path) -> Handle:
     """A file, which closes with its last user."""

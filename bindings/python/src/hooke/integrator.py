@@ -23,6 +23,8 @@ from .state import State
 from .system import System
 from .why import Why
 
+__all__ = ["FitWarning", "Integrator", "Method", "PassageWarning", "StepWarning", "methods"]
+
 #: observer(step, state): receives the state after `step` steps and must not change it; returns None or 0 to go on.
 Observer = Callable[[int, State], Optional[int]]
 

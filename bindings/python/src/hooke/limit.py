@@ -20,6 +20,8 @@ from .state import State
 from .system import System
 from .why import Blame
 
+__all__ = ["Limit", "limit"]
+
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file with its last frame or the given one.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
 

@@ -12,6 +12,8 @@ from ._types import FloatArray
 from .limit import Place, state_at
 from .results import Runnable, measured
 
+__all__ = ["Modes", "modes"]
+
 
 class Modes(Paged, kind="modes"):
     """The lowest modes of a scene that have stiffness, about the positions of a state.

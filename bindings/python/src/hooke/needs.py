@@ -18,6 +18,8 @@ from .options import Options
 from .results import Length, Runnable, measured
 from .system import System, write_scene
 
+__all__ = ["Needs", "needs"]
+
 
 class RunCost(Record, table="needs.full", without=("own_error", "moved")):
     """The cost of a run; NaN where a number does not apply."""

@@ -14,6 +14,8 @@ from ._memory import Handle, Owner, address_of, double_pointer, doubles, plain, 
 from ._status import BadCall, BadValue, placed
 from ._types import Table
 
+__all__ = ["Options", "Row", "describe", "options_of", "part_kind_summary", "part_kinds"]
+
 Value = Union[None, bool, int, float, str, Table, list[Any]]
 
 

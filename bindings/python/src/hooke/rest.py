@@ -11,6 +11,8 @@ from .limit import Place, state_at
 from .problems import Problem
 from .results import Runnable, measured
 
+__all__ = ["Rest", "rest"]
+
 
 class Rest(Paged, kind="rest", rows="watched"):
     """The position of rest of a scene: `position` (n, 3) [m] is there, or where the search ended; `status` says which.

@@ -44,6 +44,8 @@ from .state import State
 from .system import Force, System, kept, posed, system_of
 from .why import Why
 
+__all__ = ["Frames", "Result", "RunError", "resume", "run", "why"]
+
 #: Problems that are no scene: a system, or a first- or second-order problem.
 Problem = Union[System, FirstOrder, SecondOrder]
 #: Problems that can be run: those, a scene, or the path or the document of one.

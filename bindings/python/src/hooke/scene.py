@@ -22,6 +22,8 @@ from .parts import Parts
 from .problems import Problem
 from .system import System, part_options, particle_keys, write_scene
 
+__all__ = ["Scene"]
+
 
 class Scene(Parts, Problem):
     """A scene: its `system` and its `run_options`.

@@ -18,6 +18,8 @@ from .options import Options
 from .results import Length, Runnable, measured
 from .system import Force
 
+__all__ = ["Study", "compare", "study"]
+
 
 class Reference(Record, table="study.reference"):
     """The reference of the errors, made by two runs."""

@@ -34,6 +34,8 @@ from .scene import Scene
 from .state import State
 from .system import Force
 
+__all__ = ["Sweep", "sweep"]
+
 #: Values by paths such as "run.step" or "cloth.structural.stiffness": their combinations, or those of each row.
 Vary = Union[Mapping[str, Iterable[Any]], Iterable[Mapping[str, Any]], Any]
 

@@ -20,6 +20,8 @@ from .options import Options, in_units
 from .problems import Problem
 from .state import State
 
+__all__ = ["System"]
+
 #: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.
 Force = Callable[[float, FloatArray, FloatArray, FloatArray], Optional[int]]
 #: product(t, q, v, dq, dv, out): adds (df/dq) dq + (df/dv) dv to `out`; all arrays (n, 3).

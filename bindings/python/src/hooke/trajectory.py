@@ -24,6 +24,8 @@ from .system import System
 if TYPE_CHECKING:
     from .plot._pictures import FuncAnimation
 
+__all__ = ["Energy", "Frame", "Trajectory", "open"]
+
 
 K = TypeVar("K")
 #: The numbers of an error in their order in a file.
