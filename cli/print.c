@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDED_DIGITS = 6, SAID_SIZE = 16384, DEEPEST_LIST = 8 };
+enum { ROUNDED_DIGITS = 6, SAID_SIZE = 16384 };
 
 const char *cli_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]) {
   snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", ROUNDED_DIGITS, value);
@@ -241,57 +241,24 @@ void cli_print_json(const char *format, ...) {
   va_end(args);
 }
 
-static char *past_list(char *at, char last, int shown, int depth);
-
-/* Past a value of JSON that is no object, which is printed if it is `shown`; NULL: it is none. */
-static char *past_value(char *at, int shown, int depth) {
-  static const char *const WORDS[] = {"true", "false", "null"};
-  char *end;
-  at += strspn(at, " ");
-  if (*at == '[') return depth > 0 ? past_list(at + 1, ']', shown, depth - 1) : NULL;
-  for (size_t k = 0; k < sizeof WORDS / sizeof *WORDS; k++) {
-    if (strncmp(at, WORDS[k], strlen(WORDS[k])) != 0) continue;
-    if (shown) fputs(WORDS[k], stdout);
-    return at + strlen(WORDS[k]);
-  }
-  if (*at == '"') {
-    end = at + 1 + strcspn(at + 1, "\"\\");
-    if (*end != '"') return NULL;
-    *end = '\0';
-    if (shown) write_string(at + 1);
-    *end = '"';
-    return end + 1;
-  }
-  const double number = strtod(at, &end);
-  if (end == at || !isfinite(number) || strspn(at, "+-.0123456789eE") < (size_t)(end - at)) return NULL;
-  if (shown) cli_print_json("%g", number);
-  return end;
+/* Whether the library takes it as JSON: what it then refuses is the key before it. */
+static int is_json(const char *before, const char *value, const char *after) {
+  struct cli_string text = {0};
+  hooke_scene *none = NULL;
+  cli_string_add(&text, "{\"hooke\":1,\"set\":%s%s%s}", before, value, after);
+  if (text.bytes) (void)hooke_scene_parse(text.bytes, (int64_t)strlen(text.bytes), "set", NULL, NULL, &none);
+  const int is = text.bytes && strncmp(hooke_last_error(), "set:1:12:", 9) == 0;
+  free(text.bytes);
+  return is;
 }
 
-/* The same for values between commas, up to `last`. */
-static char *past_list(char *at, char last, int shown, int depth) {
-  const char *before = "[";
-  at += strspn(at, " ");
-  if (shown && *at == last) fputs(before, stdout);
-  for (int more = *at != last; more; before = ", ") {
-    if (shown) fputs(before, stdout);
-    at = past_value(at, shown, depth);
-    if (at) at += strspn(at, " ");
-    if (!at || (*at != ',' && *at != last)) return NULL;
-    more = *at != last;
-    at += more;
-  }
-  if (shown) fputs("]", stdout);
-  return at + 1;
-}
-
-/* As the library takes it: a value of JSON, values between commas as an array, or a text. */
-static void print_set(char *value) {
-  const char *end = past_value(value, 0, DEEPEST_LIST);
-  if (end && *end == '\0')
-    past_value(value, 1, DEEPEST_LIST);
-  else if (past_list(value, '\0', 0, DEEPEST_LIST))
-    past_list(value, '\0', 1, DEEPEST_LIST);
+/* Values between commas are an array; what is no JSON is a text. */
+static void print_set(const char *value) {
+  const int alone = is_json("", value, ""), listed = is_json("[", value, "]");
+  if (alone && (listed || *value == '[')) /* and not a value with other members */
+    fputs(value, stdout);
+  else if (listed)
+    printf("[%s]", value);
   else
     write_string(value);
 }
