@@ -14,7 +14,6 @@ import operator
 import os
 import signal
 import sys
-import threading
 import warnings
 from collections.abc import Iterator
 from sys import getrefcount
@@ -172,20 +171,22 @@ def interruptible(integrator: Any = None) -> Iterator[None]:
     Python would call the handler of the signal on entry to the callback, before any `try`, where ctypes can only drop
     its exception. So the exception is stored like one of the callback.
     """
-    mine = threading.current_thread() is threading.main_thread()
-    before = signal.getsignal(signal.SIGINT) if mine else None
-    if not callable(before):
-        yield
-        return
+    before = signal.getsignal(signal.SIGINT)
 
     def note(number: int, frame: Any) -> None:
         try:
-            before(number, frame)
+            before(number, frame)  # type: ignore[operator, misc]
         except BaseException as exception:
             pending.exception = exception
 
+    try:
+        heard = callable(before) and bool(signal.signal(signal.SIGINT, note))
+    except ValueError:  # in another thread than the main one, or in a subinterpreter
+        heard = False
+    if not heard:
+        yield
+        return
     hear = attached(lib.hooke_integrator_on_progress, integrator, _HEAR, _HEARING) if integrator else contextlib.nullcontext()
-    signal.signal(signal.SIGINT, note)
     try:
         with hear:
             yield

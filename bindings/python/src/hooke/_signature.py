@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 else:
     Unpack = None  # which Python has from 3.11 on
 
+_PROGRESS = """``progress(fraction, what)`` receives the fraction done and the name of the running task, and stops the work by
+returning a non-zero number; ``progress=True`` shows a bar, with tqdm."""
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -49,8 +51,9 @@ def takes(keywords: Any = None) -> Callable[[F], F]:
 
         checked.__signature__ = own.replace(parameters=named)  # type: ignore[attr-defined]
         if keywords:
+            tells = [_PROGRESS] if "progress" in known and function.__name__ != "run" else []
             words = inspect.cleandoc(keywords.__doc__).partition("\n\n")[2]
-            checked.__doc__ = f"{inspect.cleandoc(function.__doc__ or '')}\n\n{words}\n"
+            checked.__doc__ = "\n\n".join([inspect.cleandoc(function.__doc__ or ""), *tells, words]) + "\n"
         return checked  # type: ignore[return-value]
 
     return signed

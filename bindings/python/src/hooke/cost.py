@@ -39,7 +39,6 @@ def cost(
     scene without the ingredient, at `state` (at the start, if None).
 
     ``predict=True`` skips the timing. Of many groups the `groups` largest are measured; the numbers of the others stay NaN.
-    ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
     return Cost(*measured("cost", problem, options, progress, lambda _: state))
 

@@ -174,8 +174,7 @@ def verify(
     """Repeats a slice of a trajectory from the contents of its file and compares it with its frames to the bit;
     compares every frame with its check value, computes the energy balance and estimates the error.
 
-    `memory` and `outside` are as in `Scene.load`; ``progress(share, what)`` receives progress, True for a bar. A file
-    that does not reproduce is a result, not an error.
+    `memory` and `outside` are as in `Scene.load`. A file that does not reproduce is a result, not an error.
     """
     given, limits = Options._of("verify").set(**options), limits_of(memory, outside)
     measurement = Measurement.made(None, lib.hooke_verify_create, os.fsencode(path), given._handle, limits)

@@ -286,14 +286,10 @@ def _rows(handle: Handle) -> Iterator[Row]:
 
 
 def _property(handle: Handle, row: int, name: str) -> Any:
-    if name in ("above_low", "whole", "required", "flat", "word_lists"):
-        return bool(lib.hooke_options_row_number(handle, row, name.encode()))
-    if name in ("low", "high", "min_count", "max_count", "columns"):
-        number = lib.hooke_options_row_number(handle, row, name.encode())
-        if math.isnan(number):
-            return None
-        return number if name in ("low", "high") else int(number)
-    words = text(lib.hooke_options_row(handle, row, name.encode()))
-    if name == "units":
-        return words.split(", ") if words else []
-    return words.split() if name == "words" else words
+    kind: Any = Row.__annotations__[name]
+    kind = getattr(kind, "__forward_arg__", kind)
+    if kind in ("str", "list[str]"):
+        words = text(lib.hooke_options_row(handle, row, name.encode()))
+        return words if kind == "str" else [word for word in words.split(", " if name == "units" else " ") if word]
+    number = lib.hooke_options_row_number(handle, row, name.encode())
+    return None if math.isnan(number) else {"bool": bool, "int | None": int, "float | None": float}[kind](number)

@@ -38,7 +38,6 @@ def rest(
 ) -> Rest:
     """Finds where a scene (or the path of one) or a system is at rest, from `at` (the start, if None), a place as
     `hooke.limit` has it. `watch` names quantities.
-    ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
     return Rest(*measured("rest", problem, options, progress, lambda system: state_at(system, at)))
 

@@ -1,15 +1,4 @@
-"""Running a scene in one call.
-
-`hooke.open` reads the files of `output`. They are H5MD 1.1 (HDF5), so that h5py reads them, too, without this
-package::
-
-    with h5py.File("out.h5") as file:
-        t = file["particles/all/position/time"][:]      # (frames,) [s]
-        q = file["particles/all/position/value"][:]     # (frames, n, 3) [m]
-        springs = file["connectivity/springs"][:]       # (m, 2)
-
-After a killed run, frames that were not written have the time NaN: use only those with ``t == t``.
-"""
+"""Running a scene in one call. `hooke.open` reads the files of `output`."""
 
 from __future__ import annotations
 
@@ -79,7 +68,7 @@ class Judged:
     options: dict[str, Any] = field(default_factory=dict)
 
     def of(self, problem: Problem) -> tuple[RunError | None, tuple[Claim, ...]]:
-        """Both."""
+        """Both, of the problem that was run."""
         if self.found is None:
             with hearing():  # the first run gave its warnings
                 again = run(problem, estimate=True, strict=True, **self.options)
@@ -290,7 +279,8 @@ class _Once:
                 watchers.append(lambda step, state: tell(next(numbers) / last, state))
             with self._probing(integrator):
                 status = self._integrate(integrator, state, watchers)
-        result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None, self.probes)
+        frames = recorder.frames() if recorder else None
+        result = _result(status, integrator, state, self.output, frames=frames, probes_file=self.probes)
         if estimate is None:
             return result
         lib.hooke_estimate_follow(None, integrator._handle)
@@ -395,13 +385,13 @@ def resume(
         record = opened(output)
         lib.hooke_record_read(record, -1, state._handle)
         counts = {"steps": int(numbers(record, "step")[lib.hooke_record_count(record, b"frames") - 1])}
-        return replace(_result("finished", integrator, state, output, None), counts=counts, wall_seconds=np.nan)
+        return replace(_result("finished", integrator, state, output), counts=counts, wall_seconds=np.nan)
     watchers: list[Observer] = [] if on_frame is None else [on_frame]
     with shown(progress, fills=False) as tell:
         if tell is not None:
             watchers.append(lambda step, state: tell((state.t - first) / duration, state))
         status = _run_to_file(os.fsencode(output), file, integrator.resume, integrator, state, watchers, on_step)
-    return _result(status, integrator, state, output, None)
+    return _result(status, integrator, state, output)
 
 
 @takes(RunKeywords)
@@ -416,8 +406,6 @@ def why(
 
     The last steps are repeated and suggestions are tried, so callbacks are called again; within `budget` [s] of wall
     time, or as much counted work as the run took (2 s if that is less), however busy the machine is.
-    ``progress(fraction, what)`` receives progress (``progress=True``
-    shows a bar, with tqdm) and ends it by returning a non-zero number.
     """
     if isinstance(what, (Result, SolverFailed)):
         if what.integrator is None and getattr(what, "status", None) not in ("finished", "stopped"):
@@ -433,23 +421,15 @@ def why(
     return integrator.why(budget, progress) if integrator.outcome in BLOWN_UP else None
 
 
-def _result(
-    status: str,
-    integrator: Integrator,
-    state: State,
-    output: Path | None,
-    frames: Frames | None,
-    probes: Path | None = None,
-) -> Result:
+def _result(status: str, integrator: Integrator, state: State, output: Path | None, **others: Any) -> Result:
     names = ("message", "options", "counts", "wall_seconds", "diverged_at", "stop_value")
     return Result(
         status=status,
         state=state,
         problem=integrator._problem,
-        frames=frames,
         output=output,
-        probes_file=probes,
         integrator=integrator if integrator.outcome in BLOWN_UP else None,
+        **others,
         **{name: getattr(integrator, name) for name in names},
     )
 

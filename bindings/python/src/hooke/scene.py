@@ -79,9 +79,9 @@ class Scene(Parts, Problem):
             self.run_defaults(**run)
 
     @classmethod
-    def _made(cls, origin: dict[str, Any], function: Callable[..., Any], *arguments: Any) -> Scene:
+    def _made(cls, set: Any, origin: dict[str, Any], function: Callable[..., Any], *given: Any) -> Scene:
         """The scene that a function of the library makes; `origin` is what `parse` needs beside its text to make it again."""
-        handle = Handle.made(None, function, *arguments)
+        handle = Handle.made(None, function, *given, limits_of(origin["memory"], origin["outside"], set))
         scene = cls.__new__(cls)
         scene._origin = origin
         scene._system = System._of_scene(handle)
@@ -99,7 +99,7 @@ class Scene(Parts, Problem):
         `set` has values by paths such as "run.step" or "cloth.structural.stiffness", which replace those of a scene file.
         BadValue describes a fault and its place; IOFailed if the file cannot be read."""
         origin = {"folder": os.path.dirname(os.path.abspath(path)), "memory": memory, "outside": outside}
-        return cls._made(origin, lib.hooke_scene_load, os.fsencode(path), limits_of(memory, outside, set))
+        return cls._made(set, origin, lib.hooke_scene_load, os.fsencode(path))
 
     @classmethod
     def parse(
@@ -122,8 +122,7 @@ class Scene(Parts, Problem):
         data = scene.encode() if isinstance(scene, str) else bytes(scene)
         origin = {"folder": None if folder is None else os.path.abspath(folder), "memory": memory, "outside": outside}
         where = None if folder is None else os.fsencode(folder)
-        given = data, len(data), name.encode(), where, limits_of(memory, outside, set)
-        return cls._made(origin, lib.hooke_scene_parse, *given)
+        return cls._made(set, origin, lib.hooke_scene_parse, data, len(data), name.encode(), where)
 
     # building
 

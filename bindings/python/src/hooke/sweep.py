@@ -239,8 +239,15 @@ def _finished(
 
 
 class SweepKeywords(RunKeywords, total=False):
-    """Keywords of `hooke.sweep` that are those of the runs."""
+    """Keywords of `hooke.sweep` and of its runs."""
 
+    watch: str | Iterable[str] | None
+    output: Path | None
+    executor: Executor | None
+    only: slice
+    error: bool
+    ahead: int | None
+    progress: WorkProgress | bool | None
     state: State | None
     force: Force | None
     want: Length | None
@@ -249,25 +256,11 @@ class SweepKeywords(RunKeywords, total=False):
 
 
 @overload
-def sweep(
-    scene: Scene | Mapping[str, Any] | Path,
-    vary: Vary,
-    *,
-    watch: str | Iterable[str] | None = None,
-    output: Path | None = None,
-    executor: Executor | None = None,
-    only: slice = ...,
-    error: bool = False,
-    ahead: int | None = None,
-    progress: WorkProgress | bool | None = None,
-    **options: Unpack[SweepKeywords],
-) -> Sweep: ...
+def sweep(scene: Scene | Mapping[str, Any] | Path, vary: Vary, **options: Unpack[SweepKeywords]) -> Sweep: ...
 
 
 @overload
-def sweep(
-    scene: Scene | Mapping[str, Any] | Path, vary: Vary, *, run: Callable[..., Any], **options: Any
-) -> Sweep: ...
+def sweep(scene: Scene | Mapping[str, Any] | Path, vary: Vary, *, run: Callable[..., Any], **options: Any) -> Sweep: ...
 
 
 def sweep(

@@ -12,9 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import BadValue, Scene
+from .. import BadValue, Scene, options_of
 from .._types import FloatArray, Numbers
-from ..options import in_units
 from ..parts import Quantity
 
 _ANGSTROM, _DALTON, _PICOSECOND = 1e-10, 1.66053906660e-27, 1e-12
@@ -94,7 +93,8 @@ def from_meshio(
     data = [*mesh.point_data, *mesh.cell_data, *mesh.field_data, *mesh.point_sets, *mesh.cell_sets]
     held = f"what held {loose} points that are in no edge: they are free particles" if loose else None
     _leave_out(*sorted(lost), *(f"data: {name}" for name in data), held)
-    share = in_units("particles", "mass", mass) / max(1, len(mesh.points))
+    total: Any = options_of("particles").set(mass=mass)["mass"]
+    share = total / max(1, len(mesh.points))
     scene = Scene("a mesh").particles(_points(mesh.points), mass=share, pinned=pinned)
     return scene.springs("edges", between=ends, stiffness=stiffness, damping=damping) if len(ends) else scene
 

@@ -10,10 +10,8 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from .. import BadValue, Limit, Needs, Result, Scene, Study, System, Trajectory
+from .. import BadValue, Limit, Needs, Result, Scene, Study, System, Trajectory, options_of
 from .._types import FloatArray, IntArray, Path, Table
-from ..options import in_units
-from ..results import Length
 from ._pictures import Line3DCollection, LogLocator, MaxNLocator, Poly3DCollection, to_rgb
 
 if TYPE_CHECKING:
@@ -146,7 +144,7 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
 
 
 def study(
-    source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: Length | None = None
+    source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | str | None = None
 ) -> Any:
     """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error_max [m]
     against cost, one marked line a method, and error against step with the observed orders; errors of one step are dotted.
@@ -177,7 +175,7 @@ def study(
 
 
 def work_precision(
-    source: Study | Path, ax: Axes | None = None, *, cost: str = "wall_seconds", want: Length | None = None
+    source: Study | Path, ax: Axes | None = None, *, cost: str = "wall_seconds", want: float | str | None = None
 ) -> Axes:
     """Draws error_max [m] against cost of a study, or of the file that one wrote, one marked line a method; with `cost` and
     `want` as for `study`."""
@@ -191,11 +189,11 @@ def work_precision(
     return ax
 
 
-def _finish(ax: Any, table: _Table, unit: str, want: Length | None, lines: Iterable[Any] = ()) -> None:
-    want = in_units("study", "want", want)
+def _finish(ax: Any, table: _Table, unit: str, want: float | str | None, lines: Iterable[Any] = ()) -> None:
+    wanted: Any = options_of("study").set(want=want)["want"]
     ax.set(xscale="log", yscale="log", ylabel=f"error [{unit}]" if unit else "error")
-    if want is not None:  # before the limits are set
-        ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {want:g} {unit}")
+    if wanted is not None:  # before the limits are set
+        ax.axhline(wanted, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {wanted:g} {unit}")
     low, high = ax.get_xlim()
     if high < 100 * low:  # few powers of ten: some numbers between them
         ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -217,7 +215,7 @@ def limit(found: Limit, axes: Any = None, *, step: float | str | None = None) ->
     """
     predicted = found.rows["predicted"]
     limits = predicted[(predicted > 0) & np.isfinite(predicted)]
-    h: Any = in_units("run", "step", step)
+    h: Any = options_of("run").set(step=step)["step"]
     if h is None:
         fastest = np.abs(found.modes).max(initial=0.0)
         smallest = limits.min() if limits.size else 2 / fastest if fastest > 0 else 1.0
