@@ -30,6 +30,7 @@ except ModuleNotFoundError as missing:
         "hooke needs NumPy, which this Python has not: pip install numpy (Debian: python3-numpy)", name=missing.name
     ) from None
 
+from .why import *  # isort: skip  # before the function that has the name of its module
 from ._queries import *
 from ._status import *
 from .cost import *
@@ -49,7 +50,6 @@ from .study import *
 from .sweep import *
 from .system import *
 from .trajectory import *
-from .why import *
 
 _MODULES = ("animation", "convert", "plot")  # matplotlib is an extra, and slow to import
 
