@@ -33,14 +33,17 @@ def test_methods_have_them_too():
     assert {"watch", "at"} <= set(inspect.signature(hooke.Scene.rest).parameters)
 
 
-@pytest.mark.parametrize("call, nearest", [
-    (lambda scene: hooke.run(scene, wnat="1mm"), "want"), (lambda scene: scene.run(stepp=1), "step"),
-    (lambda scene: hooke.limit(scene, methds="rk4"), "methods"), (lambda scene: hooke.resume("x.h5", progres=True), "progress"),
-    (lambda scene: hooke.Scene(gravty=(0, 0, 0)), "gravity"), (lambda scene: hooke.Scene().rope(segmnts=4), "segments"),
-    (lambda scene: hooke.sweep(scene, {}, executr=None), "executor"),
+@pytest.mark.parametrize("call, of, nearest", [
+    (lambda scene: hooke.run(scene, wnat="1mm"), "run", "want"), (lambda scene: scene.run(stepp=1), "run", "step"),
+    (lambda scene: hooke.limit(scene, methds="rk4"), "limit", "methods"),
+    (lambda scene: hooke.resume("x.h5", progres=True), "resume", "progress"),
+    (lambda scene: hooke.Integrator(scene.system, stepp=1), "Integrator", "step"),
+    (lambda scene: hooke.Scene(gravty=(0, 0, 0)), "Scene", "gravity"),
+    (lambda scene: hooke.Scene().rope(segmnts=4), "rope", "segments"),
+    (lambda scene: hooke.sweep(scene, {}, executr=None), "sweep", "executor"),
 ])  # fmt: skip
-def test_unknown_keywords_name_the_nearest(call, nearest):
-    with pytest.raises(TypeError, match=f'did you mean "{nearest}"') as told:
+def test_unknown_keywords_name_the_nearest(call, of, nearest):
+    with pytest.raises(TypeError, match=f'^{of}: unknown keyword ".*"; did you mean "{nearest}"') as told:
         call(hooke.Scene.parse(SIX_PARTICLES))
     assert isinstance(told.value, hooke.BadValue)
 

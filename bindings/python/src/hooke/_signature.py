@@ -41,7 +41,7 @@ def takes(keywords: Any = None) -> Callable[[F], F]:
             given = {"default": None, "annotation": getattr(hint, "__forward_arg__", hint)}
             named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, **given))
         known = {parameter.name: parameter for parameter in named}
-        called = "Scene" if function.__name__ == "__init__" else function.__name__
+        called = function.__qualname__.split(".")[-2 if function.__name__ == "__init__" else -1]
 
         @functools.wraps(function)
         def checked(*arguments: Any, **options: Any) -> Any:
