@@ -1,5 +1,6 @@
 #include "command.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,6 +40,7 @@ void cli_command_add(struct cli_string *text, const struct cli_arguments *argume
     if (changes && hooke_options_is_set(changes, argument->name)) continue;
     if (!same && argument->table != arguments->run && !cli_is_among("from-rest force set", argument->name))
       continue;
+    if (!same && strcmp(verb, "needs") == 0 && cli_is_among("step checkpoint", argument->name)) continue;
     /* the options that --want would choose are given */
     if (strcmp(argument->name, "want") == 0 && changes && hooke_options_is_set(changes, "method")) continue;
     const char *instead = arguments->verb->for_scene;
@@ -70,7 +72,18 @@ static int32_t add_chosen(const hooke_measurement *why, hooke_options *changes) 
   return status;
 }
 
-/* Command of the run with the changes of advice `place`; none if the scene has to change. HOOKE_NO_MEMORY */
+int32_t cli_command_ask_needs(const struct cli_arguments *arguments, double want,
+                              struct cli_string *command) {
+  hooke_options *options = NULL;
+  int32_t status = isnan(want) ? HOOKE_OK : hooke_options_create("needs", &options);
+  if (options) status = hooke_options_set_number(options, "want", want);
+  if (options && status == HOOKE_OK) cli_command_add(command, arguments, "needs", options);
+  hooke_options_destroy(options);
+  return status == HOOKE_OK ? command->status : status;
+}
+
+/* Command of the run with the changes of advice `place`; of `needs`, or none, if the scene has to change.
+ * HOOKE_NO_MEMORY */
 static int32_t make_command(const struct cli_arguments *arguments, const hooke_measurement *why,
                             int64_t place, struct cli_string *command) {
   hooke_options *changes = NULL;
@@ -80,6 +93,9 @@ static int32_t make_command(const struct cli_arguments *arguments, const hooke_m
   const int32_t any = status == HOOKE_OK && hooke_measurement_text(why, "advice", place, "option")[0];
   if (any && was_picked) status = add_chosen(why, changes);
   if (status == HOOKE_OK && any) cli_command_add(command, arguments, "run", changes);
+  if (status == HOOKE_OK && !any)
+    status =
+        cli_command_ask_needs(arguments, hooke_measurement_number(why, "advice", place, "want"), command);
   hooke_options_destroy(changes);
   return status == HOOKE_NO_MEMORY ? status : command->status;
 }

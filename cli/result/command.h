@@ -11,6 +11,9 @@
 void cli_command_add(struct cli_string *text, const struct cli_arguments *arguments, const char *verb,
                      const hooke_options *changes);
 
+/* The command of `needs` that asks with a want [m]; none if that is NaN. HOOKE_NO_MEMORY */
+int32_t cli_command_ask_needs(const struct cli_arguments *arguments, double want, struct cli_string *command);
+
 /* Labels a diagnosis with the command of each advice, the column "command"; none where the scene has to
  * change. HOOKE_NO_MEMORY */
 int32_t cli_advice_label(const struct cli_arguments *arguments, hooke_measurement *why);

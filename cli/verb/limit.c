@@ -1,4 +1,5 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
+#include "command.h"
 #include "measured.h"
 #include "print.h"
 #include "report.h"
@@ -49,6 +50,8 @@ static void print_words(const struct cli_results *l) {
   cli_say("%s, at t = %s s\n", cli_setup_title(l->arguments, &l->setup),
           cli_format_rounded(cli_number(l->found, "limit", "time"), text));
   cli_claims_print(l->arguments, l->found, INDENT, NULL);
+  const char *command = hooke_measurement_text(l->found, "changes", 0, "command");
+  if (command) printf("  %s\n", command);
   printf("\nfastest motion %.6g rad/s, fastest damping %.6g 1/s\n\n",
          cli_number(l->found, "limit", "frequency_max"), cli_number(l->found, "limit", "rate_max"));
   print_table(l->found);
@@ -56,8 +59,20 @@ static void print_words(const struct cli_results *l) {
   cli_limiting_print(l->found);
 }
 
+/* How to ask for the price of what it suggests, where that is not known. */
+static int32_t label(const struct cli_results *l) {
+  struct cli_string command = {.bytes = NULL};
+  int32_t status =
+      cli_command_ask_needs(l->arguments, hooke_measurement_number(l->found, "changes", 0, "want"), &command);
+  if (status == HOOKE_OK && command.bytes)
+    status = hooke_measurement_label(l->found, "command", command.bytes);
+  free(command.bytes);
+  return status;
+}
+
 static int tell(struct cli_results *l) {
   int code = HOOKE_EXIT_DONE;
+  if (label(l) != HOOKE_OK) return cli_report_missing_words(l->arguments);
   if (!l->arguments->json)
     print_words(l);
   else if (cli_claims_print_json(l->arguments, "scene", l->found) != HOOKE_OK)

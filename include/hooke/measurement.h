@@ -130,9 +130,9 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
  * group:min.tension (the largest or smallest of a group), energy, kinetic or potential [J], or period:Q [s],
  * the mean time between passages of one of these upwards through its mean. Indices begin at 0. */
 
-/* Recommends the run that hooke_estimate_pick() picks for another wanted error [m] among the methods of the
- * study, and updates the tables "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note"
- * then says why. */
+/* Recommends the run that hooke_estimate_pick() picks for another wanted error [m], or of a list by what all
+ * of its bounds are multiplied, among the methods of the study, and updates the tables "recommendation" and
+ * "margin". HOOKE_OK also when nothing meets it; "note" then says why. */
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 
 /* ---- a rest: where forces are in equilibrium ----

@@ -84,7 +84,7 @@ def row_of(answer, name):
 
 def test_keys(found):
     _, answer = found
-    assert set(answer) == WHOLE | {"full", "rows", "degrees", "lean", "parts"} and answer["parts"] == []
+    assert set(answer) == WHOLE | {"full", "wants", "rows", "degrees", "lean", "parts"} and answer["parts"] == []
     assert (answer["want"], answer["method"], answer["duration"]) == (3e-3, "symplectic-euler", 0.2)
     assert answer["judged_until"] == pytest.approx(0.2)
     assert set(answer["full"]) == COST | {"own_error", "moved"} and answer["full"]["step_error"] <= 3e-4
@@ -159,7 +159,7 @@ def test_usage(hooke, write):
 def test_refine(hooke, write):
     answer = hooke("needs", write(SCENE), "--want", "1cm", "--watch", "rope", "--refine", "--json")
     assert answer.code == 0, answer.err
-    assert set(answer.json) == WHOLE | {"full", "parts", "rows", "degrees", "lean"} and answer.json["lean"] is None
+    assert set(answer.json) == WHOLE | {"full", "wants", "parts", "rows", "degrees", "lean"} and answer.json["lean"] is None
     cloth, rope = answer.json["parts"]
     for part in (cloth, rope):
         assert set(part) == {"part", "cells", "change", "change_fine", "order", "error", "factor", "wanted", "note"}

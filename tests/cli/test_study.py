@@ -12,7 +12,8 @@ from conftest import ENDLESS, SIX_PARTICLES, STIFF_PAIR, interrupt
 
 pytestmark = pytest.mark.everything
 
-TOP = ["scene", "duration", "frames", "budget_spent", "reference", "rows", "orders", "recommendation", "statistics", "claims"]
+TOP = ["scene", "duration", "frames", "budget_spent", "reference", "rows", "orders", "recommendation", "statistics", "wants",
+       "claims"]  # fmt: skip
 ROW = ["method", "step", "rtol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
        "wall_seconds", "status"]  # fmt: skip
 RECOMMENDATION = ["want", "method", "step", "rtol", "error", "wall_seconds", "command"]

@@ -81,6 +81,33 @@ TEST(a_stiff_spring_may_be_as_soft_as_an_independent_run_says_and_the_lean_scene
 #endif
 }
 
+/* The same springs in one group. */
+TEST(a_stiff_spring_among_soft_ones_of_its_group_has_a_row_of_its_own) {
+  double position[24] = {0};
+  int64_t ends[14];
+  for (int k = 0; k < 14; k++) {
+    ends[k] = (k + 1) / 2;
+    position[3 * ((k + 1) / 2)] = (k + 1) / 2;
+  }
+  hooke_system *made = small_system(8, position, NULL, 1.0, 0);
+  check_ok(hooke_system_pin(made, 2, (int64_t[]){0, 7}));
+  small_group(made, "springs", "all", 7, ends,
+              "stiffness=100,100,100,1e6,100,100,100 damping=0.5,0.5,0.5,10,0.5,0.5,0.5 "
+              "rest_length=0.9,0.9,0.9,1,0.9,0.9,0.9 law=%s",
+              "strain");
+  owned_system *system = small_falling(made);
+  owned_measurement *needs = needs_of(system, NULL);
+  const int64_t row = degree_of(needs, "all:3.stiffness");
+  const double times = 1.0 / hooke_measurement_number(needs, "degrees", row, "factor");
+  check_between(times, 180.0, 224.0);
+  check_close(hooke_measurement_number(needs, "degrees", row, "error"), change_at(times), 0.01 * WANT);
+  assert_int_equal(degree_of(needs, "all:2.stiffness"), hooke_measurement_row_count(needs, "degrees"));
+#if HOOKE_HAVE_LAPACK
+  assert_int_equal(hooke_measurement_row_count(needs, "changed"), 1);
+  assert_string_equal(hooke_measurement_text(needs, "changed", 0, "quantity"), "all:3.stiffness");
+#endif
+}
+
 TEST(what_is_kept_is_neither_left_out_nor_changed) {
   owned_system *system = chain();
   owned_measurement *needs = needs_of(system, "stiff");

@@ -85,6 +85,9 @@ def test_what_it_hangs_on():
     assert sum(one.share for one in found.participation) == pytest.approx(1, abs=1e-6)
     assert found.changes.kind == "soften" and found.changes.springs == 1 and np.isnan(found.changes.particles)
     assert 50 < found.changes.gain < 72 < found.changes.cost * 1.01 and found.changes.factor > 1000
+    # by Gragg-Bulirsch-Stoer extrapolation in long double the softer spring puts the run 0.2284998 m off
+    assert found.changes.error == pytest.approx(0.2284998, rel=2e-3) and np.isnan(found.changes.want)
+    assert found.changes.sentence.endswith("softened so, the run is 0.23 m off (tried)")
     assert found.shape.shape == (8, 3)
     sizes = np.linalg.norm(found.shape, axis=1)
     assert sizes.max() == pytest.approx(1) and set(np.argsort(sizes)[-2:]) == {3, 4}
@@ -216,3 +219,46 @@ def test_few_steps_measure_a_limit():
     rows = hooke.limit(system, methods=["verlet", "shardlow"]).rows
     np.testing.assert_allclose(rows["measured"], rows["predicted"], rtol=1e-3)
     assert (rows["steps_run"] < 3000).all(), rows["steps_run"]
+
+
+def swinging(light, damping=0.0):
+    """Six masses on springs of their own, the first one light."""
+    mass = [light] + [1.0] * 5
+    groups = [{"name": "all", "between": [[2 * k, 2 * k + 1] for k in range(6)], "stiffness": 100, "damping": damping}]
+    positions = [[k, -y, 0] for k in range(6) for y in (0, 1)]
+    return {"hooke": 1, "gravity": [0, -9.81, 0], "springs": groups,
+            "run": {"method": "verlet", "duration": 1, "every": 0.02},
+            "particles": {"position": positions, "mass": [one for each in mass for one in (1.0, each)],
+                          "pinned": list(range(0, 12, 2))}}  # fmt: skip
+
+
+def fall(mass, t, stiffness=100.0):
+    return 9.81 * mass / stiffness * (1 - np.cos(np.sqrt(stiffness / mass) * t))
+
+
+def test_a_heavier_particle_has_its_price():
+    found = hooke.limit(hooke.Scene.parse(swinging(0.01)), predict=True).changes
+    t = np.linspace(0, 1, 51)
+    assert found.kind == "heavier"
+    assert found.error == pytest.approx(abs(fall(0.01 * found.factor, t) - fall(0.01, t)).max(), rel=0.05)
+
+
+def test_leaving_out_damping_has_its_price():
+    """The light one is damped so much that it sinks slowly."""
+    found = hooke.limit(hooke.Scene.parse(swinging(1.0, damping=60.0)), predict=True, methods="symplectic-euler",
+                        method="symplectic-euler").changes  # fmt: skip
+    t = np.linspace(0, 1, 51)
+    fast, slow = 30 + np.sqrt(800), 30 - np.sqrt(800)
+    sinks = 0.0981 * (1 - (fast * np.exp(-slow * t) - slow * np.exp(-fast * t)) / (fast - slow))
+    assert "without damping the run is" in found.sentence
+    assert found.error == pytest.approx(abs(fall(1.0, t) - sinks).max(), rel=0.05)
+
+
+def test_a_price_that_is_not_known_says_how_to_ask_for_it():
+    made = swinging(0.01)
+    made["run"]["duration"] = 1e5
+    found = hooke.limit(hooke.Scene.parse(made), predict=True).changes
+    assert np.isnan(found.error) and found.want == pytest.approx(0.05) and "error of the run is not known" in found.sentence
+    del made["run"]["duration"]
+    found = hooke.limit(hooke.Scene.parse(made), predict=True).changes
+    assert np.isnan(found.error) and np.isnan(found.want)

@@ -190,3 +190,22 @@ def test_picture(ropes):
     assert hooke.plot.needs(ropes, ax) is ax
     ax.figure.canvas.draw()
     plt.close("all")
+
+
+def test_a_part_may_be_coarser_than_half_until_it_breaks_the_want():
+    """A rope of 24 segments, hanging from its end and let go unstretched; runs of ropes made apart say what fewer do."""
+
+    def rope(segments, **run):
+        return hooke.Scene.parse({"hooke": 1, "gravity": [0, -9.81, 0], "run": {"duration": 0.5, "every": 0.01, **run}, "parts": [
+            {"kind": "rope", "name": "rope", "from": [0, 0, 0], "to": [0, -1, 0], "segments": segments, "mass": 0.2,
+             "pinned": ["start"], "stretch": {"stiffness": 500, "damping": 0.5}}]})  # fmt: skip
+
+    def heights(segments):
+        height = hooke.run(rope(segments), method="cvode-adams", rtol=1e-9, frames=True).frames.q[:, :, 1]
+        return np.array([np.interp(np.arange(25) / 24, np.arange(segments + 1) / segments, one) for one in height])
+
+    found = hooke.needs(rope(24), "0.1mm", method="verlet")
+    (row,) = [row for row in found.rows if row["kind"] == "resolution"]
+    eight, five = (abs(heights(segments) - heights(24)).max() for segments in (8, 5))
+    assert row["without"] == "all but 8 of 24 cells of rope" and row["left_out"]
+    assert row["error"] == pytest.approx(eight, rel=0.03) and eight < 1e-4 < five

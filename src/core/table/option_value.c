@@ -287,7 +287,7 @@ int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *w
     double number = 0;
     const char *unit = NULL;
     if (row->family && !text[0]) return HOOKE_OK;
-    if (row->wants && strchr(text, '=')) return word_from_text(row, where, text, value);
+    if (row->wants && strpbrk(text, "=%,")) return word_from_text(row, where, text, value);
     int32_t status = hk_option_parse_number(row, where, text, (int64_t)strlen(text), &number, &unit);
     if (status == HOOKE_OK) status = hk_option_value_from_numbers(row, where, 1, &number, value);
     if (status == HOOKE_OK) value->unit = unit;

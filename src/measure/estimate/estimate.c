@@ -274,7 +274,9 @@ static int64_t compare(const struct hk_estimate *e, struct hk_distance *from) {
 
 static double agreement(const struct hk_estimate *e, int32_t n) {
   const struct hk_reference *r = &e->pick.reference;
-  return n == 0 ? r->agreement : r->wanted_agreement * (e->bound[n - 1] / e->wants.most);
+  if (n == 0) return r->agreement;
+  const double wanted = r->wanted_agreement * (e->bound[n - 1] / e->wants.most);
+  return hk_want_is_place(&e->wants, n - 1) ? fmin(wanted, r->agreement) : wanted;
 }
 
 /* The want that is the farthest off, and by how many times what is wanted. */

@@ -45,17 +45,11 @@ static void tell_error(const struct hk_estimate *e, struct hk_claims *claims) {
 
 /* Each of a list. */
 static void tell_each(const struct hk_estimate *e, struct hk_claims *claims) {
-  for (int32_t k = 0; k < e->wants.count && e->wants.list && e->by; k++) {
-    const char *name = e->wants.want[k].name, *unit = hk_want_unit(&e->wants, k), *blank = unit[0] ? " " : "";
-    if (isnan(e->error[1 + k]))
-      hk_claim(claims, "error", HOOKE_OF_UNKNOWN, "",
-               "of %s it is not known: other runs do not tell it, or its value (a period takes eight frames)",
-               name);
-    else
-      hk_claim(claims, "error", of_known(e), e->by,
-               "of %s it is at most %.3g%s%s until then, where %.3g%s%s are wanted", name, e->error[1 + k],
-               blank, unit, e->bound[k], blank, unit);
-  }
+  struct hk_want_found found[HOOKE_WANTS];
+  for (int32_t k = 0; k < e->wants.count; k++)
+    found[k] = (struct hk_want_found){e->wants.want[k].name, hk_want_unit(&e->wants, k), e->bound[k],
+                                      e->error[1 + k], NAN};
+  if (e->by) hk_wants_claim(&e->wants, found, of_known(e), e->by, " until then", claims);
 }
 
 static void tell_want(const struct hk_estimate *e, struct hk_claims *claims) {

@@ -217,8 +217,18 @@ int32_t hk_limit_look(struct hk_limit *limit, const double *q, const double *v, 
   return status == HOOKE_OK ? find_participation(limit) : status;
 }
 
+int32_t hk_limit_price(struct hk_limit *limit) {
+  const struct hk_limit_row *row = hk_limit_limiting_row(limit);
+  if (row == NULL) return HOOKE_OK;
+  limit->width = 0.0;
+  limit->under_way = NULL;
+  return hk_suggestion_price(limit->measurement->system, limit->run, row->method, row->predicted,
+                             &limit->participation, limit->budget, &limit->suggestion);
+}
+
 static int32_t find(struct hk_limit *limit, const hooke_state *state) {
-  const int32_t status = hk_limit_look(limit, state->q, state->v, *state->t);
+  int32_t status = hk_limit_look(limit, state->q, state->v, *state->t);
+  if (status == HOOKE_OK) status = hk_limit_price(limit);
   const int predict = hooke_options_number(limit->options, "predict") != 0.0;
   return status == HOOKE_OK && !predict ? measure(limit, state) : status;
 }
@@ -287,7 +297,8 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   remember(limit, hooke_state_position(state), hooke_state_velocity(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;
   note_unknown(limit, walk.frame);
-  const int32_t found = status < 0 || !limit->found ? HOOKE_OK : find_participation(limit);
+  int32_t found = status < 0 || !limit->found ? HOOKE_OK : find_participation(limit);
+  if (found == HOOKE_OK && status >= 0 && limit->found) found = hk_limit_price(limit);
   return found != HOOKE_OK ? found : status;
 }
 

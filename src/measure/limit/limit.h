@@ -57,6 +57,8 @@ struct hk_limit {
 /* Predictions at positions q and velocities v (3n; NULL: at rest) of the time t, and the limiting elements
  * there. */
 int32_t hk_limit_look(struct hk_limit *limit, const double *q, const double *v, double t);
+/* Then the price of what it suggests. */
+int32_t hk_limit_price(struct hk_limit *limit);
 
 /* Replaces bounds, predictions and modes by those at positions q and velocities v (3n; NULL: at rest). */
 int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q, const double *v);

@@ -3,6 +3,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
 
+#include "measure/needs/price.h"
 #include "measure/trial/budget.h"
 #include "model/force/force.h"
 
@@ -89,6 +90,8 @@ struct hk_suggestion {
   double gain;           /* ratio of the step limits after the change: recomputed, */
   double gain_predicted; /* and by first-order perturbation */
   int32_t force;         /* 1: the sentence is about drag or damping, which limits the step */
+  int32_t without;       /* what it says a step of without: participation's number of a force; -1: nothing */
+  struct hk_price price; /* of the change, or of leaving that out, once found */
   char sentence[640];
 };
 
@@ -98,5 +101,10 @@ struct hk_suggestion {
  * failures of hk_limit_predict(). */
 int32_t hk_suggestion_find(const hooke_system *system, const double *q, const char *method, double limit,
                            const struct hk_participation *participation, struct hk_suggestion *suggestion);
+
+/* Finds and tells the prices of what it says (needs/price.h). */
+int32_t hk_suggestion_price(const hooke_system *system, const hooke_options *run, const char *method,
+                            double limit, const struct hk_participation *participation,
+                            struct hk_budget *budget, struct hk_suggestion *suggestion);
 
 #endif

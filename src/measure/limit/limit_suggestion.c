@@ -9,6 +9,7 @@
 #include "model/medium.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A set needs that share of the mode, and must be at most that share of the scene. */
 static const double MOST_OF_THE_MODE = 0.9, SMALL = 0.1;
@@ -171,8 +172,7 @@ static void tell(const struct hk_participation *participation, const struct set 
     hk_append(text, size, "softening %s by %s", one ? "it" : "them", factor);
   else
     hk_append(text, size, "making %s %s times heavier", one ? "it" : "them", factor);
-  hk_append(text, size, " allows a step %s times larger; its error is not known before needs has measured it",
-            gain);
+  hk_append(text, size, " allows a step %s times larger", gain);
 }
 
 /* "group 2", or "group 0 of triples" */
@@ -267,6 +267,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
     hk_append(suggestion->sentence, sizeof suggestion->sentence,
               "; verlet takes %s implicitly, and has no limit by it", drag ? "drag" : "damping");
   suggestion->force = 1;
+  if (without > LEAST_COST * limit) suggestion->without = force;
   return HOOKE_OK;
 }
 
@@ -295,7 +296,8 @@ static int32_t try_set(const hooke_system *system, const double *q, const char *
 
 int32_t hk_suggestion_find(const hooke_system *system, const double *q, const char *method, double limit,
                            const struct hk_participation *participation, struct hk_suggestion *suggestion) {
-  *suggestion = (struct hk_suggestion){.cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN};
+  *suggestion = (struct hk_suggestion){
+      .cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN, .without = -1, .price = {NAN, NAN}};
   struct set first = spring_set(system, participation), second = particle_set(system, participation);
   const int springs = is_small(first.count, first.of), particles = is_small(second.count, second.of);
   if (springs && particles) find_oddness(system, participation, &first, &second);
@@ -319,5 +321,48 @@ int32_t hk_suggestion_find(const hooke_system *system, const double *q, const ch
   else if (status == HOOKE_OK && suggestion->kind == NULL)
     tell_groups(system, participation, suggestion);
   hk_utf8_make_plain(suggestion->sentence);
+  return status;
+}
+
+/* ---- its price ---- */
+
+/* What is advised, or what is left out. */
+static void change(const struct hk_participation *participation, const struct hk_suggestion *suggestion,
+                   int32_t leaves_out, struct hk_variant *variant) {
+  for (int64_t k = 0; k < suggestion->count && !leaves_out; k++) {
+    if (strcmp(suggestion->kind, "heavier") == 0)
+      variant->mass[participation->particle[k].particle] = suggestion->factor;
+    for (int n = HOOKE_KAPPA; n <= HOOKE_GAMMA && strcmp(suggestion->kind, "soften") == 0; n++)
+      variant->single[n][participation->spring[k].spring] = 1.0 / suggestion->factor;
+  }
+  if (!leaves_out) return;
+  if (hk_participation_is_drag(suggestion->without))
+    variant->without[suggestion->without] = 1;
+  else
+    variant->damping = 1;
+}
+
+int32_t hk_suggestion_price(const hooke_system *system, const hooke_options *run, const char *method,
+                            double limit, const struct hk_participation *participation,
+                            struct hk_budget *budget, struct hk_suggestion *suggestion) {
+  const int32_t drag = hk_participation_is_drag(suggestion->without);
+  const int32_t softer = suggestion->kind && strcmp(suggestion->kind, "soften") == 0;
+  const char *const how[] = {softer ? "softened so," : "made heavier so,",
+                             drag ? "without drag" : "without damping"};
+  const int32_t told[] = {suggestion->kind != NULL, suggestion->without >= 0};
+  int32_t status = HOOKE_OK;
+  for (int k = 1; k >= 0 && status == HOOKE_OK; k--) {
+    struct hk_variant variant;
+    if (!told[k] || (status = hk_variant_create(system, &variant)) != HOOKE_OK) continue;
+    change(participation, suggestion, k, &variant);
+    status = hk_price_find(system, run, method, limit, &variant, budget, &suggestion->price);
+    hk_variant_release(&variant);
+    hk_append(suggestion->sentence, sizeof suggestion->sentence, "; %s ", how[k]);
+    if (isnan(suggestion->price.error))
+      hk_append(suggestion->sentence, sizeof suggestion->sentence, "the error of the run is not known");
+    else
+      hk_append(suggestion->sentence, sizeof suggestion->sentence, "the run is %.2g m off (tried)",
+                suggestion->price.error);
+  }
   return status;
 }

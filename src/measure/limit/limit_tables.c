@@ -71,6 +71,7 @@ static double count_of(const struct hk_suggestion *suggestion, const char *kind)
 
 HOOKE_READER(double, springs, struct hk_limit, count_of(&it->suggestion, "soften"))
 HOOKE_READER(double, particles, struct hk_limit, count_of(&it->suggestion, "heavier"))
+HOOKE_READER(const char *, command, struct hk_limit, it->measurement->label[HOOKE_LABEL_COMMAND])
 HOOKE_COUNTER(count_suggestions, struct hk_limit, it->suggestion.sentence[0] != '\0')
 
 /* ---- modes ---- */
@@ -148,6 +149,11 @@ const struct hk_table hk_limit_tables[] = {
                       "factor of the step, computed again with the change made"),
          HOOKE_COLUMN(struct hk_suggestion, gain_predicted, NUMBER, "",
                       "factor of the step by first-order perturbation"),
+         HOOKE_COLUMN_AS(struct hk_suggestion, price.error, error, NUMBER, "m",
+                         "error that it makes over the run, by two runs; none where it is not known"),
+         HOOKE_COLUMN_AS(struct hk_suggestion, price.want, want, NUMBER, "m",
+                         "a want with which `needs` tells the error where it is not known"),
+         HOOKE_COLUMN_BY(command, TEXT, "", "the command line of that, where the caller gave one as a label"),
          HOOKE_COLUMN(struct hk_suggestion, sentence, TEXT, "", "the suggestion in words"))},
     {.name = "modes",
      .doc = "eigenvalues lambda of lambda^2 M + lambda C + K that are known, the largest first; one of a "

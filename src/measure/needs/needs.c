@@ -66,7 +66,8 @@ static int32_t read_watch(struct hk_needs *needs) {
   int32_t status = HOOKE_OK, all = text[0] == '\0';
   if (!all) {
     status = hk_watched_mark_particles(system, "watch", text, mark);
-    all = status == HOOKE_BAD_VALUE && strchr(text, '.') && !needs->wants.list;
+    const int32_t quantity = strchr(text, '.') || hk_watched_is_of_scene(text);
+    all = status == HOOKE_BAD_VALUE && quantity && !needs->wants.list;
     if (all) status = hk_wants_of_each(&needs->wants, &needs->watched, text);
     needs->want = needs->wants.most;
   }

@@ -41,6 +41,7 @@ struct hk_needs_row {
 };
 
 enum hk_needs_property {
+  HOOKE_NEEDS_SINGLE,    /* stiffness of a spring */
   HOOKE_NEEDS_STIFFNESS, /* of a group */
   HOOKE_NEEDS_DAMPING,   /* of a group */
   HOOKE_NEEDS_MASS,      /* of a particle */
@@ -51,7 +52,8 @@ enum hk_needs_property {
 struct hk_needs_degree {
   char name[HOOKE_NEEDS_NAME], quantity[HOOKE_NEEDS_NAME + 16]; /* "cloth.shear", "cloth.shear.stiffness" */
   enum hk_needs_property property;
-  int64_t number;              /* of the group or the particle */
+  int64_t number;              /* of the spring, the group or the particle */
+  int64_t group;               /* of the spring */
   int32_t up, tried;           /* 1: larger is asked for; 0: not tried, within the work allowed */
   int32_t displaced;           /* 1: by runs from a displaced start */
   double factor, error;        /* the farthest that holds; 1: none that was tried does [m] */
@@ -91,9 +93,10 @@ struct hk_needs {
   struct hk_needs_cost full;
   struct hk_needs_path path; /* of the full system */
   struct hk_needs_path
-      by_step[2];   /* of the full system by its step, made when needed; [1]: from a displaced start */
-  double own_error; /* error of `path` itself [m] */
-  double moved;     /* largest distance of a particle from the start along `path` [m] */
+      by_step[2]; /* of the full system by its step, made when needed; [1]: from a displaced start */
+  struct hk_want_found found[HOOKE_WANTS]; /* of the lean system */
+  double own_error;                        /* error of `path` itself [m] */
+  double moved; /* largest distance of a particle from the start along `path` [m] */
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
@@ -104,6 +107,7 @@ struct hk_needs {
   struct hk_needs_degree *degree;
   struct hk_variant unchanged; /* of the lean system before numbers are changed */
   double trial_work;           /* counted, of comparisons by the step of the full system [s] */
+  double most_work;            /* counted, after which a run counts as one that does not finish [s]; 0: any */
 
   struct hk_needs_lean lean;
   hooke_options *lean_run;
@@ -140,6 +144,8 @@ double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_pat
                          const struct hk_needs_path *b);
 /* Largest distance of a particle from its position at the first frame [m]. */
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path);
+/* The errors of the lean system, one by one. */
+void hk_needs_find_each(struct hk_needs *needs);
 /* Time of a frame since the start [s]. */
 double hk_needs_time(const struct hk_needs *needs, int64_t frame);
 /* Number of frames up to which this distance stays within `bound`. */
@@ -238,6 +244,8 @@ int32_t hk_needs_run_full(struct hk_needs *needs);
 /* 1 if the motion is too small to show anything. */
 int32_t hk_needs_rests(const struct hk_needs *needs);
 int32_t hk_needs_run_rows(struct hk_needs *needs);
+/* Runs a row of a part that is coarser than half with more cells; `finer` is 0 for other rows. */
+int32_t hk_needs_run_finer(struct hk_needs *needs, struct hk_needs_row *row, int32_t *finer);
 /* Number of finished rows; the others are queued behind them. */
 int64_t hk_needs_known_rows(const struct hk_needs *needs);
 /* Computes the table of ingredients, then the lean system; or the resolution of every part. A failure leaves

@@ -54,7 +54,8 @@ static const double LEAST_GAIN = 1.1; /* in step: less is in the table alone */
 
 /* "soft 200 times softer" */
 static void print_degree(const struct hk_needs_degree *degree, double factor, char *text, size_t size) {
-  static const char *const words[][2] = {[HOOKE_NEEDS_STIFFNESS] = {"softer", "stiffer"},
+  static const char *const words[][2] = {[HOOKE_NEEDS_SINGLE] = {"softer", "stiffer"},
+                                         [HOOKE_NEEDS_STIFFNESS] = {"softer", "stiffer"},
                                          [HOOKE_NEEDS_DAMPING] = {"less damped", "more damped"},
                                          [HOOKE_NEEDS_MASS] = {"lighter", "heavier"},
                                          [HOOKE_NEEDS_DRAG] = {"weaker", "stronger"}};
@@ -206,6 +207,8 @@ void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *clai
   const int ran = !isnan(needs->full.step_error),
             refine = hooke_options_number(needs->m->options, "refine") != 0.0;
   if (ran && needs->lean.system) tell_lean(needs, claims);
+  if (ran && needs->lean.path.position)
+    hk_wants_claim(&needs->wants, needs->found, of_judged(needs), "runs", " then", claims);
   if (ran) tell_degrees(needs, claims);
   for (int64_t part = 0; part < needs->part_count; part++)
     tell_part(needs, &needs->part[part], claims);

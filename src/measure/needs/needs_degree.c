@@ -5,6 +5,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "core/utf8.h"
+#include "model/force/spring.h"
 #include "model/medium.h"
 
 #include <math.h>
@@ -14,8 +15,13 @@ static const double MOST = 1e9;        /* largest factor tried */
 static const double RATIO = 1.2;       /* of the first factor that is too much to the one offered */
 static const double BELOW_LIMIT = 0.9; /* step of a trial that is not stable at that of the full system */
 static const double LIGHT = 0.1; /* of the mean mass: particles below it are asked how heavy they may be */
-static const double MOST_STEPS = 2.0;    /* of a trial, of those of the full run */
-enum { MOST_LIGHT = 8, MOST_WORK = 40 }; /* particles; work of all trials, of that of the full run */
+static const double STIFF = 4.0; /* of the mean of its group: springs above it are asked one by one */
+static const double MOST_STEPS = 2.0; /* of a trial, of those of the full run */
+enum {
+  MOST_LIGHT = 8,
+  MOST_SINGLE = 8,
+  MOST_WORK = 40
+}; /* particles; work of all trials, of that of the full run */
 
 /* ---- what is asked ---- */
 
@@ -72,19 +78,48 @@ static int32_t is_scalable(const struct hk_group *group) {
          !(group->from_part && group->force == &hk_force_anchor);
 }
 
-static int32_t add_group(struct hk_needs *needs, int64_t g, int32_t damping) {
-  const hooke_system *system = needs->m->system;
-  const struct hk_group *group = &system->group[g];
-  char name[HOOKE_NEEDS_NAME];
+static void name_group(const struct hk_needs *needs, int64_t g, char name[HOOKE_NEEDS_NAME]) {
+  const struct hk_group *group = &needs->m->system->group[g];
   if (group->name[0])
-    hk_print(name, sizeof name, "%s", group->name);
+    hk_print(name, HOOKE_NEEDS_NAME, "%s", group->name);
   else
-    hk_print(name, sizeof name, "%s[%lld]", group->force->name,
-             (long long)(g - hk_system_first_group(system, group->force)));
+    hk_print(name, HOOKE_NEEDS_NAME, "%s[%lld]", group->force->name,
+             (long long)(g - hk_system_first_group(needs->m->system, group->force)));
+}
+
+static int32_t add_group(struct hk_needs *needs, int64_t g, int32_t damping) {
+  const struct hk_group *group = &needs->m->system->group[g];
+  char name[HOOKE_NEEDS_NAME];
+  name_group(needs, g, name);
   int32_t status = HOOKE_OK;
   if (!damping) return add(needs, HOOKE_NEEDS_STIFFNESS, g, 0, name, "stiffness");
   for (int up = is_unneeded(needs, "damping", -1); up < 2 && group->damped && status == HOOKE_OK; up++)
     status = add(needs, HOOKE_NEEDS_DAMPING, g, up, name, "damping");
+  return status;
+}
+
+/* Springs that are far stiffer than the others of their group, one by one, where no part adds it. */
+static int32_t add_singles(struct hk_needs *needs) {
+  const hooke_system *system = needs->m->system;
+  int32_t status = HOOKE_OK;
+  int64_t first = 0, found = 0;
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
+    const struct hk_group *group = &system->group[g];
+    double sum = 0.0;
+    if (group->from_part || group->curve || needs->kept[g] || is_unneeded(needs, "", g)) continue;
+    for (int64_t s = first; s < first + group->count; s++)
+      sum += log(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa);
+    const double stiff = STIFF * exp(sum / (double)group->count);
+    for (int64_t s = first; s < first + group->count && status == HOOKE_OK; s++) {
+      char name[HOOKE_NEEDS_NAME];
+      if (!(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa > stiff) || ++found > MOST_SINGLE)
+        continue;
+      name_group(needs, g, name);
+      hk_append(name, sizeof name, ":%lld", (long long)(s - first));
+      status = add(needs, HOOKE_NEEDS_SINGLE, s, 0, name, "stiffness");
+      if (status == HOOKE_OK) needs->degree[needs->degree_count - 1].group = g;
+    }
+  }
   return status;
 }
 
@@ -115,6 +150,7 @@ static int32_t list(struct hk_needs *needs) {
   const hooke_system *system = needs->m->system;
   int32_t status = HOOKE_OK;
   if (!system->overdamped) status = add_masses(needs);
+  if (status == HOOKE_OK) status = add_singles(needs);
   for (int64_t k = 0; k < 2 * system->group_count && status == HOOKE_OK; k++) {
     const int64_t g = k % system->group_count;
     if (!needs->kept[g] && is_scalable(&system->group[g]) && is_first(system, g) &&
@@ -130,10 +166,11 @@ static int32_t list(struct hk_needs *needs) {
 void hk_needs_scale(const struct hk_needs *needs, const struct hk_needs_degree *degree, double factor,
                     struct hk_variant *variant) {
   const hooke_system *system = needs->m->system;
+  if (degree->property == HOOKE_NEEDS_SINGLE) variant->single[HOOKE_KAPPA][degree->number] *= factor;
   const int what = degree->property == HOOKE_NEEDS_STIFFNESS ? HOOKE_KAPPA : HOOKE_GAMMA;
   if (degree->property == HOOKE_NEEDS_DRAG) variant->drag *= factor;
   if (degree->property == HOOKE_NEEDS_MASS) variant->mass[degree->number] *= factor;
-  if (degree->property > HOOKE_NEEDS_DAMPING) return;
+  if (degree->property != HOOKE_NEEDS_STIFFNESS && degree->property != HOOKE_NEEDS_DAMPING) return;
   for (int64_t g = 0; g < system->group_count; g++)
     if (is_alike(&system->group[g], &system->group[degree->number])) variant->factor[what][g] *= factor;
 }
@@ -176,7 +213,7 @@ static int32_t try_factor(struct hk_needs *needs, const struct hk_needs_degree *
 /* `holds`: 1, 0, or -1 where it was not run. */
 static int32_t take_rung(struct hk_needs *needs, struct hk_needs_degree *degree, double times,
                          int32_t *holds) {
-  const int32_t relieves = degree->property == HOOKE_NEEDS_STIFFNESS || degree->property == HOOKE_NEEDS_MASS;
+  const int32_t relieves = degree->property <= HOOKE_NEEDS_STIFFNESS || degree->property == HOOKE_NEEDS_MASS;
   const double factor = degree->up ? times : 1.0 / times;
   double error = NAN, limit;
   const int32_t status = try_factor(needs, degree, factor, &error, relieves ? NULL : &limit);
@@ -203,7 +240,7 @@ static double between(double low, double high) {
 }
 
 static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
-  const int32_t may_vanish = !degree->up && degree->property != HOOKE_NEEDS_STIFFNESS;
+  const int32_t may_vanish = !degree->up && degree->property > HOOKE_NEEDS_STIFFNESS;
   double good = 1.0, bad = INFINITY;
   int32_t status = HOOKE_OK, holds = 0;
   degree->factor = 1.0;

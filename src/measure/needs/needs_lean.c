@@ -110,7 +110,9 @@ static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
     status = hk_needs_take(needs, &candidate);
   }
   hk_needs_release(&candidate);
-  return status;
+  int32_t finer = 0;
+  if (status == HOOKE_OK && !row->left_out) status = hk_needs_run_finer(needs, row, &finer);
+  return finer && status == HOOKE_OK ? add_row(needs, row) : status;
 }
 
 static int32_t begin_with_everything(struct hk_needs *needs) {
@@ -204,7 +206,7 @@ static int32_t compare_times(struct hk_needs *needs) {
   int32_t status = hooke_options_copy(needs->m->run, &options), finished;
   for (int k = 0; k < 2 * TURNS && spent < TURNS_TAKE && status == HOOKE_OK; k++) {
     struct hk_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
-    struct hk_needs_cost again;
+    struct hk_needs_cost again = *cost[k % 2];
     status = hk_needs_set_step(cost[k % 2], options);
     if (status == HOOKE_OK) status = hk_needs_run_once(&recorder, options, &finished, &again);
     if (status != HOOKE_OK) break;
@@ -287,6 +289,7 @@ int32_t hk_needs_find(struct hk_needs *needs) {
   if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
   if (status == HOOKE_OK) status = hk_needs_run_degrees(needs);
   if (status == HOOKE_OK) status = find_lean(needs);
+  if (status == HOOKE_OK && needs->lean.path.position) hk_needs_find_each(needs);
   if (status < 0) hk_needs_forget(needs);
   return status;
 }

@@ -14,7 +14,9 @@
 static const double idle_shares[] = {1e-2, 1e-3, 1e-4, 1e-6};
 enum { IDLE_SHARES = sizeof idle_shares / sizeof idle_shares[0] };
 
-static const double LEAST_JUDGED = 0.05; /* of the duration: less is not significant */
+static const double HALF = 0.5, FINER = 1.5; /* of the cells of a part; of a row, to the next one */
+static const double COARSER = 1.2;           /* of cells that are kept to those that fail: no closer */
+static const double LEAST_JUDGED = 0.05;     /* of the duration: less is not significant */
 
 /* ---- the full scene ---- */
 
@@ -197,6 +199,68 @@ static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   return HOOKE_OK;
 }
 
+/* The part of a row of resolution. */
+static int64_t part_of(const struct hk_needs_row *row) {
+  int64_t part = 0;
+  while (row->variant.scale[part] == 1.0)
+    part++;
+  return part;
+}
+
+/* "all but 8 of 24 cells of rope" */
+static void name_cells(const struct hk_needs *needs, struct hk_needs_row *row) {
+  const int64_t part = part_of(row);
+  const struct hk_part_record *record = &needs->m->system->part[part];
+  int64_t cells[3], made[3];
+  const double scale = row->variant.scale[part];
+  const int32_t axes = hk_variant_cells(record, scale, cells, made);
+  char has[64] = "", left[64] = "";
+  for (int32_t a = 0; a < axes; a++) {
+    hk_append(left, sizeof left, "%s%lld", a ? " x " : "", (long long)made[a]);
+    hk_append(has, sizeof has, "%s%lld", a ? " x " : "", (long long)cells[a]);
+  }
+  if (scale == HALF)
+    hk_print(row->without, sizeof row->without, "half the resolution of %s", record->name);
+  else
+    hk_print(row->without, sizeof row->without, "all but %s of %s cells of %s", left, has, record->name);
+}
+
+/* Where half the cells are not needed, the coarsest part that keeps the want, to a fifth of its cells. */
+static int32_t run_resolution(struct hk_needs *needs, struct hk_needs_row *row) {
+  const int64_t part = part_of(row);
+  double *scale = &row->variant.scale[part], kept = *scale;
+  int64_t cells[3], made[3], fails = 0;
+  hk_variant_cells(&needs->m->system->part[part], kept, cells, made);
+  int32_t status = run_row(needs, row);
+  struct hk_needs_row held = *row;
+  for (int64_t holds = made[0]; status == HOOKE_OK && held.needed == 0.0;) {
+    const int64_t next = (fails + holds) / 2;
+    if (next <= fails || (double)holds <= COARSER * (double)fails) break;
+    *scale = (double)next / (double)cells[0];
+    status = run_row(needs, row);
+    if (status != HOOKE_OK || row->needed != 0.0) {
+      fails = next;
+      continue;
+    }
+    holds = next;
+    kept = *scale;
+    held = *row;
+  }
+  *row = held;
+  *scale = kept;
+  name_cells(needs, row);
+  return status;
+}
+
+int32_t hk_needs_run_finer(struct hk_needs *needs, struct hk_needs_row *row, int32_t *finer) {
+  *finer = strcmp(row->kind, "resolution") == 0 && row->variant.scale[part_of(row)] < HALF;
+  if (!*finer) return HOOKE_OK;
+  double *scale = &row->variant.scale[part_of(row)];
+  *scale = fmin(HALF, FINER * *scale);
+  name_cells(needs, row);
+  return run_row(needs, row);
+}
+
 void hk_needs_drop_row(struct hk_needs *needs, int64_t row) {
   hk_variant_release(&needs->row[row].variant);
   memmove(&needs->row[row], &needs->row[row + 1], (size_t)(--needs->row_count - row) * sizeof *needs->row);
@@ -207,7 +271,9 @@ int32_t hk_needs_run_rows(struct hk_needs *needs) {
     struct hk_needs_row *row = &needs->row[k];
     const int32_t idle = strcmp(row->kind, "idle") == 0;
     needs->under_way = row->without;
-    const int32_t status = idle ? run_idle(needs, row) : run_row(needs, row);
+    const int32_t status = idle                                   ? run_idle(needs, row)
+                           : strcmp(row->kind, "resolution") == 0 ? run_resolution(needs, row)
+                                                                  : run_row(needs, row);
     needs->pieces_done++;
     if (idle && !row->measured && !row->note[0] && status == HOOKE_OK) hk_needs_drop_row(needs, k--);
     if (status != HOOKE_OK) return status;

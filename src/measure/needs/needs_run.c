@@ -83,6 +83,20 @@ double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_pat
   return most;
 }
 
+void hk_needs_find_each(struct hk_needs *needs) {
+  const struct hk_needs_path *lean = &needs->lean.path, *full = &needs->path;
+  const int64_t frames = lean->recorded < needs->judged ? lean->recorded : needs->judged;
+  double far = 0.0;
+  for (int64_t f = 0; f < frames; f++)
+    far = fmax(far, distance_at(needs, lean, f, full, f));
+  hk_wants_find(&needs->wants, &lean->values, &full->values, full->recorded, frames, far, needs->found);
+  for (int32_t k = 0; k < needs->wants.count; k++) {
+    struct hk_want_found *found = &needs->found[k];
+    found->error += needs->own_error * (needs->wants.list ? found->wanted : 1.0);
+    if (!isnan(found->error)) found->met = found->error <= found->wanted;
+  }
+}
+
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path) {
   double most = 0.0;
   for (int64_t f = 1; f < needs->judged && f < path->recorded; f++)
@@ -190,8 +204,11 @@ static int32_t judge_end(struct hk_needs_recorder *recorder, int32_t finished) {
 
 int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
                           struct hk_needs_cost *cost) {
-  const struct hk_listener listener = {
-      .on_progress = see_progress, .on_frame = see_frame, .on_start = see_start, .ctx = recorder};
+  const struct hk_listener listener = {.on_progress = see_progress,
+                                       .on_frame = see_frame,
+                                       .on_start = see_start,
+                                       .most_work = recorder->needs->most_work,
+                                       .ctx = recorder};
   struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN, .atol = NAN};
   struct hk_frames none = {.system = recorder->trial->system};
   if (recorder->path) recorder->path->recorded = 0;
@@ -206,8 +223,8 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   cost->atol = isnan(cost->rtol) ? NAN : taken.atol;
   cost->steps = recorder->last_step;
   hk_watched_release(&recorder->moved);
-  *finished = status == HOOKE_OK;
+  *finished = status == HOOKE_OK && !taken.too_long;
   const int32_t judged = judge_end(recorder, *finished);
   if (judged != HOOKE_OK) return judged;
-  return hk_trial_gave_up(status) ? HOOKE_OK : status;
+  return taken.too_long || hk_trial_gave_up(status) ? HOOKE_OK : status;
 }

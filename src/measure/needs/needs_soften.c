@@ -4,6 +4,7 @@
 
 #include "core/memory.h"
 #include "measure/limit/limit.h"
+#include "model/force/spring.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -22,22 +23,35 @@ struct mode {
   const struct hk_participation *participation;
 };
 
-/* Share of a number in the mode, by names, since what is left out has moved the numbers of groups. */
+/* Share of a number in the mode, by names and by ends, since what is left out has moved the numbers of groups
+ * and springs. Those of single springs are not of their group. */
 static double share_of(const struct hk_needs *needs, const struct hk_needs_degree *degree,
                        const struct mode *mode) {
   const struct hk_participation *all = mode->participation;
   const int32_t damps = degree->property == HOOKE_NEEDS_DAMPING;
+  const int64_t *to = mode->map->to;
   double share = 0.0;
   if (degree->property == HOOKE_NEEDS_DRAG) return all->force_share[hk_force_number(&hk_force_drag)];
+  if (degree->property == HOOKE_NEEDS_SINGLE) {
+    const struct hk_spring own = hk_springs_find(needs->m->system->springs, degree->number, HOOKE_AS_GIVEN);
+    for (int64_t k = 0; k < all->spring_count; k++)
+      if (all->spring[k].first == to[own.head] && all->spring[k].second == to[own.tail])
+        share += all->spring[k].stiffness_share;
+    return share;
+  }
   for (int64_t k = 0; k < all->particle_count && degree->property == HOOKE_NEEDS_MASS; k++)
-    if (all->particle[k].particle == mode->map->to[degree->number]) share += all->particle[k].share;
+    if (all->particle[k].particle == to[degree->number]) share += all->particle[k].share;
   if (degree->property == HOOKE_NEEDS_MASS) return share;
   const struct hk_group *group = &needs->m->system->group[degree->number];
   for (int64_t g = 0; g < all->group_count; g++)
     if (mode->system->group[g].force == group->force &&
         strcmp(hk_participation_group_name(mode->system, g), group->name ? group->name : "") == 0)
       share += all->group_share[g];
-  return share * (damps ? 1.0 - all->stiffness_share : all->stiffness_share);
+  share *= damps ? 1.0 - all->stiffness_share : all->stiffness_share;
+  for (int64_t k = 0; k < needs->degree_count && !damps; k++)
+    if (needs->degree[k].property == HOOKE_NEEDS_SINGLE && needs->degree[k].group == degree->number)
+      share -= share_of(needs, &needs->degree[k], mode);
+  return share;
 }
 
 static int32_t look(struct hk_needs *needs, const struct mode *seen, double *share) {

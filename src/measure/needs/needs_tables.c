@@ -40,6 +40,7 @@ HOOKE_READER(const void *, find_full, struct hk_needs, it->path.position ? it : 
 /* ---- the lean system, and the full one at its cheapest ---- */
 
 HOOKE_READER(double, times_less, struct hk_needs, it->cheapest.wall_seconds / it->lean.cost.wall_seconds)
+HOOKE_COUNTER(count_found, struct hk_needs, it->lean.path.position ? it->wants.count : 0)
 HOOKE_COUNTER(count_lean, struct hk_needs, it->lean.system != NULL)
 HOOKE_READER(const char *, scene, struct hk_needs, it->m->label[HOOKE_LABEL_OUTPUT])
 HOOKE_READER(const char *, command, struct hk_needs, it->m->label[HOOKE_LABEL_COMMAND])
@@ -162,6 +163,7 @@ const struct hk_table hk_needs_tables[] = {
      HOOKE_TABLE_COLUMNS(
          HOOKE_COLUMN_BY_AS(changed_quantity, quantity, TEXT, "", "as in the table of degrees"),
          HOOKE_COLUMN_BY_AS(changed_factor, factor, NUMBER, "", "on it"))},
+    {HOOKE_WANTS_TABLE, .count = count_found, HOOKE_TABLE_AT(struct hk_needs, found)},
     {.name = "rows",
      .doc = "the ingredients, left out one at a time",
      .count = count_rows,

@@ -38,8 +38,10 @@ static int32_t read_name(struct hk_watched_list *list, struct hk_want *want) {
   for (want->width = 0; want->width < 3; want->width++) {
     hk_print(axis, sizeof axis, "%s.%c", want->name, "xyz"[want->width]);
     status = hk_watched_read(list, "want", axis);
-    if (status != HOOKE_OK)
-      return status == HOOKE_BAD_VALUE ? hk_watched_read(list, "want", want->name) : status;
+    if (status != HOOKE_OK) /* of a number, the message says which there are */
+      return status == HOOKE_BAD_VALUE && want->name[strspn(want->name, "0123456789")]
+                 ? hk_watched_read(list, "want", want->name)
+                 : status;
     want->at[want->width] = hk_watched_find(list, axis);
   }
   return HOOKE_OK;
@@ -57,6 +59,15 @@ static int32_t read_want(struct hk_watched_list *list, char *text, struct hk_wan
   trim(text, text + strlen(text));
   char *value = strrchr(text, '=');
   hk_print(want->name, sizeof want->name, "%s", value ? text : "particles");
+  if (text[0] == '\0')
+    return hk_fail(HOOKE_BAD_VALUE, "want",
+                   "nothing stands before or after a comma; allowed: QUANTITY=VALUE,...");
+  if (value == NULL && text[strlen(text) - 1] == '%')
+    return hk_fail(
+        HOOKE_BAD_VALUE, "want",
+        "%s of what? allowed: a length of all particles, such as 1mm, or a part of a quantity, such as "
+        "tip=%s",
+        text, text);
   if (value == NULL) return read_bound(text, "m", want);
   trim(want->name, want->name + (value - text));
   const int32_t status = read_name(list, want);
@@ -118,6 +129,12 @@ const char *hk_wants_unit(const struct hk_wants *wants, const hooke_system *syst
   return hk_wants_is_list(wants) ? " of what is wanted" : hk_metres(system);
 }
 
+int32_t hk_want_is_place(const struct hk_wants *wants, int32_t number) {
+  const struct hk_want *want = &wants->want[number];
+  const struct hk_watched *item = want->width > 0 ? &wants->list->item[want->at[0]] : NULL;
+  return !item || (item->what->of == HOOKE_WATCHED_PARTICLE && !item->is_period);
+}
+
 const char *hk_want_unit(const struct hk_wants *wants, int32_t number) {
   const struct hk_want *want = &wants->want[number];
   return want->width > 0 ? hk_watched_unit(&wants->list->item[want->at[0]]) : "m";
@@ -167,7 +184,7 @@ void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_serie
     const struct hk_want *want = &wants->want[k];
     double most = 0.0;
     for (int64_t f = 0; want->relative && f < frames && !is_period(wants, want); f++)
-      most = fmax(most, distance(want, series, f, NULL, 0));
+      most = fmax(most, distance(want, series, f, want->width == 3 ? series : NULL, 0));
     if (want->relative && is_period(wants, want)) most = period_of(series, want, frames, 1);
     bound[k] = want->relative ? want->bound * most : want->bound;
   }
@@ -183,6 +200,41 @@ void hk_wants_spread(const struct hk_wants *wants, const struct hk_watched_serie
     if (is_period(wants, want) && i == a->frames - 1 && j == b->frames - 1)
       way = fabs(period_of(b, want, b->frames, 1) - period_of(a, want, a->frames, 1));
     if (!(way <= most[1 + k]) && !isnan(most[1 + k])) most[1 + k] = way;
+  }
+}
+
+const struct hk_column hk_want_columns[HOOKE_WANT_COLUMNS] = {
+    HOOKE_COLUMN_AS(struct hk_want_found, name, quantity, TEXT, "", "quantity; particles: all free ones"),
+    HOOKE_COLUMN(struct hk_want_found, unit, TEXT, "", "its unit"),
+    HOOKE_COLUMN(struct hk_want_found, wanted, NUMBER, "of the quantity", "largest error that is wanted"),
+    HOOKE_COLUMN(struct hk_want_found, error, NUMBER, "of the quantity",
+                 "its error, NaN where it is not known"),
+    HOOKE_COLUMN(struct hk_want_found, met, FLAG, "", "1 if it is within that; NaN where it is not known")};
+
+void hk_wants_find(const struct hk_wants *wants, const struct hk_watched_series *a,
+                   const struct hk_watched_series *b, int64_t recorded, int64_t frames, double far,
+                   struct hk_want_found found[HOOKE_WANTS]) {
+  double bound[HOOKE_WANTS], error[1 + HOOKE_WANTS] = {0.0};
+  hk_wants_bounds(wants, b, recorded, bound);
+  for (int64_t f = 0; f < frames; f++)
+    hk_wants_spread(wants, a, f, b, f, far, error);
+  if (frames < b->frames) hk_wants_forget_periods(wants, error);
+  for (int32_t k = 0; k < wants->count; k++)
+    found[k] = (struct hk_want_found){wants->want[k].name, hk_want_unit(wants, k), bound[k], error[1 + k],
+                                      isnan(error[1 + k]) ? NAN : error[1 + k] <= bound[k]};
+}
+
+void hk_wants_claim(const struct hk_wants *wants, const struct hk_want_found found[HOOKE_WANTS],
+                    enum hk_claim_of of, const char *by, const char *where, struct hk_claims *claims) {
+  for (int32_t k = 0; k < wants->count && wants->list; k++) {
+    const char *unit = found[k].unit, *blank = unit[0] ? " " : "";
+    if (isnan(found[k].error))
+      hk_claim(claims, "error", HOOKE_OF_UNKNOWN, by,
+               "of %s it is not known: other runs do not tell it, or its value (a period takes eight frames)",
+               found[k].name);
+    else
+      hk_claim(claims, "error", of, by, "of %s it is at most %.3g%s%s%s, where %.3g%s%s are wanted",
+               found[k].name, found[k].error, blank, unit, where, found[k].wanted, blank, unit);
   }
 }
 

@@ -4,6 +4,7 @@
 #ifndef HOOKE_MEASURE_QUANTITY_WANTS_H
 #define HOOKE_MEASURE_QUANTITY_WANTS_H
 
+#include "measure/claims.h"
 #include "measure/quantity/watched.h"
 
 enum { HOOKE_WANTS = 16, HOOKE_WANT_NAME = 96 };
@@ -18,7 +19,7 @@ struct hk_want {
   char name[HOOKE_WANT_NAME]; /* "particles": all free ones */
   int32_t width;              /* numbers that it is the distance of: 3, 1, or 0: all free particles */
   int64_t at[3];              /* in the list of watched quantities */
-  int32_t relative;           /* 1: to the largest absolute value over the run */
+  int32_t relative;           /* 1: to the largest absolute value, of a particle way from its start */
   double bound;
 };
 
@@ -43,6 +44,8 @@ static inline int32_t hk_wants_is_list(const struct hk_wants *wants) {
 }
 /* After a number: " m", "" of a problem, or what an error is in. */
 const char *hk_wants_unit(const struct hk_wants *wants, const hooke_system *system);
+/* 1 if it is of particles, none of which is farther off than the farthest. */
+int32_t hk_want_is_place(const struct hk_wants *wants, int32_t number);
 /* "m", "N", ... */
 const char *hk_want_unit(const struct hk_wants *wants, int32_t number);
 
@@ -54,6 +57,26 @@ void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_serie
  * where unknown. */
 void hk_wants_spread(const struct hk_wants *wants, const struct hk_watched_series *a, int64_t i,
                      const struct hk_watched_series *b, int64_t j, double far, double most[1 + HOOKE_WANTS]);
+/* What was found of one of the wants, a row of a table. */
+struct hk_want_found {
+  const char *name, *unit;
+  double wanted, error, met; /* the error NaN where it is not known, and `met` */
+};
+/* Finds the errors of a run over the first `frames` frames of its series `a`, against `b`, by whose
+ * `recorded` frames relative bounds are; `far` is the largest distance of a particle over these. */
+void hk_wants_find(const struct hk_wants *wants, const struct hk_watched_series *a,
+                   const struct hk_watched_series *b, int64_t recorded, int64_t frames, double far,
+                   struct hk_want_found found[HOOKE_WANTS]);
+/* The claims "error" of a list, with `where` after the errors. */
+void hk_wants_claim(const struct hk_wants *wants, const struct hk_want_found found[HOOKE_WANTS],
+                    enum hk_claim_of of, const char *by, const char *where, struct hk_claims *claims);
+
+enum { HOOKE_WANT_COLUMNS = 5 };
+extern const struct hk_column hk_want_columns[HOOKE_WANT_COLUMNS];
+#define HOOKE_WANTS_TABLE                                                                                    \
+  .name = "wants", .doc = "what is wanted, one by one, and its error", .columns = hk_want_columns,           \
+  .column_count = HOOKE_WANT_COLUMNS
+
 /* Makes those of periods NaN: where the last frames are not among those that were compared. */
 void hk_wants_forget_periods(const struct hk_wants *wants, double most[1 + HOOKE_WANTS]);
 /* By how much the value itself is not known: of a period, for interpolation between the frames. */

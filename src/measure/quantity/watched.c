@@ -39,6 +39,13 @@ static const struct hk_watched_word words[] = {
 };
 enum { WORDS = sizeof words / sizeof words[0] };
 
+int32_t hk_watched_is_of_scene(const char *text) {
+  int k = 0;
+  while (k < WORDS && (words[k].of != HOOKE_WATCHED_SCENE || strcmp(words[k].word, text) != 0))
+    k++;
+  return k < WORDS;
+}
+
 /* How messages name what a word is of. */
 static const struct holder {
   const char *before, *after;

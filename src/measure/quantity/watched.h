@@ -73,6 +73,8 @@ int32_t hk_watched_read(struct hk_watched_list *list, const char *where, const c
 /* The same for quantities that have a value at every time: none is a period. */
 int32_t hk_watched_read_over_time(struct hk_watched_list *list, const char *where, const char *text);
 void hk_watched_release(struct hk_watched_list *list);
+/* 1 if the text is a quantity of the whole scene. */
+int32_t hk_watched_is_of_scene(const char *text);
 /* Number of the quantity with that text; -1 if there is none. */
 int64_t hk_watched_find(const struct hk_watched_list *list, const char *text);
 

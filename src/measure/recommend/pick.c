@@ -27,6 +27,7 @@ static const double BEGINNING = 0.1;        /* duration studied if the reference
 static const double LONGER = 4.0;           /* from one budget to the next while it came to nothing */
 static const double LIMITS_SHARE = 0.1;     /* of LEAST_WORK, for the limit of bodies at the start */
 static const double REVERSED = 2.0;         /* ratio of times that is worth telling */
+static const double FAR_BELOW = 0.1;        /* of the largest value: no more is known of it */
 enum { FEWEST_FRAMES = 25, MOST_FRAMES = 1000, MANY_FRAMES = 100, MOST_BUDGETS = 2 };
 
 /* Counted work that all of it may take, as far as that is known [s]. */
@@ -620,6 +621,35 @@ static int32_t search_and_confirm(struct hk_pick *pick, int32_t count, struct se
   return status;
 }
 
+/* Refuses a list of which no trial can tell whether it is met: the two references do not agree on it at any
+ * frame after the start, or only while a quantity is far below the largest value that a want is a part of,
+ * as an energy of 0 whose largest value is an error itself. */
+static int32_t require_judge(const struct hk_pick *pick) {
+  const struct hk_reference *r = &pick->reference;
+  const struct hk_wants *wants = pick->wants;
+  double bound[HOOKE_WANTS], known[HOOKE_WANTS];
+  if (!hk_wants_is_list(wants)) return HOOKE_OK;
+  hk_wants_bounds(wants, &r->frames.watched, r->frames.recorded, bound);
+  if (!(pick->want * pick->fraction > r->wanted_agreement))
+    return hk_fail(
+        HOOKE_BAD_VALUE, "want",
+        "%s: no run tells whether it is within %.3g %s: two references, by %s and %s, have to agree to a "
+        "fiftieth of that, and differ by %.2g at the first frame that could tell",
+        wants->want[r->parted].name, bound[r->parted], hk_want_unit(wants, r->parted), r->method, r->check,
+        r->parted_by);
+  hk_wants_bounds(wants, &r->frames.watched, r->trusted, known);
+  for (int32_t k = 0; k < wants->count; k++)
+    if (wants->want[k].relative && !(known[k] > FAR_BELOW * bound[k]))
+      return hk_fail(
+          HOOKE_BAD_VALUE, "want",
+          "%s: no run tells whether it is within %g %% of its largest value over the run, %.2g %s: two "
+          "references agree on it only where it is below a tenth of that; want it as a number with a "
+          "unit",
+          wants->want[k].name, 100.0 * wants->want[k].bound, bound[k] / wants->want[k].bound,
+          hk_want_unit(wants, k));
+  return HOOKE_OK;
+}
+
 static int32_t search_methods(struct hk_pick *pick) {
   struct search all[MOST_METHODS];
   int32_t count = 0, status = HOOKE_OK;
@@ -652,6 +682,7 @@ int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hook
   if (status == HOOKE_OK) status = choose_frames(pick);
   if (status == HOOKE_OK) status = find_quickest(pick);
   if (status == HOOKE_OK) status = find_reference(pick);
+  if (status == HOOKE_OK) status = require_judge(pick);
   return status == HOOKE_OK ? search_methods(pick) : status;
 }
 

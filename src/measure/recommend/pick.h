@@ -47,7 +47,8 @@ struct hk_pick {
 
 /* Picks for `want` of what is wanted, which has to outlive the pick, among `count` methods, which have to
  * outlive the pick (0: any that is built). `run` has the duration and all other options of methods. Must be
- * released in either case. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; HOOKE_STOPPED, with the best row so far. */
+ * released in either case. HOOKE_BAD_VALUE, also where no run tells whether a list is met; HOOKE_NO_MEMORY;
+ * HOOKE_STOPPED, with the best row so far. */
 int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run,
                     const struct hk_wants *wants, double want, int32_t count, const char *const *methods,
                     hooke_progress *progress, void *ctx);

@@ -190,8 +190,13 @@ static void keep(struct hk_study *study, const struct hk_study_row *row, int64_t
   struct hk_study_recommendation *r = &study->recommendation;
   const int finished = row->trial.wanted >= 0.0;
   r->error = finished ? 0.0 : NAN;
-  for (int64_t f = 0; f < frames && finished; f++)
+  double far = r->error;
+  for (int64_t f = 0; f < frames && finished; f++) {
     r->error = fmax(r->error, row->trial.wanted_at[f]);
+    far = fmax(far, row->trial.error_max_at[f]);
+  }
+  hk_wants_find(&study->wants, &row->trial.watched, &study->reference.frames.watched,
+                study->reference.frames.recorded, frames, far, r->found);
   r->until = hk_reference_time(&study->reference, frames, study->duration);
   r->method = row->method;
   r->value = row->value;
@@ -330,6 +335,10 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
   for (int k = 0; k < MOST_PICKS && met && !r->met && status == HOOKE_OK; k++) {
     if (r->error > want) aim *= AIM * want / r->error;
     status = pick_once(study, aim, &met);
+  }
+  if (status == HOOKE_BAD_VALUE && study->wants.list) { /* no run tells whether it is met */
+    hk_print(r->note, sizeof r->note, "%s", hooke_last_error());
+    return HOOKE_OK;
   }
   if (status != HOOKE_OK) return status;
   if (r->met) return find_margin(study);

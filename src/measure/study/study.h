@@ -42,6 +42,7 @@ struct hk_study_recommendation {
   double error; /* that the want is held against, */
   double until; /* up to this time after the start [s] */
   struct hk_study_margin margin;
+  struct hk_want_found found[HOOKE_WANTS];
   char note[512];
 };
 

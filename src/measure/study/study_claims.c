@@ -54,6 +54,10 @@ static void tell_time(const struct teller *t) {
       r->wall_seconds, r->wall_median);
 }
 
+static void tell_each(const struct teller *t) {
+  hk_wants_claim(&t->study->wants, t->study->recommendation.found, t->of, "reference", t->where, t->claims);
+}
+
 static void tell_closest(const struct teller *t) {
   const struct hk_study_recommendation *r = &t->study->recommendation;
   char run[SETTING_SIZE];
@@ -64,6 +68,7 @@ static void tell_closest(const struct teller *t) {
       "the closest is %s: its error%s is %.3g%s%s, with %.0f evaluations of the %s", name_run(t->study, run),
       t->where, r->error, t->want, r->error <= r->want ? ", but nothing is known of its margin" : "",
       r->force_evaluations, t->forces);
+  tell_each(t);
   tell_time(t);
 }
 
@@ -113,6 +118,7 @@ static void tell_recommendation(const struct teller *errors) {
       "the %s%s",
       r->want, t->want, t->all ? " over the whole run" : t->where, name_run(t->study, run), r->error, t->want,
       r->force_evaluations, t->forces, t->all ? "" : "; of what comes later nothing is known");
+  tell_each(t);
   tell_time(t);
   if (r->note[0]) say(t, "machine", HOOKE_OF_WHOLE, "clock", "%s", r->note);
   tell_margin(t);

@@ -77,6 +77,8 @@ int32_t hk_study_knows_met(const struct hk_study *study) {
 }
 
 HOOKE_COUNTER(count_recommendations, struct hk_study, hk_study_recommends(it))
+HOOKE_COUNTER(count_found, struct hk_study,
+              hk_study_recommends(it) && it->recommendation.method >= 0 ? it->wants.count : 0)
 HOOKE_READER(const char *, command, struct hk_study,
              it->recommendation.met ? it->m->label[HOOKE_LABEL_COMMAND] : NULL)
 
@@ -432,4 +434,5 @@ const struct hk_table hk_study_tables[] = {
          HOOKE_COLUMN_BY(bias, NUMBER, "",
                          "the mean less the reference's, in standard errors of that difference; below 2 "
                          "in size none is seen"))},
+    {HOOKE_WANTS_TABLE, .count = count_found, HOOKE_TABLE_AT(struct hk_study, recommendation.found)},
     {.name = NULL}};

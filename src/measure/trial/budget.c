@@ -38,6 +38,10 @@ int32_t hk_budget_watch(double done, const char *what, void *budget) {
   return hk_budget_ends(budget, what);
 }
 
+double hk_budget_left(const struct hk_budget *p) {
+  return p->until - now_of(p);
+}
+
 int32_t hk_budget_has(struct hk_budget *p, double seconds) {
   if (p == NULL) return 1;
   p->spent |= !(now_of(p) + seconds <= p->until);

@@ -36,6 +36,9 @@ int32_t hk_budget_watch(double done, const char *what, void *budget);
 /* 1 if that many seconds are left; if not, it counts as spent. For work that cannot be interrupted. */
 int32_t hk_budget_has(struct hk_budget *budget, double seconds);
 
+/* Seconds that are left of the current part. */
+double hk_budget_left(const struct hk_budget *budget);
+
 /* Limits the beginning part to a fraction of the remaining time, and lifts that when the part is over: 1 if
  * it was spent. */
 void hk_budget_lend(struct hk_budget *budget, double fraction);

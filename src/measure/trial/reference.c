@@ -93,6 +93,22 @@ static void trust(struct hk_reference *r, const struct hk_trial *check, double d
   if (r->trusted < 2 || r->frames.system->generalized) r->energy_agreement = NAN;
 }
 
+/* Which of a list of wants the two do not agree on at the next frame. */
+static void find_parted(struct hk_reference *r, const struct hk_trial *check) {
+  const struct hk_wants *wants = r->frames.wants;
+  const int64_t f = r->trusted;
+  double bound[HOOKE_WANTS], apart[1 + HOOKE_WANTS] = {0.0}, most = -1.0;
+  if (!hk_wants_is_list(wants) || f >= r->checked) return;
+  hk_wants_bounds(wants, &r->frames.watched, r->frames.recorded, bound);
+  hk_wants_spread(wants, &check->watched, f, &r->frames.watched, f, check->error_max_at[f], apart);
+  for (int32_t k = 0; k < wants->count; k++) {
+    if (apart[1 + k] / bound[k] <= most) continue;
+    most = apart[1 + k] / bound[k];
+    r->parted = k;
+    r->parted_by = SAFETY * apart[1 + k];
+  }
+}
+
 /* If the wanted digits are out of reach from the first frame on, as many as possible. */
 static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
                        const struct hk_trial *check) {
@@ -103,6 +119,7 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
     watch->apart = fmax(watch->apart, SAFETY * length_of(r) * check->wanted_at[r->checked++]);
   trust(r, check, isnan(wanted) ? fallback : wanted);
   r->coarse = r->trusted < 2 && r->digits < fallback;
+  find_parted(r, check);
   if (r->coarse) trust(r, check, fallback);
   hk_watched_series_compare(&r->frames.watched, &check->watched, r->trusted, r->frames.time, SAFETY);
 }

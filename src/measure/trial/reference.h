@@ -24,6 +24,9 @@ struct hk_reference {
   int64_t checked;         /* frames at which the two were compared: all, or as many as the budget allowed */
   int64_t trusted;         /* of these, initial frames that agree to the digits */
   int32_t coarse; /* 1: no frame agrees to the wanted digits; the trusted ones agree to 1e-6 of the extent */
+  int32_t
+      parted; /* of a list, the want at which the two differ most at the first frame that is not trusted; */
+  double parted_by; /* by how much, in its unit */
   /* 1: time was short to compare them further, or at tighter tolerances. 0: they agree, or rounding keeps
    * them apart */
   int32_t hurried;

@@ -159,6 +159,7 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
   hk_participation_release(&inquiry->violation.participation);
   hk_free(inquiry->violation.q);
   hooke_state_destroy(inquiry->last);
+  hooke_measurement_destroy(inquiry->limit);
   return status;
 }
 

@@ -14,6 +14,7 @@ enum { HOOKE_WHY_MOST_ADVICE = 4 };
 
 struct hk_why_advice {
   char change[720], option[32], value[48];
+  double want; /* where a change of the scene has an error that is not known: to ask `needs` with [m] */
   hooke_options *run; /* of a run, with only the changed ones set; NULL: a change of the scene */
 };
 
@@ -82,7 +83,8 @@ struct hk_inquiry {
   struct hk_limiting_element heaviest;
   int64_t group;
   double group_share;
-  char suggestion[640]; /* gain of a change of the scene; "" if unknown */
+  hooke_measurement *limit; /* that it is of; may be NULL */
+  char suggestion[640];     /* gain of a change of the scene; "" if unknown */
 };
 
 /* Numbers up to this size (in SI units) count as intended. */

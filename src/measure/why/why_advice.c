@@ -1,6 +1,7 @@
 /* Suggestions: changes of the run, the likeliest first, each tried on a run of its own before it is given. */
 #include "integrate/method.h"
 #include "measure/counted_work/work.h"
+#include "measure/limit/limit.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/recommend/soundness.h"
 #include "measure/why/why_trial.h"
@@ -280,16 +281,29 @@ static void offer_all(struct hk_trials *trials) {
 
 /* ---- the scene ---- */
 
-static void advise_scene(struct hk_inquiry *inquiry) {
+/* "change the scene: ...", with its price. */
+static int32_t advise_change(struct hk_inquiry *inquiry, struct hk_why_advice *advice) {
+  struct hk_limit *limit = inquiry->limit ? inquiry->limit->object : NULL;
+  const int32_t own = limit && strcmp(inquiry->suggestion, limit->suggestion.sentence) == 0,
+                status = own ? hk_limit_price(limit) : HOOKE_OK;
+  if (own) advice->want = limit->suggestion.price.want;
+  snprintf(advice->change, sizeof advice->change, "change the scene: %s%s",
+           own ? limit->suggestion.sentence : inquiry->suggestion, own ? "" : "; its error is not known");
+  return status;
+}
+
+static int32_t advise_scene(struct hk_inquiry *inquiry) {
   struct hk_why *why = inquiry->why;
   struct hk_why_advice *advice = &why->advice[why->advice_count];
+  int32_t status = HOOKE_OK;
+  advice->want = NAN;
   if (inquiry->bad_value.found) {
     hk_print(advice->change, sizeof advice->change,
              "correct the %s callback: what it gives for particle %lld at t = %.6g s is not finite",
              inquiry->bad_value.of_drive ? "drive" : "force", (long long)inquiry->bad_value.particle,
              inquiry->bad_value.time);
   } else if (inquiry->suggestion[0]) {
-    snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->suggestion);
+    status = advise_change(inquiry, advice);
   } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&
              !isnan(why->particle) && why->limiting.count == 0) {
     snprintf(advice->change, sizeof advice->change,
@@ -303,9 +317,10 @@ static void advise_scene(struct hk_inquiry *inquiry) {
     snprintf(advice->change, sizeof advice->change,
              "keep the ends of that spring apart: a shorter rest length, or one more spring that holds them");
   } else {
-    return;
+    return HOOKE_OK;
   }
   why->advice_count++;
+  return status;
 }
 
 int32_t hk_inquiry_advise(struct hk_inquiry *inquiry) {
@@ -314,6 +329,5 @@ int32_t hk_inquiry_advise(struct hk_inquiry *inquiry) {
   if (trials.status == HOOKE_OK && trials.duration > 0.0) offer_all(&trials);
   hk_trials_release(&trials);
   hk_inquiry_end_part(inquiry, "what else to do");
-  if (trials.status == HOOKE_OK) advise_scene(inquiry);
-  return trials.status;
+  return trials.status == HOOKE_OK ? advise_scene(inquiry) : trials.status;
 }

@@ -102,13 +102,12 @@ static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
 static int32_t ask_limit(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   hooke_options *options = NULL;
-  hooke_measurement *limit = NULL;
   int32_t status = hk_options_create(hk_limit_kind.options, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "methods", run->method->name);
   if (status == HOOKE_OK)
-    status = hk_measurement_create(&hk_limit_kind, NULL, inquiry->system, run->options, options, &limit);
-  if (status == HOOKE_OK) status = look(inquiry, limit->object);
-  hooke_measurement_destroy(limit);
+    status =
+        hk_measurement_create(&hk_limit_kind, NULL, inquiry->system, run->options, options, &inquiry->limit);
+  if (status == HOOKE_OK) status = look(inquiry, inquiry->limit->object);
   hooke_options_destroy(options);
   return status;
 }

@@ -44,5 +44,7 @@ const struct hk_table hk_why_tables[] = {
          HOOKE_COLUMN(struct hk_why_advice, option, TEXT, "",
                       "run option that is the point of it; empty where the scene is to be changed"),
          HOOKE_COLUMN(struct hk_why_advice, value, TEXT, "", "its new value"),
+         HOOKE_COLUMN(struct hk_why_advice, want, NUMBER, "m",
+                      "a want with which `needs` tells what error the change makes, where that is not known"),
          HOOKE_COLUMN_BY(command, TEXT, "", "its command line, where the caller gave one as a label"))},
     {.name = NULL}};

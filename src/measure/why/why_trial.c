@@ -228,6 +228,7 @@ void hk_trials_take(struct hk_trials *trials, struct hk_change *change, const ch
   }
   struct hk_why_advice *advice = &why->advice[why->advice_count++];
   advice->run = change->run;
+  advice->want = NAN;
   change->run = NULL;
   snprintf(advice->change, sizeof advice->change, "%s%s", change->words, proof);
   snprintf(advice->option, sizeof advice->option, "%s", change->option);

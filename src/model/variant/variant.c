@@ -19,7 +19,7 @@ static int64_t flags_of(const hooke_system *system) {
 }
 
 static int64_t factors_of(const hooke_system *system) {
-  return system->part_count + 2 * system->group_count + system->particle_count;
+  return system->part_count + 2 * system->group_count + system->particle_count + 2 * system->springs->count;
 }
 
 /* One block: numbers, then flags. */
@@ -30,7 +30,9 @@ int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant
   if (variant->scale == NULL) return HOOKE_NO_MEMORY;
   variant->factor[HOOKE_KAPPA] = variant->scale + system->part_count;
   variant->factor[HOOKE_GAMMA] = variant->factor[HOOKE_KAPPA] + system->group_count;
-  variant->mass = variant->factor[HOOKE_GAMMA] + system->group_count;
+  variant->single[HOOKE_KAPPA] = variant->factor[HOOKE_GAMMA] + system->group_count;
+  variant->single[HOOKE_GAMMA] = variant->single[HOOKE_KAPPA] + system->springs->count;
+  variant->mass = variant->single[HOOKE_GAMMA] + system->springs->count;
   variant->group = (uint8_t *)(variant->scale + factors);
   variant->spring = variant->group + system->group_count;
   variant->particle = variant->spring + system->springs->count;
@@ -109,12 +111,22 @@ int64_t hk_variant_next_split(const hooke_system *system, const struct hk_varian
   return -1;
 }
 
+/* 1 if single springs of the group have factors; `first` is its first member's number. */
+static int32_t has_singles(const struct hk_variant_maker *maker, const struct hk_group *group,
+                           int64_t first) {
+  for (int64_t s = first; s < first + group->count && group->force->kind & HOOKE_LOOPED; s++)
+    if (maker->variant->single[HOOKE_KAPPA][s] != 1.0 || maker->variant->single[HOOKE_GAMMA][s] != 1.0)
+      return 1;
+  return 0;
+}
+
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first) {
   if (!(group->force->kind & HOOKE_LOOPED) || maker->map->part[group->part].axes > 0 ||
       maker->variant->rigid[group->part])
     return 0;
-  return group->count > 0 && memchr(maker->variant->spring + first, 1, (size_t)group->count) != NULL;
+  return group->count > 0 && (memchr(maker->variant->spring + first, 1, (size_t)group->count) != NULL ||
+                              has_singles(maker, group, first));
 }
 
 /* Renumbers a member for the variant; 0 if a particle is missing or may not be held, or two have become one.
@@ -141,7 +153,8 @@ static void collect(const struct hk_variant_maker *maker, int64_t first, const d
     if ((spring && spring[k]) || !renumber(maker, kept, k)) continue;
     if (k != kept->count) hk_group_swap(kept, k, kept->count);
     for (int n = HOOKE_KAPPA; n <= HOOKE_GAMMA; n++)
-      if (kept->number[n]) kept->number[n][kept->count] *= factor[n];
+      if (kept->number[n])
+        kept->number[n][kept->count] *= factor[n] * (spring ? maker->variant->single[n][first + k] : 1.0);
     kept->count++;
   }
   if (maker->variant->damping && kept->number[HOOKE_GAMMA] && kept->count > 0)
@@ -193,7 +206,8 @@ static int32_t keep_group(const struct hk_variant_maker *maker, const struct hk_
   if (status == HOOKE_OK) status = hk_group_allocate(&kept, group->name);
   if (status == HOOKE_OK) collect(maker, first, factor, &kept);
   if (status == HOOKE_OK) status = hk_scaling_copy(group->scaling, &kept.scaling);
-  if (status == HOOKE_OK && group->options) status = take_options(maker, group->options, factor, &kept);
+  if (status == HOOKE_OK && group->options && !has_singles(maker, group, first))
+    status = take_options(maker, group->options, factor, &kept);
   if (status == HOOKE_OK && (kept.count > 0 || group->count == 0))
     return hk_system_add_group(maker->made, &kept);
   hk_group_release(&kept);

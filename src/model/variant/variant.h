@@ -20,7 +20,8 @@ struct hk_variant {
   /* factors, initially 1, which hk_variant_join() multiplies */
   double *scale;      /* by part: on the cells along each axis */
   double *factor[2];  /* by group: on stiffness (HOOKE_KAPPA) and damping (HOOKE_GAMMA) of its members */
-  double *mass;       /* by particle, of those of no part */
+  double *single[2];  /* the same by spring, which breaks up what options say of its group */
+  double *mass;       /* by particle */
   double drag;        /* on the linear drag */
   double velocity[3]; /* added to the initial velocity of every free particle [m/s]; not joined */
 };

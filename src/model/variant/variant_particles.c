@@ -157,6 +157,7 @@ static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
   hooke_options_destroy(options);
   for (int64_t p = 0; p < record->count && status == HOOKE_OK; p++) {
     maker->map->to[record->first + p] = part->first + (part->axes > 0 ? hk_variant_nearest(part, p) : p);
+    if (part->axes == 0) maker->made->mass[part->first + p] *= maker->variant->mass[record->first + p];
   }
   return status;
 }

@@ -13,6 +13,7 @@ from ._look import WorkProgress, draw
 from ._measurement import Measurement, Paged, Record, methods_of_rows
 from ._memory import Closing
 from ._signature import Unpack, takes
+from ._status import BadValue
 from ._types import FloatArray, Path
 from .options import Options
 from .results import Length, Runnable, measured
@@ -109,8 +110,14 @@ class Study(Paged, Closing, kind="study"):
 
     def recommend(self, want: Length) -> Recommendation:
         """Recommends the cheapest run found whose error_max is at most `want` [m] ("1mm"), as ``hooke.run(want=...)`` picks
-        it among the methods of the study, and measures it."""
-        wish = Options._of("study").set(want=want)["want"]
+        it among the methods of the study, and measures it. After a list of wants it is a number, by which all bounds of the
+        list are multiplied."""
+        before = self.recommendation
+        listed = before is not None and before.error_unit == "wants"
+        wish = want if listed else Options._of("study").set(want=want)["want"]
+        if isinstance(wish, str):
+            raise BadValue(f"want: {wish!r} is not allowed; " + (
+                "the study has a list of wants, and a number that multiplies it is" if listed else "a length is"))
         with self._handle.listening(self._progress):
             lib.hooke_study_recommend(self._handle.handle, wish)
         found = self.recommendation
