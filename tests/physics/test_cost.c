@@ -56,9 +56,10 @@ static hooke_measurement *cost_of(const hooke_system *system, struct run run, in
 /* On a busy machine the budget may be spent before the last row. */
 static hooke_measurement *cost_of_all_rows(const hooke_system *system, struct run run) {
   for (double budget = 0.3;; budget *= 4.0) {
-    owned_measurement *cost = cost_within(budget, system, run, 0);
+    hooke_measurement *cost = cost_within(budget, system, run, 0);
     const int64_t last = hooke_measurement_row_count(cost, "rows") - 1;
     if (budget > 10.0 || !isnan(hooke_measurement_number(cost, "rows", last, "nanoseconds"))) return cost;
+    hooke_measurement_destroy(cost);
   }
 }
 

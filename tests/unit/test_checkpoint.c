@@ -337,7 +337,6 @@ TEST(a_failed_write_harms_nothing) {
   check_ok(hooke_checkpoint_read(path, "first", reader.integrator, reader.state));
   check_numbers(reader.state, numbers);
   remove(previous);
-  drop(&reader);
 }
 
 static atomic_int watched, missed;
