@@ -105,13 +105,18 @@ def default_signals():
 
 @pytest.fixture
 def hooke(tmp_path):
-    """Calls the program in an empty folder: hooke("run", "scene.json", ...)."""
+    """Calls the program in an empty folder: hooke("run", "scene.json", ...); with code, err and out, its exit code, texts that
+    standard error contains, and standard output have to be those."""
 
-    def call(*words, **options):
+    def call(*words, code=None, err=(), out=None, **options):
         words = [word if isinstance(word, bytes) else str(word) for word in words]
         done = subprocess.run([CLI, *words], cwd=tmp_path, capture_output=True, text=True, timeout=240, **options)
         assert done.returncode >= 0, f"killed by signal {-done.returncode}\n{done.stderr}"
         assert "Sanitizer" not in done.stderr, done.stderr
+        assert code in (None, done.returncode), done.stderr
+        missing = [text for text in ([err] if isinstance(err, str) else err) if text not in done.stderr]
+        assert not missing, done.stderr
+        assert out in (None, done.stdout)
         return Answer(done.returncode, done.stdout, done.stderr)
 
     return call

@@ -252,8 +252,7 @@ def test_costs_of_the_largest_groups(hooke, write):
     assert "  edges " in words and "  other " not in words.split("a step of")[1]
     assert "1 ingredient was not looked at" in words
     assert "not looked at" not in hooke("check", file, "--cost", "--predict").out
-    answer = hooke("check", file, "--groups", "-1")
-    assert answer.code == 2 and "groups" in answer.err
+    hooke("check", file, "--groups", "-1", code=2, err="groups")
 
 
 def test_the_budget_holds_for_very_many_groups(hooke, write):

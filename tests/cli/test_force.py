@@ -124,8 +124,7 @@ def test_a_file_names_its_force_and_takes_no_other(hooke, write, wave, tmp_path)
 ])
 def test_what_is_no_force_is_refused(hooke, write, build, words, given, message):
     build("f.so", *words)
-    answer = hooke("check", write(ROPE), "--force", given)
-    assert answer.code == 3 and message in answer.err
+    hooke("check", write(ROPE), "--force", given, code=3, err=message)
 
 
 def test_a_force_that_is_not_finite_is_named(hooke, write, build):

@@ -53,8 +53,7 @@ def test_what_is_not_found_is_said_so(hooke):
 
 
 def test_nothing_to_watch(hooke, write):
-    answer = hooke("rest", write(HANGING), "--watch", "7.y")
-    assert answer.code == 3 and "particles 0 to 1" in answer.err
+    hooke("rest", write(HANGING), "--watch", "7.y", code=3, err="particles 0 to 1")
 
 
 def test_a_scene_that_starts_at_rest(hooke, write, tmp_path):

@@ -181,10 +181,7 @@ def test_names_that_are_not_utf8_are_still_json(hooke, write, tmp_path):
 )
 def test_what_cannot_be_run_says_why(hooke, write, run, words, code, wanted):
     scene = write(SIX_PARTICLES, **run)
-    answer = hooke("run", scene, *words)
-    assert answer.code == code
-    assert wanted in answer.err
-    assert answer.out == ""
+    hooke("run", scene, *words, code=code, err=wanted, out="")
     error = hooke("run", scene, "--json", *words).json["error"]
     assert error["exit"] == code and wanted in error["message"]
 

@@ -124,8 +124,7 @@ def test_slices(hooke, made):
     assert (whole["frame_first"], whole["frame_last"], whole["steps"]) == (0, 10, 500)
     bits = hooke("verify", "out.h5", "--all", "--bits", "--json").json
     assert bits["verdict"] == "agrees" and bits["balance"] == "not-checked" and bits["error_estimate"] is None
-    answer = hooke("verify", "out.h5", "--slice", "0.3,0.2")
-    assert answer.code == 3 and "ascending" in answer.err
+    hooke("verify", "out.h5", "--slice", "0.3,0.2", code=3, err="ascending")
 
 
 def test_driven_strands_and_cables(hooke, write):
@@ -176,8 +175,7 @@ def test_a_frame_without_a_time_is_found(hooke, made):
         assert hooke(*words).code == (3 if verb == "verify" else 0)
     answer = hooke("verify", "out.h5")
     assert "frame 9 of out.h5 is damaged" in answer.err and "9 of 11 by their check values" in answer.out
-    answer = hooke("view", "out.h5", "-o", "out.html")
-    assert answer.code == 0 and "1 damaged frame is skipped" in answer.err
+    hooke("view", "out.h5", "-o", "out.html", code=0, err="1 damaged frame is skipped")
 
 
 @pytest.mark.parametrize("method", ["verlet", "cvode-bdf"])
@@ -203,15 +201,13 @@ def test_a_changed_beginning_is_found(hooke, made):
     """The first frame of a slice is taken from the file: the frames computed from it differ."""
     path = made()
     changed(path, "particles/all/position/value", (5, 1, 1), lambda x: x + 1e-9)
-    answer = hooke("verify", "out.h5")
-    assert answer.code == 3 and "frame 6" in answer.err
+    hooke("verify", "out.h5", code=3, err="frame 6")
 
 
 def test_a_changed_time_is_found(hooke, made):
     path = made()
     changed(path, "particles/all/position/time", 7, lambda t: np.nextafter(t, 1.0))
-    answer = hooke("verify", "out.h5")
-    assert answer.code == 3 and "frame 7" in answer.err and "time" in answer.err
+    hooke("verify", "out.h5", code=3, err=("frame 7", "time"))
 
 
 @pytest.mark.parametrize("key", ["damping", "stiffness"])
@@ -224,8 +220,7 @@ def test_a_changed_scene_is_found(hooke, made, key):
         del file["hooke/scene"], file["hooke/file_check"]
         written = json.dumps(scene).encode()
         file["hooke"].create_dataset("scene", data=np.array(written, dtype=f"S{len(written)}"))
-    answer = hooke("verify", "out.h5")
-    assert answer.code == 3 and "frame 6" in answer.err
+    hooke("verify", "out.h5", code=3, err="frame 6")
 
 
 def test_other_versions_may_differ_within_the_error(hooke, made):
@@ -239,8 +234,7 @@ def test_other_versions_may_differ_within_the_error(hooke, made):
     assert answer.code == 0 and answer.json["verdict"] == "within-tolerance"
     assert answer.json["sundials"] == "5.0.0"
     changed(path, "particles/all/position/value", (7, 2, 1), lambda x: x + 1e-3)
-    answer = hooke("verify", "out.h5")
-    assert answer.code == 3 and "apart" in answer.err
+    hooke("verify", "out.h5", code=3, err="apart")
 
 
 def test_other_versions_make_no_difference_to_a_fixed_step(hooke, made):
@@ -249,8 +243,7 @@ def test_other_versions_make_no_difference_to_a_fixed_step(hooke, made):
         del file["hooke/file_check"]
         file["hooke"].attrs["sundials"] = "5.0.0"
     changed(path, "particles/all/position/value", (7, 2, 1), lambda x: np.nextafter(x, 9.0))
-    answer = hooke("verify", "out.h5")
-    assert answer.code == 3 and "frame 7, particle 2, position y" in answer.err
+    hooke("verify", "out.h5", code=3, err="frame 7, particle 2, position y")
 
 
 @pytest.mark.check
@@ -270,8 +263,7 @@ def test_files_that_are_none(hooke, made, tmp_path):
     shutil.copy(path, tmp_path / "bare.h5")
     with h5py.File(tmp_path / "bare.h5", "r+") as file:
         del file["hooke/scene"], file["hooke/file_check"]
-    answer = hooke("verify", "bare.h5")
-    assert answer.code == 3 and "no scene" in answer.err
+    hooke("verify", "bare.h5", code=3, err="no scene")
     assert hooke("verify").code == 2
 
 

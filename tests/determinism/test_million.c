@@ -26,9 +26,9 @@ struct task {
 /* No assertions in threads: they belong to the main thread. */
 static void *run_task(void *argument) {
   struct task *task = argument;
-  hooke_options *options = NULL;
-  hooke_integrator *integrator = NULL;
-  hooke_state *state = NULL;
+  owned_options *options = NULL;
+  owned_integrator *integrator = NULL;
+  owned_state *state = NULL;
   int32_t status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", task->method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", 1e-4);
@@ -43,9 +43,6 @@ static void *run_task(void *argument) {
     task->linear_iterations = hooke_integrator_count(integrator, "linear_iterations");
   }
   task->status = status;
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
   return NULL;
 }
 
@@ -65,10 +62,8 @@ static struct task run_here(const struct random_scene *scene, const char *method
 
 static void create_scene(int64_t share, struct random_scene *scene) {
   const int64_t springs = SPRINGS / share;
-  random_scene_create(
-      (struct random_scene_request){
-          .seed = 20240607, .particles = PARTICLES / share, .springs = springs, .features = SCENE_EVERYTHING},
-      scene);
+  random_scene_with(scene, .seed = 20240607, .particles = PARTICLES / share, .springs = springs,
+                    .features = SCENE_EVERYTHING);
   /* except the few without strength */
   assert_int_equal(hooke_system_count(scene->system, "springs"), scene->canonical.spring_count);
   check_between((double)scene->canonical.spring_count, 0.95 * (double)springs, (double)springs);
@@ -97,9 +92,7 @@ TEST(test_same_bits) {
   struct random_scene all, some;
   create_scene(share, &all);
   create_scene(SOLVED_SHARE * share, &some);
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!is_fixed_step(method)) continue;
+  for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
     const int solves = run_here(&some, method, 1, 1).linear_iterations > 0;
     check_method(solves ? &some : &all, method, solves ? SOLVED_STEPS : STEPS);
     check_lockstep(solves ? &some : &all, method, 2, 0.0, 1e-4, solves ? 1 : 3);
@@ -113,10 +106,7 @@ TEST(test_seeds_differ) {
   uint64_t hash[2];
   for (uint64_t k = 0; k < 2; k++) {
     owned_random_scene scene;
-    random_scene_create(
-        (struct random_scene_request){
-            .seed = 5 + k, .particles = 100, .springs = 300, .features = SCENE_EVERYTHING},
-        &scene);
+    random_scene_with(&scene, .seed = 5 + k, .particles = 100, .springs = 300, .features = SCENE_EVERYTHING);
     hash[k] = run_here(&scene, "symplectic-euler", 1, STEPS).hash;
   }
   assert_true(hash[0] != hash[1]);

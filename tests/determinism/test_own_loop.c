@@ -18,7 +18,7 @@ static const char *const counts[] = {"steps", "force_evaluations", "nonlinear_it
 static hooke_system *unordered_sheet(void) {
   const int64_t n = SHEET * SHEET;
   struct random_source source = {11};
-  double *position = new_doubles(3 * n);
+  owned_doubles *position = new_doubles(3 * n);
   int64_t *number = new_block(n, sizeof *number), *ends = new_block(4 * n, sizeof *ends), springs = 0;
   for (int64_t p = 0; p < n; p++) {
     const int64_t other = random_whole(&source, 0, p);
@@ -37,13 +37,11 @@ static hooke_system *unordered_sheet(void) {
     springs++;
   }
   hooke_system *system = small_system(n, position, NULL, 0.01, 1);
-  small_springs(system, springs, ends,
-                (struct springs){.stiffness = 5.0, .damping = 1e-3, .rest_length = 0.1});
+  springs_with(system, springs, ends, .stiffness = 5.0, .damping = 1e-3, .rest_length = 0.1);
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -9.81}));
   check_ok(hooke_system_commit(system));
   free(ends);
   free(number);
-  free(position);
   return system;
 }
 
@@ -117,7 +115,8 @@ static void mix(struct loop *loop) {
 }
 
 static void check_ways(const hooke_system *system, struct run run) {
-  struct loop whole = loop_start(system, run), loop = loop_start(system, run);
+  owned(loop_end) struct loop whole = loop_start(system, run);
+  struct loop loop = loop_start(system, run);
   if (is_fixed_step(run.method))
     check_ok(hooke_integrator_run(whole.integrator, whole.state));
   else
@@ -136,7 +135,6 @@ static void check_ways(const hooke_system *system, struct run run) {
   mix(&loop);
   check_same_loop(&loop, &whole);
   loop_end(&loop);
-  loop_end(&whole);
 }
 
 /* The references come last. */
@@ -215,7 +213,7 @@ static void write_changes(struct loop *loop, const int64_t particle[SOME], int r
 static void check_particles(const hooke_system *system, struct run run) {
   int64_t particle[SOME];
   choose(system, particle);
-  struct loop loop = loop_start(system, run), written = loop_start(system, run);
+  owned(loop_end) struct loop loop = loop_start(system, run), written = loop_start(system, run);
   check_ok(hooke_integrator_step(loop.integrator, loop.state, 2));
   check_ok(hooke_integrator_step(written.integrator, written.state, 2));
   for (int round = 0; round < 3; round++) {
@@ -227,8 +225,6 @@ static void check_particles(const hooke_system *system, struct run run) {
     check_get(&loop, particle);
     check_same_loop(&loop, &written);
   }
-  loop_end(&written);
-  loop_end(&loop);
 }
 
 TEST(test_particles) {
@@ -238,7 +234,7 @@ TEST(test_particles) {
 /* A pinned particle is held where it is put, with zero velocity. */
 TEST(test_pinned) {
   owned_system *system = moving_system(&moving_scenes[0]);
-  struct loop loop = loop_start(system, run_of("symplectic-euler", 1));
+  owned(loop_end) struct loop loop = loop_start(system, run_of("symplectic-euler", 1));
   const int64_t pinned = 1;
   const double q[] = {0.25, 0.5, -0.75}, v[] = {1, 2, 3}, rest[3] = {0};
   double found[6];
@@ -248,7 +244,6 @@ TEST(test_pinned) {
   check_ok(hooke_integrator_get(loop.integrator, 1, &pinned, found, found + 3));
   check_same_bits(3, found, q);
   check_same_bits(3, found + 3, rest);
-  loop_end(&loop);
 }
 
 /* ---- observers ---- */
@@ -271,7 +266,7 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
 
 /* Observers get the same calls as for steps in one call, and may stop; the motion continues from there. */
 static void check_watched(const hooke_system *system, struct run run) {
-  struct loop loop = loop_start(system, run), alone = loop_start(system, run);
+  owned(loop_end) struct loop loop = loop_start(system, run), alone = loop_start(system, run);
   struct watch watch = {.stop_at = 3, .size = hooke_state_size(loop.state)};
   watch.last = new_doubles(1 + 2 * watch.size);
   check_ok(hooke_integrator_on_step(loop.integrator, 2, see, &watch));
@@ -289,8 +284,6 @@ static void check_watched(const hooke_system *system, struct run run) {
   check_ok(hooke_integrator_step(alone.integrator, alone.state, 7));
   check_same_state(loop.state, alone.state);
   free(watch.last);
-  loop_end(&loop);
-  loop_end(&alone);
 }
 
 TEST(test_watched) {
@@ -362,13 +355,13 @@ TEST(test_put_brings_energy) {
   owned_system *system = small_oscillator(10.0);
   const int64_t particle = 1;
   for (int put = 0; put < 2; put++) {
-    struct loop loop = loop_start(system, (struct run){.method = "symplectic-euler", .step = 0.01});
+    owned(loop_end) struct loop loop =
+        loop_start(system, (struct run){.method = "symplectic-euler", .step = 0.01});
     const double v[] = {put ? 1e3 : 0.0, 0.5, 0.0};
     check_ok(hooke_integrator_step(loop.integrator, loop.state, 0));
     check_ok(hooke_integrator_put(loop.integrator, 1, &particle, NULL, v));
     check_ok(hooke_integrator_advance(loop.integrator, 2000));
     check_ok(hooke_integrator_sync(loop.integrator, loop.state));
-    loop_end(&loop);
   }
 }
 
@@ -386,7 +379,7 @@ static void check_no_motion(struct loop *loop) {
 
 TEST(test_misuse) {
   owned_system *system = moving_system(&moving_scenes[0]), *other = small_oscillator(1.0);
-  struct loop loop = loop_start(system, run_of("verlet", 1));
+  owned(loop_end) struct loop loop = loop_start(system, run_of("verlet", 1));
   hooke_state *before = start_state(system), *small = start_state(other);
   const int64_t n = hooke_system_particle_count(system), particle[] = {2, n}, below[] = {-1};
   double q[] = {1, 2, 3, 4, 5, 6}, bad[] = {1, 2, 3, 4, NAN, 6};
@@ -408,7 +401,6 @@ TEST(test_misuse) {
   check_same_state(loop.state, before);
   hooke_state_destroy(small);
   hooke_state_destroy(before);
-  loop_end(&loop);
 }
 
 /* ---- first-order problems ---- */

@@ -66,9 +66,7 @@ static void run_alone(const hooke_system *system, struct run run, struct end *en
 /* A solve of the cloth takes many products: stops occur within steps, too. */
 TEST(test_a_stopped_run_goes_on) {
   static struct end whole, pieces;
-  for (int64_t k = 0; k < hooke_method_count(); k++) {
-    const char *method = hooke_method_name(k);
-    if (!is_fixed_step(method)) continue;
+  for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
     const int implicit = is_implicit(method);
     owned_system *system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
     const double step = implicit ? 0.02 : 1e-3;
@@ -91,10 +89,8 @@ TEST(test_every_method_is_heard) {
     struct listener listener = {.method = hooke_method_name(k), .stop_at = 3};
     if (!hooke_method_is_built(listener.method)) continue;
     const double duration = 1e9;
-    hooke_integrator *integrator = start_run(
-        system,
-        (struct run){.method = listener.method, .step = 0.01, .duration = duration, .every = duration});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = listener.method, .step = 0.01, .duration = duration,
+              .every = duration);
     check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_message("the progress callback asked to stop at t = ");
@@ -105,15 +101,13 @@ TEST(test_every_method_is_heard) {
     check_ok(hooke_integrator_on_progress(integrator, 0.0, NULL, NULL));
     check_ok(hooke_integrator_step(integrator, state, 3));
     assert_int_equal(listener.calls, 3);
-    hooke_integrator_destroy(integrator);
   }
 }
 
 TEST(test_seconds) {
   owned_system *system = small_oscillator(1.0);
   struct listener listener = {.method = "verlet"};
-  hooke_integrator *integrator =
-      start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 10.0});
+  owned_integrator *integrator = start_with(system, .method = "verlet", .step = 1e-3, .duration = 10.0);
   hooke_state *state = start_state(system);
   check_status(hooke_integrator_on_progress(integrator, -1.0, listen, &listener), HOOKE_BAD_VALUE);
   check_message("seconds");
@@ -127,5 +121,4 @@ TEST(test_seconds) {
   check_ok(hooke_integrator_run(integrator, state));
   check_between((double)listener.calls, 1.0, 10000.0);
   hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }

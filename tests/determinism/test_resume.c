@@ -94,12 +94,11 @@ static void finish(struct course *course, const hooke_state *state) {
 
 static int64_t run_whole(const hooke_system *system, struct run run, struct trace *trace) {
   struct course course = {.trace = trace};
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   start(system, run, &course);
   check_ok(hooke_integrator_run(course.integrator, state));
   finish(&course, state);
   hooke_integrator_destroy(course.integrator);
-  hooke_state_destroy(state);
   return course.calls;
 }
 
@@ -113,7 +112,7 @@ static void forget_after(struct trace *trace, int64_t kept, double t) {
 
 /* 1 if it was stopped after a checkpoint. */
 static int run_stopped(const hooke_system *system, struct run run, struct course *course, int resume) {
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   course->calls = 0;
   start(system, run, course);
   int32_t status;
@@ -132,7 +131,6 @@ static int run_stopped(const hooke_system *system, struct run run, struct course
     write_checkpoint(course, state);
   }
   hooke_integrator_destroy(course->integrator);
-  hooke_state_destroy(state);
   return stopped;
 }
 
@@ -241,15 +239,13 @@ TEST(threads_change_nothing) {
 
 /* In the same process, from the state where an observer stopped it, repeatedly. */
 TEST(fixed_steps_go_on_where_they_stopped) {
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!is_fixed_step(method)) continue;
+  for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
     owned_system *system = moving_system(&moving_scenes[2]);
     const struct run run = run_of(&moving_scenes[2], method, 0);
     struct trace whole = trace_create(system), trace = trace_create(system);
     const int64_t calls = run_whole(system, run, &whole);
     struct course course = {.trace = &trace, .stop_at = calls / 3};
-    hooke_state *at = start_state(system);
+    owned_state *at = start_state(system);
     start(system, run, &course);
     check_status(hooke_integrator_run(course.integrator, at), HOOKE_STOPPED);
     course.stop_at = calls / 2;
@@ -260,7 +256,6 @@ TEST(fixed_steps_go_on_where_they_stopped) {
     check_same(method, &trace, &whole);
     check_status(hooke_integrator_resume(course.integrator, at), HOOKE_BAD_CALL); /* at the end of the run */
     hooke_integrator_destroy(course.integrator);
-    hooke_state_destroy(at);
     free(trace.row);
     free(whole.row);
   }
@@ -269,9 +264,7 @@ TEST(fixed_steps_go_on_where_they_stopped) {
 /* Before, at and after the last whole multiple of `every`, and at the end, before its frame was shown. */
 TEST(the_last_short_interval_goes_on) {
   static const int64_t stops[] = {STEPS - 5, STEPS - 4, STEPS - 3, STEPS - 1, STEPS};
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!is_fixed_step(method)) continue;
+  for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
     owned_system *system = moving_system(&moving_scenes[1]);
     const struct run run = run_of(&moving_scenes[1], method, 1);
     struct trace whole = trace_create(system), trace = trace_create(system);
@@ -297,9 +290,7 @@ TEST(the_last_short_interval_goes_on) {
 TEST(single_steps_go_on_from_a_checkpoint) {
   char path[64];
   snprintf(path, sizeof path, "%s/hooke-steps-%ld", memory_folder(), (long)getpid());
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!is_fixed_step(method)) continue;
+  for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
     owned_system *system = moving_system(&moving_scenes[1]);
     const struct run run = {.method = method, .step = 1e-3};
     owned_integrator *whole = start_run(system, run), *half = start_run(system, run);
@@ -372,7 +363,7 @@ TEST(first_order_problems_go_on) {
 TEST(the_option_decides_and_nobody_else) {
   const struct moving_scene *scene = &moving_scenes[0];
   if (!hooke_method_is_built("cvode-adams")) return;
-  hooke_system *system = moving_system(scene);
+  owned_system *system = moving_system(scene);
   struct run run = run_of(scene, "cvode-adams", 0);
   const int64_t size = 3 * hooke_system_particle_count(system);
   double *watched = new_doubles(size), *alone = new_doubles(size), *without = new_doubles(size);
@@ -385,15 +376,12 @@ TEST(the_option_decides_and_nobody_else) {
   check_same_bits(size, alone, watched);
   assert_true(first_difference(size, alone, without) >= 0);
   run.checkpoint = 1e-18;
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *at = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *at = start_state(system);
   check_status(hooke_integrator_run(integrator, at), HOOKE_BAD_VALUE);
   check_message("checkpoint");
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(at);
   free(watched);
   free(alone);
   free(without);
   free(trace.row);
-  hooke_system_destroy(system);
 }

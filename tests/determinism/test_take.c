@@ -40,14 +40,13 @@ static int64_t choose(int64_t n, struct random_source *source, int64_t *chosen) 
 static void forces(const hooke_system *system, int64_t count, const int64_t *chosen, double *q, double *v,
                    double *force, double *elsewhere) {
   const int64_t n = hooke_system_particle_count(system);
-  double *moved = new_doubles(3 * n);
+  owned_doubles *moved = new_doubles(3 * n);
   for (int64_t k = 0; k < 3 * n; k++)
     moved[k] = 1.25 * q[k] + 3.0;
   for (int64_t k = 0; k < count; k++)
     memcpy(moved + 3 * chosen[k], q + 3 * chosen[k], 3 * sizeof *q);
   check_ok(hooke_system_force(system, 0.013, q, v, force));
   check_ok(hooke_system_force(system, 0.013, moved, v, elsewhere));
-  free(moved);
 }
 
 /* Adds how many chosen particles feel no other one, and how many do. */
@@ -56,7 +55,7 @@ static void check_taken(uint64_t seed, int64_t *inner, int64_t *outer) {
   random_scene_create(drawn(seed), &scene);
   const int64_t n = hooke_system_particle_count(scene.system);
   struct random_source source = {seed};
-  int64_t *chosen = new_block(n, sizeof *chosen);
+  owned_wholes *chosen = new_block(n, sizeof *chosen);
   const int64_t count = choose(n, &source, chosen);
   double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *force = new_doubles(3 * n);
   double *elsewhere = new_doubles(3 * n), *part = new_doubles(3 * count);
@@ -77,7 +76,6 @@ static void check_taken(uint64_t seed, int64_t *inner, int64_t *outer) {
   double *all[] = {q, v, force, elsewhere, part};
   for (int k = 0; k < 5; k++)
     free(all[k]);
-  free(chosen);
 }
 
 TEST(test_forces_of_what_was_taken) {

@@ -45,6 +45,39 @@ contains
     call system%commit()
   end subroutine
 
+  ! A run of the oscillator, at its beginning.
+  subroutine start_oscillator(integrator, state, method, step, duration, every)
+    type(hooke_integrator), intent(inout) :: integrator
+    type(hooke_state), intent(inout) :: state
+    character(*), intent(in) :: method
+    real(hooke_real), intent(in) :: step, duration
+    real(hooke_real), intent(in), optional :: every
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    call make_oscillator(system)
+    call make_run(run, method, step, duration)
+    if (present(every)) call run%set("every", every)
+    call integrator%create(system, run)
+    call state%create(system)
+  end subroutine
+
+  ! The file of a run of the oscillator that ended at its first frame.
+  subroutine write_oscillator(path)
+    character(*), intent(in) :: path
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    type(hooke_trajectory) :: trajectory
+    call make_oscillator(system)
+    call make_run(run, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
+    call integrator%create(system, run)
+    call state%create(system)
+    call trajectory%create(path, system, integrator)
+    call trajectory%write(0_hooke_long, state)
+    call trajectory%close()
+  end subroutine
+
   subroutine make_run(run, method, step, duration)
     type(hooke_options), intent(inout) :: run
     character(*), intent(in) :: method

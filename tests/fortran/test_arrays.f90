@@ -14,22 +14,10 @@ program test_arrays
 contains
 
   subroutine look()
-    type(hooke_system) :: system
-    type(hooke_options) :: run
-    type(hooke_integrator) :: integrator
-    type(hooke_state) :: state
-    type(hooke_trajectory) :: trajectory
     type(hooke_record) :: record
     real(hooke_real), allocatable :: values(:, :)
     integer :: status
-    call make_oscillator(system)
-    call make_run(run, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
-    call run%set("every", 0.05_hooke_real)
-    call integrator%create(system, run)
-    call state%create(system)
-    call trajectory%create(output("arrays.h5"), system, integrator)
-    call trajectory%write(0_hooke_long, state)
-    call trajectory%close()
+    call write_oscillator(output("arrays.h5"))
     call record%open(output("arrays.h5"))
     call record%numbers("springs", values)
     call expect(all(shape(values) == [2, 1]) .and. all(nint(values(:, 1)) == [1, 2]), "ends count from 1")

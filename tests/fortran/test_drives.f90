@@ -3,6 +3,7 @@ program test_drives
   use check
   use hooke
   use parts
+  use scenes, only: make_run
   implicit none
   real(hooke_real), parameter :: pi = acos(-1.0_hooke_real)
 
@@ -37,10 +38,7 @@ contains
     type(hooke_options) :: run
     type(hooke_integrator) :: integrator
     call system%commit()
-    call run%create("run")
-    call run%set("method", "rk4")
-    call run%set("step", 1e-2_hooke_real)
-    call run%set("duration", 1)
+    call make_run(run, "rk4", 1e-2_hooke_real, 1.0_hooke_real)
     call integrator%create(system, run)
     call state%create(system)
     call integrator%run(state, status)

@@ -3,6 +3,7 @@ program test_forces
   use check
   use hooke
   use parts
+  use scenes, only: make_run
   implicit none
   real(hooke_real), parameter :: down(3) = [0.0_hooke_real, -9.81_hooke_real, 0.0_hooke_real]
 
@@ -41,10 +42,7 @@ contains
     type(hooke_integrator) :: integrator
     integer :: code
     call system%commit()
-    call run%create("run")
-    call run%set("method", method)
-    call run%set("step", 1e-3_hooke_real)
-    call run%set("duration", 0.1_hooke_real)
+    call make_run(run, method, 1e-3_hooke_real, 0.1_hooke_real)
     call integrator%create(system, run)
     call state%create(system)
     call integrator%run(state, code)

@@ -59,24 +59,13 @@ contains
     type(hooke_integrator) :: integrator
     type(hooke_options) :: options
     type(hooke_state) :: state
-    call make_integrator(integrator, state)
+    call start_oscillator(integrator, state, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
     call integrator%run(state)
     call expect(integrator%count("steps") == 100, "it runs after its system went out of sight")
     options = integrator%options
     call integrator%destroy()
     call expect(options%text("method") == "verlet", "and its options are there after it was destroyed")
     call expect(.not. integrator%options%exists(), "under the other name")
-  end subroutine
-
-  subroutine make_integrator(integrator, state)
-    type(hooke_integrator), intent(inout) :: integrator
-    type(hooke_state), intent(inout) :: state
-    type(hooke_system) :: system
-    type(hooke_options) :: run
-    call make_oscillator(system)
-    call make_run(run, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
-    call integrator%create(system, run)
-    call state%create(system)
   end subroutine
 
   subroutine arrays()

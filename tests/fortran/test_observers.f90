@@ -16,17 +16,11 @@ program test_observers
 contains
 
   subroutine frames()
-    type(hooke_system) :: system
-    type(hooke_options) :: run
     type(hooke_integrator) :: integrator
     type(hooke_state) :: state
     type(watcher), target :: watch
     integer :: status
-    call make_oscillator(system)
-    call make_run(run, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
-    call run%set("every", 0.01_hooke_real)
-    call integrator%create(system, run)
-    call state%create(system)
+    call start_oscillator(integrator, state, "verlet", 1e-3_hooke_real, 0.1_hooke_real, 0.01_hooke_real)
     call integrator%on_frame(watch)
     call integrator%run(state, status)
     call expect(status == hooke_ok .and. watch%seen == integrator%count("frames") .and. watch%seen == 11, "eleven frames")
@@ -45,16 +39,11 @@ contains
   end subroutine
 
   subroutine steps()
-    type(hooke_system) :: system
-    type(hooke_options) :: run
     type(hooke_integrator) :: integrator
     type(hooke_state) :: state
     type(watcher), target :: first, second
     integer :: status
-    call make_oscillator(system)
-    call make_run(run, "rk4", 1e-3_hooke_real, 0.1_hooke_real)
-    call integrator%create(system, run)
-    call state%create(system)
+    call start_oscillator(integrator, state, "rk4", 1e-3_hooke_real, 0.1_hooke_real)
     call integrator%on_step(25, first)
     call integrator%on_step(50, second)
     call integrator%run(state)
@@ -108,16 +97,11 @@ contains
   end subroutine
 
   subroutine told_of_progress()
-    type(hooke_system) :: system
-    type(hooke_options) :: run
     type(hooke_integrator) :: integrator
     type(hooke_state) :: state
     type(teller), target :: told
     integer :: status
-    call make_oscillator(system)
-    call make_run(run, "rk4", 1e-3_hooke_real, 1e3_hooke_real)
-    call integrator%create(system, run)
-    call state%create(system)
+    call start_oscillator(integrator, state, "rk4", 1e-3_hooke_real, 1e3_hooke_real)
     call integrator%on_progress(-1.0_hooke_real, told, status)
     call expect(status == hooke_bad_value, "seconds below 0 are refused")
     told%stop_after = 3

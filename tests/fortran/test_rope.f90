@@ -4,6 +4,7 @@ program test_rope
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use check
   use hooke
+  use scenes, only: make_run
   implicit none
 
   call same_bits()
@@ -36,15 +37,6 @@ contains
     call expect(system%is_committed(), "the system is committed")
   end subroutine
 
-  subroutine prepare(run, method)
-    type(hooke_options), intent(inout) :: run
-    character(*), intent(in) :: method
-    call run%create("run")
-    call run%set("method", method)
-    call run%set("step", 5e-4_hooke_real)
-    call run%set("duration", 0.2_hooke_real)
-  end subroutine
-
   subroutine same_bits()
     type(hooke_system) :: system
     type(hooke_options) :: run
@@ -59,7 +51,7 @@ contains
       method = hooke_method_name(k)
       if (.not. hooke_method_is_built(method)) cycle
       if (.not. hooke_method_is_adaptive(method)) fixed = fixed + 1
-      call prepare(run, method)
+      call make_run(run, method, 5e-4_hooke_real, 0.2_hooke_real)
       call integrator%create(system, run)
       call state%create(system)
       call integrator%run(state, status)
@@ -83,7 +75,7 @@ contains
     type(hooke_state) :: state, twin
     integer :: k
     call make(system)
-    call prepare(run, "verlet")
+    call make_run(run, "verlet", 5e-4_hooke_real, 0.2_hooke_real)
     call integrator%create(system, run)
     call state%create(system)
     call twin%create(system)

@@ -20,7 +20,7 @@ contains
     type(hooke_view) :: view, beside
     logical :: there
     integer :: status, bytes
-    call write_one()
+    call write_oscillator(output("shown.h5"))
     call record%open(output("shown.h5"))
     call record%write_xdmf(output("shown.xdmf"))
     inquire (file=output("shown.xdmf"), exist=there)
@@ -40,20 +40,5 @@ contains
     call view%write(output("shown.html"))
     inquire (file=output("shown.html"), size=bytes)
     call expect(bytes > view%number("bytes") + beside%number("bytes"), "with another beside it")
-  end subroutine
-
-  subroutine write_one()
-    type(hooke_system) :: system
-    type(hooke_options) :: run
-    type(hooke_integrator) :: integrator
-    type(hooke_state) :: state
-    type(hooke_trajectory) :: trajectory
-    call make_oscillator(system)
-    call make_run(run, "verlet", 1e-3_hooke_real, 0.1_hooke_real)
-    call integrator%create(system, run)
-    call state%create(system)
-    call trajectory%create(output("shown.h5"), system, integrator)
-    call trajectory%write(0_hooke_long, state)
-    call trajectory%close()
   end subroutine
 end program

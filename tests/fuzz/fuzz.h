@@ -3,6 +3,8 @@
 #ifndef HOOKE_TESTS_FUZZ_H
 #define HOOKE_TESTS_FUZZ_H
 
+#include "owned.h"
+
 #include <stddef.h>
 #include <stdint.h>
 

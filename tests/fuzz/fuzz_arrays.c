@@ -35,20 +35,19 @@ static int64_t frames_there(const char *dataset, int64_t frames) {
   int32_t rank;
   int64_t size[4];
   snprintf(name, sizeof name, "%.*stime", (int)(strrchr(dataset, '/') - dataset) + 1, dataset);
-  double *time = container_read(&container, name, &rank, size);
+  owned_doubles *time = container_read(&container, name, &rank, size);
   if (time && rank == 1 && size[0] == frames && !container_is_over(&container)) {
     for (int64_t k = 0; k < frames; k++) {
       if (isnan(time[k])) frames = k;
     }
   }
-  free(time);
   return frames;
 }
 
 static void check_numbers(const struct wanted *wanted, const double *numbers, int64_t rows, int64_t columns) {
   int32_t rank;
   int64_t size[4], at = 0;
-  double *whole = container_read(&container, wanted->dataset, &rank, size);
+  owned_doubles *whole = container_read(&container, wanted->dataset, &rank, size);
   if (whole == NULL) return;
   hooke_fuzz_require(rank >= 1 && rank <= 3, "an array of so many dimensions");
   const int framed = rank == 3;
@@ -65,7 +64,6 @@ static void check_numbers(const struct wanted *wanted, const double *numbers, in
     hooke_fuzz_require(memcmp(&found, &expected, sizeof found) == 0 || (isnan(found) && isnan(expected)),
                        "a number");
   }
-  free(whole);
 }
 
 static void read_array(const struct wanted *wanted, int by_hdf5) {
@@ -141,7 +139,7 @@ static void load_scene(const uint8_t head[EDIT_HEAD], const struct wanted *wante
   snprintf(source, sizeof source, "{'file': '%s', 'dataset': '%s'%s}", head[2] == 255 ? "other.h5" : "c.h5",
            wanted->dataset, frame);
   print_scene(head, source, whole, sizeof whole);
-  hooke_scene *scene = NULL;
+  owned_scene *scene = NULL;
   const int32_t status =
       hooke_scene_parse(whole, (int64_t)strlen(whole), "scene", container.folder, NULL, &scene);
   hooke_fuzz_require(status <= HOOKE_OK && (status == HOOKE_OK) == (scene != NULL), "a scene or a failure");
@@ -150,7 +148,6 @@ static void load_scene(const uint8_t head[EDIT_HEAD], const struct wanted *wante
     hooke_fuzz_is_accepted();
     hooke_scene_commit(scene);
   }
-  hooke_scene_destroy(scene);
 }
 
 /* The first byte selects the dataset, the second the frame and the call. */

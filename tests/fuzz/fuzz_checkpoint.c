@@ -53,7 +53,7 @@ static hooke_system *new_system(void) {
   static const double q[NUMBERS] = {0, 0, 0, 1, 0, 0, 2, 0.5, 0}, mass = 1.0;
   static const int64_t ends[4] = {0, 1, 1, 2}, pinned = 0;
   hooke_system *system = NULL;
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   require_ok(hooke_system_create(&system));
   require_ok(hooke_system_add_particles(system, PARTICLES, q, NULL, 1, &mass, NULL));
   require_ok(hooke_system_pin(system, 1, &pinned));
@@ -62,12 +62,11 @@ static hooke_system *new_system(void) {
   require_ok(hooke_system_add_springs(system, NULL, 2, ends, options));
   require_ok(hooke_system_set_gravity(system, (const double[]){0.0, -9.81, 0.0}));
   require_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
   return system;
 }
 
 static hooke_integrator *new_integrator(const char *method) {
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   hooke_integrator *integrator = NULL;
   require_ok(hooke_options_create("run", &options));
   require_ok(hooke_options_set_text(options, "method", method));
@@ -75,7 +74,6 @@ static hooke_integrator *new_integrator(const char *method) {
   require_ok(hooke_options_set_number(options, "every", 0.02));
   require_ok(hooke_options_set_number(options, "duration", 0.08));
   require_ok(hooke_integrator_create(own.system, options, &integrator));
-  hooke_options_destroy(options);
   return integrator;
 }
 

@@ -150,8 +150,8 @@ static void check_members(const struct small_scene *scene) {
 /* `split`: how often parts of a step were taken in place of the whole, whose equations they do not solve. */
 static int32_t take_steps(const struct small_scene *scene, const struct stepping *by, hooke_state *state,
                           int64_t *split) {
-  hooke_options *options = NULL;
-  hooke_integrator *integrator = NULL;
+  owned_options *options = NULL;
+  owned_integrator *integrator = NULL;
   int32_t status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", by->method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", by->step);
@@ -159,8 +159,6 @@ static int32_t take_steps(const struct small_scene *scene, const struct stepping
   if (status == HOOKE_OK) status = hooke_integrator_create(scene->system, options, &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_step(integrator, state, by->steps);
   *split = status == HOOKE_OK ? hooke_integrator_count(integrator, "nonlinear_failures") : 0;
-  hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
   return status;
 }
 
@@ -187,7 +185,7 @@ static void check_steps(const struct small_scene *scene, int first, struct expec
   struct stepping *by = &expected[0].by, *without = &expected[1].by;
   const int left_out = leaves_damping_out(scene);
   const int64_t size = 3 * scene->particles;
-  hooke_state *state = NULL;
+  owned_state *state = NULL;
   hooke_fuzz_require(hooke_state_create(scene->system, &state) == HOOKE_OK, "a state");
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   for (int k = 0; first && k <= left_out; k++) {
@@ -216,7 +214,6 @@ static void check_steps(const struct small_scene *scene, int first, struct expec
     hooke_fuzz_require(!finite || scene->extreme || solved || by->step > 0.01, "steps that did not diverge");
     hooke_fuzz_require(all_finite(size, q) && all_finite(size, v), "the last good state");
   }
-  hooke_state_destroy(state);
 }
 
 /* ---- energies and derivatives ---- */

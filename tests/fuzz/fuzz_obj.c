@@ -74,7 +74,7 @@ static hooke_options *choose_options(uint8_t weld, uint8_t scale) {
 
 /* A surface that passed the checks can be built, unless masses or springs overflow. */
 static void build(const hooke_options *options) {
-  hooke_system *system = NULL;
+  owned_system *system = NULL;
   int64_t first = -1, count = -1;
   hooke_fuzz_require(hooke_system_create(&system) == HOOKE_OK, "a system can be made");
   int32_t status = hooke_system_add_part(system, "mesh", NULL, options, &first, &count);
@@ -88,23 +88,21 @@ static void build(const hooke_options *options) {
     hooke_fuzz_is_accepted();
   else
     hooke_fuzz_require_message();
-  hooke_system_destroy(system);
 }
 
 /* A file gives the same result as its text. */
 static void read_file(const uint8_t *data, size_t size, int32_t wanted) {
-  hooke_options *options = choose_options(data[0], data[1]);
+  owned_options *options = choose_options(data[0], data[1]);
   const int32_t status = hooke_mesh_read(hooke_fuzz_file(data + 2, size - 2), options);
   hooke_fuzz_require(status == wanted, "a file gives what its text gives");
   hooke_fuzz_require(hooke_options_is_set(options, "triangles") == (status == HOOKE_OK),
                      "what cannot be read leaves no triangles behind");
-  hooke_options_destroy(options);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   hooke_fuzz_begin();
   if (size < 2) return 0;
-  hooke_options *options = choose_options(data[0], data[1]);
+  owned_options *options = choose_options(data[0], data[1]);
   const char *text = (const char *)data + 2;
   const int64_t length = (int64_t)size - 2;
   const int32_t status = hk_mesh_parse(text, length, "mesh.obj", 0.0, options);
@@ -112,7 +110,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     build(options);
   else
     require_failure(status, text, length);
-  hooke_options_destroy(options);
   if (hooke_fuzz_is_chosen(data, size, 64)) read_file(data, size, status);
   return 0;
 }

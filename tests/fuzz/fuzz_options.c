@@ -60,14 +60,13 @@ static void set_again(hooke_options *options, const char *name) {
   const int64_t count = hooke_options_number_count(options, name);
   const double *numbers = hooke_options_numbers(options, name);
   if (count == 0 || hooke_options_text(options, name)[0]) return;
-  double *copy = malloc((size_t)count * sizeof *copy);
+  owned_doubles *copy = malloc((size_t)count * sizeof *copy);
   if (copy == NULL) return;
   memcpy(copy, numbers, (size_t)count * sizeof *copy);
   hooke_fuzz_require(hooke_options_set_numbers(options, name, count, copy) == HOOKE_OK,
                      "numbers that were read as text can be set");
   hooke_fuzz_require(memcmp(copy, hooke_options_numbers(options, name), (size_t)count * sizeof *copy) == 0,
                      "numbers that were set are held");
-  free(copy);
 }
 
 static void set_one(hooke_options *options, const char *name, const char *value) {
@@ -86,7 +85,7 @@ static void set_one(hooke_options *options, const char *name, const char *value)
 }
 
 static void require_copy(const hooke_options *options) {
-  hooke_options *copy = NULL;
+  owned_options *copy = NULL;
   hooke_fuzz_require(hooke_options_copy(options, &copy) == HOOKE_OK, "options can be copied");
   for (int64_t row = 0; row < hooke_options_row_count(options); row++) {
     const char *name = hooke_options_row(options, row, "name");
@@ -96,7 +95,6 @@ static void require_copy(const hooke_options *options) {
                            strcmp(hooke_options_text(copy, name), hooke_options_text(options, name)) == 0,
                        "a copy holds the same");
   }
-  hooke_options_destroy(copy);
 }
 
 /* Raw bytes, eight a number: any double. */
@@ -171,7 +169,7 @@ static void read_number(const char *text) {
 static void read_units(const char *text, const char *bases, const char *name) {
   const struct hk_unit unit = hk_unit_find(bases, name, (int64_t)strlen(name));
   const size_t length = strlen(text);
-  char *alone = malloc(length + (length == 0)); /* without the zero at its end */
+  owned_text *alone = malloc(length + (length == 0)); /* without the zero at its end */
   if (alone == NULL) return;
   memcpy(alone, text, length);
   const struct hk_quantity found = hk_unit_scan(bases, alone, (int64_t)length);
@@ -181,7 +179,6 @@ static void read_units(const char *text, const char *bases, const char *name) {
   double value = 0.0;
   if (found.number > 0 && hk_unit_parse(alone, found.number, &unit, &value) == HOOKE_NUMBER_FINE)
     hooke_fuzz_require(isfinite(value), "a number in a unit is finite");
-  free(alone);
 }
 
 /* ---- the command line ---- */
@@ -249,11 +246,10 @@ static void parse_words(uint8_t which, const hooke_options *table, char **line, 
   if (answer == HOOKE_EXIT_DONE && !arguments.help) {
     hooke_fuzz_is_past_syntax();
     hooke_fuzz_is_accepted();
-    hooke_options *run = NULL;
+    owned_options *run = NULL;
     hooke_fuzz_require(hooke_options_create("run", &run) == HOOKE_OK &&
                            cli_arguments_apply(&arguments, run) == HOOKE_OK,
                        "what was read from the command line can be set");
-    hooke_options_destroy(run);
   }
   cli_arguments_destroy(&arguments);
 }
@@ -261,7 +257,7 @@ static void parse_words(uint8_t which, const hooke_options *table, char **line, 
 /* ---- one input ---- */
 
 static void run_lines(uint8_t what, uint8_t which, char **line, int32_t count) {
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   if (what % 4 == 2) {
     for (int32_t k = 0; k < count; k++)
       read_number(line[k]);
@@ -279,7 +275,6 @@ static void run_lines(uint8_t what, uint8_t which, char **line, int32_t count) {
     set_lines(options, line, count);
   else
     parse_words(which, options, line, count);
-  hooke_options_destroy(options);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

@@ -54,7 +54,7 @@ static int same_numbers(int64_t count, const double *a, const double *b) {
 static void check_against_hdf5(const char *dataset, int64_t frame, int64_t count, const double *number) {
   int32_t rank;
   int64_t extent[4];
-  double *whole = container_read(&container, dataset, &rank, extent);
+  owned_doubles *whole = container_read(&container, dataset, &rank, extent);
   if (whole == NULL) return;
   if (rank == 3) {
     hooke_fuzz_require(extent[1] * extent[2] == count && frame < extent[0], "the size of a frame");
@@ -65,7 +65,6 @@ static void check_against_hdf5(const char *dataset, int64_t frame, int64_t count
                        "the size of an array");
     hooke_fuzz_require(same_numbers(count, number, whole), "the numbers of an array");
   }
-  free(whole);
 }
 
 /* ---- calls ---- */
@@ -140,13 +139,12 @@ static void ask_array(hooke_record *record, int wanted, int twice, int by_hdf5) 
     return;
   }
   hooke_fuzz_require(rows >= 0 && columns >= 0 && rows * columns < INT64_C(1) << 27, "a size");
-  double *number = malloc((size_t)(rows * columns) * sizeof *number + 1);
+  owned_doubles *number = malloc((size_t)(rows * columns) * sizeof *number + 1);
   for (int k = 0; k <= twice; k++) {
     if (!answered(hooke_record_numbers(record, array[wanted % 8].name, number))) continue;
     check_not_secret(rows * columns, number);
     if (by_hdf5) check_against_hdf5(array[wanted % 8].dataset, -1, rows * columns, number);
   }
-  free(number);
 }
 
 static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
@@ -154,7 +152,7 @@ static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
 }
 
 static void go_on(const hooke_system *system, hooke_integrator *integrator) {
-  hooke_state *state = NULL;
+  owned_state *state = NULL;
   hooke_trajectory *trajectory = NULL;
   if (!answered(hooke_state_create(system, &state))) return;
   if (answered(hooke_trajectory_resume(container.path, system, integrator, state, &trajectory)) &&
@@ -168,7 +166,6 @@ static void go_on(const hooke_system *system, hooke_integrator *integrator) {
   } else {
     hooke_fuzz_require(trajectory == NULL, "a trajectory besides a failure, or of a run that finished");
   }
-  hooke_state_destroy(state);
 }
 
 /* A run that takes very long is no finding. */
@@ -181,20 +178,18 @@ static int is_short(const hooke_options *run) {
 
 /* Continues the run, if that is possible. */
 static void ask_resume(int64_t frames) {
-  hooke_scene *scene = NULL;
-  hooke_integrator *integrator = NULL;
+  owned_scene *scene = NULL;
+  owned_integrator *integrator = NULL;
   container_kill_after(frames);
   if (!answered(hooke_scene_load(container.path, NULL, &scene))) return;
   const hooke_options *run = hooke_scene_run_options(scene);
   if (is_short(run) && answered(hooke_scene_commit(scene)) &&
       answered(hooke_integrator_create(hooke_scene_system(scene), run, &integrator)))
     go_on(hooke_scene_system(scene), integrator);
-  hooke_integrator_destroy(integrator);
-  hooke_scene_destroy(scene);
 }
 
 static void ask_scene(void) {
-  hooke_scene *scene = NULL;
+  owned_scene *scene = NULL;
   if (!answered(hooke_scene_load(container.path, NULL, &scene))) {
     hooke_fuzz_require(scene == NULL, "a scene besides a failure");
     return;
@@ -204,7 +199,6 @@ static void ask_scene(void) {
       answered(
           hooke_integrator_create(hooke_scene_system(scene), hooke_scene_run_options(scene), &integrator)))
     hooke_integrator_destroy(integrator);
-  hooke_scene_destroy(scene);
 }
 
 static void ask_xdmf(const hooke_record *record, int beside) {
@@ -214,12 +208,11 @@ static void ask_xdmf(const hooke_record *record, int beside) {
 }
 
 static void ask_view(const hooke_record *record) {
-  hooke_measurement *view = NULL;
+  owned_measurement *view = NULL;
   if (!answered(hooke_view_create(record, NULL, &view))) return;
   const double frames = hooke_measurement_number(view, "view", 0, "frames");
   hooke_fuzz_require(frames >= 1 && frames <= (double)hooke_record_count(record, "frames"),
                      "frames of a view");
-  hooke_measurement_destroy(view);
 }
 
 static void check_texts(const hooke_record *record) {
@@ -233,7 +226,7 @@ static void check_texts(const hooke_record *record) {
 /* `often` 0: skips slow calls. */
 static void ask(const uint8_t head[EDIT_HEAD], int often) {
   const int what = head[1] & (often ? ~0 : ~(ASK_HDF5 | ASK_RESUME | ASK_XDMF));
-  hooke_record *record = NULL;
+  owned_record *record = NULL;
   if (answered(hooke_record_open(container.path, &record))) {
     hooke_fuzz_is_accepted();
     check_texts(record);
@@ -244,7 +237,6 @@ static void ask(const uint8_t head[EDIT_HEAD], int often) {
   } else {
     hooke_fuzz_require(record == NULL, "a record besides a failure");
   }
-  hooke_record_close(record);
   hooke_fuzz_require((what & ASK_HDF5) || !container_others_opened(), "another file was opened");
   if ((what & ASK_SCENE) && head[2] % 4 == 0) ask_scene();
   if ((what & ASK_RESUME) && head[2] % 8 == 3) ask_resume(head[0] % 8);

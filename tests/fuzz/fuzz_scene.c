@@ -71,8 +71,8 @@ static void require_equal_springs(const hooke_system *a, const hooke_system *b) 
   const int64_t count = hooke_system_count(a, "springs");
   hooke_fuzz_require(hooke_system_count(b, "springs") == count,
                      "written and read again: the number of springs");
-  int64_t *ends = calloc((size_t)(4 * count + 1), sizeof *ends);
-  double *value = calloc((size_t)(6 * count + 1), sizeof *value);
+  owned_wholes *ends = calloc((size_t)(4 * count + 1), sizeof *ends);
+  owned_doubles *value = calloc((size_t)(6 * count + 1), sizeof *value);
   if (ends && value) {
     hooke_system_members(a, "springs", ends, NULL, NULL, NULL);
     hooke_system_members(b, "springs", ends + 2 * count, NULL, NULL, NULL);
@@ -82,14 +82,12 @@ static void require_equal_springs(const hooke_system *a, const hooke_system *b) 
     hooke_system_members(b, "springs", NULL, value + 3 * count, value + 4 * count, value + 5 * count);
     require_equal_bits(value, value + 3 * count, 3 * count, "written and read again: material of springs");
   }
-  free(ends);
-  free(value);
 }
 
 static void require_equal_forces(const hooke_system *a, const hooke_system *b) {
   hooke_state *state[2] = {NULL, NULL};
   const int64_t count = 3 * hooke_system_particle_count(a);
-  double *f = calloc((size_t)(2 * count + 1), sizeof *f);
+  owned_doubles *f = calloc((size_t)(2 * count + 1), sizeof *f);
   if (f && hooke_state_create(a, &state[0]) == HOOKE_OK && hooke_state_create(b, &state[1]) == HOOKE_OK) {
     const double *q = hooke_state_position(state[0]), *v = hooke_state_velocity(state[0]);
     require_equal_bits(q, hooke_state_position(state[1]), count, "written and read again: positions");
@@ -101,7 +99,6 @@ static void require_equal_forces(const hooke_system *a, const hooke_system *b) {
   }
   hooke_state_destroy(state[0]);
   hooke_state_destroy(state[1]);
-  free(f);
 }
 
 static void require_equal(const hooke_system *a, const hooke_system *b) {
@@ -119,7 +116,7 @@ static void require_equal(const hooke_system *a, const hooke_system *b) {
 }
 
 static void go_around(hooke_scene *scene) {
-  hooke_scene *again = NULL;
+  owned_scene *again = NULL;
   const hooke_system *system = hooke_scene_system(scene);
   hooke_fuzz_require(hooke_scene_of_system(system, hooke_scene_text(scene, "title"),
                                            hooke_scene_run_options(scene), "again", NULL, &again) == HOOKE_OK,
@@ -128,14 +125,13 @@ static void go_around(hooke_scene *scene) {
   hooke_fuzz_require(strcmp(hooke_scene_text(scene, "title"), hooke_scene_text(again, "title")) == 0,
                      "written and read again: the title");
   require_equal(system, hooke_scene_system(again));
-  hooke_scene_destroy(again);
 }
 
 /* ---- one input ---- */
 
 /* A scene in a file, which is scanned in chunks, is accepted or refused like the same text in memory. */
 static void load(const char *text, size_t size) {
-  hooke_scene *scene = NULL, *loaded = NULL;
+  owned_scene *scene = NULL, *loaded = NULL;
   const char *path = hooke_fuzz_file(text, size), *message = "";
   char wanted[4096] = "";
   const int32_t status = hooke_scene_parse(text, (int64_t)size, path, "/proc/self/fd", NULL, &scene);
@@ -144,8 +140,6 @@ static void load(const char *text, size_t size) {
   if (status != HOOKE_OK) message = hooke_last_error();
   hooke_fuzz_require(strcmp(message, wanted) == 0 || status == HOOKE_NO_MEMORY || strstr(wanted, "is empty"),
                      "a file is refused for what its text is refused for");
-  hooke_scene_destroy(scene);
-  hooke_scene_destroy(loaded);
 }
 
 /* The folder of the files that scenes may name: beside the program, for a program copied to another machine,
@@ -164,7 +158,7 @@ static const char *files(void) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const char *text = size ? (const char *)data : "";
-  hooke_scene *scene = NULL;
+  owned_scene *scene = NULL;
   hooke_fuzz_begin();
   int32_t status = hooke_scene_parse(text, (int64_t)size, "scene", files(), NULL, &scene);
   hooke_fuzz_require((status == HOOKE_OK) == (scene != NULL), "a scene comes with success alone");
@@ -175,7 +169,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   } else {
     require_failure(status, text, size);
   }
-  hooke_scene_destroy(scene);
   if (hooke_fuzz_is_chosen(text, size, 256)) load(text, size);
   return 0;
 }

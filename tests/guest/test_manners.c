@@ -161,11 +161,8 @@ static void tour_building(void) {
 
 static void tour_methods(void) {
   struct random_scene scene;
-  random_scene_create((struct random_scene_request){.seed = 5,
-                                                    .particles = HOOKE_SANITIZED ? 200 : 700,
-                                                    .springs = HOOKE_SANITIZED ? 500 : 2000,
-                                                    .features = SCENE_EVERYTHING},
-                      &scene);
+  random_scene_with(&scene, .seed = 5, .particles = HOOKE_SANITIZED ? 200 : 700,
+                    .springs = HOOKE_SANITIZED ? 500 : 2000, .features = SCENE_EVERYTHING);
   for (int64_t m = 0; m < 2 * hooke_method_count(); m++) {
     const char *method = hooke_method_name(m / 2);
     if (!hooke_method_is_built(method)) continue;
@@ -189,9 +186,7 @@ static void tour_methods(void) {
 /* Files that are not there or cannot be. */
 static void tour_nowhere(void) {
   owned_system *system = small_oscillator(100.0);
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 1.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "verlet", .step = 1e-3, .duration = 1.0);
   owned_measurement *study = NULL;
   hooke_trajectory *trajectory = NULL;
   hooke_record *record = NULL;

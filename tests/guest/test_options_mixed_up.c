@@ -38,10 +38,8 @@ static int32_t set_mesh(const char *what, hooke_options *o) {
 
 static int32_t apply_scene(const char *what, hooke_options *o) {
   (void)what;
-  hooke_system *system = open_system();
-  const int32_t status = hooke_scene_options_apply(o, system);
-  hooke_system_destroy(system);
-  return status;
+  owned_system *system = open_system();
+  return hooke_scene_options_apply(o, system);
 }
 
 static int32_t grow(int64_t n, double t, const double *x, double *rate, void *ctx) {
@@ -52,11 +50,9 @@ static int32_t grow(int64_t n, double t, const double *x, double *rate, void *ct
 
 static int32_t create_first_order(const char *what, hooke_options *o) {
   (void)what;
-  hooke_integrator *made = NULL;
+  owned_integrator *made = NULL;
   hooke_options_set_text(o, "method", "rk4");
-  const int32_t status = hooke_integrator_create_first_order(1, grow, NULL, o, &made);
-  hooke_integrator_destroy(made);
-  return status;
+  return hooke_integrator_create_first_order(1, grow, NULL, o, &made);
 }
 
 static int32_t create_integrator(const char *what, hooke_options *o) {
@@ -93,13 +89,11 @@ static int32_t measure_run(const char *what, hooke_options *o) {
 
 static int32_t pick(const char *what, hooke_options *o) {
   (void)what;
-  hooke_system *system = small_oscillator(10.0);
+  owned_system *system = small_oscillator(10.0);
   hooke_options_set_number(o, "duration", 0.1);
-  hooke_measurement *estimate = NULL;
+  owned_measurement *estimate = NULL;
   int32_t status = estimate_of(system, 0.1, &estimate);
   if (status == HOOKE_OK) status = hooke_estimate_pick(estimate, NULL, o);
-  hooke_measurement_destroy(estimate);
-  hooke_system_destroy(system);
   return status;
 }
 

@@ -27,7 +27,7 @@ static uint64_t hash_state(hooke_state *state, uint64_t hash) {
 }
 
 static uint64_t run_method(const hooke_system *system, const char *method, int32_t threads, uint64_t hash) {
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
   int32_t status = hooke_options_create("run", &options);
@@ -44,7 +44,6 @@ static uint64_t run_method(const hooke_system *system, const char *method, int32
   if (status != 0) printf("%s: %s\n", method, hooke_last_error());
   if (state) hooke_state_destroy(state);
   if (integrator) hooke_integrator_destroy(integrator);
-  hooke_options_destroy(options);
   return status == 0 ? hash : 0;
 }
 
@@ -65,7 +64,7 @@ static uint64_t crews(int thread) {
 
 /* The message of a failure is that of this thread, whatever the others do meanwhile. */
 static uint64_t messages(int thread) {
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   uint64_t wrong = 0;
   if (hooke_options_create("run", &options) != HOOKE_OK) return 0;
   for (int k = 0; k < 300; k++) {
@@ -74,7 +73,6 @@ static uint64_t messages(int thread) {
     wrong += hooke_options_set_text(options, "step", value) != HOOKE_BAD_VALUE;
     wrong += strstr(hooke_last_error(), value) == NULL;
   }
-  hooke_options_destroy(options);
   return wrong ? 0 : 1;
 }
 
@@ -99,7 +97,7 @@ static uint64_t queries(int thread) {
 /* The extreme eigenvalues of a chain. */
 static uint64_t top_modes(int thread) {
   (void)thread;
-  hooke_options *options = NULL;
+  owned_options *options = NULL;
   hooke_measurement *limit = NULL;
   uint64_t hash = 0;
   int32_t status = hooke_options_create("limit", &options);
@@ -111,7 +109,6 @@ static uint64_t top_modes(int thread) {
     hash = hash_doubles(1, &value, HASH_START);
   }
   if (limit) hooke_measurement_destroy(limit);
-  hooke_options_destroy(options);
   return status == HOOKE_NOT_BUILT ? HASH_START : hash;
 }
 
@@ -169,19 +166,13 @@ static hooke_system *make_chain(void) {
     ends[2 * k + 1] = k + 1;
   }
   hooke_system *system = small_system(LINKS + 1, q, NULL, 1.0, 1);
-  small_springs(system, LINKS, ends, (struct springs){.stiffness = 10.0, .rest_length = -1.0});
-  check_ok(hooke_system_commit(system));
-  return system;
+  springs_with(system, LINKS, ends, .stiffness = 10.0, .rest_length = -1.0);
+  return committed(system);
 }
 
 TEST(test_threads_get_what_one_gets) {
-  random_scene_create((struct random_scene_request){.seed = 31,
-                                                    .particles = PARTICLES,
-                                                    .springs = 3 * PARTICLES,
-                                                    .cloth = {8, 8},
-                                                    .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT,
-                                                    .with_product = 1},
-                      &shared);
+  random_scene_with(&shared, .seed = 31, .particles = PARTICLES, .springs = 3 * PARTICLES, .cloth = {8, 8},
+                    .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT, .with_product = 1);
   chain = make_chain();
   for (int t = 0; t <= THREADS; t++)
     assert_int_equal(open_folder(folder[t]), 0);

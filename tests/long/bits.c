@@ -65,19 +65,13 @@ static void run_method(const struct scene *scene, const hooke_system *system, co
   const double step = 1e-4, tolerance = 1e-5;
   const int32_t fixed = is_fixed_step(method);
   const int64_t size = 3 * hooke_system_particle_count(system);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method,
-                                                                .step = fixed ? step : 0.0,
-                                                                .duration = scene->steps * step,
-                                                                .every = fixed ? 0.0 : scene->steps * step,
-                                                                .rtol = fixed ? 0.0 : tolerance,
-                                                                .atol = fixed ? 0.0 : tolerance,
-                                                                .threads = threads});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = fixed ? step : 0.0,
+            .duration = scene->steps * step, .every = fixed ? 0.0 : scene->steps * step,
+            .rtol = fixed ? 0.0 : tolerance, .atol = fixed ? 0.0 : tolerance, .threads = threads);
   check_ok(hooke_integrator_run(integrator, state));
   uint64_t hash = hash_doubles(size, hooke_state_position(state), HASH_START);
   hash = hash_doubles(size, hooke_state_velocity(state), hash);
   tell(scene, method, threads, fixed ? "fixed" : "library", hash);
-  hooke_integrator_destroy(integrator);
 }
 
 static void tell_forces(const struct scene *scene, const struct random_scene *made) {

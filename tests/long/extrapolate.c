@@ -198,7 +198,7 @@ int main(int argc, char **argv) {
        hooke_last_error());
   const hooke_system *system = hooke_scene_system(scene);
   need(hooke_state_create(system, &state) == HOOKE_OK, hooke_last_error());
-  struct canonical canonical;
+  owned_canonical canonical;
   struct facts facts = {0};
   canonical_create(system, &canonical);
   memset(canonical.pull_only, 0, (size_t)canonical.spring_count);
@@ -219,6 +219,5 @@ int main(int argc, char **argv) {
   }
   free(facts.drive);
   free_bodies(bodies, force.body_count);
-  canonical_destroy(&canonical);
   return result == 0 ? 0 : 1;
 }

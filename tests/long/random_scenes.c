@@ -29,7 +29,7 @@ int main(int argc, char **argv) {
   if (argc != 4) return 2;
   const uint64_t first = strtoull(argv[2], NULL, 10), count = strtoull(argv[3], NULL, 10);
   for (uint64_t seed = first; seed < first + count; seed++) {
-    struct random_scene scene;
+    owned_random_scene scene;
     char path[4096];
     random_scene_create(request(seed), &scene);
     owned_options *options =
@@ -37,7 +37,6 @@ int main(int argc, char **argv) {
     snprintf(path, sizeof path, "%s/random-%llu.json", argv[1], (unsigned long long)seed);
     check_ok(hooke_scene_write(path, scene.system, "", options));
     printf("%s\n", path);
-    random_scene_destroy(&scene);
   }
   return 0;
 }

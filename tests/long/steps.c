@@ -56,8 +56,7 @@ static hooke_system *chain(void) {
   check_ok(hooke_system_add_particles(system, COUNT, q, v, 1, &mass, NULL));
   owned_options *options = options_with("springs", "stiffness=1 rest_length=0.1");
   check_ok(hooke_system_add_springs(system, NULL, COUNT - 1, ends, options));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* ---- the file ---- */
@@ -120,7 +119,7 @@ struct runner {
 };
 
 static void begin(struct runner *runner, const struct place *place) {
-  runner->integrator = start_run(runner->system, (struct run){.method = asked.method, .step = STEP});
+  runner->integrator = start_with(runner->system, .method = asked.method, .step = STEP);
   runner->state = start_state(runner->system);
   memcpy(hooke_state_position(runner->state), place->numbers, SIZE * sizeof(double));
   memcpy(hooke_state_velocity(runner->state), place->numbers + SIZE, SIZE * sizeof(double));

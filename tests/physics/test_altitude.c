@@ -34,8 +34,7 @@ static void add_springs(hooke_system *system, int64_t count, const int64_t *ends
 }
 
 static hooke_system *commit(hooke_system *system) {
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static const int64_t corners[4] = {0, 1, 2, 3}, edges[12] = {0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3};
@@ -128,8 +127,8 @@ TEST(what_is_inside_out_turns_back) {
     owned_state *state = start_state(system);
     memcpy(hooke_state_position(state), q, sizeof q);
     memcpy(hooke_state_velocity(state), v, sizeof v);
-    owned_integrator *integrator = start_run(
-        system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 40.0, .every = 40.0});
+    owned_integrator *integrator =
+        start_with(system, .method = "symplectic-euler", .step = 1e-3, .duration = 40.0, .every = 40.0);
     check_ok(hooke_integrator_run(integrator, state));
     const double volume = volume_of(hooke_state_position(state), corners), whole = volume_of(q0, corners);
     check_close(volume, with ? whole : -whole, 1e-3 * whole);
@@ -200,9 +199,8 @@ TEST(a_run_that_jumps_drive_is_explained) {
   check_ok(hooke_system_add_altitude(system, "a", 1, corners, options));
   add_springs(system, 6, edges, 1.0);
   commit(system);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 2e-3, .duration = 20.0, .every = 0.1});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 2e-3, .duration = 20.0,
+            .every = 0.1);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   hooke_measurement *why = NULL;
   const int32_t status = explain_run(integrator, &why);
@@ -264,11 +262,8 @@ TEST(methods_agree) {
   check_ok(hooke_system_set_gravity(system, gravity));
   commit(system);
   double expected[3 * CURL];
-  run_to_end(system, (struct run){.method = "rk4", .step = 5e-6, .duration = 0.005, .every = 0.005}, expected,
-             NULL);
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!hooke_method_is_built(method)) continue;
+  end_of_run(expected, NULL, system, .method = "rk4", .step = 5e-6, .duration = 0.005, .every = 0.005);
+  for (const char *method = NULL; (method = next_method(method, hooke_method_is_built));) {
     struct run run = {.method = method, .duration = 0.005, .every = 0.005};
     const int first_order = strstr(method, "euler") != NULL;
     if (hooke_method_is_adaptive(method))
@@ -293,9 +288,8 @@ static double share_kept(double turns, double twist, double altitude) {
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 1e-5));
   commit(system);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 2e-5, .duration = 0.01, .every = 0.01});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 2e-5, .duration = 0.01,
+            .every = 0.01);
   int turned[CURL - 3] = {0}, kept = 0;
   for (int frame = 0; frame <= FRAMES; frame++) {
     for (int64_t k = 0; k < CURL - 3; k++) {

@@ -20,8 +20,7 @@ static hooke_system *chain(double stiffness, double damping, double rest_length)
   check_ok(hooke_options_set_numbers(options, "points", 3, point));
   check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
   hooke_options_destroy(options);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 TEST(the_force_is_that_of_a_spring_to_the_point) {
@@ -52,8 +51,7 @@ static hooke_system *oscillator(double stiffness) {
   const double stiffnesses[2] = {stiffness, 1.0};
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffnesses));
   check_ok(hooke_system_add_anchors(system, NULL, 2, both, options));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 TEST(without_points_they_hold_particles_where_they_are) {
@@ -66,7 +64,7 @@ TEST(without_points_they_hold_particles_where_they_are) {
   /* a quarter of a period later it is at its point: omega = 20/s */
   q[1] += 0.1;
   const double quarter = acos(-1.0) / 40.0;
-  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = quarter / 1000.0});
+  owned_integrator *run = start_with(system, .method = "rk4", .step = quarter / 1000.0);
   check_ok(hooke_integrator_step(run, state, 1000));
   check_close(q[1], 2.0, 1e-9);
   check_close(hooke_state_velocity(state)[1], -0.1 * 20.0, 1e-9);
@@ -101,8 +99,7 @@ static hooke_system *damped_at_its_place(double damping) {
   hooke_system *system = small_system(1, place, velocity, mass, 0);
   owned_options *options = options_with("anchors", "stiffness=1 damping=%.17g", damping);
   check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 TEST(damping_at_its_place_limits_the_step) {
@@ -139,10 +136,8 @@ TEST(damping_at_its_place_is_blamed_on_the_anchor) {
   const double limit = 4.0 / (1000.0 + sqrt(1e6 + 4.0));
   for (int above = 0; above <= 1; above++) {
     const double step = (above ? 1.01 : 0.99) * limit;
-    owned_integrator *run = start_run(
-        system, (struct run){
-                    .method = "symplectic-euler", .step = step, .duration = 2000 * step, .every = 20 * step});
-    owned_state *state = start_state(system);
+    owned_run(run, state, system, .method = "symplectic-euler", .step = step, .duration = 2000 * step,
+              .every = 20 * step);
     check_status(hooke_integrator_run(run, state), above ? HOOKE_DIVERGED : HOOKE_OK);
     owned_measurement *why = NULL;
     if (above) {
@@ -157,9 +152,8 @@ TEST(damping_at_its_place_is_blamed_on_the_anchor) {
 /* The stiffest element of the scene is named, whatever its force. */
 TEST(a_run_that_diverges_by_one_blames_it) {
   owned_system *system = chain(5e5, 0.0, 0.0);
-  owned_state *state = start_state(system);
-  owned_integrator *run = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.0021, .duration = 2.1, .every = 0.021});
+  owned_run(run, state, system, .method = "symplectic-euler", .step = 0.0021, .duration = 2.1,
+            .every = 0.021);
   check_status(hooke_integrator_run(run, state), HOOKE_DIVERGED);
   owned_measurement *why;
   check_ok(hooke_why_create(run, NULL, &why));

@@ -20,15 +20,11 @@ TEST(one_step_is_the_formula) {
   for (int k = 0; k < 6; k++) {
     const double h = steps[k % 3];
     owned_system *system = small_system(2, q, NULL, mass, 1);
-    small_springs(system, 1, ends,
-                  (struct springs){.law = "length",
-                                   .stiffness = mass * omega * omega,
-                                   .damping = 2.0 * zeta * omega * mass});
+    springs_with(system, 1, ends, .law = "length", .stiffness = mass * omega * omega,
+                 .damping = 2.0 * zeta * omega * mass);
     check_ok(hooke_system_set_gravity(system, down));
     check_ok(hooke_system_commit(system));
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = "backward-euler", .newton = forms[k / 3], .step = h});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "backward-euler", .newton = forms[k / 3], .step = h);
     double x = 1.0, v = 0.0;
     for (int n = 0; n < 20; n++) {
       v = (v + h * (down[0] - omega * omega * x)) / (1.0 + 2.0 * zeta * omega * h + omega * omega * h * h);
@@ -60,12 +56,11 @@ static hooke_system *pulled(int with_product) {
   const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, amplitude[] = {0.1, 0, 0};
   const int64_t ends[] = {0, 1, 1, 2}, driven = 0;
   hooke_system *system = small_system(3, q, NULL, 0.5, 0);
-  small_springs(system, 2, ends, (struct springs){.law = "length", .stiffness = 30, .damping = 0.4});
+  springs_with(system, 2, ends, .law = "length", .stiffness = 30, .damping = 0.4);
   check_ok(hooke_system_set_drag(system, 0.2));
   check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 0.8, 0.3));
   check_ok(hooke_system_set_force(system, pull, with_product ? pull_product : NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Along one line springs of no length are linear, so one iteration solves the equations. */
@@ -74,11 +69,8 @@ TEST(forms_agree_where_all_is_linear) {
     owned_system *system = pulled(with_product);
     double q[2][9], v[2][9];
     for (int form = 0; form < 2; form++) {
-      run_to_end(
-          system,
-          (struct run){
-              .method = "backward-euler", .newton = forms[form], .step = 0.05, .duration = 3.0, .every = 3.0},
-          q[form], v[form]);
+      end_of_run(q[form], v[form], system, .method = "backward-euler", .newton = forms[form], .step = 0.05,
+                 .duration = 3.0, .every = 3.0);
     }
     check_between(largest_difference(9, q[0], q[1]), 0.0, with_product ? 1e-12 : 1e-9);
     check_between(largest_difference(9, v[0], v[1]), 0.0, with_product ? 1e-11 : 1e-8);
@@ -89,15 +81,12 @@ TEST(forms_agree_where_all_is_linear) {
 TEST(order_with_a_drive) {
   owned_system *system = pulled(1);
   double fine[9], error[4];
-  run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 1.0}, fine, NULL);
+  end_of_run(fine, NULL, system, .method = "rk4", .step = 1e-3, .duration = 1.0);
   for (int form = 0; form < 2; form++) {
     for (int k = 0; k < 4; k++) {
       double found[9];
-      run_to_end(
-          system,
-          (struct run){
-              .method = "backward-euler", .newton = forms[form], .step = 1.0 / (400 << k), .duration = 1.0},
-          found, NULL);
+      end_of_run(found, NULL, system, .method = "backward-euler", .newton = forms[form],
+                 .step = 1.0 / (400 << k), .duration = 1.0);
       error[k] = largest_difference(9, found, fine);
     }
     check_order(forms[form], 4, error, 0.85, 1.25);
@@ -112,11 +101,10 @@ TEST(strides_over_a_stiff_rod) {
   const double q[] = {0, 0, 0, 1, 0, 0}, down[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
-  small_springs(system, 1, ends, (struct springs){.stiffness = 1e8, .rest_length = 1});
+  springs_with(system, 1, ends, .stiffness = 1e8, .rest_length = 1);
   check_ok(hooke_system_set_gravity(system, down));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.2});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "backward-euler", .step = 0.2);
   const double *at = hooke_state_position(state), *v = hooke_state_velocity(state);
   double energy = hooke_system_energy(system, "total", at, v);
   for (int k = 0; k < 200; k++) {
@@ -141,8 +129,7 @@ TEST(gets_through_compression) {
              "structural.stiffness=50 shear.stiffness=50");
   check_ok(hooke_system_set_gravity(system, down));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = 0.02});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "backward-euler", .step = 0.02);
   check_ok(hooke_integrator_step(integrator, state, 50));
   const double energy =
       hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state));
@@ -153,9 +140,7 @@ TEST(work_is_counted) {
   owned_system *system = build_reference(find_reference("six-particles"));
   int64_t force[2], newton[2], linear[2], products[2];
   for (int form = 0; form < 2; form++) {
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = "backward-euler", .newton = forms[form], .step = 0.01});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "backward-euler", .newton = forms[form], .step = 0.01);
     check_ok(hooke_integrator_step(integrator, state, 100));
     force[form] = hooke_integrator_count(integrator, "force_evaluations");
     newton[form] = hooke_integrator_count(integrator, "nonlinear_iterations");
@@ -180,20 +165,16 @@ static hooke_system *cable(double damping) {
   const double q[] = {0, 0, 0, 0.9, 0, 0}, v[] = {0, 0, 0, 10, 0.5, 0};
   const int64_t ends[] = {0, 1};
   hooke_system *system = small_system(2, q, v, 1.0, 1);
-  small_springs(system, 1, ends,
-                (struct springs){.stiffness = 1, .damping = damping, .rest_length = 1, .pull_only = 1});
-  check_ok(hooke_system_commit(system));
-  return system;
+  springs_with(system, 1, ends, .stiffness = 1, .damping = damping, .rest_length = 1, .pull_only = 1);
+  return committed(system);
 }
 
 /* The step has no solution, and parts of it have. */
 TEST(a_step_is_split) {
   for (int form = 0; form < 2; form++) {
     owned_system *system = cable(1000);
-    owned_integrator *integrator = start_run(
-        system,
-        (struct run){.method = "backward-euler", .newton = forms[form], .step = 0.1, .duration = 1.0});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "backward-euler", .newton = forms[form], .step = 0.1,
+              .duration = 1.0);
     check_ok(hooke_integrator_run(integrator, state));
     assert_in_range(hooke_integrator_count(integrator, "nonlinear_failures"), 1, 1000);
     assert_int_equal(hooke_integrator_count(integrator, "steps"), 10);
@@ -205,9 +186,7 @@ TEST(a_step_is_split) {
 TEST(a_step_without_solution) {
   const double q[] = {0, 0, 0, 0.9, 0, 0}, v[] = {0, 0, 0, 10, 0.5, 0};
   owned_system *system = cable(1e12);
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "backward-euler", .step = 0.1, .duration = 1.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "backward-euler", .step = 0.1, .duration = 1.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_SOLVER_FAILED);
   check_message("no solution");
   check_message("t = 0 s");

@@ -44,8 +44,7 @@ static hooke_system *free_body(const double centre[3], const double velocity[3],
   }
   hooke_system *system = small_system(SIX, q, v, mass, 0);
   check_ok(hooke_system_add_body(system, "top", SIX, all, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Angular velocities about the body's own axes, from the rows alone. */
@@ -137,9 +136,7 @@ TEST(damping_of_bodies_is_not_solved_for) {
 
 /* Every method refuses a body, or has its order with one. */
 TEST(free_body_has_the_order_of_its_method) {
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *name = hooke_method_name(m);
-    if (!hooke_method_is_built(name)) continue;
+  for (const char *name = NULL; (name = next_method(name, hooke_method_is_built));) {
     if (hooke_method_is_suited(name, "bodies") != 1) {
       check_refuses_a_body(name);
       continue;
@@ -179,8 +176,7 @@ TEST(reference_follows_jacobi) {
 static double turning_time(const char *method, double step) {
   const double rotation[3] = {0.0, 1.0, 1e-3}, still[3] = {0.0, 0.0, 0.0};
   owned_system *system = free_body(AT, still, rotation);
-  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = step);
   double now[3], before = 1.0, t = 0.0;
   for (now[1] = 1.0; now[1] > 0.0; t = hooke_state_time(state)) {
     before = now[1];
@@ -218,8 +214,7 @@ struct drift {
 static struct drift drift_of(const char *method, double step, int64_t blocks) {
   const double still[3] = {0.0, 0.0, 0.0}, rotation[3] = {0.9123, 0.0777, 0.7654};
   owned_system *system = free_body(still, still, rotation);
-  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = step);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state), first[3], now[3];
   const double energy = hooke_system_energy(system, "total", q, v);
   struct drift drift = {0.0, {0.0, 0.0}};
@@ -279,8 +274,7 @@ static hooke_system *bar(int count, int pins, double angle, double *length) {
   check_ok(hooke_system_pin(system, pins, all));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_body(system, "bar", count, all, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* After the time K sqrt(l/g) a pendulum let go at an angle is at the bottom. */
@@ -289,14 +283,8 @@ static double angle_at_the_bottom(int count, int pins, const char *method, doubl
   double length, q[3 * 16];
   owned_system *system = bar(count, pins, angle, &length);
   const double quarter = gsl_sf_ellint_Kcomp(sin(0.5 * angle), GSL_PREC_DOUBLE) * sqrt(length / 9.81);
-  run_to_end(system,
-             (struct run){.method = method,
-                          .step = parts > 0.0 ? quarter / parts : 0.0,
-                          .duration = quarter,
-                          .every = quarter,
-                          .rtol = 1e-13,
-                          .atol = 1e-13},
-             q, NULL);
+  end_of_run(q, NULL, system, .method = method, .step = parts > 0.0 ? quarter / parts : 0.0,
+             .duration = quarter, .every = quarter, .rtol = 1e-13, .atol = 1e-13);
   return atan2(q[3 * (count - 1)], -q[3 * (count - 1) + 1]);
 }
 
@@ -325,7 +313,7 @@ TEST(three_pins_hold) {
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 0.0}));
   check_ok(hooke_system_add_body(system, NULL, 4, (int64_t[]){0, 1, 2, 3}, 0));
   check_ok(hooke_system_commit(system));
-  run_to_end(system, (struct run){.method = "backward-euler", .step = 0.1, .duration = 1.0}, q, NULL);
+  end_of_run(q, NULL, system, .method = "backward-euler", .step = 0.1, .duration = 1.0);
   check_same_bits(12, q, place);
 }
 
@@ -357,10 +345,8 @@ TEST(top_precesses_steadily) {
   double error[4];
   const double time = 0.5 * PI / w;
   for (int k = 0; k < 4; k++) { /* a quarter turn: the axle points along y */
-    run_to_end(
-        system,
-        (struct run){.method = "verlet", .step = time / ldexp(400.0, k), .duration = time, .every = time},
-        end, NULL);
+    end_of_run(end, NULL, system, .method = "verlet", .step = time / ldexp(400.0, k), .duration = time,
+               .every = time);
     double centre[3] = {0.0, 0.0, 0.0};
     for (int i = 0; i < 3 * RIM; i++)
       centre[i % 3] += end[i] / RIM;

@@ -46,16 +46,14 @@ static hooke_system *plate(double stiffness, double stretch) {
   owned_options *options = options_with("springs", "stiffness=%.17g rest_length=1", stiffness);
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
   check_ok(hooke_system_add_body(system, "plate", 5, body, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Energy after `steps` over that at first, with h omega as given. */
 static double energy_left(const char *method, double h_omega, int64_t steps) {
   const double stiffness = 1e6, step = h_omega / sqrt(stiffness / 1.25);
   owned_system *system = plate(stiffness, 1e-3);
-  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = step);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double before = hooke_system_energy(system, "total", q, v);
   check_ok(hooke_integrator_step(integrator, state, steps));
@@ -113,8 +111,7 @@ static hooke_system *chain(double stiffness, double damping, int pinned) {
   add_springs(system, 7, ends, stiffness, damping);
   check_ok(hooke_system_add_body(system, "bar", 3, bar, 0));
   check_ok(hooke_system_add_body(system, "block", 4, block, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Sums of m u and of m r x u of particles from `first` on, r from their centre of mass or from the first. */
@@ -146,8 +143,7 @@ static void add_up(const double *q, const double *u, int first, int count, int p
  * which there is not. */
 static void check_step(const hooke_system *system, double step, int pinned) {
   static const int first[] = {1, 2, 5, 6, 10}, count[] = {1, 3, 1, 4, 1};
-  owned_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = step});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "backward-euler", .step = step);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double start[2][3 * CHAIN], change[3 * CHAIN], before[6], after[6], pushed[6];
   memcpy(start[0], q, sizeof start[0]);
@@ -209,17 +205,11 @@ TEST(stiff_chains_are_solved) {
 TEST(one_iteration_has_the_order) {
   hooke_system *system = chain(200.0, 0.1, 0);
   double exact[3 * CHAIN], q[3 * CHAIN], error[2];
-  run_to_end(system, (struct run){.method = "rk4", .step = 1.0 / 65536, .duration = 0.125, .every = 0.125},
-             exact, NULL);
+  end_of_run(exact, NULL, system, .method = "rk4", .step = 1.0 / 65536, .duration = 0.125, .every = 0.125);
   for (int m = 0; m < METHODS; m++) {
     for (int k = 0; k < 2; k++) {
-      run_to_end(system,
-                 (struct run){.method = NAMES[m],
-                              .step = ldexp(1.0 / 4096, -k),
-                              .duration = 0.125,
-                              .every = 0.125,
-                              .newton = "one-iteration"},
-                 q, NULL);
+      end_of_run(q, NULL, system, .method = NAMES[m], .step = ldexp(1.0 / 4096, -k), .duration = 0.125,
+                 .every = 0.125, .newton = "one-iteration");
       error[k] = largest_difference(3 * CHAIN, q, exact);
     }
     check_between(log2(error[0] / error[1]), m == 0 ? 0.85 : 1.8, m == 0 ? 1.15 : 2.2);
@@ -241,8 +231,7 @@ TEST(momentum_is_kept) {
   check_ok(hooke_system_commit(system));
   for (int m = 0; m < METHODS; m++) {
     double before[6], after[6];
-    owned_integrator *integrator = start_run(system, (struct run){.method = NAMES[m], .step = 0.02});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = NAMES[m], .step = 0.02);
     const double *x = hooke_state_position(state), *u = hooke_state_velocity(state);
     hooke_system_momentum(system, u, before);
     hooke_system_angular_momentum(system, x, u, before + 3);

@@ -75,8 +75,7 @@ static hooke_system *bar_on_springs(double beta, double uneven) {
   check_ok(hooke_options_set_numbers(options, "damping", count, damping));
   check_ok(hooke_system_add_springs(system, "feet", count, ends, options));
   check_ok(hooke_system_add_body(system, "bar", BAR, body, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Heave and pitch about the centre of mass: M y'' + k0 y + k1 a = 0, I a'' + k1 y + k2 a = 0. */
@@ -160,15 +159,13 @@ static hooke_system *pendulum(int pins, double angle) {
 TEST(a_pendulum_swings_by_gravity) {
   const double w = sqrt(G), both[2] = {w, w}, tilted[2] = {sqrt(G * cos(0.4)), sqrt(G * cos(0.4))};
   for (int pins = 1; pins <= 2; pins++) {
-    hooke_system *system = pendulum(pins, 0.0);
-    check_ok(hooke_system_commit(system));
+    hooke_system *system = committed(pendulum(pins, 0.0));
     check_frequencies(system, 3 - pins, both);
     system = pendulum(pins, 0.4);
     check_ok(hooke_system_commit(system));
     check_frequencies(system, 3 - pins, tilted);
   }
-  owned_system *system = pendulum(1, 0.0);
-  check_ok(hooke_system_commit(system));
+  owned_system *system = committed(pendulum(1, 0.0));
   owned_measurement *limit = limit_of(system, "symplectic-euler,verlet,rk4", 1);
   for (int64_t k = 0; k < 3; k++)
     check_close(of_row(limit, k, "ratio"), 1.0, 1e-3);
@@ -178,8 +175,7 @@ TEST(a_pendulum_swings_by_gravity) {
 
 /* It falls by itself, at any step, and that is not a limit of the step. */
 TEST(a_pendulum_upside_down_is_said_to_tip) {
-  owned_system *system = pendulum(1, 3.14159265358979323846);
-  check_ok(hooke_system_commit(system));
+  owned_system *system = committed(pendulum(1, 3.14159265358979323846));
   owned_measurement *limit = limit_of(system, "verlet", 1);
   assert_int_equal(hooke_measurement_row_count(limit, "modes"), 0);
   check_close(hooke_measurement_number(limit, "limit", 0, "tipping"), 1.0, 0.0);
@@ -198,10 +194,9 @@ TEST(tension_holds_a_bar) {
                 (struct springs){.law = "length", .stiffness = kappa, .rest_length = 0.35});
   check_ok(hooke_system_add_body(system, "bar", 2, (int64_t[]){0, 1}, 0));
   check_ok(hooke_system_commit(system));
-  hooke_measurement *limit = limit_of(system, "symplectic-euler,rk4", 1);
+  owned_measurement *limit = limit_of(system, "symplectic-euler,rk4", 1);
   for (int64_t k = 0; k < 2; k++)
     check_close(of_row(limit, k, "ratio"), 1.0, 1e-3);
-  hooke_measurement_destroy(limit);
   check_frequencies(system, 5, (double[]){across, across, turn, turn, sqrt(2.0 * kappa / m)});
 }
 
@@ -278,9 +273,7 @@ TEST(why_names_the_spring_at_a_body) {
   find_bar_frequencies(frequency);
   hooke_measurement_destroy(limit_of(system, "verlet", 0)); /* skips without LAPACK */
   const double step = 2.4 / frequency[1];
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "verlet", .step = step, .duration = 1000.0 * step});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "verlet", .step = step, .duration = 1000.0 * step);
   for (int p = 0; p < BAR; p++)
     hooke_state_velocity(state)[3 * p + 1] = 1e-3;
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);

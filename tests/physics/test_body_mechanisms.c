@@ -36,8 +36,7 @@ static hooke_system *spinning_top(void) {
   check_ok(hooke_system_pin(system, 1, all + RIM));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, 0.0, -G}));
   check_ok(hooke_system_add_body(system, "top", TOP, all, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* The height u = cos(inclination) after t: u'^2 = (u0 - u) (b (1 - u^2) - a^2 (u0 - u)), a cubic whose roots
@@ -135,8 +134,7 @@ static hooke_system *governor(double stiffness) {
   check_ok(hooke_system_add_body(system, "left", ROD, (int64_t[]){0, 1, 2}, 0));
   check_ok(hooke_system_add_body(system, "right", ROD, (int64_t[]){3, 4, 5}, 0));
   check_ok(hooke_system_add_springs(system, "links", 2, (int64_t[]){1, 2 * ROD, ROD + 1, 2 * ROD}, link));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* With rigid links the angle x of the rods from the vertical is all: the slider is 2 l cos x below the
@@ -232,8 +230,7 @@ static hooke_system *linkage(double stiffness) {
   check_ok(hooke_system_add_body(system, "upper", ROD, (int64_t[]){0, 1, 2}, 0));
   check_ok(hooke_system_add_body(system, "lower", ROD, (int64_t[]){3, 4, 5}, 0));
   check_ok(hooke_system_add_springs(system, "joint", 1, (int64_t[]){2, 3}, joint));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* The double pendulum of two bars of 1 m, by Lagrange's equations in the angles from the vertical. */
@@ -292,8 +289,7 @@ static hooke_system *framed_cloth(double drag) {
   check_ok(hooke_system_add_body(system, "frame", FRAME_COUNT, frame, 0));
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -G, 0.0}));
   check_ok(hooke_system_set_drag(system, drag));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Largest change of a distance between two particles of the frame. */
@@ -322,7 +318,7 @@ TEST(framed_cloth_keeps_its_energy) {
   const double before = hooke_system_energy(system, "total", q0, hooke_state_velocity(start));
   double error[4], q[3 * N], v[3 * N];
   for (int k = 0; k < 4; k++) {
-    run_to_end(system, (struct run){.method = "verlet", .step = ldexp(1e-3, -k), .duration = 0.4}, q, v);
+    end_of_run(q, v, system, .method = "verlet", .step = ldexp(1e-3, -k), .duration = 0.4);
     error[k] = fabs(hooke_system_energy(system, "total", q, v) - before);
     check_between(bent(q0, q), 0.0, 1e-13);
   }
@@ -338,7 +334,7 @@ TEST(frame_hangs_in_balance) {
   double q[3 * N], v[3 * N], f[3 * N], force[3] = {0.0}, torque[3] = {0.0}, most = 0.0;
   int64_t frame[FRAME_COUNT];
   list_frame(frame);
-  run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 40.0}, q, v);
+  end_of_run(q, v, system, .method = "rk4", .step = 1e-3, .duration = 40.0);
   check_between(largest(3 * N, v), 0.0, 1e-8);
   check_ok(hooke_system_force(system, 0.0, q, v, f));
   for (int k = 0; k < FRAME_COUNT; k++) {

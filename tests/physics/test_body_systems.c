@@ -71,16 +71,14 @@ static hooke_system *cube(struct cube how) {
   return system;
 }
 
-static hooke_system *committed(struct cube how) {
-  hooke_system *system = cube(how);
-  check_ok(hooke_system_commit(system));
-  return system;
+static hooke_system *committed_cube(struct cube how) {
+  return committed(cube(how));
 }
 
 /* ---- orders with forces of every kind ---- */
 
 static void end_of(const hooke_system *system, const char *method, double step, double q[3 * CUBE]) {
-  run_to_end(system, (struct run){.method = method, .step = step, .duration = 1.0, .every = 1.0}, q, NULL);
+  end_of_run(q, NULL, system, .method = method, .step = step, .duration = 1.0, .every = 1.0);
 }
 
 TEST(hung_cube_has_the_order_of_its_method) {
@@ -96,7 +94,7 @@ TEST(hung_cube_has_the_order_of_its_method) {
                  {"tr-bdf2", 1.0 / 64, 1.85, 2.15},
                  {"implicit-midpoint", 1.0 / 64, 1.85, 2.15}};
   for (int damped = 0; damped < 2; damped++) {
-    owned_system *system = committed((struct cube){
+    owned_system *system = committed_cube((struct cube){
         .rigid = 1, .anchored = 1, .turning = 1, .drag = damped ? 0.1 : 0.0, .damping = damped ? 0.5 : 0.0});
     double exact[3 * CUBE], q[3 * CUBE], error[4];
     end_of(system, "rk4", 1.0 / 2048, exact);
@@ -113,16 +111,14 @@ TEST(hung_cube_has_the_order_of_its_method) {
 /* The acceleration of the particles is the second derivative of their motion. */
 TEST(acceleration_is_that_of_the_motion) {
   const double h = 2e-5;
-  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
+  owned_system *system = committed_cube((struct cube){.rigid = 1, .anchored = 1, .turning = 1, .drag = 0.1});
   owned_state *state = start_state(system);
   double a[3 * CUBE], v[2][3 * CUBE];
   check_ok(
       hooke_system_acceleration(system, 0.0, hooke_state_position(state), hooke_state_velocity(state), a));
   for (int back = 0; back < 2; back++) {
-    run_to_end(
-        system,
-        (struct run){.method = "rk4", .step = 0.5 * h, .duration = (back + 1) * h, .every = (back + 1) * h},
-        NULL, v[back]);
+    end_of_run(NULL, v[back], system, .method = "rk4", .step = 0.5 * h, .duration = (back + 1) * h,
+               .every = (back + 1) * h);
   }
   for (int i = 0; i < 3 * CUBE; i++) { /* from the start, one step and two steps */
     const double slope = (4.0 * v[0][i] - v[1][i] - 3.0 * hooke_state_velocity(state)[i]) / (2.0 * h);
@@ -153,8 +149,7 @@ TEST(bar_on_springs_has_its_limit) {
     check_ok(hooke_system_add_body(system, "bar", 5, ALL, 0));
     check_ok(hooke_system_commit(system));
     const double step = (above ? 1.01 : 0.99) * 2.0 * sqrt(m / k);
-    owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "verlet", .step = step);
     check_status(hooke_integrator_step(integrator, state, 1000), above ? HOOKE_DIVERGED : HOOKE_OK);
   }
 }
@@ -176,10 +171,9 @@ static int32_t keep(int64_t step, const hooke_state *state, void *ctx) {
 
 static struct path path_of(struct cube how, double step) {
   struct path path = {.frames = 0};
-  owned_system *system = committed(how);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "verlet", .step = step, .duration = 1.0, .every = 1.0 / FRAMES});
-  owned_state *state = start_state(system);
+  owned_system *system = committed_cube(how);
+  owned_run(integrator, state, system, .method = "verlet", .step = step, .duration = 1.0,
+            .every = 1.0 / FRAMES);
   check_ok(hooke_integrator_on_frame(integrator, keep, &path));
   check_ok(hooke_integrator_run(integrator, state));
   return path;
@@ -208,7 +202,7 @@ TEST(a_step_is_a_map_of_the_state) {
   const char *const methods[] = {"forward-euler", "symplectic-euler", "verlet",  "heun",
                                  "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint"};
   for (int damped = 0; damped < 2; damped++) {
-    owned_system *system = committed((struct cube){
+    owned_system *system = committed_cube((struct cube){
         .rigid = 1, .anchored = 1, .turning = 1, .damping = damped ? 0.3 : 0.0, .stiffness = 10.0});
     for (int m = 0; m < 8; m++) {
       const struct run run = {.method = methods[m], .step = 1.0 / 128, .duration = 0.25, .every = 0.25};
@@ -265,7 +259,7 @@ TEST(threads_do_not_change_bits) {
 /* ---- what is dropped, and sums over particles ---- */
 
 TEST(inner_springs_are_dropped) {
-  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
+  owned_system *system = committed_cube((struct cube){.rigid = 1, .anchored = 1, .stiffness = 10.0});
   assert_int_equal(hooke_system_count(system, "springs"), 0);
   assert_int_equal(hooke_system_count(system, "inside_bodies"), PAIRS);
   assert_int_equal(hooke_system_count(system, "dropped_springs"), 0);
@@ -275,7 +269,7 @@ TEST(inner_springs_are_dropped) {
 }
 
 TEST(motion_adds_up_to_energy) {
-  owned_system *system = committed((struct cube){.rigid = 1, .turning = 1});
+  owned_system *system = committed_cube((struct cube){.rigid = 1, .turning = 1});
   owned_state *state = start_state(system);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   double inertia[4], motion[13], momentum[3], energy = 0.0;
@@ -347,10 +341,10 @@ TEST(bad_bodies_are_refused) {
 }
 
 TEST(unknown_is_said) {
-  owned_system *system = committed((struct cube){.rigid = 1, .anchored = 1});
+  owned_system *system = committed_cube((struct cube){.rigid = 1, .anchored = 1});
   owned_state *state = start_state(system);
   owned_options *options = run_options((struct run){.method = "shardlow", .step = 0.01, .duration = 1.0});
-  hooke_integrator *integrator = NULL;
+  owned_integrator *integrator = NULL;
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("shardlow does not know rigid bodies yet");
   set_options(options, "method=tr-bdf2 linear_solver=direct");
@@ -360,13 +354,12 @@ TEST(unknown_is_said) {
   check_ok(hooke_step_bound(system, "verlet", hooke_state_position(state), &bound));
   assert_true(isnan(bound));
   hooke_state_velocity(state)[0] += 0.1;
-  integrator = start_run(system, (struct run){.method = "verlet", .step = 0.01});
+  integrator = start_with(system, .method = "verlet", .step = 0.01);
   check_status(hooke_integrator_step(integrator, state, 1), HOOKE_BAD_VALUE);
   check_message("is rigid, and this particle is");
   hooke_state_velocity(state)[0] -= 0.1;
   check_ok(hooke_integrator_step(integrator, state, 1));
   check_status(hooke_integrator_put(integrator, 1, ALL, hooke_state_position(state), NULL), HOOKE_UNSUITED);
-  hooke_integrator_destroy(integrator);
 }
 
 /* A driven body follows its drive. */
@@ -375,8 +368,7 @@ TEST(driven_bodies_follow) {
   double q[3 * CUBE], corner[3];
   check_ok(hooke_system_drive_harmonic(system, CUBE, ALL, (double[]){0, 0.5, 0}, 1.0, 0.0));
   check_ok(hooke_system_commit(system));
-  run_to_end(system, (struct run){.method = "verlet", .step = 0.05, .duration = 0.25, .every = 0.25}, q,
-             NULL);
+  end_of_run(q, NULL, system, .method = "verlet", .step = 0.05, .duration = 0.25, .every = 0.25);
   for (int p = 0; p < CUBE; p++) {
     place_corner(p, corner);
     corner[1] += 0.5;

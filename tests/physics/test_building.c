@@ -47,7 +47,7 @@ static void refuse_springs(int64_t count, const int64_t *ends, const hooke_optio
   check_message(value);
   /* unchanged: it accepts a valid group and commits */
   const int64_t good[] = {0, 2};
-  small_springs(system, 1, good, (struct springs){.stiffness = 1, .rest_length = -1});
+  springs_with(system, 1, good, .stiffness = 1, .rest_length = -1);
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_count(system, "springs"), 1);
   assert_int_equal(hooke_system_group_count(system, "springs"), 1);
@@ -284,8 +284,7 @@ static hooke_system *built_of(const struct kind *kind, int one_by_one, const dou
     owned_options *options = numbers_of(kind, k, count);
     check_ok(kind->add(system, count, of_members + size * k, options));
   }
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Unequal numbers in arrays act as when they are given one by one. */

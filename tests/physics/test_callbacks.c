@@ -64,8 +64,7 @@ static hooke_system *linear_system(const char *kind, hooke_force_product *produc
   if (strcmp(kind, "overdamped") == 0) check_ok(hooke_system_set_drag(system, 5.0));
   if (strcmp(kind, "bodies") == 0) check_ok(hooke_system_add_body(system, NULL, 3, body, 0));
   check_ok(hooke_system_set_force(system, linear_force, product, linear));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* The state after a few steps; the number of products is returned. */
@@ -74,8 +73,8 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
   struct linear linear = {.coordinates = strcmp(kind, "coordinates") == 0};
   hooke_force_product *product = with ? linear_product : NULL;
   owned_system *system = linear.coordinates ? NULL : linear_system(kind, product, &linear);
-  hooke_integrator *it;
-  hooke_state *state;
+  owned_integrator *it = NULL;
+  owned_state *state = NULL;
   owned_options *options = run_options(run);
   if (system) {
     check_ok(hooke_integrator_create(system, options, &it));
@@ -91,8 +90,6 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
   memset(end, 0, STATE * sizeof *end);
   memcpy(end, hooke_state_position(state), size * sizeof *end);
   memcpy(end + size, hooke_state_velocity(state), size * sizeof *end);
-  hooke_integrator_destroy(it);
-  hooke_state_destroy(state);
   return linear.product_calls;
 }
 
@@ -157,7 +154,7 @@ TEST(test_what_a_callback_sees) {
   struct shown shown = {0};
   double a[6];
   owned_system *system = small_system(2, q, v, 2.0, 0);
-  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 4, .rest_length = 1});
+  springs_with(system, 1, ends, .law = "length", .stiffness = 4, .rest_length = 1);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.5));
   check_ok(hooke_system_set_force(system, look, NULL, &shown));
@@ -208,17 +205,14 @@ static hooke_system *spring_and_pins(hooke_force *force, void *ctx) {
     pinned[p] = p;
   hooke_system *system = small_system(FAR, q, NULL, 1.0, 0);
   check_ok(hooke_system_pin(system, FAR - 1, pinned));
-  small_springs(system, 1, ends, (struct springs){.stiffness = 30, .rest_length = 0.8});
+  springs_with(system, 1, ends, .stiffness = 30, .rest_length = 0.8);
   if (force) check_ok(hooke_system_set_force(system, force, NULL, ctx));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Ends a run of some method, and gives its memory back. */
 static void go(const hooke_system *system, const char *method, double end[6]) {
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = method, .step = 0.01, .duration = 0.2});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = 0.01, .duration = 0.2);
   check_ok(hooke_integrator_run(integrator, state));
   memcpy(end, hooke_state_position(state) + 3 * (FAR - 1), 3 * sizeof *end);
   memcpy(end + 3, hooke_state_velocity(state) + 3 * (FAR - 1), 3 * sizeof *end);
@@ -332,16 +326,14 @@ static hooke_system *pulled_system(const char *problem, struct stopper *stopper)
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, driven = 0, body[] = {3, 4, 5};
   const int overdamped = strcmp(problem, "overdamped") == 0;
   hooke_system *system = small_system(POINTS, q, NULL, 1.0, 0);
-  small_springs(system, 3, ends,
-                (struct springs){.stiffness = 4, .damping = overdamped ? 0.0 : 0.3, .rest_length = 1});
+  springs_with(system, 3, ends, .stiffness = 4, .damping = overdamped ? 0.0 : 0.3, .rest_length = 1);
   if (overdamped) check_ok(hooke_system_set_dynamics(system, problem));
   if (overdamped) check_ok(hooke_system_set_drag(system, 5.0));
   if (strcmp(problem, "bodies") == 0) check_ok(hooke_system_add_body(system, "plate", 3, body, 0));
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_drive_callback(system, 1, &driven, wander, stopper));
   check_ok(hooke_system_set_force(system, pull_back, stopper->product, stopper));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* At the start of a problem; the system is NULL for coordinates and x' = phi(t, x). */
@@ -423,11 +415,10 @@ static void check_adaptive_stop(const char *problem, const char *method, struct 
 static void check_stops(const char *problem, const char *method, hooke_force_product *product) {
   struct stopper stopper = {.stop = -1, .product = product};
   owned_system *system;
-  hooke_integrator *it;
+  owned_integrator *it = NULL;
   owned_state *state;
   start_pulled(problem, method, &system, &it, &state, &stopper);
   state_numbers(state, stopper.whole[0]);
-  hooke_integrator_destroy(it);
   if (is_fixed_step(method)) check_stop(problem, method, &stopper);
   const int64_t calls = is_fixed_step(method) ? stopper.calls : 40;
   assert_true(calls >= WHOLE);
@@ -441,9 +432,8 @@ TEST(test_every_call_may_stop) {
                                          "coordinates"};
   for (size_t k = 0; k < sizeof problems / sizeof problems[0]; k++) {
     const char *kind = strcmp(problems[k], "coordinates") == 0 ? "second-order" : problems[k];
-    for (int64_t m = 0; m < hooke_method_count(); m++) {
-      const char *method = hooke_method_name(m);
-      if (!hooke_method_is_built(method) || hooke_method_is_suited(method, kind) != 1) continue;
+    for (const char *method = NULL; (method = next_method(method, hooke_method_is_built));) {
+      if (hooke_method_is_suited(method, kind) != 1) continue;
       check_stops(problems[k], method, NULL);
       if (is_implicit(method)) check_stops(problems[k], method, pull_back_product);
     }

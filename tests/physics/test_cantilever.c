@@ -28,8 +28,7 @@ static void pin_first(hooke_system *system, int64_t count) {
 static hooke_system *commit(hooke_system *system) {
   const double down[3] = {0.0, 0.0, -GRAVITY};
   check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static hooke_system *new_rope(int segments, const char *of_mass, double mass, double piece) {
@@ -59,8 +58,8 @@ static hooke_system *new_sheet(int along, int across) {
 static void fill_band(const hooke_system *system, const double *q, const double *v, int64_t held,
                       int64_t width, double *band) {
   const int64_t n = hooke_system_particle_count(system), count = hooke_system_count(system, "blocks");
-  int64_t *row_start = new_block(n + 1, (int64_t)sizeof(int64_t)),
-          *column = new_block(count, (int64_t)sizeof(int64_t));
+  owned_wholes *row_start = new_block(n + 1, (int64_t)sizeof(int64_t)),
+               *column = new_block(count, (int64_t)sizeof(int64_t));
   owned_doubles *blocks = new_doubles(9 * count);
   check_ok(hooke_system_derivative_pattern(system, row_start, column));
   check_ok(hooke_system_derivative_blocks(system, q, v, blocks, NULL));
@@ -75,8 +74,6 @@ static void fill_band(const hooke_system *system, const double *q, const double 
       }
     }
   }
-  free(row_start);
-  free(column);
 }
 
 /* x = A^-1 x by Cholesky, in place of the band. */
@@ -148,8 +145,7 @@ static hooke_system *clamped_rope(int segments, int by_tip) {
   owned_options *load = options_with("loads", "force=0,0,%.17g", -pull);
   const int64_t tip = segments;
   check_ok(hooke_system_add_loads(rope, 1, &tip, load));
-  check_ok(hooke_system_commit(rope));
-  return rope;
+  return committed(rope);
 }
 
 /* With an error that scales with the square of a piece. */
@@ -193,8 +189,7 @@ TEST(clamped_sheets_sink_as_ropes_do) {
         commit(small_part(NULL, "cloth", "sheet", "%s density=%.17g bending=%.17g structural.stiffness=1e5",
                           sides[side], DENSITY, stiffness()));
     double q[3 * 4 * 13], lowest = 0.0, beyond = 0.0; /* where the sheet is lowest */
-    run_to_end(sheet, (struct run){.method = "backward-euler", .step = 0.5, .duration = 5.0, .every = 5.0}, q,
-               NULL);
+    end_of_run(q, NULL, sheet, .method = "backward-euler", .step = 0.5, .duration = 5.0, .every = 5.0);
     for (int p = 0; p < 4 * 13; p++)
       if (q[3 * p + 2] < lowest) lowest = q[3 * p + 2], beyond = q[3 * p];
     check_between(beyond, 0.99, 1.0);
@@ -221,8 +216,7 @@ TEST(backward_euler_comes_to_rest_there) {
   const double expected = tip_of(16);
   owned_system *system = new_rope(16, "density", DENSITY, LENGTH / 15.5);
   double q[3 * 17];
-  run_to_end(system, (struct run){.method = "backward-euler", .step = 0.5, .duration = 5.0, .every = 5.0}, q,
-             NULL);
+  end_of_run(q, NULL, system, .method = "backward-euler", .step = 0.5, .duration = 5.0, .every = 5.0);
   check_close(-q[3 * 17 - 1], expected, 1e-6 * expected);
 }
 

@@ -14,8 +14,7 @@ static hooke_system *row_of_three(void) {
   owned_options *options = options_with("springs", "stiffness=100");
   check_ok(hooke_system_pin(system, 1, pinned));
   check_ok(hooke_system_add_springs(system, "held", 1, ends, options));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static double count_of(const hooke_measurement *check, const char *what) {

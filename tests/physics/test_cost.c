@@ -33,8 +33,7 @@ static hooke_system *open_oscillators(double damping, double drag, int gravity, 
 
 static hooke_system *two_oscillators(double damping, double drag, int gravity, int callback) {
   hooke_system *system = open_oscillators(damping, drag, gravity, callback);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static hooke_measurement *cost_within(double budget, const hooke_system *system, struct run run,
@@ -45,9 +44,8 @@ static hooke_measurement *cost_within(double budget, const hooke_system *system,
   check_ok(hooke_measurement_create("cost", system, given, options, &cost));
   hooke_options_destroy(given);
   hooke_options_destroy(options);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_measurement_run(cost, state));
-  hooke_state_destroy(state);
   return cost;
 }
 
@@ -134,7 +132,7 @@ TEST(limits_are_those_without) {
   static const int64_t ends[] = {0, 1};
   static const double q[] = {0, 0, 0, 1, 0, 0};
   system = small_system(2, q, NULL, 1.0, 1);
-  small_springs(system, 1, ends, (struct springs){.stiffness = 4.0, .rest_length = -1.0});
+  springs_with(system, 1, ends, .stiffness = 4.0, .rest_length = -1.0);
   check_ok(hooke_system_commit(system));
   cost = cost_of(system, (struct run){.method = "verlet", .step = 1e-3}, 1);
   check_close(hooke_measurement_number(cost, "cost", 0, "step_limit"), 1.0, 1e-3);
@@ -224,20 +222,18 @@ TEST(a_clamped_rope_has_the_cost_of_its_bending) {
       options_with("rope", "from=0,0,0 to=1,0,0 segments=4 mass=1 bending=0.2 clamped=start,end");
   check_ok(hooke_system_add_part(system, "rope", "beam", rope, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  hooke_measurement *cost = cost_of(system, (struct run){.method = "verlet", .step = 1e-4}, 1);
+  owned_measurement *cost = cost_of(system, (struct run){.method = "verlet", .step = 1e-4}, 1);
   assert_int_equal(hooke_measurement_row_count(cost, "rows"), 3);
-  hooke_measurement_destroy(cost);
 }
 
 TEST(wrong_calls) {
   owned_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
   owned_state *state = start_state(other);
-  hooke_measurement *cost = NULL;
+  owned_measurement *cost = NULL;
   open = new_system();
   check_status(hooke_measurement_create("cost", open, NULL, NULL, &cost), HOOKE_BAD_CALL);
   check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
   check_status(hooke_measurement_run(cost, state), HOOKE_BAD_VALUE);
   check_message("does not fit");
   assert_true(isnan(hooke_measurement_number(cost, "cost", 0, "step_limit")));
-  hooke_measurement_destroy(cost);
 }

@@ -17,8 +17,7 @@ static hooke_system *oscillator(double e, const char *words) {
   const int64_t ends[2] = {0, 1};
   hooke_system *system = small_system(2, place, NULL, 2.0, 1);
   small_group(system, "springs", "curved", 1, ends, "rest_length=10 %s", words);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* The arithmetic-geometric mean of 1 and x. */
@@ -38,10 +37,10 @@ TEST(a_hardening_spring_has_the_period_of_an_elliptic_integral) {
   const double period = 2.0 * pi / mean_of(sqrt(1.0 - k2)) / sqrt(w);
   owned_system *system = oscillator(1.0, "law=length curve.coefficients=3,0,5");
   double q[6], v[6];
-  run_to_end(system, (struct run){.method = "rk4", .step = period / 2000.0, .duration = period}, q, v);
+  end_of_run(q, v, system, .method = "rk4", .step = period / 2000.0, .duration = period);
   check_close(q[3], 11.0, 1e-11);
   check_close(v[3], 0.0, 1e-9);
-  run_to_end(system, (struct run){.method = "rk4", .step = period / 2000.0, .duration = period / 4.0}, q, v);
+  end_of_run(q, v, system, .method = "rk4", .step = period / 2000.0, .duration = period / 4.0);
   check_close(q[3], 10.0, 1e-10);
 }
 
@@ -61,7 +60,7 @@ TEST(the_chain_of_fermi_pasta_ulam_and_tsingou) {
   small_group(system, "springs", "chain", N + 1, ends,
               "law=length rest_length=%.17g curve.coefficients=1,0.25,0", apart);
   check_ok(hooke_system_commit(system));
-  run_to_end(system, (struct run){.method = "rk4", .step = 0.05, .duration = 1000.0}, q, v);
+  end_of_run(q, v, system, .method = "rk4", .step = 0.05, .duration = 1000.0);
   for (int mode = 1; mode <= 3; mode++) {
     const double omega = 2.0 * sin(pi * mode / 2.0 / (N + 1));
     double a = 0.0, b = 0.0;
@@ -88,8 +87,7 @@ static hooke_system *net(uint64_t seed, double damping, const char *words) {
   }
   hooke_system *system = small_system(N, place, NULL, 0.5, 1);
   small_group(system, "springs", "net", SPRINGS, ends, "rest_scale=0.8 damping=%.17g %s", damping, words);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* In every method, in all of its ways: explicit, solved, by dampers one after the other, with error control.
@@ -128,10 +126,8 @@ TEST(forces_have_the_bits_of_the_formula) {
   check_ok(hooke_system_force(system, 0.0, q, v, force));
   check_same_bits(6, force, expected);
   owned_system *all = net(2, 0.1, "curve.coefficients=40,7,3");
-  run_to_end(all, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1, .threads = 1}, one,
-             ignored);
-  run_to_end(all, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1, .threads = 2}, two,
-             ignored);
+  end_of_run(one, ignored, all, .method = "verlet", .step = 1e-3, .duration = 0.1, .threads = 1);
+  end_of_run(two, ignored, all, .method = "verlet", .step = 1e-3, .duration = 0.1, .threads = 2);
   check_same_bits(24, one, two);
   char words[256];
   snprintf(words, sizeof words, "curve.strain=-0.2,-0.1,0.1,0.4 curve.force=%.17g,%.17g,%.17g,%.17g",
@@ -139,8 +135,8 @@ TEST(forces_have_the_bits_of_the_formula) {
   owned_system *product = net(2, 0.1, words);
   owned_system *scaled =
       net(2, 0.1, "curve.strain=-0.2,-0.1,0.1,0.4 curve.force=-0.56,4.92,5.06,17.98 stiffness_scale=1.14");
-  run_to_end(scaled, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1}, one, ignored);
-  run_to_end(product, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.1}, two, ignored);
+  end_of_run(one, ignored, scaled, .method = "verlet", .step = 1e-3, .duration = 0.1);
+  end_of_run(two, ignored, product, .method = "verlet", .step = 1e-3, .duration = 0.1);
   check_same_bits(24, one, two);
 }
 
@@ -182,9 +178,7 @@ TEST(the_bound_is_that_of_the_steepest_part) {
   const double bound = bound_at_start(system, "verlet");
   /* the slope at 2 m, by three points, is 1.5 times 100 less half of 1 */
   check_close(bound, 2.0 / sqrt(149.5 / 2.0), 1e-12);
-  owned_state *state = start_state(system);
-  owned_integrator *run =
-      start_run(system, (struct run){.method = "verlet", .step = 0.5 * bound, .duration = 500.0 * bound});
+  owned_run(run, state, system, .method = "verlet", .step = 0.5 * bound, .duration = 500.0 * bound);
   hooke_state_velocity(state)[3] = 40.0;
   check_ok(hooke_integrator_run(run, state));
 }
@@ -238,7 +232,7 @@ TEST(a_scene_that_begins_in_a_well_goes_on) {
   const double place[6] = {0, 0, 0, 10.7, 0, 0};
   assert_true(hooke_system_energy(system, "potential", place, NULL) < -1.0);
   double q[6], v[6];
-  run_to_end(system, (struct run){.method = "verlet", .step = 0.1, .duration = 100.0, .every = 0.1}, q, v);
+  end_of_run(q, v, system, .method = "verlet", .step = 0.1, .duration = 100.0, .every = 0.1);
   check_close(q[3], 10.7565717916655548, 1e-8);
 }
 
@@ -247,9 +241,7 @@ TEST(a_scene_that_begins_in_a_well_goes_on) {
 TEST(what_a_falling_line_pushes_away_is_explained) {
   owned_system *system =
       oscillator(0.01, "curve.elongation=0,1,2 curve.force=0,-400,-800 curve.falling=true");
-  owned_state *state = start_state(system);
-  owned_integrator *run =
-      start_run(system, (struct run){.method = "verlet", .step = 0.5, .duration = 1000.0});
+  owned_run(run, state, system, .method = "verlet", .step = 0.5, .duration = 1000.0);
   check_status(hooke_integrator_run(run, state), HOOKE_DIVERGED);
   owned_measurement *why = NULL;
   check_ok(explain_run(run, &why));
@@ -269,6 +261,6 @@ TEST(an_overdamped_cube_decays_by_its_power) {
   small_group(system, "springs", "cube", 1, ends, "law=length rest_length=10 curve.coefficients=0,0,3");
   check_ok(hooke_system_commit(system));
   double q[6], v[6];
-  run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 2.0}, q, v);
+  end_of_run(q, v, system, .method = "rk4", .step = 1e-3, .duration = 2.0);
   check_close(q[3], 10.0 + 1.0 / sqrt(1.0 + 2.0 * 3.0 * 2.0 / 0.5), 1e-10);
 }

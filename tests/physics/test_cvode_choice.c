@@ -29,12 +29,11 @@ static hooke_system *rope(double stiffness, double damping) {
     bends[2 * k + 1] = k + 2;
   }
   hooke_system *system = small_system(PARTICLES, position, NULL, 0.25 / PARTICLES, 1);
-  small_springs(system, SEGMENTS, ends, (struct springs){NULL, stiffness, damping, -1.0, 0});
+  springs_with(system, SEGMENTS, ends, NULL, stiffness, damping, -1.0, 0);
   small_springs(system, SEGMENTS - 1, bends, (struct springs){NULL, 2.0, 0.01, -1.0, 0});
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.2));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Options of a run; max_order 0: not given. */

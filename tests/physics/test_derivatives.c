@@ -99,7 +99,7 @@ static void dense(const struct blocks *blocks, const double *values, double *mat
 
 TEST(test_pattern) {
   owned_law_scene scene;
-  struct blocks blocks;
+  owned(release_blocks) struct blocks blocks;
   law_scene_create(&laws[0], 9, &scene);
   take_blocks(&scene, &blocks);
   assert_int_equal(blocks.row_start[0], 0);
@@ -113,7 +113,6 @@ TEST(test_pattern) {
     }
     assert_int_equal(diagonal, 1);
   }
-  release_blocks(&blocks);
 }
 
 /* Blocks times unit vectors are the products with unit vectors; contributions of a callback are in the
@@ -124,7 +123,7 @@ TEST(test_blocks_are_products) {
     /* friction by N is not symmetric, and not in blocks */
     if (laws[k].callback || (laws[k].obstacles && laws[k].damped)) continue;
     owned_law_scene scene;
-    struct blocks blocks;
+    owned(release_blocks) struct blocks blocks;
     double unit[LAW_SIZE], product[LAW_SIZE], *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
     law_scene_create(&laws[k], 21, &scene);
     take_blocks(&scene, &blocks);
@@ -152,7 +151,6 @@ TEST(test_blocks_are_products) {
     check_ok(hooke_system_derivative_blocks_at(scene.system, LAW_TIME, scene.q, scene.v, NULL, again));
     check_same_bits(9 * blocks.count, again, blocks.dfdv);
     free(matrix);
-    release_blocks(&blocks);
   }
 }
 
@@ -190,7 +188,7 @@ static double asymmetry(const double *matrix) {
 TEST(test_symmetry) {
   for (int k = 0; k < LAW_COUNT; k++) {
     owned_law_scene scene;
-    struct blocks blocks;
+    owned(release_blocks) struct blocks blocks;
     owned_doubles *matrix = new_doubles(LAW_SIZE * LAW_SIZE);
     law_scene_create(&laws[k], 31, &scene);
     take_blocks(&scene, &blocks);
@@ -202,6 +200,5 @@ TEST(test_symmetry) {
       check_between(asymmetry(matrix), 1e-3 * size, 10.0 * size);
     else
       check_between(asymmetry(matrix), 0.0, 1e-14 * size);
-    release_blocks(&blocks);
   }
 }

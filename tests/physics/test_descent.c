@@ -46,8 +46,7 @@ static hooke_system *open_rope(double rest) {
 static hooke_system *sagging_rope(void) {
   hooke_system *system = open_rope(1.0);
   check_ok(hooke_system_pin(system, 2, (int64_t[]){0, ROPE - 1}));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 enum { SIDE = 5, CELLS = SIDE * SIDE, MOST_SPRINGS = 4 * CELLS };
@@ -75,8 +74,7 @@ static hooke_system *random_sheet(uint64_t seed) {
   add_springs(system, count, ends, pow(10.0, random_between(&random, 0.0, 6.0)),
               random_between(&random, 0.5, 1.6));
   check_ok(hooke_system_pin(system, 1 + (int64_t)(seed % 3), (int64_t[]){0, SIDE - 1, CELLS - 1}));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* ---- energy ---- */
@@ -195,8 +193,7 @@ TEST(test_driven) {
   check_ok(hooke_system_drive_harmonic(system, 1, &end, (double[]){-0.1, 0.0, 0.0}, 0.25, 0.0));
   check_ok(hooke_system_commit(system));
   for (double step = 1e-3; step < 2.0; step *= 4.0) {
-    owned_integrator *it = start_run(system, (struct run){.method = METHODS[0], .step = step});
-    owned_state *state = start_state(system);
+    owned_run(it, state, system, .method = METHODS[0], .step = step);
     double *q = hooke_state_position(state), old[3 * ROPE];
     for (int k = 0; k < 8; k++) {
       double moved = 0.0;
@@ -238,8 +235,7 @@ static hooke_system *pressed_cloth(void) {
   owned_options *part = options_with("cloth", "size=104,104 edges=1,0,0,0,1,0 mass=1 pinned=corners "
                                               "structural.stiffness=1e3 structural.rest_scale=1.02");
   check_ok(hooke_system_add_part(system, "cloth", NULL, part, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 TEST(test_threads) {
@@ -247,10 +243,8 @@ TEST(test_threads) {
   const int64_t numbers = 3 * hooke_system_particle_count(system);
   double *q[2];
   for (int k = 0; k < 2; k++) {
-    owned_state *state = start_state(system);
-    owned_integrator *it = start_run(
-        system,
-        (struct run){.method = METHODS[1], .step = 1e-3, .threads = 1 + k, .newton_tolerance = BY_DEFAULT});
+    owned_run(it, state, system, .method = METHODS[1], .step = 1e-3, .threads = 1 + k,
+              .newton_tolerance = BY_DEFAULT);
     check_ok(hooke_integrator_step(it, state, 1));
     q[k] = new_doubles(numbers);
     memcpy(q[k], hooke_state_position(state), (size_t)numbers * sizeof(double));

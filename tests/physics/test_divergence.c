@@ -54,10 +54,8 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
                               int64_t steps, int64_t stride) {
   const struct verdict expected = predict(system, gravity, method, h, steps, stride);
   const int64_t size = 3 * hooke_system_particle_count(system);
-  owned_integrator *integrator = start_run(
-      system,
-      (struct run){.method = method, .step = h, .duration = (double)steps * h, .every = (double)stride * h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = h, .duration = (double)steps * h,
+            .every = (double)stride * h);
   const int32_t status = hooke_integrator_run(integrator, state);
   if (expected.step == 0) {
     assert_int_equal(status, HOOKE_OK);
@@ -72,8 +70,7 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
       assert_true(isfinite(q[k]) && isfinite(v[k]));
     if (expected.good > 0) { /* the kept state is the one of that time, to the bit */
       owned_doubles *same = new_doubles(size);
-      run_to_end(system, (struct run){.method = method, .step = h, .duration = (double)expected.good * h},
-                 same, NULL);
+      end_of_run(same, NULL, system, .method = method, .step = h, .duration = (double)expected.good * h);
       check_same_bits(size, q, same);
     }
   }
@@ -97,9 +94,8 @@ TEST(test_step_above_the_limit) {
 /* Between frames the check comes every 1000 steps. */
 TEST(test_check_every_thousand) {
   owned_system *system = small_oscillator(10.0);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "forward-euler", .step = 0.01, .duration = 30.0, .every = 30.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "forward-euler", .step = 0.01, .duration = 30.0,
+            .every = 30.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   check_close(hooke_integrator_number(integrator, "diverged_at"), 10.0, 0.0);
   check_close(hooke_state_time(state), 0.0, 0.0);
@@ -145,7 +141,7 @@ TEST(test_falling_is_not_diverging) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 0);
-  small_springs(system, 1, ends, (struct springs){.stiffness = 100, .rest_length = 0.999});
+  springs_with(system, 1, ends, .stiffness = 100, .rest_length = 0.999);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
   assert_int_equal(predict(system, gravity, "forward-euler", 1e-3, 3000, 10).step, 0);
@@ -161,7 +157,7 @@ TEST(test_first_step_of_a_fall) {
   const int64_t ends[] = {0, 1};
   for (double h = 1.0; h > 1e-6; h /= 8.0) {
     owned_system *system = small_system(2, q, NULL, 1.0, 0);
-    small_springs(system, 1, ends, (struct springs){.stiffness = 1, .rest_length = 1.0});
+    springs_with(system, 1, ends, .stiffness = 1, .rest_length = 1.0);
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_commit(system));
     compare_with_rule(system, gravity, "forward-euler", h, 1000, 1);
@@ -186,9 +182,8 @@ static int32_t run_pushed(double strength, double *diverged_at, double *end) {
   owned_system *system = small_system(1, q, NULL, 1.0, 0);
   check_ok(hooke_system_set_force(system, push, NULL, from));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.0625, .duration = 1.0, .every = 0.125});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.0625, .duration = 1.0,
+            .every = 0.125);
   const int32_t status = hooke_integrator_run(integrator, state);
   *diverged_at = hooke_integrator_number(integrator, "diverged_at");
   *end = hooke_state_time(state);

@@ -13,7 +13,7 @@ static hooke_system *driven_pair(void) {
   const double q[] = {0.25, -0.5, 1.0, 1.25, -0.5, 1.0};
   const int64_t ends[] = {0, 1};
   hooke_system *system = small_system(2, q, NULL, 1.0, 0);
-  small_springs(system, 1, ends, (struct springs){.stiffness = 40, .damping = 0.5, .rest_length = 1});
+  springs_with(system, 1, ends, .stiffness = 40, .damping = 0.5, .rest_length = 1);
   return system;
 }
 
@@ -42,14 +42,10 @@ static int32_t compare_motion(int64_t step, const hooke_state *state, void *ctx)
 
 static void follow(hooke_system *system, expected_motion *motion) {
   check_ok(hooke_system_commit(system));
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (hooke_method_is_built(method) != 1) continue;
+  for (const char *method = NULL; (method = next_method(method, hooke_method_is_built));) {
     struct watch watch = {motion, 0};
     double before[6];
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = method, .step = 1e-3, .duration = 2.0, .every = 0.01});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = method, .step = 1e-3, .duration = 2.0, .every = 0.01);
     memcpy(before, hooke_state_position(state), sizeof before);
     check_ok(hooke_integrator_on_frame(integrator, compare_motion, &watch));
     check_ok(hooke_integrator_run(integrator, state));
@@ -151,8 +147,7 @@ TEST(test_table) {
 /* Position and velocity of the driven particle at time t, from the state after a step that ends there. */
 static void place_at(const hooke_system *system, double t, double *q, double *v) {
   const double h = 0x1p-10;
-  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = h);
   hooke_state_set_time(state, t - h);
   check_ok(hooke_integrator_step(integrator, state, 1));
   memcpy(q, hooke_state_position(state), 3 * sizeof(double));

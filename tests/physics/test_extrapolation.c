@@ -25,7 +25,7 @@ static double worst_error(const struct reference *reference, long double toleran
   owned_system *system = build_reference(reference);
   owned_state *state = start_state(system);
   const int64_t size = 3 * reference->particle_count;
-  struct canonical canonical;
+  owned_canonical canonical;
   canonical_create(system, &canonical);
   canonical.gravity = reference->gravity;
   const double *q = hooke_state_position(state);
@@ -42,7 +42,6 @@ static double worst_error(const struct reference *reference, long double toleran
     t = true->time;
   }
   free(y);
-  canonical_destroy(&canonical);
   return (double)worst;
 }
 
@@ -57,14 +56,8 @@ TEST(test_solutions) {
 
 static void compare_forces(uint64_t seed, int32_t features) {
   owned_random_scene scene;
-  random_scene_create((struct random_scene_request){.seed = seed,
-                                                    .particles = 40,
-                                                    .springs = 90,
-                                                    .triples = 12,
-                                                    .tetrahedra = 12,
-                                                    .anchors = 12,
-                                                    .features = features},
-                      &scene);
+  random_scene_with(&scene, .seed = seed, .particles = 40, .springs = 90, .triples = 12, .tetrahedra = 12,
+                    .anchors = 12, .features = features);
   const int64_t size = 3 * scene.canonical.particle_count;
   owned_doubles *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
   long double *y = new_block(2 * size, (int64_t)sizeof *y), *f = new_block(2 * size, (int64_t)sizeof *f);
@@ -109,14 +102,12 @@ static hooke_system *make_net(const double *q, int64_t pinned, int32_t overdampe
   hooke_system *system = new_system();
   if (overdamped) check_ok(hooke_system_set_dynamics(system, "overdamped"));
   check_ok(hooke_system_add_particles(system, NET, q, overdamped ? NULL : v, NET, mass, NULL));
-  small_springs(system, 6, ends,
-                (struct springs){.stiffness = 40.0, .damping = !overdamped, .rest_length = 0.5});
+  springs_with(system, 6, ends, .stiffness = 40.0, .damping = !overdamped, .rest_length = 0.5);
   check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 1.0}));
   check_ok(hooke_system_set_drag(system, 0.8));
   if (pinned >= 0) check_ok(hooke_system_pin(system, 1, &pinned));
   if (!overdamped) check_ok(hooke_system_add_body(system, "body", 4, body, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* The library's accelerations, those of a rigid motion in a body, or velocities of an overdamped system. */
@@ -129,7 +120,7 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
   long double y[6 * NET], f[6 * NET];
   owned_system *system = make_net(q, pinned, overdamped);
   owned_state *state = start_state(system);
-  struct canonical canonical;
+  owned_canonical canonical;
   canonical_create(system, &canonical);
   canonical.gravity = gravity;
   canonical.drag = 0.8;
@@ -151,7 +142,6 @@ static void compare_net(int64_t pinned, int32_t overdamped) {
     check_close((double)f[(overdamped ? 0 : 3 * NET) + k], a[k], 1e-12 * largest(3 * NET, a));
     check_close((double)f[(overdamped ? 3 * NET : 0) + k], overdamped ? 0.0 : v[k], 0.0);
   }
-  canonical_destroy(&canonical);
 }
 
 TEST(test_bodies) {
@@ -176,8 +166,7 @@ static void compare_motion(const struct long_drive *drive, double t) {
   else
     check_ok(hooke_system_drive_harmonic(system, 1, &one, drive->amplitude, drive->frequency, drive->phase));
   check_ok(hooke_system_commit(system));
-  owned_state *state = start_state(system);
-  owned_integrator *integrator = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
+  owned_run(integrator, state, system, .method = "forward-euler", .step = 1.0);
   hooke_state_set_time(state, t);
   check_ok(hooke_integrator_step(integrator, state, 0));
   long double d[3], u[3];

@@ -176,7 +176,7 @@ static void drift(const char *method, double *momentum, double *angular) {
   hooke_system_momentum(system, v, before);
   hooke_system_angular_momentum(system, q, v, before + 3);
   assert_true(largest(3, before) > 0.1 && largest(3, before + 3) > 0.1);
-  run_to_end(system, (struct run){.method = method, .step = 1e-3, .duration = 1.0}, q, v);
+  end_of_run(q, v, system, .method = method, .step = 1e-3, .duration = 1.0);
   hooke_system_momentum(system, v, after);
   hooke_system_angular_momentum(system, q, v, after + 3);
   *momentum = largest_difference(3, before, after) / size;

@@ -46,7 +46,7 @@ TEST(a_factor_of_one_changes_nothing) {
                                       "structural.stiffness=50 structural.damping=0.1 shear.stiffness=20");
     if (k) check_ok(hooke_system_set_gravity_factor(system, 0, 64, 1, &one));
     small_falling(system);
-    run_to_end(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 0.2}, q[k], NULL);
+    end_of_run(q[k], NULL, system, .method = "verlet", .step = 1e-3, .duration = 0.2);
   }
   check_same_bits(3 * 64, q[0], q[1]);
 }
@@ -83,7 +83,7 @@ static void check_righting(const char *method, double within) {
   const double before = hooke_system_energy(system, "potential", hooke_state_position(state), NULL);
   for (int fine = 0; fine < 2; fine++) {
     const double step = whole / (fine ? 800 : 400);
-    run_to_end(system, (struct run){.method = method, .step = step, .duration = whole / 4}, q, v);
+    end_of_run(q, v, system, .method = method, .step = step, .duration = whole / 4);
     drift[fine] = fabs(hooke_system_energy(system, "total", q, v) - before);
   }
   check_close(q[0], 0.0, within);
@@ -101,7 +101,7 @@ TEST(a_float_rights_itself) {
   /* the centre of one that is a little lighter rises at the mean */
   owned_system *light = buoy(-1.5, 1.3, 0.8);
   double q[6];
-  run_to_end(light, (struct run){.method = "rk4", .step = 1e-3, .duration = 0.5}, q, NULL);
+  end_of_run(q, NULL, light, .method = "rk4", .step = 1e-3, .duration = 0.5);
   check_close(0.5 * (q[1] + q[4]), 0.5 * 0.1 * G * 0.25, 1e-9);
 }
 
@@ -149,7 +149,7 @@ TEST(overdamped_particles_sink_and_rise) {
   static const char *const methods[] = {"rk4", "backward-euler"};
   for (int m = 0; m < 2; m++) {
     double q[6];
-    run_to_end(system, (struct run){.method = methods[m], .step = 0.1, .duration = 1}, q, NULL);
+    end_of_run(q, NULL, system, .method = methods[m], .step = 0.1, .duration = 1);
     for (int p = 0; p < 2; p++)
       check_close(q[3 * p + 1], -mass[p] * factor[p] * G / 4.0, 1e-10);
     check_close(hooke_system_energy(system, "gravity", q, NULL), 0.5 * G * q[1] - 6.0 * G * q[4], 1e-10);

@@ -31,8 +31,7 @@ static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
   add_marks(system, after);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.01));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static void check_method(const char *method, int64_t before, int64_t after, double damping) {

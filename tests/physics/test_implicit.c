@@ -17,19 +17,15 @@ static hooke_system *oscillator(double omega, double zeta) {
   const double q[] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[] = {0, 1};
   hooke_system *system = small_system(2, q, NULL, 1.0, 1);
-  small_springs(system, 1, ends,
-                (struct springs){.law = "length", .stiffness = omega * omega, .damping = 2.0 * zeta * omega});
-  check_ok(hooke_system_commit(system));
-  return system;
+  springs_with(system, 1, ends, .law = "length", .stiffness = omega * omega, .damping = 2.0 * zeta * omega);
+  return committed(system);
 }
 
 /* One step from x, x'/omega = start against the matrix of the method, as a share of the start. */
 static void check_step(const char *method, const char *form, double zeta, double h, const double start[2]) {
   const double omega = 40.0;
   owned_system *system = oscillator(omega, zeta);
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = method, .newton = form, .step = h / omega});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .newton = form, .step = h / omega);
   hooke_state_position(state)[3] = start[0];
   hooke_state_velocity(state)[3] = start[1] * omega;
   check_ok(hooke_integrator_step(integrator, state, 1));
@@ -67,8 +63,7 @@ TEST(what_no_step_resolves) {
   const double low[] = {0.0, 0.0, 1.0 - 1e-12}, high[] = {1e-10, 1e-8, 1.0 + 1e-12};
   for (int m = 0; m < METHODS; m++) {
     owned_system *system = oscillator(40.0, 0.0);
-    owned_integrator *integrator = start_run(system, (struct run){.method = methods[m], .step = 1e6 / 40.0});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = methods[m], .step = 1e6 / 40.0);
     const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
     const double before = hooke_system_energy(system, "total", q, v);
     check_ok(hooke_integrator_step(integrator, state, 1));
@@ -81,10 +76,9 @@ TEST(midpoint_keeps_angular_momentum) {
   const double q[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.3}, v[] = {0, -1, 0, 1, 0, 0.5, 0, 2, 0, -1, 0, 0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 3, 3, 0, 0, 2, 1, 3};
   owned_system *system = small_system(4, q, v, 0.5, 0);
-  small_springs(system, 6, ends, (struct springs){.stiffness = 40, .damping = 0.02, .rest_length = 0.9});
+  springs_with(system, 6, ends, .stiffness = 40, .damping = 0.02, .rest_length = 0.9);
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "implicit-midpoint", .step = 0.02});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "implicit-midpoint", .step = 0.02);
   double before[3], after[3], moved[3];
   hooke_system_angular_momentum(system, hooke_state_position(state), hooke_state_velocity(state), before);
   check_ok(hooke_integrator_step(integrator, state, 500));

@@ -17,9 +17,8 @@ enum { METHODS = 3, FORMS = 2, STEPS = 3 };
 /* 1 if all steps were taken; q is where they came to. */
 static int try_steps(const hooke_system *system, const char *method, const char *form, double h, double *q) {
   const int64_t size = 3 * hooke_system_particle_count(system);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = method, .newton = form, .newton_tolerance = BY_DEFAULT, .step = h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .newton = form, .newton_tolerance = BY_DEFAULT,
+            .step = h);
   const int32_t status = hooke_integrator_step(integrator, state, STEPS);
   if (status == HOOKE_OK) {
     assert_int_equal(hooke_integrator_count(integrator, "steps"), STEPS);

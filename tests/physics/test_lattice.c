@@ -256,7 +256,7 @@ TEST(a_layer_can_be_driven) {
   check_ok(hooke_system_drive_harmonic(system, LAYER, layer, (double[]){0.1, 0, 0}, 0.5, 0.0));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_count(system, "free"), LAYER);
-  run_to_end(system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.5}, q, NULL);
+  end_of_run(q, NULL, system, .method = "symplectic-euler", .step = 1e-3, .duration = 0.5);
   for (int k = 0; k < LAYER; k++) {
     const double x = 0.1 + 0.6 * (k % 3);
     check_close(q[3 * k], x, 0.0);

@@ -33,13 +33,8 @@ TEST(references_are_met) {
     owned_doubles *q = new_doubles(size);
     for (int s = 0; s < SOLVERS; s++) {
       if (!is_built(solvers[s])) continue;
-      run_to_end(system,
-                 (struct run){.method = "cvode-bdf",
-                              .rtol = 1e-10,
-                              .atol = 1e-12,
-                              .duration = last->time,
-                              .linear_solver = solvers[s]},
-                 q, NULL);
+      end_of_run(q, NULL, system, .method = "cvode-bdf", .rtol = 1e-10, .atol = 1e-12, .duration = last->time,
+                 .linear_solver = solvers[s]);
       const double error = largest_difference(size, q, last->position) / largest(size, last->position);
       if (!(error <= 1e-7)) check_failed("%s by %s: error %.3g", reference->name, solvers[s], error);
     }
@@ -53,14 +48,9 @@ TEST(everything) {
   needs_cvode();
   for (uint64_t seed = 1; seed <= 6; seed++) {
     owned_random_scene scene;
-    random_scene_create((struct random_scene_request){.seed = seed,
-                                                      .particles = 30,
-                                                      .springs = 70,
-                                                      .triples = seed % 2 ? 8 : 0,
-                                                      .rope = seed % 2 ? 5 : 0,
-                                                      .with_product = seed % 3 == 0,
-                                                      .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT},
-                        &scene);
+    random_scene_with(&scene, .seed = seed, .particles = 30, .springs = 70, .triples = seed % 2 ? 8 : 0,
+                      .rope = seed % 2 ? 5 : 0, .with_product = seed % 3 == 0,
+                      .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT);
     const int64_t size = 3 * hooke_system_particle_count(scene.system);
     owned_doubles *expected = new_doubles(2 * size), *found = new_doubles(2 * size);
     struct run run = {.method = "cvode-adams", .rtol = 1e-11, .atol = 1e-13, .duration = 0.4};
@@ -102,11 +92,10 @@ static hooke_system *rope(double lightest) {
   hooke_system *system = new_system();
   check_ok(hooke_system_add_particles(system, PARTICLES, position, NULL, PARTICLES, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
-  small_springs(system, SEGMENTS, ends, (struct springs){NULL, 1e4, 10.0, -1.0, 0});
+  springs_with(system, SEGMENTS, ends, NULL, 1e4, 10.0, -1.0, 0);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 0.2));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 struct counted {
@@ -126,10 +115,8 @@ static struct counted run_counted(hooke_integrator *integrator, const hooke_syst
 }
 
 static hooke_integrator *start(const hooke_system *system, const char *solver) {
-  return start_run(
-      system,
-      (struct run){
-          .method = "cvode-bdf", .rtol = 1e-4, .atol = 1e-7, .duration = 0.3, .linear_solver = solver});
+  return start_with(system, .method = "cvode-bdf", .rtol = 1e-4, .atol = 1e-7, .duration = 0.3,
+                    .linear_solver = solver);
 }
 
 static struct counted run_alone(const hooke_system *system, const char *solver) {
@@ -146,11 +133,8 @@ TEST(factor_pays) {
   for (int k = 0; k < 2; k++) {
     owned_system *system = rope(k == 0 ? 0.25 / PARTICLES : 1e-9);
     double exact[SIZE];
-    run_to_end(
-        system,
-        (struct run){
-            .method = "cvode-bdf", .rtol = 1e-9, .atol = 1e-12, .duration = 0.3, .linear_solver = "direct"},
-        exact, NULL);
+    end_of_run(exact, NULL, system, .method = "cvode-bdf", .rtol = 1e-9, .atol = 1e-12, .duration = 0.3,
+               .linear_solver = "direct");
     const struct counted direct = run_alone(system, "direct"), blocks = run_alone(system, "blocks"),
                          chosen = run_alone(system, "auto");
     check_between((double)direct.linear / (double)direct.steps, 0.5, 8.0);
@@ -185,13 +169,8 @@ TEST(fixed_steps) {
   double q[2][SIZE];
   for (int k = 0; k < 4 && has_factor(); k++) {
     for (int s = 0; s < 2; s++)
-      run_to_end(system,
-                 (struct run){.method = methods[k / 2],
-                              .newton = forms[k % 2],
-                              .linear_solver = solvers[1 + s],
-                              .step = 1e-3,
-                              .duration = 0.05},
-                 q[s], NULL);
+      end_of_run(q[s], NULL, system, .method = methods[k / 2], .newton = forms[k % 2],
+                 .linear_solver = solvers[1 + s], .step = 1e-3, .duration = 0.05);
     check_between(largest_difference(SIZE, q[0], q[1]), 1e-18, 1e-9); /* another way, the same place */
   }
   owned_options *options = options_with("run", "method=backward-euler step=1e-3 linear_solver=gmres");

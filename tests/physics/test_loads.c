@@ -21,8 +21,7 @@ static void load_at(const hooke_system *system, double t, double force[3]) {
 static hooke_system *loaded(const char *words) {
   hooke_system *system = small_system(1, (double[]){0, 0, 0}, NULL, 2.0, 0);
   add_load(system, 0, words);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 TEST(the_force_follows_its_course) {
@@ -95,7 +94,7 @@ TEST(a_damped_oscillator_under_a_harmonic_load) {
   add_load(system, 1, words);
   check_ok(hooke_system_commit(system));
   double q[6];
-  run_to_end(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 10}, q, NULL);
+  end_of_run(q, NULL, system, .method = "rk4", .step = 1e-3, .duration = 10);
   check_close(q[3] - 10.0, -0.252797542112, 2e-10);
   /* its error is said, and is true */
   owned_state *state = start_state(system);
@@ -131,7 +130,7 @@ TEST(overdamped_particles_take_loads) {
   check_ok(hooke_system_commit(system));
   for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
     double q[3];
-    run_to_end(system, (struct run){.method = methods[m], .step = 1e-3, .duration = t}, q, NULL);
+    end_of_run(q, NULL, system, .method = methods[m], .step = 1e-3, .duration = t);
     check_close(q[0], right, within[m]);
   }
 }
@@ -187,9 +186,7 @@ TEST(divergence_is_seen_beside_a_load) {
   small_group(system, "springs", NULL, 1, (int64_t[]){0, 1}, "law=length stiffness=100 rest_length=0");
   add_load(system, 1, "force=0,1,0");
   check_ok(hooke_system_commit(system));
-  owned_state *state = start_state(system);
-  owned_integrator *run =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21});
+  owned_run(run, state, system, .method = "symplectic-euler", .step = 0.21, .duration = 21);
   check_status(hooke_integrator_run(run, state), HOOKE_DIVERGED);
   assert_true(hooke_state_time(state) < 10.0);
 }

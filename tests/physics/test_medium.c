@@ -33,8 +33,7 @@ static hooke_system *mixed(int medium) {
   small_part(system, "cloth", "cloth",
              "origin=0,2,0 edges=1,0,0;0,0.2,1 size=3x3 mass=1 structural.stiffness=9%s", surface);
   if (!medium) {
-    check_ok(hooke_system_commit(system));
-    return system;
+    return committed(system);
   }
   double drag[MIXED], quadratic[MIXED];
   struct random_source source = {5};
@@ -49,8 +48,7 @@ static hooke_system *mixed(int medium) {
   check_ok(hooke_options_set_numbers(options, "wind.time", 3, time));
   check_ok(hooke_options_set_numbers(options, "wind.velocity", 9, velocity));
   check_ok(hooke_scene_options_apply(options, system));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static void draw(uint64_t seed, double *q, double *v) {
@@ -151,18 +149,17 @@ TEST(heat_is_that_of_the_velocity_beside_the_wind) {
 TEST(what_falls_reaches_its_terminal_speed) {
   const double place[9] = {0, 0, 0, 3, 0, 0, 6, 0, 0};
   for (int squared = 0; squared < 2; squared++) {
-    hooke_system *system = small_system(3, place, NULL, 2.0, 0);
+    owned_system *system = small_system(3, place, NULL, 2.0, 0);
     in_medium(system, squared ? "quadratic_drag=1,2,4 wind=1,2,-3" : "drag=1,2,4 wind=1,2,-3");
     small_falling(system);
     double v[9];
-    run_to_end(system, (struct run){.method = "rk4", .step = 0.02, .duration = 60}, NULL, v);
+    end_of_run(NULL, v, system, .method = "rk4", .step = 0.02, .duration = 60);
     for (int p = 0; p < 3; p++) {
       const double c = (double)(1 << p), speed = squared ? sqrt(2.0 * 9.81 / c) : 2.0 * 9.81 / c;
       check_close(v[3 * p], 1.0, 1e-10);
       check_close(v[3 * p + 1], 2.0 - speed, 1e-10);
       check_close(v[3 * p + 2], -3.0, 1e-10);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -175,7 +172,7 @@ TEST(verlet_falls_with_order_two) {
         in_medium(small_system(1, (double[]){0, 0, 0}, NULL, 1.0, 0), "quadratic_drag=0.5");
     double v[3];
     small_falling(system);
-    run_to_end(system, (struct run){.method = "verlet", .step = k ? 0.01 : 0.02, .duration = 1}, NULL, v);
+    end_of_run(NULL, v, system, .method = "verlet", .step = k ? 0.01 : 0.02, .duration = 1);
     error[k] = fabs(v[1] - exact);
   }
   check_between(error[0], 1e-6, 1e-2);
@@ -205,8 +202,7 @@ TEST(a_bungee_jump_with_air) {
   in_medium(system, "quadratic_drag=0.20416666666666666");
   check_ok(hooke_system_commit(system));
   struct lowest lowest = {80.0, 0.0};
-  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = 1e-3, .duration = 20});
-  owned_state *state = start_state(system);
+  owned_run(run, state, system, .method = "rk4", .step = 1e-3, .duration = 20);
   check_ok(hooke_integrator_on_step(run, 1, keep_lowest, &lowest));
   check_ok(hooke_integrator_run(run, state));
   check_close(lowest.y, 5.3964956, 1e-5);
@@ -217,19 +213,18 @@ TEST(a_bungee_jump_with_air) {
 /* 1 m^2 of 1 kg in air of 1.2 kg/m^3, C = 1.3: face-on, and edge-on. */
 TEST(a_plate_falls_flat_or_like_a_knife) {
   for (int edge_on = 0; edge_on < 2; edge_on++) {
-    hooke_system *system = small_part(NULL, "cloth", "plate",
+    owned_system *system = small_part(NULL, "cloth", "plate",
                                       "edges=1,0,0;%s size=3x3 mass=1 structural.stiffness=10 rigid=true "
                                       "fluid_drag.density=1.2 fluid_drag.coefficient=1.3",
                                       edge_on ? "0,1,0" : "0,0,1");
     double v[27];
     small_falling(system);
-    run_to_end(system, (struct run){.method = "rk4", .step = 0.01, .duration = 10}, NULL, v);
+    end_of_run(NULL, v, system, .method = "rk4", .step = 0.01, .duration = 10);
     const double speed = edge_on ? 98.1 : sqrt(2.0 * 9.81 / (1.2 * 1.3));
     for (int p = 0; p < 9; p++) {
       check_close(v[3 * p], 0.0, 1e-9);
       check_close(v[3 * p + 1], -speed, 1e-9);
     }
-    hooke_system_destroy(system);
   }
 }
 
@@ -293,7 +288,7 @@ static void integrate(double *x, double *y) {
 
 /* The distance of its lower end from there. */
 static double end_of_rope(int segments, double x, double y) {
-  hooke_system *system = new_system();
+  owned_system *system = new_system();
   const double place[3] = {0, -LENGTH, 0}, mass = WEIGHT, wind[3] = {CURRENT, 0, 0},
                gravity[3] = {0, -9.81, 0};
   check_ok(hooke_system_add_particles(system, 1, place, NULL, 1, &mass, NULL));
@@ -309,12 +304,10 @@ static double end_of_rope(int segments, double x, double y) {
   check_ok(hooke_options_set_numbers(options, "gravity", 3, gravity));
   check_ok(hooke_scene_options_apply(options, system));
   check_ok(hooke_system_commit(system));
-  double *q = new_doubles(3 * (segments + 2));
-  run_to_end(system, (struct run){.method = "backward-euler", .step = 0.5, .duration = 60}, q, NULL);
+  owned_doubles *q = new_doubles(3 * (segments + 2));
+  end_of_run(q, NULL, system, .method = "backward-euler", .step = 0.5, .duration = 60);
   const double distance = hypot(q[3 * segments + 3] - x, q[3 * segments + 4] - y);
   check_close(q[3 * segments + 5], 0.0, 1e-9);
-  free(q);
-  hooke_system_destroy(system);
   return distance;
 }
 
@@ -356,14 +349,12 @@ TEST(a_step_is_bounded_where_velocities_are_known) {
 
 static void refuse(const char *words, int32_t pinned, const char *message) {
   const double place[6] = {0, 0, 0, 1, 0, 0};
-  hooke_system *system = small_system(2, place, NULL, 1.0, pinned);
-  hooke_options *options = options_with("scene", "%s", words);
+  owned_system *system = small_system(2, place, NULL, 1.0, pinned);
+  owned_options *options = options_with("scene", "%s", words);
   int32_t status = hooke_scene_options_apply(options, system);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
   check_status(status, HOOKE_BAD_VALUE);
   check_message(message);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }
 
 TEST(what_cannot_be_is_refused_in_its_place) {
@@ -400,13 +391,13 @@ TEST(methods_that_need_linear_damping_are_refused) {
 /* gamma (x' - u) = f: all particles end in the wind's velocity, and their springs at rest. */
 TEST(overdamped_particles_go_with_the_wind) {
   const double place[9] = {0, 0, 0, 1, 0, 0, 2.5, 0, 0};
-  hooke_system *system = new_system();
+  owned_system *system = new_system();
   in_medium(system, "dynamics=overdamped drag=1,2,4 wind=0.5,0.25,0");
   check_ok(hooke_system_add_particles(system, 3, place, NULL, 0, NULL, NULL));
   small_group(system, "springs", "", 2, (int64_t[]){0, 1, 1, 2}, "law=length stiffness=30 rest_length=1");
   check_ok(hooke_system_commit(system));
   double heat = 0.0, q[9], v[9], force[9];
-  run_to_end(system, (struct run){.method = "rk4", .step = 0.01, .duration = 4}, q, v);
+  end_of_run(q, v, system, .method = "rk4", .step = 0.01, .duration = 4);
   for (int p = 0; p < 3; p++) {
     check_close(v[3 * p], 0.5, 1e-9);
     check_close(v[3 * p + 1], 0.25, 1e-9);
@@ -423,7 +414,6 @@ TEST(overdamped_particles_go_with_the_wind) {
     v[3 * p] = force[3 * p] / gamma;
   }
   check_close(hooke_system_dissipated_power(system, place, v), heat, 1e-12 * heat);
-  hooke_system_destroy(system);
 }
 
 /* ---- what is warned of ---- */

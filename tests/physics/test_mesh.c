@@ -111,7 +111,7 @@ TEST(springs_are_in_order) {
   owned_system *system = build_with(&mesh, "mass", 1);
   const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
-  int64_t *ends = new_block(2 * count, sizeof *ends);
+  owned_wholes *ends = new_block(2 * count, sizeof *ends);
   owned_doubles *material = new_doubles(3 * count);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(system, "springs", NULL, material, material + count, material + 2 * count));
@@ -149,7 +149,6 @@ TEST(springs_are_in_order) {
     check_close(material[2 * count + k], sqrt(x * x + y * y + z * z), 1e-15);
     check_close(material[k] * material[2 * count + k], k < edges ? 30.0 : 4.0, 1e-13);
   }
-  free(ends);
 }
 
 /* ---- masses ---- */
@@ -190,7 +189,7 @@ TEST(damping_by_ratio_is_that_of_both_ends) {
   owned_system *system = build(options);
   const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
-  int64_t *ends = new_block(2 * count, sizeof *ends);
+  owned_wholes *ends = new_block(2 * count, sizeof *ends);
   owned_doubles *kappa = new_doubles(3 * count);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   check_ok(hooke_system_members(system, "springs", NULL, kappa, kappa + count, kappa + 2 * count));
@@ -198,7 +197,6 @@ TEST(damping_by_ratio_is_that_of_both_ends) {
     const double a = hooke_system_mass(system)[ends[2 * k]], b = hooke_system_mass(system)[ends[2 * k + 1]];
     check_close(kappa[count + k], 2 * 0.3 * sqrt(kappa[k] / (1 / a + 1 / b)), 1e-14);
   }
-  free(ends);
 }
 
 /* ---- vertices ---- */
@@ -241,8 +239,7 @@ static int64_t particles_with_weld(const struct mesh *mesh, double weld) {
   hooke_options *options = options_of(mesh);
   set_options(options, "mass=1 weld=%.17g", weld);
   owned_system *system = build(options);
-  const int64_t count = hooke_system_particle_count(system);
-  return count;
+  return hooke_system_particle_count(system);
 }
 
 TEST(a_distance_welds_what_is_within_it) {

@@ -52,18 +52,16 @@ static hooke_system *system_of(const char *problem) {
     check_ok(hooke_system_set_drag(system, 1.0));
   }
   if (strcmp(problem, "bodies") == 0) check_ok(hooke_system_add_body(system, "plate", 3, all, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static int32_t create(const char *method, const char *problem) {
   owned_options *options = run_options((struct run){.method = method, .step = 0.1, .duration = 1.0});
   owned_system *system = system_of(problem);
-  hooke_integrator *integrator = NULL;
+  owned_integrator *integrator = NULL;
   const int32_t status = strcmp(problem, "first-order") == 0
                              ? hooke_integrator_create_first_order(1, no_rate, NULL, options, &integrator)
                              : hooke_integrator_create(system, options, &integrator);
-  hooke_integrator_destroy(integrator);
   return status;
 }
 
@@ -175,15 +173,13 @@ TEST(test_bdf_strides_over_damped_modes) {
   const double position[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, position, NULL, 0.3, 1);
-  small_springs(system, 1, ends, (struct springs){.stiffness = 1e4, .damping = 1e3, .rest_length = 1.0});
+  springs_with(system, 1, ends, .stiffness = 1e4, .damping = 1e3, .rest_length = 1.0);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
   const char *methods[] = {"cvode-bdf", "cvode-adams"};
   double steps[2], end[2][6];
   for (int m = 0; m < 2; m++) {
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = methods[m], .rtol = 1e-6, .atol = 1e-9, .duration = 2.0});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = methods[m], .rtol = 1e-6, .atol = 1e-9, .duration = 2.0);
     check_ok(hooke_integrator_run(integrator, state));
     memcpy(end[m], hooke_state_position(state), sizeof end[m]);
     steps[m] = (double)hooke_integrator_count(integrator, "steps");

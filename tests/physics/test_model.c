@@ -13,8 +13,8 @@ TEST(test_coincident_ends) {
   const int64_t ends[] = {1, 2, 2, 1, 2, 3};
   double a[12];
   owned_system *system = small_system(4, q, v, 1.0, 1);
-  small_springs(system, 2, ends, (struct springs){.stiffness = 100, .damping = 5, .rest_length = 0.5});
-  small_springs(system, 1, ends + 4, (struct springs){.stiffness = 100, .rest_length = 3.0});
+  springs_with(system, 2, ends, .stiffness = 100, .damping = 5, .rest_length = 0.5);
+  springs_with(system, 1, ends + 4, .stiffness = 100, .rest_length = 3.0);
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_coincident_springs(system, q), 2);
   check_ok(hooke_system_acceleration(system, 0.0, q, v, a));
@@ -22,8 +22,7 @@ TEST(test_coincident_ends) {
     check_close(a[k], 0.0, 0.0); /* the third spring is at rest */
 
   /* the run counts them too, and there are none once the ends have parted */
-  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 1e-3});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 1e-3);
   check_ok(hooke_integrator_step(integrator, state, 1));
   assert_int_equal(hooke_integrator_count(integrator, "coincident_springs"), 2);
   check_ok(hooke_integrator_step(integrator, state, 1));
@@ -58,12 +57,11 @@ static void fall(double damping, double drag, double h, int64_t steps, double *v
   const double q[] = {0, 0, 0, 1, 0.3, 0}, v[] = {0, 0, 0, 0, 0, 2}, gravity[] = {0, -10, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, v, 0.5, 0);
-  small_springs(system, 1, ends, (struct springs){.stiffness = 20, .damping = damping, .rest_length = 0.7});
+  springs_with(system, 1, ends, .stiffness = 20, .damping = damping, .rest_length = 0.7);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = h);
   check_ok(hooke_integrator_step(integrator, state, steps));
   const double *x = hooke_state_position(state), *u = hooke_state_velocity(state);
   *height = 0.5 * (x[1] + x[4]) - 0.15;
@@ -103,12 +101,10 @@ static double hanging_length(const char *law, int64_t segments, double step) {
   owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, segments + 1, q, NULL, segments + 1, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &first));
-  small_springs(system, segments, ends,
-                (struct springs){.law = law, .stiffness = 16, .damping = 1.2, .rest_length = piece});
+  springs_with(system, segments, ends, .law = law, .stiffness = 16, .damping = 1.2, .rest_length = piece);
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = step});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = step);
   check_ok(hooke_integrator_step(integrator, state, 500000));
   const double length = -hooke_state_position(state)[3 * segments + 2];
   check_between(largest(3 * (segments + 1), hooke_state_velocity(state)), 0.0, 1e-6); /* it hangs still */
@@ -133,17 +129,15 @@ TEST(test_stretch_by_the_length_law) {
 TEST(test_pinned_never_move) {
   const double q[] = {0.1, 0.2, 0.3, 1, 1, 1, -1, 0.5, 2}, gravity[] = {1, 2, 3}, zero[3] = {0};
   const int64_t ends[] = {0, 1, 1, 2, 2, 0};
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (hooke_method_is_built(method) != 1) continue;
+  for (const char *method = NULL; (method = next_method(method, hooke_method_is_built));) {
     double end[9], speed[9];
     owned_system *system = small_system(3, q, NULL, 1.0, 1);
-    small_springs(system, 3, ends, (struct springs){.stiffness = 30, .damping = 0.3, .rest_length = 0.4});
+    springs_with(system, 3, ends, .stiffness = 30, .damping = 0.3, .rest_length = 0.4);
     check_ok(hooke_system_set_gravity(system, gravity));
     check_ok(hooke_system_set_drag(system, 0.1));
     check_ok(hooke_system_commit(system));
     assert_int_equal(hooke_system_count(system, "free"), 2);
-    run_to_end(system, (struct run){.method = method, .step = 1e-3, .duration = 1.0}, end, speed);
+    end_of_run(end, speed, system, .method = method, .step = 1e-3, .duration = 1.0);
     check_same_bits(3, end, q);
     check_same_bits(3, speed, zero);
     assert_true(fabs(end[3] - q[3]) > 1e-2);
@@ -166,9 +160,8 @@ TEST(test_cables) {
     const double q[] = {0, 0, 0, cases[k].distance, 0, 0}, v[] = {0, 0, 0, cases[k].velocity, 0, 0};
     double force[6];
     owned_system *system = small_system(2, q, v, 1.0, 0);
-    small_springs(
-        system, 1, ends,
-        (struct springs){.law = "length", .stiffness = 100, .damping = 3, .rest_length = 1, .pull_only = 1});
+    springs_with(system, 1, ends, .law = "length", .stiffness = 100, .damping = 3, .rest_length = 1,
+                 .pull_only = 1);
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_force(system, 0.0, q, v, force));
     check_close(force[0], cases[k].pull, cases[k].pull == 0.0 ? 0.0 : 1e-13);
@@ -183,7 +176,7 @@ TEST(test_forces_that_are_there) {
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -1, 0};
   owned_system *empty = small_system(2, q, NULL, 1.0, 0), *full = small_system(2, q, NULL, 1.0, 0);
   const int64_t ends[] = {0, 1};
-  small_springs(full, 1, ends, (struct springs){.stiffness = 1, .rest_length = -1});
+  springs_with(full, 1, ends, .stiffness = 1, .rest_length = -1);
   check_ok(hooke_system_set_gravity(full, gravity));
   check_ok(hooke_system_set_drag(full, 0.5));
   check_ok(hooke_system_commit(empty));
@@ -204,7 +197,7 @@ TEST(test_velocities_are_not_read) {
   double force[6];
   for (int damped = 0; damped < 2; damped++) {
     owned_system *system = small_system(2, q, NULL, 1.0, 0);
-    small_springs(system, 1, ends, (struct springs){.stiffness = 10, .damping = damped, .rest_length = 0.5});
+    springs_with(system, 1, ends, .stiffness = 10, .damping = damped, .rest_length = 0.5);
     check_ok(hooke_system_commit(system));
     check_ok(hooke_system_force(system, 0.0, q, lost, force));
     assert_int_equal(isfinite(force[0]) != 0, !damped);

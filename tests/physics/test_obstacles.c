@@ -20,8 +20,7 @@ static hooke_system *falling(const double place[3], const double velocity[3], co
   hooke_system *system = small_system(1, place, velocity, 1.0, 0);
   check_ok(hooke_system_set_gravity(system, gravity));
   add(system, obstacle);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static double energy_of(const hooke_system *system, double t, const double *q, const double *v) {
@@ -33,7 +32,7 @@ TEST(a_mass_bounces_on_a_stiff_floor) {
   const double place[3] = {0, 1, 0}, gravity[3] = {0, -9.8, 0};
   double q[3], v[3];
   owned_system *system = falling(place, NULL, gravity, "shape=plane point=0,0,0 normal=0,2,0 stiffness=1e5");
-  run_to_end(system, (struct run){.method = "verlet", .step = 2e-5, .duration = 10.0, .every = 10.0}, q, v);
+  end_of_run(q, v, system, .method = "verlet", .step = 2e-5, .duration = 10.0, .every = 10.0);
   check_close(q[1], 0.98854308, 2e-5);
   check_close(energy_of(system, 10.0, q, v), 9.8, 2e-5);
 }
@@ -64,8 +63,7 @@ TEST(what_is_lost_is_heat) {
   owned_system *system = falling(place, velocity, gravity,
                                  "shape=plane point=0,0,0 normal=0,1,0 stiffness=2e4 damping=60 friction=0.3 "
                                  "friction_speed=0.05");
-  owned_state *state = start_state(system);
-  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = h});
+  owned_run(run, state, system, .method = "rk4", .step = h);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   const double before = energy_of(system, 0.0, q, v);
   double heat = 0.0, least = 0.0;
@@ -86,8 +84,7 @@ TEST(a_moving_obstacle_does_work) {
   owned_system *system = falling(place, NULL, gravity,
                                  "shape=plane point=0,0,0 normal=0,1,0 stiffness=1e4 motion=harmonic "
                                  "amplitude=0,0.02,0 frequency=3");
-  owned_state *state = start_state(system);
-  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = h});
+  owned_run(run, state, system, .method = "rk4", .step = h);
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state), omega = 6.0 * acos(-1.0);
   const double before = energy_of(system, 0.0, q, v);
   double work = 0.0, last = 0.0;
@@ -114,7 +111,7 @@ TEST(a_block_creeps_below_the_angle_of_friction_and_slides_above) {
                                    "shape=plane point=0,0,0 normal=0,1,0 stiffness=1e5 damping=100 "
                                    "friction=0.4 friction_speed=1e-3");
     double q[3], v[3];
-    run_to_end(system, (struct run){.method = "rk4", .step = 1e-4, .duration = 1.0, .every = 1.0}, q, v);
+    end_of_run(q, v, system, .method = "rk4", .step = 1e-4, .duration = 1.0, .every = 1.0);
     const double creep = s * tan(angle) / sqrt(mu * mu - tan(angle) * tan(angle));
     const double right = above ? g * (sin(angle) - mu * cos(angle)) : creep;
     check_between(v[0], 0.99 * right, 1.01 * right);
@@ -192,7 +189,7 @@ TEST(a_rope_over_a_roller_holds_as_euler_and_eytelwein_say) {
   double q[3 * ROPE], v[3 * ROPE];
   lay_over_roller(0.1, speed, piece, q, v);
   owned_system *system = rope_over_roller(q, v, rest, speed);
-  run_to_end(system, (struct run){.method = "rk4", .step = 2e-5, .duration = 0.3, .every = 0.3}, q, v);
+  end_of_run(q, v, system, .method = "rk4", .step = 2e-5, .duration = 0.3, .every = 0.3);
   const double right = exp(0.3 * acos(-1.0));
   check_between(tension(q, ROPE - 2, rest) / tension(q, 0, rest), 0.98 * right, 1.02 * right);
 }
@@ -211,7 +208,7 @@ static double lying_line(double *touching) {
   owned_state *state = start_state(line);
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   for (double step = 0.05; step < 1e3; step *= 3.0) { /* without inertia, and ever longer */
-    owned_integrator *run = start_run(line, (struct run){.method = "backward-euler", .step = step});
+    owned_integrator *run = start_with(line, .method = "backward-euler", .step = step);
     check_ok(hooke_integrator_step(run, state, 1));
     memset(v, 0, 3 * (PIECES + 1) * sizeof *v);
   }
@@ -242,8 +239,7 @@ TEST(at_a_centre_there_is_no_force) {
     check_between(force[a], 0.0, 0.0);
   assert_int_equal(hooke_system_coincident_springs(system, place), 1);
   assert_int_equal(hooke_system_coincident_springs(system, beside), 0);
-  owned_state *state = start_state(system);
-  owned_integrator *run = start_run(system, (struct run){.method = "rk4", .step = 1e-3});
+  owned_run(run, state, system, .method = "rk4", .step = 1e-3);
   check_ok(hooke_integrator_step(run, state, 1));
   assert_int_equal(hooke_integrator_count(run, "coincident_springs"), 1);
 }

@@ -25,8 +25,7 @@ static hooke_system *open_pair(void) {
 
 static hooke_system *make_pair(void) {
   hooke_system *system = open_pair();
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static double length_at(double t) {
@@ -53,9 +52,8 @@ static int takes_pair(const hooke_system *system, const char *method) {
 TEST(test_orders) {
   owned_system *system = make_pair();
   int taken = 0;
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!is_fixed_step(method) || !takes_pair(system, method)) continue;
+  for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
+    if (!takes_pair(system, method)) continue;
     const double order = strstr(method, "euler") ? 1.0 : strcmp(method, "rk4") == 0 ? 4.0 : 2.0;
     double error[4];
     for (int k = 0; k < 4; k++)
@@ -96,14 +94,10 @@ TEST(test_limits) {
     const double limit = explicits[k].reach * GAMMA / (2.0 * KAPPA);
     double below[6], above[6];
     check_close(bound_at_start(system, explicits[k].method), limit, 1e-9 * limit);
-    run_to_end(
-        system,
-        (struct run){.method = explicits[k].method, .step = 0.99 * limit, .duration = 0.99 * limit * 400},
-        below, NULL);
-    run_to_end(
-        system,
-        (struct run){.method = explicits[k].method, .step = 1.01 * limit, .duration = 1.01 * limit * 100},
-        above, NULL);
+    end_of_run(below, NULL, system, .method = explicits[k].method, .step = 0.99 * limit,
+               .duration = 0.99 * limit * 400);
+    end_of_run(above, NULL, system, .method = explicits[k].method, .step = 1.01 * limit,
+               .duration = 1.01 * limit * 100);
     check_close(below[3] - below[0], REST, 1e-2);
     assert_true(fabs(above[3] - above[0] - REST) > LONG - REST);
   }
@@ -111,9 +105,7 @@ TEST(test_limits) {
 
 TEST(test_divergence) {
   owned_system *system = make_pair();
-  owned_integrator *it = start_run(
-      system, (struct run){.method = "forward-euler", .step = 0.11, .duration = 11.0, .every = 0.11});
-  owned_state *state = start_state(system);
+  owned_run(it, state, system, .method = "forward-euler", .step = 0.11, .duration = 11.0, .every = 0.11);
   check_status(hooke_integrator_run(it, state), HOOKE_DIVERGED);
   check_message("energy has risen");
   check_between(
@@ -147,7 +139,7 @@ TEST(test_forces) {
   check_ok(hooke_system_commit(system));
   for (int k = 0; k < 7; k++) {
     if (hooke_method_is_built(methods[k]) != 1) continue;
-    run_to_end(system, (struct run){.method = methods[k], .step = 0.01, .duration = 0.5}, q, v);
+    end_of_run(q, v, system, .method = methods[k], .step = 0.01, .duration = 0.5);
     const double expected[6] = {0.75, -9.81 * 0.5, 0.0, 0.0, -9.81 * 0.125, 0.0};
     for (int a = 0; a < 6; a++) {
       check_close(v[a], expected[a], 1e-14);
@@ -175,10 +167,8 @@ TEST(test_driven) {
     const double order = strstr(methods[k], "euler") ? 1.0 : strcmp(methods[k], "rk4") == 0 ? 4.0 : 2.0;
     double error[3], q[6], v[6];
     for (int j = 0; j < 3; j++) {
-      run_to_end(
-          system,
-          (struct run){.method = methods[k], .step = 4e-3 / (order == 1.0 ? 8 << j : 1 << j), .duration = t},
-          q, v);
+      end_of_run(q, v, system, .method = methods[k], .step = 4e-3 / (order == 1.0 ? 8 << j : 1 << j),
+                 .duration = t);
       check_close(q[0], 0.1 * sin(t), 1e-14);
       check_close(v[0], 0.1 * cos(t), 1e-14);
       error[j] = fabs(q[3] - exact);
@@ -227,9 +217,8 @@ TEST(test_parts_without_mass) {
   enum { N = 18 + 6 };
   double q[2][3 * N];
   for (int k = 0; k < 2; k++) {
-    owned_system *system = open_parts(k ? 3.0 : 0.0, 0.0, NULL);
-    check_ok(hooke_system_commit(system));
-    run_to_end(system, (struct run){.method = "rk4", .step = 0.01, .duration = 1.0}, q[k], NULL);
+    owned_system *system = committed(open_parts(k ? 3.0 : 0.0, 0.0, NULL));
+    end_of_run(q[k], NULL, system, .method = "rk4", .step = 0.01, .duration = 1.0);
   }
   check_same_bits(3 * N, q[0], q[1]);
   check_between(fabs(q[0][3 * N - 3] - 6.0), 0.05, 0.5); /* the end of the rope has moved */
@@ -241,7 +230,7 @@ TEST(test_parts_without_mass) {
 TEST(test_refusals) {
   const double g[3] = {0.0, 0.0, 1.0}, q[3] = {0.0, 0.0, 1.0}, v[3] = {0.0, 1.0, 0.0}, mass = 1.0;
   const int64_t ends[2] = {0, 1};
-  hooke_system *system = open_pair();
+  owned_system *system = open_pair();
   check_status(hooke_system_set_dynamics(system, "fast"), HOOKE_BAD_VALUE);
   check_ok(hooke_system_set_drag(system, 0.0));
   check_refused(system, "drag: 0 is not allowed");
@@ -265,5 +254,4 @@ TEST(test_refusals) {
   assert_string_equal(hooke_system_dynamics(system), "overdamped");
   assert_false(takes_pair(system, "verlet"));
   check_message("verlet steps positions and velocities apart");
-  hooke_system_destroy(system);
 }

@@ -99,8 +99,7 @@ TEST(a_pair_swings_as_its_ratio_says) {
   owned_system *pair = build("rope", options);
   const double omega = sqrt(2.0 * kappa / m), period = 2.0 * acos(-1.0) / (omega * sqrt(1.0 - zeta * zeta));
   double q[6];
-  run_to_end(pair, (struct run){.method = "rk4", .step = period / 1000, .duration = period, .every = period},
-             q, NULL);
+  end_of_run(q, NULL, pair, .method = "rk4", .step = period / 1000, .duration = period, .every = period);
   const double length = hypot(q[0] - q[3], q[2] - q[5]);
   check_close((length - 0.8) / 0.2, exp(-2.0 * acos(-1.0) * zeta / sqrt(1.0 - zeta * zeta)), 1e-8);
 }
@@ -117,7 +116,7 @@ TEST(a_group_overshoots_as_its_ratio_says) {
   const struct run run = {.method = "rk4", .step = turn / 1000, .duration = turn, .every = turn};
   run_to_end(system, run, q, NULL);
   check_close(10.0 - q[3], 0.0947802, 1e-6);
-  run_to_end(system, (struct run){.method = "rk4", .step = 1e-4, .duration = 0.4, .every = 0.4}, q, NULL);
+  end_of_run(q, NULL, system, .method = "rk4", .step = 1e-4, .duration = 0.4, .every = 0.4);
   check_close(q[3], 10.000044149, 1e-9);
 }
 

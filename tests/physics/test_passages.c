@@ -111,16 +111,13 @@ static hooke_system *system_of(const struct scene *scene) {
   hooke_system *system = small_system(scene->particles, scene->q, scene->v, 1.0, 1);
   const struct springs springs = {"length", 10.0, 0.1, scene->rest_length, 0};
   small_springs(system, scene->particles - 1, ends, springs);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 TEST(test_every_method) {
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     owned_system *system = system_of(&scenes[k]);
-    for (int64_t m = 0; m < hooke_method_count(); m++) {
-      const char *method = hooke_method_name(m);
-      if (hooke_method_is_built(method) != 1) continue;
+    for (const char *method = NULL; (method = next_method(method, hooke_method_is_built));) {
       for (int fine = 0; fine < 2; fine++) {
         const struct run run = {
             .method = method, .step = fine ? 0.004 : 0.02, .duration = 10.0, .rtol = 1e-6};
@@ -139,7 +136,7 @@ enum { PAIRS = 17000 };
 static hooke_system *pairs(int32_t shuffled) {
   struct random_source source = {7};
   owned_doubles *q = new_doubles(6 * (int64_t)PAIRS), *v = new_doubles(6 * (int64_t)PAIRS);
-  int64_t *ends = new_block(2 * (int64_t)PAIRS, sizeof *ends);
+  owned_wholes *ends = new_block(2 * (int64_t)PAIRS, sizeof *ends);
   for (int64_t k = 0; k < 2 * (int64_t)PAIRS; k++)
     ends[k] = k;
   for (int64_t k = 2 * (int64_t)PAIRS - 1; k > 0 && shuffled; k--) {
@@ -155,10 +152,8 @@ static hooke_system *pairs(int32_t shuffled) {
     }
   }
   hooke_system *system = small_system(2 * (int64_t)PAIRS, q, v, 1.0, 0);
-  small_springs(system, PAIRS, ends, (struct springs){"length", 10.0, 0.0, 0.5, 0});
-  check_ok(hooke_system_commit(system));
-  free(ends);
-  return system;
+  springs_with(system, PAIRS, ends, "length", 10.0, 0.0, 0.5, 0);
+  return committed(system);
 }
 
 TEST(test_batches_and_threads) {
@@ -182,9 +177,7 @@ TEST(test_anchors) {
   check_ok(hooke_options_set_numbers(options, "rest_length", 2, rest_length));
   check_ok(hooke_system_add_anchors(system, NULL, 2, particles, options));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "rk4", .step = 0.01, .duration = 1.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "rk4", .step = 0.01, .duration = 1.0);
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(passages_of(integrator), 1);
   assert_non_null(strstr(hooke_integrator_text(integrator, "zero_passages"),
@@ -218,8 +211,7 @@ TEST(test_putting) {
   const double there[] = {-0.2, 0, 0}, slow[] = {0, 0, 0};
   const int64_t particle = 1;
   owned_system *system = system_of(&scenes[0]);
-  owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.01});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "verlet", .step = 0.01);
   check_ok(hooke_integrator_step(integrator, state, 62));
   assert_int_equal(passages_of(integrator), 0);
   check_between(hooke_state_position(state)[3], 0.05, 0.25);
@@ -254,15 +246,12 @@ static double end_of(double wall, double rest_length, int64_t *passages) {
   const double q[] = {wall, 0, 0, 1.5, 0, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
-  small_springs(system, 1, ends, (struct springs){"length", 10.0, 0.1, rest_length, 0});
+  springs_with(system, 1, ends, "length", 10.0, 0.1, rest_length, 0);
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "rk4", .step = 0.002, .duration = 10.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "rk4", .step = 0.002, .duration = 10.0);
   check_ok(hooke_integrator_run(integrator, state));
   *passages = passages_of(integrator);
-  const double x = hooke_state_position(state)[3];
-  return x;
+  return hooke_state_position(state)[3];
 }
 
 /* A far wall makes the spring a signed one: x = 0.5 + a damped oscillation. */

@@ -229,7 +229,7 @@ TEST(what_is_of_particles_is_refused) {
   owned_options *options = run_options((struct run){.method = "rk4", .duration = 1.0});
   owned_options *watch = options_with("study", "watch=0.x");
   hooke_measurement *made = NULL;
-  hooke_state *start;
+  owned_state *start = NULL;
   hooke_system *other = NULL;
   double bound;
   for (int k = 0; k < 4; k++) {
@@ -246,5 +246,4 @@ TEST(what_is_of_particles_is_refused) {
   hooke_state_set_time(start, 1.0);
   check_status(hooke_system_create_first_order(spiral, NULL, start, &other), HOOKE_BAD_VALUE);
   check_message("t = 0 is");
-  hooke_state_destroy(start);
 }

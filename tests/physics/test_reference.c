@@ -45,9 +45,8 @@ static void reach_references(const char *method) {
     struct visit visit = {&references[k], method, 0};
     owned_system *system = build_reference(&references[k]);
     const double end = references[k].state[references[k].state_count - 1].time;
-    owned_integrator *integrator = start_run(
-        system, (struct run){.method = method, .rtol = 1e-10, .atol = 1e-12, .duration = end, .every = 0.05});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = method, .rtol = 1e-10, .atol = 1e-12, .duration = end,
+              .every = 0.05);
     check_ok(hooke_integrator_on_frame(integrator, at_frame, &visit));
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(visit.seen, references[k].state_count);
@@ -112,8 +111,7 @@ TEST(test_orders) {
     owned_doubles *q = new_doubles(size);
     double error[5], step = ladder->coarsest[k % REFERENCE_COUNT];
     for (int point = 0; point < ladder->points; point++, step /= 2.0) {
-      run_to_end(system, (struct run){.method = ladder->method, .step = step, .duration = expected->time}, q,
-                 NULL);
+      end_of_run(q, NULL, system, .method = ladder->method, .step = step, .duration = expected->time);
       error[point] = largest_difference(size, q, expected->position);
     }
     char what[128];

@@ -55,11 +55,8 @@ TEST(test_frames) {
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const double steps = round(cases[k].duration / cases[k].step);
     struct frames frames = {cases[k].start, cases[k].step, cases[k].stride, (int64_t)steps, 0};
-    owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler",
-                                                                  .step = cases[k].step,
-                                                                  .duration = cases[k].duration,
-                                                                  .every = cases[k].every});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "symplectic-euler", .step = cases[k].step,
+              .duration = cases[k].duration, .every = cases[k].every);
     hooke_state_set_time(state, cases[k].start);
     assert_int_equal(hooke_integrator_count(integrator, "frames"), cases[k].count);
     check_close(hooke_options_number(hooke_integrator_options(integrator), "every"),
@@ -95,10 +92,8 @@ TEST(test_frames_of_adaptive_methods) {
   owned_system *system = small_oscillator(3.0);
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     struct times times = {.now = -1.0};
-    owned_integrator *integrator = start_run(
-        system,
-        (struct run){.method = "cvode-adams", .duration = cases[k].duration, .every = cases[k].every});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "cvode-adams", .duration = cases[k].duration,
+              .every = cases[k].every);
     assert_int_equal(hooke_integrator_count(integrator, "frames"), cases[k].count);
     check_ok(hooke_integrator_on_frame(integrator, note_time, &times));
     check_ok(hooke_integrator_run(integrator, state));
@@ -115,9 +110,7 @@ TEST(test_a_last_frame_just_before_the_end) {
   for (int m = 0; m < 2; m++) {
     if (!hooke_method_is_built(methods[m])) continue;
     struct times times = {.now = -1.0};
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = methods[m], .duration = 4.2, .every = 0.7});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = methods[m], .duration = 4.2, .every = 0.7);
     check_ok(hooke_integrator_on_frame(integrator, note_time, &times));
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(times.seen, 7);
@@ -129,9 +122,8 @@ TEST(test_a_last_frame_just_before_the_end) {
 TEST(test_time_does_not_drift) {
   struct frames frames = {0.3, 0.1, 1000, 1000000, 0};
   owned_system *system = small_oscillator(1.0);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 100000.0, .every = 100.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.1, .duration = 100000.0,
+            .every = 100.0);
   hooke_state_set_time(state, 0.3);
   check_ok(hooke_integrator_on_frame(integrator, check_frame, &frames));
   check_ok(hooke_integrator_run(integrator, state));
@@ -168,17 +160,15 @@ TEST(test_steps_that_do_not_fit) {
              "symplectic-euler");
   /* a multiple to 1e-9 relative is one */
   owned_system *system = small_oscillator(1.0);
-  hooke_integrator *integrator =
-      start_run(system, (struct run){.method = method, .step = 0.1, .duration = 1.0 + 5e-10, .every = 0.2});
+  owned_integrator *integrator =
+      start_with(system, .method = method, .step = 0.1, .duration = 1.0 + 5e-10, .every = 0.2);
   assert_int_equal(hooke_integrator_count(integrator, "frames"), 6);
-  hooke_integrator_destroy(integrator);
   refuse_run((struct run){.method = method, .step = 0.1, .duration = 1.0 + 3e-9}, "duration", "0.1", "step");
 }
 
 TEST(test_run_needs_duration) {
   owned_system *system = small_oscillator(1.0);
-  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.1);
   check_status(hooke_integrator_run(integrator, state), HOOKE_BAD_VALUE);
   check_message("duration");
   check_close(hooke_state_time(state), 0.0, 0.0);
@@ -205,9 +195,8 @@ TEST(test_step_observer) {
   const int64_t strides[] = {1, 3, 10, 11};
   for (int k = 0; k < 4; k++) {
     struct watch watch = {0, 0, 0, 0.0};
-    owned_integrator *integrator = start_run(
-        system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 3.2, .every = 0.4});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.1, .duration = 3.2,
+              .every = 0.4);
     check_ok(hooke_integrator_on_step(integrator, strides[k], count_steps, &watch));
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(watch.calls, 32 / strides[k]);
@@ -225,9 +214,8 @@ TEST(test_observers_stop) {
   for (int on_frame = 0; on_frame < 2; on_frame++) {
     struct watch watch = {0, -1, 8, 0.0};
     double q[6];
-    owned_integrator *integrator = start_run(
-        system, (struct run){.method = "symplectic-euler", .step = 0.125, .duration = 10.0, .every = 0.5});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.125, .duration = 10.0,
+              .every = 0.5);
     if (on_frame)
       check_ok(hooke_integrator_on_frame(integrator, count_steps, &watch));
     else
@@ -236,7 +224,7 @@ TEST(test_observers_stop) {
     assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 7);
     assert_int_equal(watch.last_step, 8);
     check_close(hooke_state_time(state), 1.0, 0.0);
-    run_to_end(system, (struct run){.method = "symplectic-euler", .step = 0.125, .duration = 1.0}, q, NULL);
+    end_of_run(q, NULL, system, .method = "symplectic-euler", .step = 0.125, .duration = 1.0);
     check_same_bits(6, hooke_state_position(state), q);
   }
 }
@@ -247,9 +235,7 @@ TEST(test_step_observer_of_adaptive_methods) {
   if (hooke_method_is_built("cvode-adams") != 1) skip();
   owned_system *system = small_oscillator(3.0);
   struct watch watch = {0, 0, 0, 0.0};
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "cvode-adams", .duration = 2.0, .every = 0.1});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "cvode-adams", .duration = 2.0, .every = 0.1);
   check_ok(hooke_integrator_on_step(integrator, 1, count_steps, &watch));
   check_ok(hooke_integrator_run(integrator, state));
   const int64_t steps = hooke_integrator_count(integrator, "steps");
@@ -334,17 +320,14 @@ TEST(test_step_limit_of_first_order) {
 
 TEST(test_steps_by_hand) {
   owned_system *system = small_oscillator(2.0);
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!is_fixed_step(method)) continue;
+  for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
     double q[6], v[6];
-    owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = 0.0625});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = method, .step = 0.0625);
     check_ok(hooke_integrator_step(integrator, state, 3));
     check_ok(hooke_integrator_step(integrator, state, 0));
     for (int k = 0; k < 13; k++)
       check_ok(hooke_integrator_step(integrator, state, 1));
-    run_to_end(system, (struct run){.method = method, .step = 0.0625, .duration = 1.0}, q, v);
+    end_of_run(q, v, system, .method = method, .step = 0.0625, .duration = 1.0);
     check_close(hooke_state_time(state), 1.0, 0.0);
     check_same_bits(6, hooke_state_position(state), q);
     check_same_bits(6, hooke_state_velocity(state), v);
@@ -374,9 +357,7 @@ TEST(test_too_many_steps) {
   if (hooke_method_is_built("cvode-adams"))
     refuse_run((struct run){.method = "cvode-adams", .duration = 1e17, .every = 1.0}, "every",
                "1 s gives 1e+17 frames", "up to 9e15");
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "verlet", .step = 1e-3, .duration = 1.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "verlet", .step = 1e-3, .duration = 1.0);
   check_ok(hooke_integrator_step(integrator, state, 3));
   const double t = hooke_state_time(state);
   check_status(hooke_integrator_step(integrator, state, INT64_MAX), HOOKE_BAD_VALUE);
@@ -392,7 +373,7 @@ TEST(test_state_of_another_size) {
   owned_state *state = NULL;
   check_ok(hooke_state_create_first_order(5, &state));
   owned_integrator *integrator =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 1.0});
+      start_with(system, .method = "symplectic-euler", .step = 0.1, .duration = 1.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_BAD_VALUE);
   check_status(hooke_integrator_step(integrator, state, 1), HOOKE_BAD_VALUE);
 }
@@ -419,9 +400,7 @@ static int32_t follow_energy(int64_t step, const hooke_state *state, void *ctx) 
 static struct energies energies_of(const char *method, double omega, double h, double duration) {
   owned_system *system = small_oscillator(omega);
   struct energies energies = {.system = system};
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = method, .step = h, .duration = duration, .every = h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = h, .duration = duration, .every = h);
   check_ok(hooke_integrator_on_frame(integrator, follow_energy, &energies));
   check_ok(hooke_integrator_run(integrator, state));
   return energies;
@@ -457,12 +436,8 @@ TEST(test_counts) {
                          "linear_iterations",
                          "error_test_failures",
                          "coincident_springs"};
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (hooke_method_is_built(method) != 1) continue;
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = method, .step = 0.01, .duration = 1.0});
-    owned_state *state = start_state(system);
+  for (const char *method = NULL; (method = next_method(method, hooke_method_is_built));) {
+    owned_run(integrator, state, system, .method = method, .step = 0.01, .duration = 1.0);
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
       assert_int_equal(hooke_integrator_count(integrator, names[k]), 0);
     }

@@ -24,8 +24,7 @@ static double bytes_in_use(void) {
 
 /* The stated memory equals that allocated since `before`. */
 static double bytes_of_run(const hooke_system *system, const char *method, double before) {
-  owned_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
-  owned_state *made = start_state(system);
+  owned_run(integrator, made, system, .method = method, .step = 1e-6);
   const double taken = bytes_in_use() - before, size = (double)hooke_state_size(made);
   const double bytes = (double)hooke_system_count(system, "memory") + 8.0 * (2.0 * size + 1.0) +
                        (double)hooke_integrator_count(integrator, "memory_bytes");
@@ -39,8 +38,7 @@ static hooke_system *build_cloth(void) {
              "edges=1,0,0,0,0,1 size=%d,%d mass=1 structural.stiffness=50 "
              "structural.damping=0.01 shear.stiffness=50 bend.stiffness=50",
              (int)SIDE, (int)SIDE);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static int64_t *new_order(struct random_source *source, int64_t count) {
@@ -122,7 +120,7 @@ static int32_t drive(int64_t count, double t, double *q, double *v, void *ctx) {
 
 static void build_rope(int driven, struct rope *rope) {
   struct random_source source = {3};
-  int64_t *ends = new_block(2 * LONG_ROPE, (int64_t)sizeof *ends);
+  owned_wholes *ends = new_block(2 * LONG_ROPE, (int64_t)sizeof *ends);
   owned_doubles *q = new_doubles(3 * LONG_ROPE);
   const double mass = 1.0;
   for (int64_t p = 0; p < LONG_ROPE; p++) {
@@ -137,7 +135,6 @@ static void build_rope(int driven, struct rope *rope) {
   const int64_t last = LONG_ROPE - 1;
   if (driven) check_ok(hooke_system_drive_callback(rope->system, 1, &last, drive, rope));
   check_ok(hooke_system_commit(rope->system));
-  free(ends);
 }
 
 static int32_t look(int64_t step, const hooke_state *state, void *ctx) {

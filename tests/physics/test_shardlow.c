@@ -16,12 +16,10 @@ static double part_left(double z) {
   owned_system *system = new_system();
   check_ok(hooke_system_add_particles(system, 2, q, v, 2, mass, NULL));
   const double w = 1.0 / mass[0] + 1.0 / mass[1];
-  small_springs(
-      system, 1, ends,
-      (struct springs){.law = "length", .stiffness = 0.0, .damping = 2.0 * z / (h * w), .rest_length = 1.0});
+  springs_with(system, 1, ends, .law = "length", .stiffness = 0.0, .damping = 2.0 * z / (h * w),
+               .rest_length = 1.0);
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "shardlow", .step = h);
   check_ok(hooke_integrator_step(integrator, state, 1));
   const double *u = hooke_state_velocity(state), left = u[3] - u[0];
   check_close(mass[0] * u[0] + mass[1] * u[3], 3.0, 1e-15);
@@ -53,8 +51,7 @@ TEST(momentum_stays) {
   const double dampings[] = {1e-3, 1.0, 1e3, 1e6};
   for (int k = 0; k < 4; k++) {
     owned_system *system = small_net((uint64_t)(k + 1), dampings[k], 1e-6, 0);
-    owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = 1e-3});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "shardlow", .step = 1e-3);
     struct random_source source = {99};
     double *v = hooke_state_velocity(state), before[6], after[6];
     for (int i = 0; i < 3 * SMALL_NET_PARTICLES; i++)
@@ -90,9 +87,7 @@ TEST(damping_leaves_the_limit) {
       check_between(measured / predicted, 0.999, 1.002);
     else
       check_between(measured / predicted, 0.999, INFINITY);
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = "shardlow", .step = 0.98 * predicted});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "shardlow", .step = 0.98 * predicted);
     hooke_state_velocity(state)[5] += 1e-6;
     const double energy = total(system, state);
     check_ok(hooke_integrator_step(integrator, state, 20000));
@@ -123,8 +118,7 @@ TEST(callback_sees_the_predicted_velocity) {
   check_ok(hooke_system_set_force(system, brake, NULL, &witness));
   check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "shardlow", .step = h);
   check_ok(hooke_integrator_step(integrator, state, 1));
   const double z = h / 2.0 * drag, factor = 1.0 / (1.0 + z + z * z / 2.0);
   const double half = factor * (1.0 - h / 2.0 * 0.5), ahead = half - h / 2.0 * 0.5 * factor;
@@ -142,12 +136,10 @@ TEST(cables_never_push) {
   const double q[] = {0, 0, 0, 1.1, 0, 0}, v[] = {0, 0, 0, -5, 0, 0}, h = 1e-3, kappa = 10.0;
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, v, 1.0, 1);
-  small_springs(system, 1, ends,
-                (struct springs){
-                    .law = "length", .stiffness = kappa, .damping = 1e3, .rest_length = 1.0, .pull_only = 1});
+  springs_with(system, 1, ends, .law = "length", .stiffness = kappa, .damping = 1e3, .rest_length = 1.0,
+               .pull_only = 1);
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = h});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "shardlow", .step = h);
   /* while it is taut, tension and damper are in balance, and then there is neither */
   check_ok(hooke_integrator_step(integrator, state, 40));
   check_close(hooke_state_velocity(state)[3], -5.0, 2.0 * h * kappa * 0.1);

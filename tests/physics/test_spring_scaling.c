@@ -32,8 +32,7 @@ TEST(a_lengthening_pendulum_follows_bessel) {
   check_ok(hooke_system_set_gravity(system, (double[]){0, 0, -GRAVITY}));
   check_ok(hooke_system_pin(system, 1, &first));
   check_ok(hooke_system_commit(system));
-  owned_state *state = start_state(system);
-  owned_integrator *integrator = start_run(system, (struct run){.method = "rk4", .step = 2e-4});
+  owned_run(integrator, state, system, .method = "rk4", .step = 2e-4);
   double lowest = 0.0;
   for (int k = 1; k <= 20; k++) {
     check_ok(hooke_integrator_step(integrator, state, 2500));
@@ -57,8 +56,7 @@ static double growth(double beside) {
               beside * 20.0 / 6.28318530717958647693);
   check_ok(hooke_system_pin(system, 1, &first));
   check_ok(hooke_system_commit(system));
-  owned_state *state = start_state(system);
-  owned_integrator *integrator = start_run(system, (struct run){.method = "rk4", .step = 0.005});
+  owned_run(integrator, state, system, .method = "rk4", .step = 0.005);
   double most = 0.0;
   for (int k = 0; k < 4000; k++) {
     check_ok(hooke_integrator_step(integrator, state, 1));

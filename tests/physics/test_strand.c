@@ -23,8 +23,7 @@ static hooke_options *strand_options(int64_t segments, double curl, double turns
 static hooke_system *new_strand(const hooke_options *options) {
   hooke_system *system = new_system();
   check_ok(hooke_system_add_part(system, "strand", "hair", options, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Along the axis from `from` [m], and the distance from it. */
@@ -50,7 +49,7 @@ static void check_counts(const hooke_system *system, int64_t n) {
   assert_int_equal(hooke_system_particle_count(system), n);
   assert_int_equal(hooke_system_group_count(system, "springs"), 3);
   static const char *const name[] = {"hair.stretch", "hair.bend", "hair.twist"};
-  int64_t *ends = new_block(2 * (3 * n - 6), (int64_t)sizeof *ends);
+  owned_wholes *ends = new_block(2 * (3 * n - 6), (int64_t)sizeof *ends);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   for (int64_t g = 0, s = 0; g < 3; g++) {
     assert_string_equal(hooke_system_group_name(system, "springs", g), name[g]);
@@ -59,7 +58,6 @@ static void check_counts(const hooke_system *system, int64_t n) {
       assert_true(ends[2 * s] == k && ends[2 * s + 1] == k + 1 + g);
   }
   assert_int_equal(hooke_system_count(system, "altitude"), n - 3);
-  free(ends);
 }
 
 TEST(a_straight_strand_winds_about_its_axis) {

@@ -20,11 +20,6 @@ struct expense {
   int64_t first, each; /* force evaluations */
 };
 
-static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
-  return 0;
-}
-
 /* The force at the end of a step is that of the next one's start, unless velocities are in it. */
 TEST(force_evaluations) {
   const struct expense expenses[] = {{"plain", 0, 0, 0, "auto", 1, 1},
@@ -41,13 +36,11 @@ TEST(force_evaluations) {
     const double q[] = {0, 0, 0, 1, 0, 0, 1, 1.5, 0};
     const int64_t ends[] = {0, 1, 1, 2};
     owned_system *system = small_system(3, q, NULL, 1.0, 1);
-    small_springs(system, 2, ends, (struct springs){.stiffness = 4, .damping = e->damping, .rest_length = 1});
+    springs_with(system, 2, ends, .stiffness = 4, .damping = e->damping, .rest_length = 1);
     check_ok(hooke_system_set_drag(system, e->drag));
-    if (e->callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
+    if (e->callback) check_ok(hooke_system_set_force(system, idle_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = "verlet", .step = 0.01, .verlet_damping = e->how});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "verlet", .step = 0.01, .verlet_damping = e->how);
     check_ok(hooke_integrator_step(integrator, state, 40));
     check_ok(hooke_integrator_step(integrator, state, 60));
     const int64_t found = hooke_integrator_count(integrator, "force_evaluations");
@@ -90,8 +83,7 @@ TEST(callback_sees_the_predicted_velocity) {
   owned_system *system = small_system(1, q, v, 1.0, 0);
   check_ok(hooke_system_set_force(system, brake, NULL, &witness));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 0.25});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "verlet", .step = 0.25);
   check_ok(hooke_integrator_step(integrator, state, 1));
   assert_int_equal(witness.calls, 2);
   const double half = 1.0 - 0.125 * 0.5, ahead = half - 0.125 * 0.5, whole = half - 0.125 * 0.5 * ahead;
@@ -111,12 +103,10 @@ static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) 
   const int64_t ends[] = {0, 1};
   hooke_system *system = small_system(2, q, NULL, mass, 1);
   const double c = 2.0 * zeta * omega * mass;
-  small_springs(
-      system, 1, ends,
-      (struct springs){.law = "length", .stiffness = mass * omega * omega, .damping = in_ether ? 0.0 : c});
+  springs_with(system, 1, ends, .law = "length", .stiffness = mass * omega * omega,
+               .damping = in_ether ? 0.0 : c);
   check_ok(hooke_system_set_drag(system, in_ether ? c : 0.0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Steps of the scalar formula: in the spring explicit and solved for, in the ether a division. */
@@ -124,9 +114,8 @@ TEST(one_step_is_the_formula) {
   const double omega = 3.0, zeta = 0.4, h = 0.3, c = 2.0 * zeta * omega;
   for (int how = 0; how < 3; how++) {
     owned_system *system = damped_oscillator(omega, zeta, how == 2);
-    owned_integrator *integrator = start_run(
-        system, (struct run){.method = "verlet", .step = h, .verlet_damping = how == 1 ? "implicit" : NULL});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "verlet", .step = h,
+              .verlet_damping = how == 1 ? "implicit" : NULL);
     double x = 1.0, v = 0.0;
     for (int k = 0; k < 20; k++) {
       const double kick = h / 2.0 * (-omega * omega * x - c * v), half = v + kick;
@@ -145,16 +134,13 @@ TEST(hardly_any_velocity) {
   const double q[] = {0, 0, 0, 1, 0, 0}, h = 0.1, gamma = 2.0;
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
-  small_springs(system, 1, ends,
-                (struct springs){.law = "length", .stiffness = 1.0, .damping = gamma, .rest_length = 1.0});
+  springs_with(system, 1, ends, .law = "length", .stiffness = 1.0, .damping = gamma, .rest_length = 1.0);
   check_ok(hooke_system_commit(system));
   const double speeds[] = {1e-3, 1e-99, 1e-101, 1e-150, 1e-200, 1e-300};
   for (size_t i = 0; i < 2 * sizeof speeds / sizeof speeds[0]; i++) {
     const size_t k = i / 2, how = i % 2;
-    owned_integrator *integrator = start_run(
-        system,
-        (struct run){.method = "verlet", .step = h, .verlet_damping = how == 0 ? "explicit" : "implicit"});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "verlet", .step = h,
+              .verlet_damping = how == 0 ? "explicit" : "implicit");
     hooke_state_velocity(state)[3] = speeds[k];
     check_ok(hooke_integrator_step(integrator, state, 1));
     const double half = 1.0 - h / 2.0 * gamma, stretch = k == 0 ? h * half : 0.0; /* else it rounds to none */
@@ -168,10 +154,9 @@ TEST(hardly_any_velocity) {
 
 /* The largest step at which damping is explicit. */
 static double largest_explicit(const hooke_system *system) {
-  struct canonical canonical;
+  owned_canonical canonical;
   canonical_create(system, &canonical);
   const double most = 0.8 * canonical_explicit_bound(&canonical);
-  canonical_destroy(&canonical);
   return most;
 }
 
@@ -183,8 +168,7 @@ TEST(explicit_damping_is_stable) {
     const double most = largest_explicit(system);
     for (int above = 0; above < 2; above++) {
       const double step = (above ? 1.0 + 1e-9 : 1.0 - 1e-9) * most;
-      owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
-      owned_state *state = start_state(system);
+      owned_run(integrator, state, system, .method = "verlet", .step = step);
       assert_int_equal(hooke_integrator_count(integrator, "explicit_damping"), !above);
       hooke_state_velocity(state)[5] += 1e-6;
       const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
@@ -204,14 +188,12 @@ TEST(damped_cables_are_solved_for) {
   const double q[] = {0, 0, 0, 1.5, 0, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, q, NULL, 1.0, 1);
-  small_springs(system, 1, ends,
-                (struct springs){.stiffness = 1.0, .damping = 0.1, .rest_length = 1.0, .pull_only = 1});
+  springs_with(system, 1, ends, .stiffness = 1.0, .damping = 0.1, .rest_length = 1.0, .pull_only = 1);
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1e-3});
+  hooke_integrator *integrator = start_with(system, .method = "verlet", .step = 1e-3);
   assert_int_equal(hooke_integrator_count(integrator, "explicit_damping"), 0);
   hooke_integrator_destroy(integrator);
-  integrator =
-      start_run(system, (struct run){.method = "verlet", .step = 1e-3, .verlet_damping = "explicit"});
+  integrator = start_with(system, .method = "verlet", .step = 1e-3, .verlet_damping = "explicit");
   assert_int_equal(hooke_integrator_count(integrator, "explicit_damping"), 1);
   hooke_integrator_destroy(integrator);
 }
@@ -235,8 +217,7 @@ static hooke_system *cross_of(const char *extra, int obstacle) {
     owned_options *plane = options_with("obstacles", "shape=plane point=0,-9,0 normal=0,1,0 stiffness=1e3");
     check_ok(hooke_system_add_obstacle(system, 0, NULL, plane));
   }
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* h^2 K + 2 h C = 4 for so many springs. */
@@ -286,10 +267,8 @@ TEST(warnings_know_how_damping_is_taken) {
   owned_system *system = damped_oscillator(1.0, 0.1, 0);
   for (int explicitly = 0; explicitly < 2; explicitly++) {
     struct heard heard = {0};
-    owned_integrator *integrator = start_run(
-        system, (struct run){
-                    .method = "verlet", .step = 1.9, .verlet_damping = explicitly ? "explicit" : "implicit"});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "verlet", .step = 1.9,
+              .verlet_damping = explicitly ? "explicit" : "implicit");
     check_ok(hooke_integrator_on_warning(integrator, hear_above, &heard));
     hooke_state_velocity(state)[3] = 1e-3;
     check_ok(hooke_integrator_step(integrator, state, 1)); /* after which it is looked at */
@@ -324,8 +303,7 @@ static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
 TEST(energy_stays_bounded) {
   owned_system *system = build_reference(find_reference("elastic-pendulum"));
   struct energies e = {.system = system, .steps = 100000};
-  owned_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 4e-3});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "verlet", .step = 4e-3);
   e.first = hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state));
   check_ok(hooke_integrator_on_step(integrator, 7, watch_energy, &e));
   check_ok(hooke_integrator_step(integrator, state, e.steps));

@@ -31,9 +31,8 @@ static int32_t note(const char *kind, const char *sentence, double t, double lim
 /* One step of a run with warnings; the bound of the oscillator is its limit. */
 static int32_t watch_run(const char *method, double step, struct warned *warned, double *q) {
   owned_system *system = small_oscillator(10.0);
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = method, .step = step, .duration = 10.0 * step, .every = step});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = method, .step = step, .duration = 10.0 * step,
+            .every = step);
   if (warned) check_ok(hooke_integrator_on_warning(integrator, note, warned));
   const int32_t status = hooke_integrator_run(integrator, state);
   if (q) memcpy(q, hooke_state_position(state), 6 * sizeof(double));
@@ -96,8 +95,8 @@ TEST(test_a_watch_changes_no_bits) {
 TEST(test_once_a_run) {
   struct warned warned = {.count = 0};
   owned_system *system = small_oscillator(10.0);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.192, .duration = 1920.0, .every = 0.192});
+  owned_integrator *integrator =
+      start_with(system, .method = "symplectic-euler", .step = 0.192, .duration = 1920.0, .every = 0.192);
   check_ok(hooke_integrator_on_warning(integrator, note, &warned));
   for (int k = 1; k <= 2; k++) {
     owned_state *state = start_state(system);

@@ -48,7 +48,7 @@ static hooke_system *row(int32_t pin_first) {
   const double position[] = {0, 0, 0, 1.1, 0, 0, 2, 0.1, 0};
   const int64_t ends[] = {0, 1, 1, 2};
   hooke_system *system = small_system(3, position, NULL, 1.0, pin_first);
-  small_springs(system, 2, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
+  springs_with(system, 2, ends, .law = "length", .stiffness = 100.0, .rest_length = 1.0);
   return system;
 }
 
@@ -190,9 +190,7 @@ TEST(test_innocent_callback) {
   owned_system *system = row(1);
   check_ok(hooke_system_set_force(system, cubic_force, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.2, .duration = 400.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.2, .duration = 400.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
@@ -207,11 +205,10 @@ TEST(test_innocent_callback) {
 TEST(test_numbers_of_an_oscillator) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
-  owned_integrator *every_step = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21});
-  owned_integrator *rarely = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 21.0});
-  owned_state *state = start_state(system);
+  owned_integrator *every_step =
+      start_with(system, .method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21);
+  owned_run(rarely, state, system, .method = "symplectic-euler", .step = 0.21, .duration = 21.0,
+            .every = 21.0);
   check_status(hooke_integrator_run(every_step, state), HOOKE_DIVERGED);
   const double last_good = hooke_state_time(state), bad = hooke_integrator_number(every_step, "diverged_at");
   owned_state *late = start_state(system);
@@ -278,11 +275,8 @@ TEST(test_tolerances_that_are_too_loose) {
   for (int k = 0; k < 2; k++) {
     if (!hooke_method_is_built(methods[k])) continue;
     owned_system *system = small_oscillator(10.0);
-    owned_integrator *integrator = start_run(
-        system,
-        (struct run){
-            .method = methods[k], .duration = 1000.0, .rtol = 0.1, .atol = 1000.0, .atol_velocity = 1000.0});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = methods[k], .duration = 1000.0, .rtol = 0.1,
+              .atol = 1000.0, .atol_velocity = 1000.0);
     check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
     owned_measurement *why = explain(integrator);
     check_text(hooke_measurement_text(why, "why", 0, "cause"), "solver-failed");
@@ -316,7 +310,7 @@ TEST(test_solvers_that_give_up) {
     const double position[] = {0, 0, 0, 1.1, 0, 0}, velocity[] = {0, 0, 0, 0, 0.5, 0};
     const int64_t ends[] = {0, 1};
     owned_system *system = small_system(2, position, velocity, 1.0, 1);
-    small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 1.0, .rest_length = 1.0});
+    springs_with(system, 1, ends, .law = "length", .stiffness = 1.0, .rest_length = 1.0);
     check_ok(hooke_system_set_force(system, escaping_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
     owned_integrator *integrator = start_run(system, runs[k]);
@@ -342,12 +336,11 @@ TEST(test_a_step_that_is_not_enough) {
   const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 60, 0};
   const int64_t ends[] = {0, 1};
   owned_system *system = small_system(2, position, velocity, 1.0, 1);
-  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
+  springs_with(system, 1, ends, .law = "length", .stiffness = 100.0, .rest_length = 1.0);
   check_ok(hooke_system_set_force(system, escaping_force, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.21, .duration = 21.0,
+            .every = 0.21);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   owned_measurement *why = explain(integrator);
   check_close(hooke_measurement_number(why, "why", 0, "limit"), 0.2, 1e-6);
@@ -382,8 +375,7 @@ TEST(test_kept_state_that_is_not_finite) {
 TEST(test_own_loop) {
   needs_lapack();
   owned_system *system = small_oscillator(10.0);
-  owned_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.3);
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 100 && status == HOOKE_OK; k++)
     status = hooke_integrator_step(integrator, state, 100);
@@ -407,14 +399,12 @@ TEST(test_trouble_that_comes_late) {
     other[k] = -out[k];
   owned_system *system = small_system(5, position, velocity, 1.0, 0);
   check_ok(hooke_system_pin(system, 2, pinned));
-  small_springs(system, 4, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
+  springs_with(system, 4, ends, .law = "length", .stiffness = 100.0, .rest_length = 1.0);
   check_ok(hooke_system_drive_table(system, 1, &left, 5, time, out));
   check_ok(hooke_system_drive_table(system, 1, &right, 5, time, other));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(
-      system,
-      (struct run){.method = "symplectic-euler", .step = 0.13, .duration = 0.13 * 3e6, .every = 130.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.13, .duration = 0.13 * 3e6,
+            .every = 130.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
@@ -444,11 +434,8 @@ static int32_t count_down(double done, const char *what, void *ctx) {
  * nothing. */
 TEST(test_progress_ends_it) {
   needs_lapack();
-  owned_system *system = row(1);
-  check_ok(hooke_system_commit(system));
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 500.0});
-  owned_state *state = start_state(system);
+  owned_system *system = committed(row(1));
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.5, .duration = 500.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   int calls = 1000000;
   hooke_measurement *why = NULL;
@@ -484,9 +471,8 @@ TEST(test_callbacks_are_not_called_for_ever) {
   owned_system *system = row(1);
   check_ok(hooke_system_set_force(system, faulty_force, NULL, &none));
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 5e5, .every = 5e4});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.5, .duration = 5e5,
+            .every = 5e4);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   none.calls = 0;
   owned_measurement *why = NULL;
@@ -501,11 +487,8 @@ TEST(test_callbacks_are_not_called_for_ever) {
 /* Without time nothing is claimed but certain facts. */
 TEST(test_no_time) {
   needs_lapack();
-  owned_system *system = row(1);
-  check_ok(hooke_system_commit(system));
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.5, .duration = 500.0});
-  owned_state *state = start_state(system);
+  owned_system *system = committed(row(1));
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.5, .duration = 500.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   owned_measurement *why = NULL;
   check_ok(explain_within(integrator, 1e-9, NULL, NULL, &why));
@@ -519,15 +502,14 @@ TEST(test_no_time) {
 TEST(test_nothing_to_explain) {
   hooke_measurement *why = NULL;
   owned_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.01, .duration = 1.0});
+  owned_integrator *integrator =
+      start_with(system, .method = "symplectic-euler", .step = 0.01, .duration = 1.0);
   hooke_state *state = start_state(system);
   check_status(explain_run(integrator, &why), HOOKE_BAD_CALL);
   check_ok(hooke_integrator_run(integrator, state));
   check_status(explain_run(integrator, &why), HOOKE_BAD_CALL);
   check_message("did not blow up");
   hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 
   owned_integrator *first_order = start_first_order(
       1, explode, NULL, (struct run){.method = "forward-euler", .step = 0.1, .duration = 10.0});
@@ -551,8 +533,8 @@ static int32_t record(int64_t step, const hooke_state *state, void *ctx) {
 TEST(test_recent_states) {
   enum { STEPS = 20 };
   owned_system *system = small_oscillator(10.0);
-  owned_integrator *integrator = start_run(
-      system, (struct run){.method = "verlet", .step = 0.01, .duration = STEPS * 0.01, .every = 0.01});
+  owned_integrator *integrator =
+      start_with(system, .method = "verlet", .step = 0.01, .duration = STEPS * 0.01, .every = 0.01);
   owned_state *state = start_state(system), *recent = start_state(system);
   owned_doubles *seen = new_doubles(4 * (STEPS + 1));
   assert_int_equal(hooke_integrator_count(integrator, "recent"), 0);
@@ -576,11 +558,9 @@ TEST(test_recent_states_are_few_at_scale) {
   for (int s = 0; s < 3; s++) {
     const int64_t n = sizes[s].n;
     owned_doubles *position = new_doubles(3 * n);
-    owned_system *system = small_system(n, position, NULL, 1.0, 0);
-    check_ok(hooke_system_commit(system));
-    owned_integrator *integrator = start_run(
-        system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 1.0, .every = 0.1});
-    owned_state *state = start_state(system);
+    owned_system *system = committed(small_system(n, position, NULL, 1.0, 0));
+    owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.1, .duration = 1.0,
+              .every = 0.1);
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(hooke_integrator_count(integrator, "recent"), sizes[s].count);
     check_between((double)hooke_integrator_count(integrator, "memory_bytes"), (double)(120 * n),
@@ -592,9 +572,7 @@ TEST(test_without_lapack) {
   if (has_lapack()) skip();
   hooke_measurement *why = NULL;
   owned_system *system = small_oscillator(10.0);
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.3, .duration = 300.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.3, .duration = 300.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   check_status(explain_run(integrator, &why), HOOKE_NOT_BUILT);
 }
@@ -603,9 +581,7 @@ TEST(test_without_lapack) {
 
 static void check_overflow(hooke_system *system, int64_t particle, const char *words) {
   check_ok(hooke_system_commit(system));
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 10.0});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.1, .duration = 10.0);
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   owned_measurement *why = explain(integrator);
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "overflow");

@@ -10,9 +10,8 @@ TEST(test_a_small_share_names_the_group) {
   if (!HOOKE_HAVE_LAPACK) skip();
   for (int64_t side = 4; side <= 16; side *= 4) {
     owned_system *system = small_cloth(side, 50.0, 0.0);
-    owned_integrator *integrator = start_run(
-        system, (struct run){.method = "symplectic-euler", .step = 0.02, .duration = 2.0, .every = 0.02});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "symplectic-euler", .step = 0.02, .duration = 2.0,
+              .every = 0.02);
     owned_measurement *why = NULL;
     check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
     check_ok(explain_run(integrator, &why));

@@ -20,11 +20,10 @@ static void check_steps(const hooke_system *system, const struct canonical *c, c
                         const double *q0, const double *v0) {
   const int64_t size = 3 * c->particle_count;
   const double h = 0.0009765;
-  double *q = new_doubles(size), *v = new_doubles(size);
+  owned_doubles *q = new_doubles(size), *v = new_doubles(size);
   memcpy(q, q0, (size_t)size * sizeof *q);
   memcpy(v, v0, (size_t)size * sizeof *v);
-  hooke_state *state = start_state(system);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
+  owned_run(integrator, state, system, .method = method, .step = h);
   int64_t lost = 0;
   for (int k = 0; k < 3; k++) {
     lost = lost_springs(c, q);
@@ -37,10 +36,6 @@ static void check_steps(const hooke_system *system, const struct canonical *c, c
     assert_int_equal(hooke_integrator_count(integrator, "coincident_springs"), lost);
     assert_int_equal(hooke_integrator_count(integrator, "force_evaluations"), 3);
   }
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  free(q);
-  free(v);
 }
 
 /* Energy and, where no spring only pulls, heat, spring by spring. */
@@ -67,7 +62,7 @@ static void check_sums(const hooke_system *system, const struct canonical *c, co
 
 void check_agrees(const hooke_system *system, const struct canonical *c, const double *q, const double *v) {
   const int64_t size = 3 * c->particle_count;
-  double *found = new_doubles(size), *expected = new_doubles(size);
+  owned_doubles *found = new_doubles(size), *expected = new_doubles(size);
   check_ok(hooke_system_acceleration(system, 0.0, q, v, found));
   canonical_acceleration(c, 0.0, q, v, expected);
   check_same_bits(size, found, expected);
@@ -75,6 +70,4 @@ void check_agrees(const hooke_system *system, const struct canonical *c, const d
   check_steps(system, c, "symplectic-euler", q, v);
   check_steps(system, c, "forward-euler", q, v);
   check_steps(system, c, "rk4", q, v);
-  free(found);
-  free(expected);
 }

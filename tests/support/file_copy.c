@@ -14,3 +14,15 @@ void copy_file(const char *from, const char *to) {
   fclose(in);
   assert_int_equal(fclose(out), 0);
 }
+
+char *bytes_of(const char *path, size_t *count) {
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  assert_int_equal(fseek(file, 0, SEEK_END), 0);
+  *count = (size_t)ftell(file);
+  rewind(file);
+  char *bytes = new_block((int64_t)*count, 1);
+  assert_int_equal(fread(bytes, 1, *count, file), *count);
+  fclose(file);
+  return bytes;
+}

@@ -1,8 +1,12 @@
-/* The current bytes of a file, which a kill would leave. */
+/* The bytes of files. */
 #ifndef TESTS_SUPPORT_FILE_COPY_H
 #define TESTS_SUPPORT_FILE_COPY_H
 
-/* Fails the test on error. */
+#include <stddef.h>
+
+/* The current bytes, which a kill would leave; fails the test on error. */
 void copy_file(const char *from, const char *to);
+/* All bytes of a file; release them with free(). Fails the test on error. */
+char *bytes_of(const char *path, size_t *count);
 
 #endif

@@ -106,7 +106,7 @@ static void follow(struct material *material, hooke_options *options) {
 
 static void add_springs(const struct law *law, const struct material *given, struct law_scene *scene) {
   struct material material = *given;
-  hooke_options *options = options_with("springs", "law=%s", law->law);
+  owned_options *options = options_with("springs", "law=%s", law->law);
   if (law->follows) follow(&material, options);
   const double coefficients[3] = {12.0, 2.0, 0.2};
   if (law->curve)
@@ -117,7 +117,6 @@ static void add_springs(const struct law *law, const struct material *given, str
   check_ok(hooke_options_set_numbers(options, "rest_length", LAW_SPRINGS, material.rest_length));
   if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(scene->system, "springs", LAW_SPRINGS, scene->ends, options));
-  hooke_options_destroy(options);
 }
 
 static void add_bending(struct random_source *source, hooke_system *system) {
@@ -167,13 +166,12 @@ static void add_altitude(const struct law *law, struct random_source *source, co
       stiffness[k] = random_between(source, 15.0, 30.0);
       damping[k++] = law->pull_only ? random_between(source, 0.02, 0.08) : random_between(source, 0.1, 2.0);
     }
-    hooke_options *options = new_options("altitude");
+    owned_options *options = new_options("altitude");
     check_ok(hooke_options_set_numbers(options, "stiffness", LAW_TETRAHEDRA, stiffness));
     if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_TETRAHEDRA, damping));
     if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
     check_ok(hooke_options_set_number(options, "rest_scale", group ? 1.4 : 0.7));
     check_ok(hooke_system_add_altitude(system, "altitude", LAW_TETRAHEDRA, corners, options));
-    hooke_options_destroy(options);
   }
 }
 
@@ -190,13 +188,12 @@ static void add_anchors(const struct law *law, struct random_source *source, con
     damping[k] = random_between(source, 0.1, 2.0);
     rest[k] = k % 2 ? random_between(source, 0.4, 1.5) : 0.0;
   }
-  hooke_options *options = new_options("anchors");
+  owned_options *options = new_options("anchors");
   check_ok(hooke_options_set_numbers(options, "points", 3 * LAW_ANCHORS, points));
   check_ok(hooke_options_set_numbers(options, "stiffness", LAW_ANCHORS, stiffness));
   if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_ANCHORS, damping));
   check_ok(hooke_options_set_numbers(options, "rest_length", LAW_ANCHORS, rest));
   check_ok(hooke_system_add_anchors(system, "anchors", LAW_ANCHORS, particles, options));
-  hooke_options_destroy(options);
 }
 
 static void add_loads(hooke_system *system) {

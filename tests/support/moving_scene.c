@@ -66,6 +66,5 @@ hooke_system *moving_system(const struct moving_scene *scene) {
   if (scene->callback)
     check_ok(hooke_system_set_force(system, random_scene_force, random_scene_force_product, NULL));
   drive(scene, system);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }

@@ -17,6 +17,8 @@
 #define owned_text        __attribute__((cleanup(release_text))) char
 #define owned_wholes      __attribute__((cleanup(release_wholes))) int64_t
 #define owned_doubles     __attribute__((cleanup(release_doubles))) double
+/* Any other kind, which this function releases by its address. */
+#define owned(release) __attribute__((cleanup(release)))
 
 static inline void release_system(hooke_system **system) {
   hooke_system_destroy(*system);

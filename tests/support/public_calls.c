@@ -119,7 +119,7 @@ static hooke_options *options_of(const char *table, const char *name, const char
 
 static hooke_system *net(int committed) {
   hooke_system *system = small_system(4, places, NULL, 1.0, 0);
-  small_springs(system, 2, numbers, (struct springs){NULL, 10.0, 0.1, -1.0, 0});
+  springs_with(system, 2, numbers, NULL, 10.0, 0.1, -1.0, 0);
   if (committed) check_ok(hooke_system_commit(system));
   return system;
 }
@@ -136,13 +136,11 @@ static hooke_system *whole_net(void) {
   options = options_of("loads", "force", "5,0,0");
   check_ok(hooke_system_add_loads(system, 1, numbers, options));
   hooke_options_destroy(options);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static void add_systems(struct pool *pool) {
-  hooke_system *empty = small_system(0, NULL, NULL, 1.0, 0), *body = net(0);
-  check_ok(hooke_system_commit(empty));
+  hooke_system *empty = committed(small_system(0, NULL, NULL, 1.0, 0)), *body = net(0);
   check_ok(hooke_system_add_body(body, "body", 3, numbers, 0));
   check_ok(hooke_system_commit(body));
   pool_add(pool, "hooke_system", NULL, whole_net());
@@ -177,32 +175,28 @@ static void add_states(struct pool *pool, const hooke_system *system) {
 }
 
 static void add_integrators(struct pool *pool, const hooke_system *system, hooke_state *state) {
-  hooke_integrator *integrator =
-                       start_run(system, (struct run){.method = "rk4", .step = 0.1, .duration = 0.5}),
-                   *other;
-  hooke_options *run = run_options((struct run){.method = "rk4", .step = 0.1, .duration = 0.5});
-  hooke_state *start = start_state(system);
+  hooke_integrator *integrator = start_with(system, .method = "rk4", .step = 0.1, .duration = 0.5), *other;
+  owned_options *run = run_options((struct run){.method = "rk4", .step = 0.1, .duration = 0.5});
+  owned_state *start = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   pool_add(pool, "hooke_integrator", NULL, integrator);
-  pool_add(pool, "hooke_integrator", NULL, start_run(system, (struct run){.method = "verlet", .step = 0.1}));
+  pool_add(pool, "hooke_integrator", NULL, start_with(system, .method = "verlet", .step = 0.1));
   pool_add(pool, "hooke_integrator", NULL,
            start_first_order(12, rate, NULL, (struct run){.method = "rk4", .step = 0.1, .duration = 0.5}));
   check_ok(hooke_integrator_create_second_order(11, force, NULL, NULL, 1, &(double){1.0}, run, &other));
   pool_add(pool, "hooke_integrator", NULL, other);
-  other = start_run(system, (struct run){.method = "forward-euler", .step = 10.0, .duration = 5000.0});
+  other = start_with(system, .method = "forward-euler", .step = 10.0, .duration = 5000.0);
   check_status(hooke_integrator_run(other, start), HOOKE_DIVERGED);
   pool_add(pool, "hooke_integrator", "why", other);
   if (hooke_method_is_built("cvode-bdf"))
     pool_add(pool, "hooke_integrator", NULL,
-             start_run(system, (struct run){.method = "cvode-bdf", .duration = 0.5, .checkpoint = 0.1}));
-  hooke_state_destroy(start);
-  hooke_options_destroy(run);
+             start_with(system, .method = "cvode-bdf", .duration = 0.5, .checkpoint = 0.1));
 }
 
 static void add_measurements(struct pool *pool, const hooke_system *system,
                              const hooke_integrator *integrator, const hooke_state *state) {
   static const char *const kinds[] = {"limit", "cost", "needs", "study", "check"};
-  hooke_options *run = run_options((struct run){.step = 0.1, .duration = 0.5}),
+  owned_options *run = run_options((struct run){.step = 0.1, .duration = 0.5}),
                 *wanted = options_of("needs", "want", "0.1");
   hooke_measurement *made = NULL;
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++, made = NULL) {
@@ -212,8 +206,6 @@ static void add_measurements(struct pool *pool, const hooke_system *system,
   check_ok(estimate_of(system, NAN, &made));
   check_ok(hooke_estimate_begin(made, integrator, state));
   pool_add(pool, "hooke_measurement", "estimate", made);
-  hooke_options_destroy(wanted);
-  hooke_options_destroy(run);
 }
 
 #if HOOKE_HAVE_HDF5

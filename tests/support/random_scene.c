@@ -66,7 +66,7 @@ static double cube_root(double x) {
 static void add_particles(struct random_source *source, struct random_scene_request request, double *position,
                           hooke_system *system) {
   const int64_t n = request.particles;
-  double *velocity = new_doubles(3 * n), *mass = new_doubles(n);
+  owned_doubles *velocity = new_doubles(3 * n), *mass = new_doubles(n);
   const double side = 0.5 * cube_root((double)n) + 0.5;
   for (int64_t p = 0; p < n; p++) {
     const int copy = (request.features & SCENE_COINCIDENT) && p > 0 && random_whole(source, 0, 7) == 0;
@@ -78,8 +78,6 @@ static void add_particles(struct random_source *source, struct random_scene_requ
   }
   const int64_t masses = random_whole(source, 0, 1) ? n : 1;
   check_ok(hooke_system_add_particles(system, n, position, velocity, masses, mass, NULL));
-  free(velocity);
-  free(mass);
 }
 
 static void hold_particles(struct random_source *source, struct random_scene_request request,
@@ -294,7 +292,7 @@ static int64_t draw_coefficients(struct random_source *source, int64_t count, do
 static int64_t add_triples(struct random_source *source, struct random_scene_request request,
                            hooke_system *system, int64_t *kept, double *kept_coefficient) {
   int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t)), kept_count = 0;
-  double *coefficient = new_doubles(request.triples);
+  owned_doubles *coefficient = new_doubles(request.triples);
   for (int64_t done = 0, count; done < request.triples; done += count) {
     count = random_whole(source, 1, request.triples - done);
     draw_triples(source, request.particles, count, triples);
@@ -307,7 +305,6 @@ static int64_t add_triples(struct random_source *source, struct random_scene_req
     }
   }
   free(triples);
-  free(coefficient);
   return kept_count;
 }
 
@@ -341,8 +338,8 @@ static void draw_corners(struct random_source *source, int64_t particles, const 
 
 static void add_tetrahedra(struct random_source *source, struct random_scene_request request,
                            const double *position, hooke_system *system) {
-  int64_t *corners = new_block(4 * request.tetrahedra, (int64_t)sizeof(int64_t));
-  double *stiffness = new_doubles(request.tetrahedra), *damping = new_doubles(request.tetrahedra);
+  owned_wholes *corners = new_block(4 * request.tetrahedra, (int64_t)sizeof(int64_t));
+  owned_doubles *stiffness = new_doubles(request.tetrahedra), *damping = new_doubles(request.tetrahedra);
   for (int64_t done = 0, count; done < request.tetrahedra; done += count) {
     count = random_whole(source, 1, request.tetrahedra - done);
     for (int64_t k = 0; k < count; k++) {
@@ -351,7 +348,7 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
       damping[k] = random_whole(source, 0, 3) ? random_between(source, 0.0, 0.2) : 0.0;
     }
     const int pulls = request.features & SCENE_PULL_ONLY && random_whole(source, 0, 1);
-    hooke_options *options = new_options("altitude");
+    owned_options *options = new_options("altitude");
     check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
     if (request.features & SCENE_DAMPING)
       check_ok(hooke_options_set_numbers(options, "damping", count, damping));
@@ -359,11 +356,7 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
     check_ok(hooke_options_set_number(options, "compression", !pulls));
     check_ok(
         hooke_system_add_altitude(system, pulls ? "pull altitude" : "altitude", count, corners, options));
-    hooke_options_destroy(options);
   }
-  free(corners);
-  free(stiffness);
-  free(damping);
 }
 
 /* ---- loads ---- */
@@ -372,7 +365,7 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
 static void add_loads(struct random_scene_request request, struct random_scene *scene) {
   static const char *const words[] = {"force=3,-20,7", "motion=harmonic force=9,2,-30 frequency=40 phase=0.3",
                                       "motion=table force=0,0,0;30,10,-9;1,2,3 time=-0.01,0.002,0.01"};
-  double *place = new_doubles(3 * request.loads);
+  owned_doubles *place = new_doubles(3 * request.loads);
   scene->loads = small_system(request.loads, place, NULL, 1.0, 0);
   for (int64_t k = 0; k < request.loads; k++) {
     const int64_t particle = 6 + k * 7 % (request.particles - 6);
@@ -381,7 +374,6 @@ static void add_loads(struct random_scene_request request, struct random_scene *
     check_ok(hooke_system_add_loads(scene->loads, 1, &k, options));
   }
   check_ok(hooke_system_commit(scene->loads));
-  free(place);
 }
 
 /* ---- anchors ---- */
@@ -390,7 +382,7 @@ static void add_anchors(struct random_source *source, struct random_scene_reques
                         const double *position, hooke_system *system) {
   for (int64_t done = 0, count; done < request.anchors; done += count) {
     count = random_whole(source, 1, request.anchors - done);
-    int64_t *particles = new_block(count, (int64_t)sizeof(int64_t));
+    owned_wholes *particles = new_block(count, (int64_t)sizeof(int64_t));
     double *number = new_doubles(6 * count), *stiffness = number + 3 * count, *damping = stiffness + count;
     for (int64_t k = 0; k < count; k++) {
       particles[k] = random_whole(source, 0, request.particles - 1);
@@ -400,15 +392,13 @@ static void add_anchors(struct random_source *source, struct random_scene_reques
       damping[k] = random_whole(source, 0, 3) ? random_between(source, 0.0, 0.2) : 0.0;
       damping[count + k] = random_whole(source, 0, 1) ? random_between(source, 0.1, 1.0) : 0.0;
     }
-    hooke_options *options = new_options("anchors");
+    owned_options *options = new_options("anchors");
     if (random_whole(source, 0, 2)) check_ok(hooke_options_set_numbers(options, "points", 3 * count, number));
     check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
     if (request.features & SCENE_DAMPING)
       check_ok(hooke_options_set_numbers(options, "damping", count, damping));
     check_ok(hooke_options_set_numbers(options, "rest_length", count, damping + count));
     check_ok(hooke_system_add_anchors(system, "anchors", count, particles, options));
-    hooke_options_destroy(options);
-    free(particles);
     free(number);
   }
 }
@@ -451,7 +441,7 @@ static void set_shape(struct random_scene_request request, const char *kind, hoo
 static void add_part(struct random_source *source, struct random_scene_request request, const char *kind,
                      hooke_system *system) {
   const int rope = strcmp(kind, "rope") == 0;
-  hooke_options *options = new_options(kind);
+  owned_options *options = new_options(kind);
   check_ok(hooke_options_set_number(options, "mass", random_between(source, 1.0, 5.0)));
   set_shape(request, kind, options);
   const char *family[2][3] = {{"structural", "shear", "bend"}, {"stretch", "bend", NULL}};
@@ -477,7 +467,6 @@ static void add_part(struct random_source *source, struct random_scene_request r
   snprintf(name, sizeof name, "%s-%s%s", request.features & SCENE_PULL_ONLY ? "pull" : "part", kind,
            request.features & SCENE_FOLLOWS ? "-follows-strain" : "");
   check_ok(hooke_system_add_part(system, kind, name, options, NULL, NULL));
-  hooke_options_destroy(options);
 }
 
 static void add_factors(struct random_scene *scene) {
@@ -516,7 +505,7 @@ static double *draw_drags(struct random_source *source, int64_t n, double most, 
 static void add_medium(struct random_scene_request request, double drag, struct random_scene *scene) {
   struct random_source source = {request.seed + 377};
   const int64_t n = hooke_system_particle_count(scene->system);
-  hooke_options *options = new_options("scene");
+  owned_options *options = new_options("scene");
   if (request.medium & MEDIUM_DRAG) {
     scene->drags = draw_drags(&source, n, 0.5, "drag", options);
   } else if (request.medium & MEDIUM_WIND && request.features & SCENE_DRAG) {
@@ -531,13 +520,12 @@ static void add_medium(struct random_scene_request request, double drag, struct 
     scene->wind[a] = random_between(&source, -2.0, 2.0);
   if (request.medium & MEDIUM_WIND) check_ok(hooke_options_set_numbers(options, "wind", 3, scene->wind));
   check_ok(hooke_scene_options_apply(options, scene->system));
-  hooke_options_destroy(options);
 }
 
 void random_scene_create(struct random_scene_request request, struct random_scene *scene) {
   struct random_source source = {request.seed};
   memset(scene, 0, sizeof *scene);
-  double *position = new_doubles(3 * request.particles);
+  owned_doubles *position = new_doubles(3 * request.particles);
   check_ok(hooke_system_create(&scene->system));
   add_particles(&source, request, position, scene->system);
   hold_particles(&source, request, scene);
@@ -551,10 +539,9 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   struct random_source points = {request.seed + 277};
   add_anchors(&points, request, position, scene->system);
   if (request.loads > 0) add_loads(request, scene);
-  free(position);
   struct random_source bends = {request.seed + 77};
-  int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t));
-  double *coefficient = new_doubles(request.triples);
+  owned_wholes *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t));
+  owned_doubles *coefficient = new_doubles(request.triples);
   const int64_t kept = add_triples(&bends, request, scene->system, triples, coefficient);
   for (int a = 0; a < 3; a++)
     scene->gravity[a] = random_between(&source, -10.0, 10.0);
@@ -573,8 +560,6 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   assert_true(scene->canonical.triple_count >= kept);
   assert_memory_equal(scene->canonical.triples, triples, (size_t)(3 * kept) * sizeof *triples);
   check_same_bits(kept, scene->canonical.coefficient, coefficient);
-  free(triples);
-  free(coefficient);
   scene->canonical.gravity = request.features & SCENE_GRAVITY ? scene->gravity : NULL;
   scene->canonical.drag = request.features & SCENE_DRAG && !scene->drags ? drag : 0.0;
   scene->canonical.drags = scene->drags;
@@ -584,7 +569,7 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   scene->canonical.loads = scene->loads;
   scene->canonical.factor = scene->factor;
   if (scene->driven_count == 0) return;
-  scene->driver = start_run(scene->system, (struct run){.method = "forward-euler", .step = 1.0});
+  scene->driver = start_with(scene->system, .method = "forward-euler", .step = 1.0);
   scene->driven_state = start_state(scene->system);
   scene->canonical.place = place_driven;
   scene->canonical.place_ctx = scene;
@@ -605,7 +590,7 @@ void random_scene_destroy(struct random_scene *scene) {
 void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v) {
   struct random_source source = {seed};
   const double *w = scene->canonical.inverse_mass;
-  hooke_state *state = start_state(scene->system);
+  owned_state *state = start_state(scene->system);
   const double *q0 = hooke_state_position(state), *v0 = hooke_state_velocity(state);
   for (int64_t p = 0; p < scene->canonical.particle_count; p++) {
     const int copy = p > 0 && w[p] != 0.0 && memcmp(q0 + 3 * p, q0 + 3 * p - 3, 3 * sizeof(double)) == 0;
@@ -614,5 +599,4 @@ void random_scene_shake(const struct random_scene *scene, uint64_t seed, double 
       v[k] = v0[k] + (w[p] != 0.0 ? random_between(&source, -0.2, 0.2) : 0.0);
     }
   }
-  hooke_state_destroy(state);
 }

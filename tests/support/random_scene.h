@@ -54,6 +54,8 @@ struct random_scene {
 
 void random_scene_create(struct random_scene_request request, struct random_scene *scene);
 void random_scene_destroy(struct random_scene *scene);
+/* By the members of a request: random_scene_with(&scene, .seed = 5, .particles = 10). */
+#define random_scene_with(scene, ...) random_scene_create((struct random_scene_request){__VA_ARGS__}, (scene))
 /* Destroyed where its block ends. */
 #define owned_random_scene __attribute__((cleanup(random_scene_destroy))) struct random_scene
 

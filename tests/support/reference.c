@@ -35,14 +35,13 @@ const struct reference *find_reference(const char *name) {
 }
 
 static void add_group(hooke_system *system, const struct reference_group *group) {
-  hooke_options *options = options_with("springs", "law=%s stiffness=%.17g damping=%.17g rest_scale=%.17g",
+  owned_options *options = options_with("springs", "law=%s stiffness=%.17g damping=%.17g rest_scale=%.17g",
                                         group->law, group->stiffness, group->damping, group->rest_scale);
   if (group->rest_length < 0.0)
     check_ok(hooke_options_set_text(options, "rest_length", "initial"));
   else
     check_ok(hooke_options_set_number(options, "rest_length", group->rest_length));
   check_ok(hooke_system_add_springs(system, group->name, group->count, group->ends, options));
-  hooke_options_destroy(options);
 }
 
 hooke_system *build_reference(const struct reference *reference) {
@@ -53,8 +52,7 @@ hooke_system *build_reference(const struct reference *reference) {
   for (int64_t g = 0; g < reference->group_count; g++)
     add_group(system, &reference->group[g]);
   if (reference->gravity != NULL) check_ok(hooke_system_set_gravity(system, reference->gravity));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 double true_error(const struct reference_state *expected, const hooke_system *system, struct run run) {

@@ -1,5 +1,4 @@
 #include "run.h"
-#include "small.h"
 
 #include "check.h"
 #include "small.h"
@@ -12,8 +11,7 @@ static void set_number(hooke_options *options, const char *name, double value) {
 }
 
 hooke_options *run_options(struct run run) {
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("run", &options));
+  hooke_options *options = new_options("run");
   if (run.method != NULL) check_ok(hooke_options_set_text(options, "method", run.method));
   if (run.newton != NULL) check_ok(hooke_options_set_text(options, "newton", run.newton));
   if (run.verlet_damping != NULL)
@@ -35,17 +33,15 @@ hooke_options *run_options(struct run run) {
 
 hooke_integrator *start_run(const hooke_system *system, struct run run) {
   hooke_integrator *integrator = NULL;
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   check_ok(hooke_integrator_create(system, options, &integrator));
-  hooke_options_destroy(options);
   return integrator;
 }
 
 hooke_integrator *start_first_order(int64_t size, hooke_rate *rate, void *ctx, struct run run) {
   hooke_integrator *integrator = NULL;
-  hooke_options *options = run_options(run);
+  owned_options *options = run_options(run);
   check_ok(hooke_integrator_create_first_order(size, rate, ctx, options, &integrator));
-  hooke_options_destroy(options);
   return integrator;
 }
 
@@ -56,29 +52,24 @@ hooke_state *start_state(const hooke_system *system) {
 }
 
 void run_to_end(const hooke_system *system, struct run run, double *q, double *v) {
-  hooke_integrator *integrator = start_run(system, run);
-  hooke_state *state = start_state(system);
+  owned_integrator *integrator = start_run(system, run);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
   const size_t size = (size_t)hooke_state_size(state) * sizeof(double);
   if (q != NULL) memcpy(q, hooke_state_position(state), size);
   if (v != NULL) memcpy(v, hooke_state_velocity(state), size);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
 }
 
 static int32_t create_why(const hooke_integrator *integrator, hooke_measurement **why) {
-  hooke_options *options = options_with("why", "budget=1e300");
-  const int32_t status = hooke_why_create(integrator, options, why);
-  hooke_options_destroy(options);
-  return status;
+  owned_options *options = options_with("why", "budget=1e300");
+  return hooke_why_create(integrator, options, why);
 }
 
 int32_t estimate_of(const hooke_system *system, double want, hooke_measurement **estimate) {
-  hooke_options *options;
+  owned_options *options = NULL;
   int32_t status = hooke_options_create("estimate", &options);
   if (status == HOOKE_OK && !isnan(want)) status = hooke_options_set_number(options, "want", want);
   if (status == HOOKE_OK) status = hooke_measurement_create("estimate", system, NULL, options, estimate);
-  hooke_options_destroy(options);
   return status;
 }
 
@@ -95,6 +86,15 @@ int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why)
 
 int32_t is_fixed_step(const char *method) {
   return hooke_method_is_built(method) == 1 && hooke_method_is_adaptive(method) == 0;
+}
+
+const char *next_method(const char *method, int32_t (*taken)(const char *method)) {
+  int64_t m = 0;
+  while (method != NULL && strcmp(hooke_method_name(m++), method) != 0)
+    ;
+  while (m < hooke_method_count() && !taken(hooke_method_name(m)))
+    m++;
+  return m < hooke_method_count() ? hooke_method_name(m) : NULL;
 }
 
 int32_t is_implicit(const char *method) {
@@ -142,9 +142,8 @@ hooke_measurement *start_limit(const hooke_system *system, const hooke_options *
 hooke_measurement *limit_at_start(const hooke_system *system, const hooke_options *run,
                                   hooke_options *options) {
   hooke_measurement *limit = start_limit(system, run, options);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_measurement_run(limit, state));
-  hooke_state_destroy(state);
   return limit;
 }
 

@@ -3,6 +3,7 @@
 #define TESTS_SUPPORT_RUN_H
 
 #include "hooke.h"
+#include "owned.h"
 
 #define BY_DEFAULT (-1.0)
 
@@ -20,11 +21,20 @@ struct run {
 /* The caller destroys what these return. */
 hooke_options *run_options(struct run run);
 hooke_integrator *start_run(const hooke_system *system, struct run run);
+/* The same by its members: start_with(system, .method = "rk4", .step = 1e-3). */
+#define start_with(system, ...) start_run((system), (struct run){__VA_ARGS__})
 hooke_integrator *start_first_order(int64_t size, hooke_rate *rate, void *ctx, struct run run);
 hooke_state *start_state(const hooke_system *system);
+/* Declares an integrator and the initial state of a system, which the block releases:
+ * owned_run(integrator, state, system, .method = "rk4", .step = 1e-3); */
+#define owned_run(integrator, state, system, ...)                                                            \
+  owned_integrator *integrator = start_with((system), __VA_ARGS__);                                          \
+  owned_state *state = start_state(system)
 
 /* From the initial state to the end of the run; `q` and `v` (3n, or NULL) receive the final state. */
 void run_to_end(const hooke_system *system, struct run run, double *q, double *v);
+/* The same by the members of a run: end_of_run(q, v, system, .method = "rk4", .step = 1e-3). */
+#define end_of_run(q, v, system, ...) run_to_end((system), (struct run){__VA_ARGS__}, (q), (v))
 
 /* An estimate of the error of runs; `want` NaN: without a wanted error. The status of what fails first. */
 int32_t estimate_of(const hooke_system *system, double want, hooke_measurement **estimate);
@@ -48,6 +58,9 @@ int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why)
 
 /* 1 if this build has the method and it takes `step`. */
 int32_t is_fixed_step(const char *method);
+/* The method after this one, or the first, that is taken; NULL at the end:
+ * for (const char *method = NULL; (method = next_method(method, is_fixed_step));) */
+const char *next_method(const char *method, int32_t (*taken)(const char *method));
 /* 1 if it solves nonlinear equations for each of its steps, in the ways of the option `newton`. */
 int32_t is_implicit(const char *method);
 

@@ -71,8 +71,7 @@ void small_group(hooke_system *system, const char *kind, const char *name, int64
 hooke_system *small_falling(hooke_system *system) {
   const double down[] = {0, -9.81, 0};
   check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 int32_t try_words(hooke_options *options, const char *words) {
@@ -93,6 +92,11 @@ int32_t try_words(hooke_options *options, const char *words) {
 hooke_system *new_system(void) {
   hooke_system *system = NULL;
   check_ok(hooke_system_create(&system));
+  return system;
+}
+
+hooke_system *committed(hooke_system *system) {
+  check_ok(hooke_system_commit(system));
   return system;
 }
 
@@ -135,17 +139,15 @@ hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, gamma));
   check_ok(hooke_system_add_springs(system, "net", SPRINGS, ends, options));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 hooke_system *small_oscillator(double omega) {
   const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 0.5, 0};
   const int64_t ends[] = {0, 1};
   hooke_system *system = small_system(2, position, velocity, 2.0, 1);
-  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 2.0 * omega * omega});
-  check_ok(hooke_system_commit(system));
-  return system;
+  springs_with(system, 1, ends, .law = "length", .stiffness = 2.0 * omega * omega);
+  return committed(system);
 }
 
 hooke_system *small_crumpling_cloth(int64_t side) {
@@ -162,6 +164,11 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping) {
       "origin=0,0,0 edges=1,0,0,0,0,1 size=%d,%d mass=0.2 pinned=top-corners "
       "structural.stiffness=%.17g shear.stiffness=%.17g structural.damping=%.17g shear.damping=%.17g",
       (int)side, (int)side, stiffness, stiffness, damping, damping));
+}
+
+int32_t idle_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
+  return 0;
 }
 
 double volume_of(const double *q, const int64_t *p) {

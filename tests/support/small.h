@@ -17,6 +17,8 @@ __attribute__((format(printf, 4, 5))) hooke_system *small_part(hooke_system *sys
 __attribute__((format(printf, 6, 7))) void small_group(hooke_system *system, const char *kind,
                                                        const char *name, int64_t count,
                                                        const int64_t *members, const char *words, ...);
+/* Commits a system, and returns it. */
+hooke_system *committed(hooke_system *system);
 /* Commits a system that falls at 9.81 m/s^2 along -y, and returns it. */
 hooke_system *small_falling(hooke_system *system);
 /* Sets options by such words, which are no format; the status of the first that is refused. */
@@ -37,6 +39,9 @@ struct springs {
 hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
                            int32_t pin_first);
 void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs);
+/* The same by their members: springs_with(system, 1, ends, .stiffness = 9.0). */
+#define springs_with(system, count, ends, ...)                                                               \
+  small_springs((system), (count), (ends), (struct springs){__VA_ARGS__})
 
 /* A committed mass on a spring of no length about the pinned origin: every coordinate is an oscillator of
  * angular frequency omega, without damping; it starts at (1, 0, 0) with velocity (0, 0.5, 0). */
@@ -55,6 +60,9 @@ hooke_system *small_cloth(int64_t side, double stiffness, double damping);
 /* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples:
  * chaotic after a second or so. */
 hooke_system *small_crumpling_cloth(int64_t side);
+
+/* A callback that adds no force. */
+int32_t idle_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
 
 /* Six times the volume of the tetrahedron with these corners, with its sign. */
 double volume_of(const double *q, const int64_t *corners);

@@ -48,8 +48,7 @@ static hooke_system *damped_chain(int way) {
     check_ok(hooke_system_drive_harmonic(system, 1, &first, (double[]){0.2, 0.1, 0}, 1.5, 0.3));
   else
     check_ok(hooke_system_pin(system, 1, &first));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 struct watch {
@@ -97,7 +96,7 @@ static void run_watched(struct watch *watch, const char *method, double step) {
 static int32_t holds(const char *method, int way,
                      double (*power)(const hooke_system *system, double t, const double *q, const double *v),
                      double *ratio) {
-  hooke_system *system = damped_chain(way);
+  owned_system *system = damped_chain(way);
   struct watch coarse = {.system = system, .power = power}, fine = coarse;
   double largest, bound, smaller, other;
   run_watched(&coarse, method, 1e-3);
@@ -106,7 +105,6 @@ static int32_t holds(const char *method, int way,
   const int32_t kept = hk_balance_holds(FRAMES, coarse.residual, fine.residual, floor, &largest, &bound);
   hk_balance_holds(FRAMES, fine.residual, fine.residual, floor, &smaller, &other);
   *ratio = largest / smaller;
-  hooke_system_destroy(system);
   return kept;
 }
 

@@ -30,8 +30,7 @@ static hooke_system *two_bodies(int pinned) {
   small_group(system, "springs", NULL, 5, ends, "stiffness=40 damping=1 rest_length=0.4");
   check_ok(hooke_system_add_body(system, "block", 4, block, 0));
   check_ok(hooke_system_add_body(system, "bar", 3, bar, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static void find_right(struct hk_stage *stage, const double *v, double *right) {
@@ -46,7 +45,7 @@ TEST(matrix_is_the_derivative) {
   const double small = 1e-6, still[3 * ALL] = {0.0};
   for (int pinned = 0; pinned < 2; pinned++) {
     owned_system *system = two_bodies(pinned);
-    hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = 0.1});
+    owned_integrator *it = start_with(system, .method = "backward-euler", .step = 0.1);
     struct hk_stage *stage = it->own;
     const int64_t size = 3 * ALL + UNKNOWNS;
     double v[3 * ALL + UNKNOWNS] = {0}, by[UNKNOWNS], moved[3 * ALL + UNKNOWNS] = {0}, right[2][UNKNOWNS];
@@ -77,6 +76,5 @@ TEST(matrix_is_the_derivative) {
     check_ok(hk_reduced_try(&stage->reduced, stage->right, 1e-12, 1000, stage->change, &solution));
     for (int k = 0; k < UNKNOWNS; k++)
       check_close(stage->change[3 * ALL + k], by[k], 1e-7);
-    hooke_integrator_destroy(it);
   }
 }

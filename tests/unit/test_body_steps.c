@@ -90,8 +90,7 @@ static int32_t pull(int64_t n, double t, const double *q, const double *v, doubl
 }
 
 static void load(hooke_system *system) {
-  owned_options *loads = NULL;
-  check_ok(hooke_options_create("loads", &loads));
+  owned_options *loads = new_options("loads");
   check_ok(hooke_options_set_numbers(loads, "force", 3, LOAD));
   check_ok(hooke_system_add_loads(system, 1, (int64_t[]){LOADED}, loads));
 }
@@ -114,13 +113,11 @@ static void drive(hooke_system *system) {
 /* No step, which moves driven particles to their places at t: tests/physics/test_drives.c holds these. */
 static void place(double t, double *q, double *v, void *ctx) {
   const hooke_system *system = ctx;
-  hooke_integrator *driver = start_run(system, (struct run){.method = "forward-euler", .step = 1.0});
-  owned_state *state = start_state(system);
+  owned_run(driver, state, system, .method = "forward-euler", .step = 1.0);
   hooke_state_set_time(state, t);
   check_ok(hooke_integrator_step(driver, state, 0));
   memcpy(q + 3 * (N - 3), hooke_state_position(state) + 3 * (N - 3), 9 * sizeof *q);
   memcpy(v + 3 * (N - 3), hooke_state_velocity(state) + 3 * (N - 3), 9 * sizeof *v);
-  hooke_integrator_destroy(driver);
 }
 
 static hooke_system *mixed_system(uint64_t seed, struct features with, const double gravity[3]) {
@@ -144,8 +141,7 @@ static hooke_system *mixed_system(uint64_t seed, struct features with, const dou
     check_ok(hooke_system_set_force(system, pulse, NULL, NULL));
   else if (with.factors)
     load(system);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static void fill_bodies(const hooke_system *system, struct canonical_body *body) {
@@ -201,7 +197,7 @@ static void compare(uint64_t seed, struct features with, const char *method) {
   canonical.force = with.driven && with.drag ? pulse : with.factors ? pull : NULL;
   fill_bodies(system, body);
   if (with.factors) check_weights(system);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
+  hooke_integrator *integrator = start_with(system, .method = method, .step = h);
   hooke_state *state = start_state(system);
   double q[3 * N], v[3 * N];
   memcpy(q, hooke_state_position(state), sizeof q);
@@ -226,9 +222,8 @@ TEST(steps_are_the_plain_loops) {
   for (int features = 0; features < 16; features++) {
     const struct features with = {features & 1, features >> 1 & 1, features >> 2 & 1, features >> 3,
                                   features % 3 == 0};
-    for (int64_t m = 0; m < hooke_method_count(); m++) {
-      const char *method = hooke_method_name(m);
-      if (!is_fixed_step(method) || !hooke_method_is_suited(method, "bodies")) continue;
+    for (const char *method = NULL; (method = next_method(method, is_fixed_step));) {
+      if (!hooke_method_is_suited(method, "bodies")) continue;
       for (uint64_t seed = 1; seed <= 2; seed++)
         compare(10 * (uint64_t)features + seed, with, method);
     }

@@ -38,8 +38,7 @@ static hooke_system *hung_body(int pinned, double stiffness) {
   small_group(system, "springs", NULL, CORNERS, ends, "stiffness=%.17g rest_length=0.2", stiffness);
   check_ok(hooke_system_set_gravity(system, (double[]){1.0, -9.81, 2.0}));
   check_ok(hooke_system_add_body(system, "body", CORNERS, body, 0));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* Force and torque about the point at the rows that are `size` times the motion away: (I + a x + b a x a x)
@@ -70,8 +69,8 @@ static void pushed(const hooke_system *system, const struct hk_body_tangent *t, 
 TEST(derivative_is_that_of_differences) {
   for (int pinned = 0; pinned <= 1; pinned++) {
     owned_system *system = hung_body(pinned, 40.0);
-    struct hk_body_tangents tangents;
-    struct hk_rigid rigid;
+    owned(hk_body_tangents_release) struct hk_body_tangents tangents;
+    owned(hk_rigid_release) struct hk_rigid rigid;
     double force[3 * ALL], x[3 * ALL] = {0.0}, change[3 * ALL];
     const double still[3 * ALL] = {0.0}, *const forces[3] = {force, force + 1, force + 2},
                            *const changes[3] = {change, change + 1, change + 2};
@@ -96,8 +95,6 @@ TEST(derivative_is_that_of_differences) {
       for (int j = pinned ? 3 : 0; j < 6; j++)
         check_close(push[j], (after[j] - before[j]) / 2e-5, 2e-7);
     }
-    hk_rigid_release(&rigid);
-    hk_body_tangents_release(&tangents);
   }
 }
 

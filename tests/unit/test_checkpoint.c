@@ -83,8 +83,7 @@ static hooke_system *system_with(struct change c) {
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, c.drag));
   check_ok(hooke_system_drive_harmonic(system, 1, &last, amplitude, c.frequency, 0.5));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static int32_t stop_at(int64_t step, const hooke_state *state, void *ctx) {
@@ -146,7 +145,7 @@ static void check_refused(const struct reader *reader, const char *run, const ch
 TEST(every_byte_is_watched) {
   const int all = getenv("HOOKE_LONG") != NULL;
   double numbers[NUMBERS];
-  struct reader reader = reader_of(none, fixed);
+  owned(drop) struct reader reader = reader_of(none, fixed);
   write_stopped(reader.system, fixed, STOP, numbers);
   remove(previous);
   const struct bytes good = read_bytes(path);
@@ -162,7 +161,6 @@ TEST(every_byte_is_watched) {
   write_bytes(path, &good);
   check_ok(hooke_checkpoint_read(path, "first", reader.integrator, reader.state));
   check_numbers(reader.state, numbers);
-  drop(&reader);
 }
 
 TEST(every_length_is_watched) {
@@ -191,7 +189,7 @@ static void put_check_value(struct bytes *bytes) {
 TEST(impossible_numbers_are_refused) {
   struct random_source random = {7};
   double numbers[NUMBERS];
-  struct reader reader = reader_of(none, fixed);
+  owned(drop) struct reader reader = reader_of(none, fixed);
   write_stopped(reader.system, fixed, STOP, numbers);
   remove(previous);
   const struct bytes good = read_bytes(path);
@@ -212,7 +210,6 @@ TEST(impossible_numbers_are_refused) {
   put_check_value(&bad);
   write_bytes(path, &bad);
   check_refused(&reader, NULL, "position[0][0]");
-  drop(&reader);
 }
 
 TEST(other_problems_are_refused) {
@@ -227,13 +224,12 @@ TEST(other_problems_are_refused) {
   other[7].pinned = 0;
   other[8].more_springs = 1;
   double numbers[NUMBERS];
-  struct reader writer = reader_of(none, fixed);
+  owned(drop) struct reader writer = reader_of(none, fixed);
   write_stopped(writer.system, fixed, STOP, numbers);
   for (size_t k = 0; k < sizeof other / sizeof other[0]; k++) {
-    struct reader reader = reader_of(other[k], fixed);
+    owned(drop) struct reader reader = reader_of(other[k], fixed);
     check_status(hooke_checkpoint_read(path, NULL, reader.integrator, reader.state), HOOKE_BAD_VALUE);
     check_message("another scene");
-    drop(&reader);
   }
   struct run runs[] = {fixed, fixed, fixed, fixed};
   runs[0].step = 0.005;
@@ -241,9 +237,8 @@ TEST(other_problems_are_refused) {
   runs[2].every = 0.04;
   runs[3].checkpoint = 0.1;
   for (size_t k = 0; k < sizeof runs / sizeof runs[0]; k++) {
-    struct reader reader = reader_of(none, runs[k]);
+    owned(drop) struct reader reader = reader_of(none, runs[k]);
     check_refused(&reader, NULL, "other options");
-    drop(&reader);
   }
   struct run verlet = fixed;
   verlet.method = "verlet";
@@ -251,7 +246,6 @@ TEST(other_problems_are_refused) {
   check_refused(&reader, NULL, "by rk4, not by verlet");
   drop(&reader);
   check_refused(&writer, "second", "another run");
-  drop(&writer);
   struct run threads = fixed;
   threads.threads = 2;
   reader = reader_of(none, threads);
@@ -262,7 +256,7 @@ TEST(other_problems_are_refused) {
 
 TEST(the_one_before_stands_in) {
   double before[NUMBERS], newest[NUMBERS];
-  struct reader reader = reader_of(none, fixed);
+  owned(drop) struct reader reader = reader_of(none, fixed);
   remove(path);
   remove(previous);
   write_stopped(reader.system, fixed, STOP, before);
@@ -296,7 +290,6 @@ TEST(the_one_before_stands_in) {
   remove(previous);
   check_status(hooke_checkpoint_read(path, "first", reader.integrator, reader.state), HOOKE_IO_FAILED);
   check_message("No such file");
-  drop(&reader);
 }
 
 TEST(only_a_place_of_the_run_is_written) {
@@ -331,7 +324,7 @@ TEST(only_a_place_of_the_run_is_written) {
 /* The older file stays, and no other file is left. */
 TEST(a_failed_write_harms_nothing) {
   double numbers[NUMBERS];
-  struct reader writer = reader_of(none, fixed), reader = reader_of(none, fixed);
+  owned(drop) struct reader writer = reader_of(none, fixed), reader = reader_of(none, fixed);
   write_stopped(writer.system, fixed, STOP, numbers);
   check_ok(hooke_integrator_run(writer.integrator, writer.state));
   check_status(hooke_checkpoint_write("no/such/folder", writer.integrator, writer.state, NULL),
@@ -344,8 +337,6 @@ TEST(a_failed_write_harms_nothing) {
   check_ok(hooke_checkpoint_read(path, "first", reader.integrator, reader.state));
   check_numbers(reader.state, numbers);
   remove(previous);
-  drop(&reader);
-  drop(&writer);
 }
 
 static atomic_int watched, missed;
@@ -360,7 +351,7 @@ static void *look_often(void *unused) {
 TEST(there_is_one_at_all_times) {
   double numbers[NUMBERS];
   pthread_t watcher;
-  struct reader writer = reader_of(none, fixed);
+  owned(drop) struct reader writer = reader_of(none, fixed);
   write_stopped(writer.system, fixed, STOP, numbers);
   check_ok(hooke_integrator_run(writer.integrator, writer.state));
   watched = 1;
@@ -371,16 +362,14 @@ TEST(there_is_one_at_all_times) {
   pthread_join(watcher, NULL);
   assert_int_equal(missed, 0);
   assert_true(is_there(previous));
-  drop(&writer);
 }
 
 TEST(a_pipe_is_not_waited_for) {
-  struct reader reader = reader_of(none, fixed);
+  owned(drop) struct reader reader = reader_of(none, fixed);
   remove(path);
   remove(previous);
   assert_int_equal(mkfifo(path, 0600), 0);
   check_refused(&reader, "first", "is not a regular file");
-  drop(&reader);
 }
 
 AROUND_ALL(set_up, tear_down)

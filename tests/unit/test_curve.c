@@ -17,13 +17,11 @@ static hooke_system *pair(const char *words) {
   const double place[6] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[2] = {0, 1};
   hooke_system *system = small_system(2, place, NULL, 1.0, 1);
-  hooke_options *options = new_options("springs");
+  owned_options *options = new_options("springs");
   check_ok(try_words(options, words));
   check_ok(hooke_options_set_number(options, "rest_length", 2.0));
   check_ok(hooke_system_add_springs(system, "curved", 1, ends, options));
-  hooke_options_destroy(options);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static struct hk_law law_at(const hooke_system *system, double length) {
@@ -137,8 +135,7 @@ static hooke_system *group_of_three(const char *words, int32_t pull_only) {
   check_ok(hooke_options_set_number(options, "compression", !pull_only));
   check_ok(hooke_options_set_numbers(options, "damping", 3, damping));
   check_ok(hooke_system_add_springs(system, "curved", 3, ends, options));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static const char *const kinds[] = {"curve.strain=-0.5,0,0.5,1 curve.force=-40,0,30,29 curve.falling=true",
@@ -160,8 +157,8 @@ TEST(a_written_scene_has_the_same_curve) {
 TEST(variants_keep_a_curve_and_scale_it) {
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
     owned_system *system = group_of_three(kinds[k], 0), *made = NULL;
-    struct hk_variant variant;
-    struct hk_variant_map map;
+    owned(hk_variant_release) struct hk_variant variant;
+    owned(hk_variant_map_release) struct hk_variant_map map;
     check_ok(hk_variant_create(system, &variant));
     variant.factor[HOOKE_KAPPA][0] = 1.1;
     variant.compression = 1;
@@ -175,7 +172,5 @@ TEST(variants_keep_a_curve_and_scale_it) {
       check_close(same.energy, taut ? 1.1 * law.energy : 0.0, 1e-12);
       check_close(same.slope, taut ? 1.1 * law.slope : 0.0, 1e-11);
     }
-    hk_variant_map_release(&map);
-    hk_variant_release(&variant);
   }
 }

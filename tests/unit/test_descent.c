@@ -10,11 +10,6 @@
 
 static const double KAPPA = 10.0, START = 0.97, STEP = 10.0;
 
-static int32_t nothing(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
-  return 0;
-}
-
 /* A free particle on a spring of 1 m from the origin, with drag 1. */
 static hooke_system *make_pair(int calls_back) {
   hooke_system *system = new_system();
@@ -23,9 +18,8 @@ static hooke_system *make_pair(int calls_back) {
   check_ok(hooke_system_add_particles(system, 2, (double[]){0, 0, 0, START, 0, 0}, NULL, 0, NULL, NULL));
   check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
   small_group(system, "springs", NULL, 1, (int64_t[]){0, 1}, "stiffness=%.17g rest_length=1", KAPPA);
-  if (calls_back) check_ok(hooke_system_set_force(system, nothing, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  return system;
+  if (calls_back) check_ok(hooke_system_set_force(system, idle_force, NULL, NULL));
+  return committed(system);
 }
 
 /* With x = START + h v, the equations v = -kappa (x -+ 1) have a solution on either side of the origin. */
@@ -39,8 +33,7 @@ static double potential_at(struct hk_descent *descent, const hooke_integrator *i
 
 TEST(test_wrong_solution) {
   owned_system *system = make_pair(0);
-  hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
-  owned_state *state = start_state(system);
+  owned_run(it, state, system, .method = "backward-euler", .step = STEP);
   struct hk_stage *stage = it->own;
   double slack = 0.0;
   check_ok(hooke_integrator_step(it, state, 1));
@@ -51,7 +44,6 @@ TEST(test_wrong_solution) {
   check_between(slack, 0.0, 1e-14);
   assert_true(potential_at(&stage->descent, it, right, &slack) < start);
   assert_true(potential_at(&stage->descent, it, wrong, &slack) > start + 0.1);
-  hooke_integrator_destroy(it);
 }
 
 static int32_t plant(struct hk_stage *stage) {
@@ -68,18 +60,16 @@ static int32_t plant(struct hk_stage *stage) {
 /* A first solution on the other side: the stage ends at the right one. */
 TEST(test_planted) {
   owned_system *system = make_pair(0);
-  hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
+  owned_integrator *it = start_with(system, .method = "backward-euler", .step = STEP);
   const double start[6] = {0.0, 0.0, 0.0, START, 0.0, 0.0}, still[6] = {0}, place[6] = {0.0, START};
   const struct hk_equations equations = {0.0, STEP, place, still, STEP};
   hk_motion_load(system, it->motion, start, still);
   check_ok(hk_stage_solve_by(it->own, &equations, plant));
   check_close(it->motion->q[0][1], START - STEP * KAPPA * (START - 1.0) / (1.0 + KAPPA * STEP), 1e-9);
-  hooke_integrator_destroy(it);
 }
 
 TEST(test_no_potential) {
   owned_system *system = make_pair(1);
-  hooke_integrator *it = start_run(system, (struct run){.method = "backward-euler", .step = STEP});
+  owned_integrator *it = start_with(system, .method = "backward-euler", .step = STEP);
   assert_null(((struct hk_stage *)it->own)->descent.rows);
-  hooke_integrator_destroy(it);
 }

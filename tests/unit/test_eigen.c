@@ -54,7 +54,7 @@ TEST(test_three_by_three) {
                                      {1e-9, 1, 1},  {1, 1 + 1e-9, 1}, {1e200, 1, 1e-20}, {1e-200, 3e-200, 0},
                                      {0, 4e150, 0}, {7, 0, 0},        {1e-300, 0, 0},    {1e305, 1e305, 0}};
   owned_system *system = NULL;
-  struct hk_node_blocks blocks;
+  owned(hk_node_blocks_release) struct hk_node_blocks blocks;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, NULL, 1, (double[]){1}, NULL));
   check_ok(hooke_system_commit(system));
@@ -68,7 +68,6 @@ TEST(test_three_by_three) {
       check_reach(&blocks, fmax(v[0], fmax(v[1], v[2])));
     }
   }
-  hk_node_blocks_release(&blocks);
 }
 
 /* A chain of n unit masses and springs between walls: 4 sin^2(k pi/(2 (n + 1))). */
@@ -125,7 +124,7 @@ TEST(test_chain) {
 TEST(test_damped_chain) {
   static double stiffness[CHAIN * CHAIN], damping[CHAIN * CHAIN];
   const double b = 1.1; /* some modes oscillate, some are overdamped */
-  struct hk_damped_modes modes;
+  owned(hk_damped_modes_release) struct hk_damped_modes modes;
   fill_chain(stiffness);
   for (int k = 0; k < CHAIN * CHAIN; k++)
     damping[k] = b * stiffness[k];
@@ -160,7 +159,6 @@ TEST(test_damped_chain) {
       assert_true(hypot(ar, ai) < 1e-12);
     }
   }
-  hk_damped_modes_release(&modes);
 }
 
 TEST(test_not_finite) {

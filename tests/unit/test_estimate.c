@@ -57,7 +57,7 @@ TEST(wants_are_met_by_what_is_known_alone) {
     e.soundness.unknown_limit = cases[k].unknown_limit;
     snprintf(e.reversal, sizeof e.reversal, "by a clock");
     const hooke_measurement measurement = {.object = &e};
-    struct hk_claims claims = {0};
+    owned(hk_claims_release) struct hk_claims claims = {0};
     const double met = hk_estimate_met(&e);
     hk_estimate_claim(&measurement, &claims);
     assert_int_equal(claims.count, 3);
@@ -65,7 +65,6 @@ TEST(wants_are_met_by_what_is_known_alone) {
         strstr(claims.claim[1].text, cases[k].told) == NULL)
       check_failed("case %d: met %g, \"%s\"", (int)k, met, claims.claim[1].text);
     assert_string_equal(claims.claim[2].text, "picked by a clock");
-    hk_claims_release(&claims);
   }
 }
 
@@ -186,8 +185,7 @@ TEST(references_say_what_they_know) {
   measure_anew(estimate, state);
   assert_non_null(strstr(e->reason, "two references part")); /* which matters more */
   /* limits are looked for where the pick saw the beginning alone */
-  owned_integrator *integrator =
-      start_run(system, (struct run){.method = "rk4", .step = 0.1, .duration = 1.0});
+  owned_integrator *integrator = start_with(system, .method = "rk4", .step = 0.1, .duration = 1.0);
   for (int half = 0; half < 2; half++) {
     e->pick.fraction = half ? 0.5 : 1.0;
     check_ok(hooke_estimate_begin(estimate, integrator, state));
@@ -263,9 +261,7 @@ TEST(what_is_watched_is_told_over_all_steps) {
   check_ok(hooke_measurement_create("estimate", system, NULL, asked, &estimate));
   assert_int_equal(hooke_measurement_row_count(estimate, "watched"), 0);
   for (int follows = 0; follows < 3; follows++) {
-    owned_integrator *integrator =
-        start_run(system, (struct run){.method = "rk4", .step = 0.01, .duration = 2.0, .every = 1.0});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = "rk4", .step = 0.01, .duration = 2.0, .every = 1.0);
     check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
     check_ok(hooke_estimate_begin(estimate, integrator, state));
     if (follows > 0) check_ok(hooke_estimate_follow(estimate, integrator));
@@ -285,7 +281,7 @@ TEST(what_is_watched_is_told_over_all_steps) {
     check_between(watched(estimate, 0, "until"), 2.0, 2.0);
     assert_true(isnan(hooke_measurement_number(estimate, "estimate", 0, "estimate")));
   }
-  owned_integrator *stranger = start_run(other, (struct run){.method = "rk4", .step = 0.01, .duration = 0.1});
+  owned_integrator *stranger = start_with(other, .method = "rk4", .step = 0.01, .duration = 0.1);
   check_status(hooke_estimate_follow(estimate, stranger), HOOKE_BAD_VALUE);
   check_message("is not one of the system that the estimate is for");
 }

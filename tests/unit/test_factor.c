@@ -23,7 +23,7 @@ static void set_up(struct random_scene_request request, double alpha, double bet
   bench->n = hooke_system_particle_count(system);
   double *q = new_doubles(6 * bench->n), *v = q + 3 * bench->n;
   random_scene_shake(&bench->scene, 7, q, v);
-  bench->integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
+  bench->integrator = start_with(system, .method = "verlet", .step = 1.0);
   hk_motion_load(system, bench->integrator->motion, q, v);
   check_ok(hk_reduced_create(bench->integrator, HOOKE_REDUCED_MINIMAL, NULL, &bench->reduced));
   hk_reduced_set(&bench->reduced, 0.25, alpha, beta);
@@ -149,7 +149,7 @@ TEST(solves_s) {
   needs_factor();
   static const double weights[][2] = {{1e-4, 1e-2}, {0.0, 0.3}, {1.0, 1.0}, {1e-8, 1e-4}};
   for (int k = 0; k < 24; k++) {
-    struct bench b;
+    owned(tear_down) struct bench b;
     set_up((struct random_scene_request){.seed = (uint64_t)(900 + k),
                                          .particles = 20 + 17 * k,
                                          .springs = 5 + 40 * k,
@@ -178,14 +178,13 @@ TEST(solves_s) {
     }
     assert_true(hk_factor_memory(b.reduced.whole) > 8 * hk_factor_numbers(b.reduced.whole));
     free(x);
-    tear_down(&b);
   }
 }
 
 /* A matrix that is not positive is reported, and the blocks are used again. */
 TEST(not_positive) {
   needs_factor();
-  struct bench b;
+  owned(tear_down) struct bench b;
   set_up((struct random_scene_request){.seed = 3, .particles = 60, .springs = 150, .features = SCENE_DAMPING},
          1e-4, 1e-2, &b);
   check_ok(hk_reduced_prepare_whole(&b.reduced));
@@ -200,13 +199,12 @@ TEST(not_positive) {
     b.reduced.block[17] = kept;
   }
   assert_int_equal(hk_reduced_factorise(&b.reduced), 1);
-  tear_down(&b);
 }
 
 /* A chain has a small factor, and too large a factor is not computed. */
 TEST(sizes) {
   needs_factor();
-  struct bench b;
+  owned(tear_down) struct bench b;
   struct hk_factor *factor = NULL;
   set_up((struct random_scene_request){.seed = 5, .particles = 2, .springs = 1, .rope = 2000}, 1e-4, 1e-2,
          &b);
@@ -216,25 +214,23 @@ TEST(sizes) {
   hk_factor_destroy(factor);
   check_ok(hk_factor_create(b.scene.system, numbers / 2, &factor));
   assert_null(factor);
-  tear_down(&b);
 }
 
 /* A build without factors reports none. */
 TEST(not_built) {
   if (is_built()) skip();
-  struct bench b;
+  owned(tear_down) struct bench b;
   set_up((struct random_scene_request){.seed = 3, .particles = 60, .springs = 150}, 1e-4, 1e-2, &b);
   check_ok(hk_reduced_prepare_whole(&b.reduced));
   assert_null(b.reduced.whole);
   assert_int_equal(b.reduced.whole_state, HOOKE_WHOLE_NONE);
-  tear_down(&b);
 }
 
 /* Dq - gamma dv = b_q and M dv - gamma (K dq + D dv) = M b_v, with the model's own derivative; by blocks and
  * by a factor. */
 TEST(implicit_equation) {
   for (int k = 0; k < 12; k++) {
-    struct bench b;
+    owned(tear_down) struct bench b;
     const double gamma = k % 2 ? 1e-2 : 1e-3;
     set_up((struct random_scene_request){.seed = (uint64_t)(70 + k),
                                          .particles = 40,
@@ -279,7 +275,6 @@ TEST(implicit_equation) {
       }
     }
     free(bq);
-    tear_down(&b);
   }
 }
 

@@ -52,9 +52,7 @@ static void *open_often(void *arg) {
 TEST(test_files_at_once) {
   struct reader reader[THREADS];
   owned_system *system = small_oscillator(10.0);
-  hooke_integrator *integrator =
-      start_run(system, (struct run){.method = "verlet", .step = 0.125, .duration = 0.25});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "verlet", .step = 0.125, .duration = 0.25);
   char path[64];
   for (int t = 0; t < THREADS; t++) {
     hooke_trajectory *trajectory;
@@ -78,7 +76,6 @@ TEST(test_files_at_once) {
     remove(path);
     assert_int_equal(reader[t].fine_count, OPENINGS);
   }
-  hooke_integrator_destroy(integrator);
 }
 
 #else

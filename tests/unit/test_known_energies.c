@@ -10,20 +10,14 @@
 
 enum { SEGMENTS = 12, FRAMES = 9 };
 
-static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
-  return 0;
-}
-
 static hooke_system *hanging_rope(int outside) {
   hooke_system *system = small_part(
       NULL, "rope", NULL,
       "from=0,0,0 to=1,0.1,0 segments=%d mass=0.5 stretch.stiffness=20 stretch.damping=0.01", SEGMENTS);
   check_ok(hooke_system_pin(system, 1, &(const int64_t){0}));
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  if (outside) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  return system;
+  if (outside) check_ok(hooke_system_set_force(system, idle_force, NULL, NULL));
+  return committed(system);
 }
 
 struct watch {
@@ -52,18 +46,15 @@ static int32_t on_frame(int64_t step, const hooke_state *state, void *ctx) {
 /* The frames of a run, and how many of them came with energies. */
 static struct watch watch_run(const hooke_system *system, const char *method, double step, int32_t ends) {
   struct watch watch = {.system = system};
-  hooke_options *options = run_options(
+  owned_options *options = run_options(
       (struct run){.method = method, .step = step, .duration = (FRAMES - 1) * 0.02, .every = 0.02});
-  hooke_integrator *integrator;
+  owned_integrator *integrator = NULL;
   if (step > 0.0) check_ok(hooke_options_set_number(options, "past_divergence", 1));
   check_ok(hooke_integrator_create(system, options, &integrator));
-  hooke_options_destroy(options);
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, on_frame, &watch));
   check_status(hooke_integrator_run(integrator, state), ends);
   assert_null(state->known);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
   return watch;
 }
 

@@ -46,11 +46,9 @@ typedef int32_t solver(const struct hk_operator *a, const double *b, double tole
 
 static int32_t run_solver(solver *solve, struct dense *dense, const double *b, int64_t limit, double *x,
                           struct hk_solution *solution) {
-  double *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
+  owned_doubles *scratch = new_doubles(HOOKE_MINIMAL_VECTORS * SIZE);
   const struct hk_operator a = {SIZE, apply, dense};
-  const int32_t status = solve(&a, b, 1e-12, limit, scratch, x, solution);
-  free(scratch);
-  return status;
+  return solve(&a, b, 1e-12, limit, scratch, x, solution);
 }
 
 static int32_t solve_positive(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,

@@ -18,7 +18,7 @@
 static hooke_system *oscillators(int64_t count, const double *stiffness, const double *damping, double far) {
   const double mass = 1.0;
   hooke_system *system = new_system();
-  hooke_options *options = new_options("springs");
+  owned_options *options = new_options("springs");
   for (int64_t k = 0; k < count; k++) {
     const double origin[6] = {far, (double)k, 0.0, far + 1.0, (double)k, 0.0};
     const int64_t pinned = 2 * k;
@@ -32,9 +32,7 @@ static hooke_system *oscillators(int64_t count, const double *stiffness, const d
     check_ok(hooke_options_set_number(options, "damping", damping[k]));
     check_ok(hooke_system_add_springs(system, k == 0 ? "first" : "other", 1, ends, options));
   }
-  hooke_options_destroy(options);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static int32_t measure_within(const hooke_system *system, const char *method, double predicted, double *mode,
@@ -147,15 +145,14 @@ TEST(parallel_springs_are_one) {
   const double stiffness[MANY] = {20, 3, 0.5, 7, 11, 0}, damping[MANY] = {0, 0.1, 0.3, 0, 0, 0.2},
                rest[MANY] = {0.7, 0.5, 0.2, 1.5, 0.4, 1};
   owned_system *system = small_system(3, origin, NULL, 0.5, 0);
-  struct hk_twin twin;
+  owned(hk_twin_release) struct hk_twin twin;
   double product[9], of_twin[9], energy = 0.0, there[9];
   check_ok(hooke_system_pin(system, 1, &none));
-  hooke_options *options = options_with("springs", "law=length");
+  owned_options *options = options_with("springs", "law=length");
   check_ok(hooke_options_set_numbers(options, "stiffness", MANY, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", MANY, damping));
   check_ok(hooke_options_set_numbers(options, "rest_length", MANY, rest));
   check_ok(hooke_system_add_springs(system, NULL, MANY, ends, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   check_ok(hk_twin_create(system, origin, NULL, &twin));
   assert_int_equal(hooke_system_count(twin.system, "springs"), 2);
@@ -174,7 +171,6 @@ TEST(parallel_springs_are_one) {
     there[k] = twin.origin[k] + dq[k];
   }
   check_close(hk_twin_energy(&twin, there, still), energy, 1e-6 * energy);
-  hk_twin_release(&twin);
 }
 
 TEST(frozen_system_rests) {
@@ -186,13 +182,12 @@ TEST(frozen_system_rests) {
   owned_system *system = small_system(5, position, NULL, mass, 0);
   check_ok(hooke_system_pin(system, 1, &pinned));
   check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
-  hooke_options *options = options_with("springs", "law=length stiffness=20");
+  owned_options *options = options_with("springs", "law=length stiffness=20");
   check_ok(hooke_options_set_numbers(options, "rest_length", 5, rest));
   check_ok(hooke_system_add_springs(system, NULL, 5, ends, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
 
-  struct hk_twin twin;
+  owned(hk_twin_release) struct hk_twin twin;
   check_ok(hk_twin_create(system, position, NULL, &twin));
   assert_int_equal(twin.lin.clamped, 1);
   assert_int_equal(twin.lin.damped, 0);
@@ -226,7 +221,6 @@ TEST(frozen_system_rests) {
     energy -= dq[k] * product[k];
   }
   check_close(hk_twin_energy(&twin, there, still), energy, 1e-5 * energy);
-  hk_twin_release(&twin);
 
   const struct hk_measured_limit out = measure(system, "verlet", NAN, NULL, 1e-3);
   check_between(out.step, 0.1, 1.0);
@@ -236,15 +230,13 @@ TEST(frozen_system_rests) {
 /* Drag alone: x'' = -c/m x'. */
 TEST(drag_alone) {
   const double origin[3] = {3.0, 0.0, 0.0};
-  hooke_system *system = small_system(1, origin, NULL, 2.0, 0);
+  owned_system *system = small_system(1, origin, NULL, 2.0, 0);
   check_ok(hooke_system_set_drag(system, 5.0));
   check_ok(hooke_system_commit(system));
   check_close(measure(system, "symplectic-euler", 0.8, NULL, 1e-3).step, 0.8, 1e-3);
   check_close(measure(system, "forward-euler", NAN, NULL, 1e-3).step, 0.8, 1e-3);
   assert_true(isinf(measure(system, "verlet", INFINITY, NULL, 1e-3).step));
-  hooke_system_destroy(system);
-  owned_system *nothing = small_system(1, origin, NULL, 2.0, 0);
-  check_ok(hooke_system_commit(nothing));
+  owned_system *nothing = committed(small_system(1, origin, NULL, 2.0, 0));
   assert_true(isinf(measure(nothing, "symplectic-euler", NAN, NULL, 1e-3).step));
 }
 
@@ -274,7 +266,7 @@ TEST(damping_of_a_spring_of_no_length) {
   const double origin[6] = {0.0};
   const int64_t ends[2] = {0, 1};
   owned_system *system = small_system(2, origin, NULL, 1.0, 1);
-  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 49.0, .damping = 3.0});
+  springs_with(system, 1, ends, .law = "length", .stiffness = 49.0, .damping = 3.0);
   check_ok(hooke_system_commit(system));
   check_close(measure(system, "verlet", NAN, NULL, 1e-3).step, 2.0 / 7.0, 1e-3 * 2.0 / 7.0);
   const double explicit = 4.0 / (3.0 + sqrt(9.0 + 4.0 * 49.0));
@@ -304,15 +296,13 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
                              double predicted, double seconds, hooke_progress *progress,
                              struct hk_measured_limit *out) {
   struct hk_budget budget = hk_budget_of(seconds, progress, NULL);
-  hooke_options *run = new_options("run");
+  owned_options *run = new_options("run");
   if (duration > 0.0) check_ok(hooke_options_set_number(run, "duration", duration));
   check_ok(hooke_options_set_number(run, "every", 1.0)); /* which allows few steps, and is not used here */
-  hooke_state *start = start_state(system);
+  owned_state *start = start_state(system);
   const int32_t status =
       hk_limit_measure_nonlinear(system, start, run, method, predicted, 1e-2, &budget, out);
   check_close(hooke_options_number(run, "every"), 1.0, 0.0);
-  hooke_state_destroy(start);
-  hooke_options_destroy(run);
   return status;
 }
 
@@ -336,10 +326,9 @@ static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
   const double origin[6] = {0, 0, 0, 1, 0, 0};
   const int64_t ends[2] = {0, 1};
   hooke_system *system = small_system(2, origin, NULL, 1.0, 1);
-  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = OMEGA * OMEGA});
+  springs_with(system, 1, ends, .law = "length", .stiffness = OMEGA * OMEGA);
   check_ok(hooke_system_set_force(system, spoil, NULL, spoiler));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 TEST(scenes_that_no_step_helps) {
@@ -443,7 +432,7 @@ TEST(most_shares_are_kept_in_order) {
     memcpy(mode + 6 * k, (const double[6]){0, 0, 0, 1, 0, 0}, 6 * sizeof(double));
   }
   owned_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hk_participation participation;
+  owned(hk_participation_release) struct hk_participation participation;
   check_ok(hk_participation_find(system, system->position, NULL, mode, 1.0, 0.0, &participation));
   assert_int_equal(participation.spring_count, HOOKE_MOST_LIMITING);
   for (int k = 0; k < HOOKE_MOST_LIMITING; k++) {
@@ -451,7 +440,6 @@ TEST(most_shares_are_kept_in_order) {
     check_close(stiffness[participation.spring[k].spring], (double)(COUNT - k), 0.0);
     assert_int_equal(participation.particle[k].particle, 2 * k + 1); /* equal shares: in their order */
   }
-  hk_participation_release(&participation);
 }
 
 TEST(remedy_is_what_it_costs) {
@@ -461,14 +449,12 @@ TEST(remedy_is_what_it_costs) {
   for (int k = 0; k < COUNT; k++)
     stiffness[k] = k == 5 ? 4900.0 : 49.0;
   mode[6 * 5 + 3] = 1.0;
-  hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hk_participation participation;
+  owned_system *system = oscillators(COUNT, stiffness, damping, 0.0);
+  owned(hk_participation_release) struct hk_participation participation;
   struct hk_suggestion suggestion;
   check_ok(hk_participation_find(system, system->position, NULL, mode, 1.0, 0.0, &participation));
   const int32_t status = hk_suggestion_find(system, system->position, "symplectic-euler", 2.0 / 70.0,
                                             &participation, &suggestion);
-  hk_participation_release(&participation);
-  hooke_system_destroy(system);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
   assert_string_equal(suggestion.kind, "soften");
@@ -488,15 +474,13 @@ TEST(no_remedy_where_all_are_alike) {
   for (int k = 0; k < COUNT; k++)
     stiffness[k] = 49.0;
   mode[6 * 5 + 3] = 1.0;
-  hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hk_participation participation;
+  owned_system *system = oscillators(COUNT, stiffness, damping, 0.0);
+  owned(hk_participation_release) struct hk_participation participation;
   struct hk_suggestion suggestion;
   /* one spring has the whole mode, but without it the next one limits the step as much */
   check_ok(hk_participation_find(system, system->position, NULL, mode, 1.0, 0.0, &participation));
   const int32_t status =
       hk_suggestion_find(system, system->position, "verlet", 2.0 / 7.0, &participation, &suggestion);
-  hk_participation_release(&participation);
-  hooke_system_destroy(system);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
   assert_null(suggestion.kind);

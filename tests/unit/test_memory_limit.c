@@ -166,24 +166,19 @@ static double peak(void) {
 /* Builds, commits and runs one step; returns the fraction of the stated memory that was used. */
 static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, const char *const *families) {
   const double before = peak();
-  hooke_system *system = limited_system(0.0);
-  hooke_integrator *integrator;
+  owned_system *system = limited_system(0.0);
+  owned_integrator *integrator = NULL;
   int64_t size[3] = {a, b, c};
-  hooke_options *options = part_options(kind, size);
+  owned_options *options = part_options(kind, size);
   for (; *families; families++)
     check_ok(hooke_options_set_number(options, *families, 1e-3));
   check_ok(hooke_system_add_part(system, kind, "", options, NULL, NULL));
   const double needed = hk_system_needed_bytes(system, (struct hk_more){0});
   check_ok(hooke_system_commit(system));
-  hooke_state *state = start_state(system);
-  hooke_options *run = options_with("run", "method=symplectic-euler step=1e-9 duration=1e-9");
+  owned_state *state = start_state(system);
+  owned_options *run = options_with("run", "method=symplectic-euler step=1e-9 duration=1e-9");
   check_ok(hooke_integrator_create(system, run, &integrator));
   check_ok(hooke_integrator_run(integrator, state));
-  hooke_integrator_destroy(integrator);
-  hooke_state_destroy(state);
-  hooke_options_destroy(run);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
   return (peak() - before) / needed;
 }
 
@@ -422,7 +417,7 @@ TEST(problems_stop_where_systems_do) {
   const int64_t most = 3 * (int64_t)INT32_MAX,
                 bad[] = {INT64_MIN, -1, 0, most + 1, INT64_C(1) << 62, INT64_MAX};
   const double mass = 1.0;
-  hooke_options *run = options_with("run", "method=rk4 step=0.1");
+  owned_options *run = options_with("run", "method=rk4 step=0.1");
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
     hooke_state *state = NULL;
     hooke_integrator *made = NULL;
@@ -435,7 +430,6 @@ TEST(problems_stop_where_systems_do) {
                  HOOKE_BAD_VALUE);
     assert_true(state == NULL && made == NULL);
   }
-  hooke_options_destroy(run);
   check_status(hk_size_check(most, 1 << 24), HOOKE_NO_MEMORY);
   check_ok(hk_size_check(1, 7));
 }

@@ -11,7 +11,7 @@
 static double measure(const char *method, double h, double w, double d, int rigid, double *expected) {
   const double q[] = {0.7, 0, 0}, point[] = {0, 0, 0};
   const int64_t particle = 0;
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  owned_system *system = small_system(1, q, NULL, 1.0, 0);
   hooke_options *anchor = options_with("anchors", "stiffness=%.17g rest_length=0", w * w);
   check_ok(hooke_options_set_numbers(anchor, "points", 3, point));
   check_ok(hooke_system_add_anchors(system, "anchor", 1, &particle, anchor));
@@ -22,17 +22,14 @@ static double measure(const char *method, double h, double w, double d, int rigi
   *expected = hk_mode_growth(hk_method_stability_in(method, system), h, w, d);
   double m[2][2];
   for (int k = 0; k < 2; k++) {
-    hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = h});
-    owned_state *state = start_state(system);
+    owned_run(integrator, state, system, .method = method, .step = h);
     double *x = hooke_state_position(state), *v = hooke_state_velocity(state);
     *x = k == 0 ? 0.7 : 0.0; /* an anchor of no length, in its point, pulls nowhere */
     *v = k == 1 ? 0.7 : 0.0;
     check_ok(hooke_integrator_step(integrator, state, 1));
     m[0][k] = *x / 0.7;
     m[1][k] = *v / 0.7;
-    hooke_integrator_destroy(integrator);
   }
-  hooke_system_destroy(system);
   const double half = 0.5 * (m[0][0] + m[1][1]), product = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   return half * half < product ? sqrt(product) : fabs(half) + sqrt(half * half - product);
 }

@@ -12,8 +12,7 @@
 /* At rest lengths all move across, and rows and columns that no corner holds along themselves. */
 /* A net of n x n particles whose springs are pulled, pushed or at rest; held at four corners, or floating. */
 static hooke_system *make_net(int n, double rest, int held) {
-  hooke_system *system = NULL;
-  check_ok(hooke_system_create(&system));
+  hooke_system *system = new_system();
   for (int k = 0; k < n * n; k++)
     check_ok(
         hooke_system_add_particles(system, 1, (double[]){k % n, k / n, 0}, NULL, 1, (double[]){1}, NULL));
@@ -25,20 +24,18 @@ static hooke_system *make_net(int n, double rest, int held) {
     if (k % n + 1 < n) check_ok(hooke_system_add_springs(system, NULL, 1, (int64_t[]){k, k + 1}, options));
     if (k + n < n * n) check_ok(hooke_system_add_springs(system, NULL, 1, (int64_t[]){k, k + n}, options));
   }
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* In a build without one of its libraries. */
 static int32_t is_built(const hooke_system *system) {
-  struct hk_modes modes;
+  owned(hk_modes_release) struct hk_modes modes;
   const int32_t status = hk_modes_find(system, 0.0, system->position, (double[3 * 64]){0.0}, 1, NULL, &modes);
-  hk_modes_release(&modes);
   return status != HOOKE_NOT_BUILT && hk_cholmod;
 }
 
 static void compare(const hooke_system *system, int64_t count, int64_t zeros) {
-  struct hk_stiffness s;
+  owned(hk_stiffness_release) struct hk_stiffness s;
   struct hk_lowest dense, sparse;
   const double *q = system->position;
   check_ok(hk_stiffness_create(system, q, &s));
@@ -65,7 +62,6 @@ static void compare(const hooke_system *system, int64_t count, int64_t zeros) {
   }
   hk_lowest_release(&dense);
   hk_lowest_release(&sparse);
-  hk_stiffness_release(&s);
 }
 
 TEST(test_sparse_and_dense_agree) {

@@ -11,22 +11,19 @@
 static int32_t parse(const char *text, struct hk_obj *obj, int64_t *line) {
   /* without a NUL at its end, so that a sanitizer detects reading too far */
   const size_t length = strlen(text);
-  char *copy = malloc(length ? length : 1);
+  owned_text *copy = malloc(length ? length : 1);
   assert_non_null(copy);
   memcpy(copy, text, length);
-  const int32_t status = hk_obj_parse(copy, (int64_t)length, obj, line);
-  free(copy);
-  return status;
+  return hk_obj_parse(copy, (int64_t)length, obj, line);
 }
 
 static void check_faces(const char *text, int64_t count, const int64_t *triangle) {
-  struct hk_obj obj;
+  owned(hk_obj_release) struct hk_obj obj;
   int64_t line;
   check_ok(parse(text, &obj, &line));
   assert_int_equal(obj.triangle_count, count);
   for (int64_t k = 0; k < 3 * count; k++)
     assert_int_equal(obj.triangle[k], triangle[k]);
-  hk_obj_release(&obj);
 }
 
 #define FOUR "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -57,7 +54,7 @@ TEST(lines_end_in_three_ways) {
   static const char *const ends[] = {"\n", "\r\n", "\r"};
   for (int k = 0; k < 3; k++) {
     char text[512];
-    struct hk_obj obj;
+    owned(hk_obj_release) struct hk_obj obj;
     int64_t line;
     snprintf(text, sizeof text,
              "# made \\%smtllib a.mtl%so thing%s%sv 1.5 -2 3e-1%svt 0 0%svn 0 0 1%sv +1 .5 1. 1%s"
@@ -71,7 +68,6 @@ TEST(lines_end_in_three_ways) {
     assert_int_equal(obj.vertex_line[0], 5);
     assert_int_equal(obj.vertex_line[2], 9);
     assert_int_equal(obj.triangle_line[0], 13);
-    hk_obj_release(&obj);
   }
 }
 
@@ -79,7 +75,7 @@ TEST(lines_end_in_three_ways) {
 TEST(lists_grow) {
   enum { COUNT = 5000 };
   char *text = malloc(64 * COUNT), *at = text;
-  struct hk_obj obj;
+  owned(hk_obj_release) struct hk_obj obj;
   int64_t line;
   assert_non_null(text);
   for (int k = 0; k < COUNT; k++)
@@ -92,7 +88,6 @@ TEST(lists_grow) {
   check_same_bits(3, obj.vertex + 3 * 4321, ((double[]){4321, 0.4321, -4321}));
   assert_int_equal(obj.triangle[3 * 4000 + 2], 4002);
   assert_int_equal(obj.triangle_line[4000], COUNT + 4001);
-  hk_obj_release(&obj);
   free(text);
 }
 
@@ -131,14 +126,13 @@ TEST(faults_have_their_line) {
       {"\x89HDF\r\n", 1, "is not allowed; allowed: v and f"},
   };
   for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {
-    struct hk_obj obj;
+    owned(hk_obj_release) struct hk_obj obj;
     int64_t line = -1;
     check_status(parse(faults[k].text, &obj, &line), HOOKE_BAD_VALUE);
     check_message(faults[k].message);
     if (line != faults[k].line)
       check_failed("fault %zu is in line %lld, not %lld: %s", k, (long long)line, (long long)faults[k].line,
                    hooke_last_error());
-    hk_obj_release(&obj);
   }
 }
 

@@ -65,10 +65,7 @@ static void check_equal_bits(const struct members *s, int64_t begin, int64_t end
 TEST(a_rope_is_a_line) {
   owned_system *system = new_system();
   owned_options *options = rope_options(7);
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 100));
-  check_ok(hooke_options_set_number(options, "stretch.damping", 0.5));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 3));
-  check_ok(hooke_options_set_number(options, "bend.rest_scale", 0.5));
+  set_options(options, "stretch.stiffness=100 stretch.damping=0.5 bend.stiffness=3 bend.rest_scale=0.5");
   int64_t first = -1, count = -1;
   check_ok(hooke_system_add_part(system, "rope", "line", options, &first, &count));
   check_ok(hooke_system_commit(system));
@@ -84,7 +81,7 @@ TEST(a_rope_is_a_line) {
     check_close(hooke_system_mass(system)[k], 0.7 / 8, 0.0);
     check_position(system, k, 0.1 + 1.2 * k / 7, 0.2, 0.3 - 0.9 * k / 7);
   }
-  struct members s = springs_of(system);
+  owned(release) struct members s = springs_of(system);
   for (int k = 0; k < 7; k++)
     check_spring(&s, k, k, k + 1);
   for (int k = 0; k < 6; k++)
@@ -97,7 +94,6 @@ TEST(a_rope_is_a_line) {
   check_close(s.gamma[6], 0.5 / piece, 1e-14);
   check_close(s.kappa[7], 3 / piece, 1e-13);
   check_close(s.gamma[7], 0.0, 0.0);
-  release(&s);
 }
 
 TEST(a_rope_ends_where_it_is_told) {
@@ -120,9 +116,7 @@ static int64_t at(int64_t r, int64_t c) {
 
 static hooke_options *full_cloth(void) {
   hooke_options *options = cloth_options(NU, NV);
-  check_ok(hooke_options_set_number(options, "structural.stiffness", 50));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
-  check_ok(hooke_options_set_number(options, "bend.stiffness", 5));
+  set_options(options, "structural.stiffness=50 shear.stiffness=20 bend.stiffness=5");
   return options;
 }
 
@@ -136,7 +130,7 @@ TEST(a_cloth_has_its_springs_in_order) {
   assert_string_equal(hooke_system_group_name(system, "springs", 1), "flag.shear");
   assert_string_equal(hooke_system_group_name(system, "springs", 2), "flag.bend");
 
-  struct members s = springs_of(system);
+  owned(release) struct members s = springs_of(system);
   int64_t k = 0;
   for (int r = 0; r < NV; r++)
     for (int c = 0; c + 1 < NU; c++)
@@ -165,7 +159,7 @@ TEST(a_cloth_has_its_springs_in_order) {
   assert_int_equal(k, s.count);
 
   /* every spring at rest initially, and one number for each family and direction */
-  hooke_state *state = start_state(system);
+  owned_state *state = start_state(system);
   const double *q = hooke_state_position(state);
   for (k = 0; k < s.count; k++) {
     const double *a = q + 3 * s.ends[2 * k], *b = q + 3 * s.ends[2 * k + 1];
@@ -180,8 +174,6 @@ TEST(a_cloth_has_its_springs_in_order) {
   check_equal_bits(&s, bend_v, bend_v + 1, 2.0 * s.rest_length[v_edges]);
   check_position(system, NU - 1, 1.2, 0.7, 0.5);
   check_position(system, NU * NV - 1, 1.3, 0.7, 1.4);
-  hooke_state_destroy(state);
-  release(&s);
 }
 
 TEST(a_family_that_is_absent_has_no_springs) {
@@ -229,8 +221,7 @@ TEST(pinned_particles_have_names) {
 TEST(parts_come_after_groups_and_are_counted) {
   owned_system *system = new_system();
   owned_options *options = rope_options(2);
-  check_ok(hooke_options_set_number(options, "stretch.stiffness", 1));
-  check_ok(hooke_options_set_text(options, "pinned", "start"));
+  set_options(options, "stretch.stiffness=1 pinned=start");
   const double position[] = {5, 0, 0, 6, 0, 0}, mass = 2;
   int64_t first = -1;
   check_ok(hooke_system_add_particles(system, 2, position, NULL, 1, &mass, NULL));
@@ -247,7 +238,7 @@ TEST(parts_come_after_groups_and_are_counted) {
   assert_int_equal(hooke_system_group_count(system, "springs"), 4);
   for (int k = 0; k < 4; k++)
     assert_string_equal(hooke_system_group_name(system, "springs", k), names[k]);
-  struct members s = springs_of(system);
+  owned(release) struct members s = springs_of(system);
   check_spring(&s, 0, 1, 4);
   check_spring(&s, 1, 2, 3);
   check_spring(&s, 3, 5, 6);
@@ -255,7 +246,6 @@ TEST(parts_come_after_groups_and_are_counted) {
   char found[32];
   held(system, found);
   assert_string_equal(found, "..x..x..x..");
-  release(&s);
 }
 
 /* A refused part leaves no trace: the system is then built as if it had never been tried. */
@@ -350,8 +340,8 @@ TEST(kinds_can_be_listed) {
 }
 
 TEST(particles_of_a_part_are_counted) {
-  hooke_system *system;
-  hooke_options *options = full_cloth();
+  owned_system *system = NULL;
+  owned_options *options = full_cloth();
   int64_t first[2], count[2];
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_part(system, "cloth", "a", options, &first[0], &count[0]));
@@ -364,6 +354,4 @@ TEST(particles_of_a_part_are_counted) {
   assert_true(first[1] == count[0] && count[1] > 1);
   assert_int_equal(hooke_system_part_count(system, "cloth0", "particles"), -1);
   assert_int_equal(hooke_system_part_count(system, "a", "springs"), -1);
-  hooke_options_destroy(options);
-  hooke_system_destroy(system);
 }

@@ -50,7 +50,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
   const int64_t n = hooke_system_particle_count(system), size = 3 * n;
   struct random_source source = {17};
   owned_doubles *b = new_doubles(size), *x = new_doubles(size);
-  hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
+  owned_integrator *integrator = start_with(system, .method = "verlet", .step = 1.0);
   struct hk_reduced reduced;
   struct hk_solution solution;
   for (int64_t k = 0; k < size; k++)
@@ -81,7 +81,6 @@ static void check_solution(const hooke_system *system, const double *q, const do
   free(dq);
   free(found);
   hk_reduced_release(&reduced);
-  hooke_integrator_destroy(integrator);
 }
 
 static const double weights[][2] = {{0.0, 0.01},  {0.0, 0.5},  {1e-4, 1e-2},
@@ -104,22 +103,13 @@ TEST(every_law) {
 TEST(random_scenes) {
   for (int32_t k = 0; k < 40; k++) {
     owned_random_scene scene;
-    random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + k),
-                                                      .particles = 20 + 13 * k,
-                                                      .springs = 60 + 20 * k,
-                                                      .triples = k % 3 * 40,
-                                                      .tetrahedra = k % 4 * 10,
-                                                      .anchors = k % 3 * 4,
-                                                      .features = k * 37 & SCENE_EVERYTHING,
-                                                      .cloth = {k % 9 + 2, 9},
-                                                      .with_product = 1},
-                        &scene);
+    random_scene_with(&scene, .seed = (uint64_t)(500 + k), .particles = 20 + 13 * k, .springs = 60 + 20 * k,
+                      .triples = k % 3 * 40, .tetrahedra = k % 4 * 10, .anchors = k % 3 * 4,
+                      .features = k * 37 & SCENE_EVERYTHING, .cloth = {k % 9 + 2, 9}, .with_product = 1);
     const int64_t size = 3 * hooke_system_particle_count(scene.system);
-    double *q = new_doubles(size), *v = new_doubles(size);
+    owned_doubles *q = new_doubles(size), *v = new_doubles(size);
     random_scene_shake(&scene, 7, q, v);
     check_solution(scene.system, q, v, 0.0, 5e-4, 1e-10);
     check_solution(scene.system, q, v, 1e-6, 1e-3, 1e-10);
-    free(q);
-    free(v);
   }
 }

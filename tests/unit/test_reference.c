@@ -26,13 +26,12 @@ TEST(references_are_as_close_as_they_say) {
   for (int k = 0; k < REFERENCE_COUNT; k++) {
     const struct reference_state *expected = &references[k].state[0];
     owned_system *system = build_reference(&references[k]);
-    struct hk_reference r;
+    owned(hk_reference_release) struct hk_reference r;
     make(system, expected->time, NAN, &r);
     check_between(r.agreement, 1e-16, 1e-8 * r.extent);
     if (!(error_of(&r, expected) <= r.agreement))
       check_failed("%s: %.3g m off, said to be %.3g m at most", references[k].name, error_of(&r, expected),
                    r.agreement);
-    hk_reference_release(&r);
   }
 }
 

@@ -21,8 +21,7 @@ static hooke_system *make_swing(double gravity) {
                                       (double[]){2}, NULL));
   check_ok(hooke_system_pin(system, 2, (int64_t[]){0, 2}));
   small_group(system, "springs", NULL, 2, (int64_t[]){0, 1, 1, 2}, "stiffness=80 rest_length=0.9");
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* How far two corrections of one long step from `off` beside rest leave the weight from there. */

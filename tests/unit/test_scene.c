@@ -318,10 +318,9 @@ TEST(a_whole_scene_becomes_a_system) {
   check_same_bits(3, length, wanted_length);
 
   const double position[] = {0, 0, 0, 1, 0, 0.5, 2, 0.25, 0}, velocity[] = {0, 0, 0, 1, 2, 3, 4, 5, 6};
-  hooke_state *initial = start_state(system);
+  owned_state *initial = start_state(system);
   check_same_bits(9, hooke_state_position(initial), position);
   check_same_bits(9, hooke_state_velocity(initial), velocity);
-  hooke_state_destroy(initial);
 
   hooke_options *run = hooke_scene_run_options(scene);
   assert_string_equal(hooke_options_text(run, "method"), "forward-euler");
@@ -348,7 +347,7 @@ TEST(what_is_not_named_is_not_computed) {
 /* Explicit particles come first, then those of parts in order; explicit springs first, then those of parts.
  */
 TEST(parts_follow_what_is_listed) {
-  hooke_scene *scene = parse(
+  owned_scene *scene = parse(
       "{'hooke': 1, " TWO ","
       " 'springs': [{'name': 'tie', 'between': [[1, ['line', 0]], [['line', 2], ['cloth1', 3]], [0, 5]], "
       "'stiffness': 1}],"
@@ -376,11 +375,10 @@ TEST(parts_follow_what_is_listed) {
   check_close(length[5], 1.0, 1e-15);
   assert_true(hooke_system_inverse_mass(system)[2] == 0 && hooke_system_inverse_mass(system)[4] == 0);
   check_close(hooke_system_mass(system)[3], 1, 1e-15);
-  hooke_scene_destroy(scene);
 }
 
 TEST(driven_particles_move) {
-  hooke_scene *scene =
+  owned_scene *scene =
       parse("{'hooke': 1, " TWO
             ", 'parts': [{'kind': 'rope', 'from': [0,1,0], 'to': [1,1,0], 'segments': 1, 'mass': 1}],"
             " 'driven': [{'particles': [1], 'motion': 'harmonic', 'amplitude': [0,2,0], 'frequency': 0.25,"
@@ -390,11 +388,9 @@ TEST(driven_particles_move) {
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   assert_int_equal(hooke_system_count(system, "free"), 2);
-  hooke_state *initial = start_state(system);
+  owned_state *initial = start_state(system);
   check_close(hooke_state_position(initial)[4], 2, 1e-15);
   check_close(hooke_state_position(initial)[3], 1, 0);
-  hooke_state_destroy(initial);
-  hooke_scene_destroy(scene);
 }
 
 /* ---- what a scene lists, added by its key ---- */
@@ -402,17 +398,16 @@ TEST(driven_particles_move) {
 static void check_refused(hooke_system *system, const char *key, const char *table, int64_t count,
                           const char *message) {
   const int64_t particles[3] = {0, 1, 0};
-  hooke_options *options;
+  owned_options *options = NULL;
   check_ok(hooke_options_create(table, &options));
   check_status(hooke_system_add_members(system, key, NULL, count, particles, options), HOOKE_BAD_VALUE);
   check_message(message);
-  hooke_options_destroy(options);
 }
 
 TEST(members_are_added_by_key) {
   const double place[6] = {0, 0, 0, 1, 0, 0};
-  hooke_system *system;
-  hooke_options *particles, *springs;
+  owned_system *system = NULL;
+  owned_options *particles = NULL, *springs = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_options_create("particles", &particles));
   check_ok(hooke_options_set_numbers(particles, "position", 6, place));
@@ -441,9 +436,6 @@ TEST(members_are_added_by_key) {
   check_status(hooke_system_add_members(system, "particles", NULL, 1, (int64_t[]){0}, particles),
                HOOKE_BAD_VALUE);
   check_message("count: 1 is not allowed for particles; allowed: 0");
-  hooke_options_destroy(springs);
-  hooke_options_destroy(particles);
-  hooke_system_destroy(system);
 }
 
 /* ---- invalid scenes: exact messages ---- */

@@ -57,7 +57,7 @@ static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   const int descriptor = mkstemp(path);
   assert_true(descriptor >= 0);
   close(descriptor);
-  hooke_options *run = options_with("run", "step=0.1 method=rk4");
+  owned_options *run = options_with("run", "step=0.1 method=rk4");
   check_ok(hooke_scene_write(path, system, "a \"title\" \\ <b> \xc3\xa4", run));
   check_ok(hooke_scene_load(path, NULL, scene));
   check_ok(hooke_scene_commit(*scene));
@@ -66,7 +66,6 @@ static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   assert_string_equal(hooke_options_text(hooke_scene_run_options(*scene), "method"), "rk4");
   assert_false(hooke_options_is_set(hooke_scene_run_options(*scene), "duration"));
   check_in_memory(system, run, *scene);
-  hooke_options_destroy(run);
   unlink(path);
 }
 
@@ -74,20 +73,12 @@ TEST(random_systems_come_back) {
   for (uint64_t seed = 1; seed <= 64; seed++) {
     const int32_t features = (int32_t)(seed * 29) & SCENE_EVERYTHING & ~(SCENE_CALLBACK | SCENE_DRIVEN);
     owned_random_scene scene;
-    hooke_scene *read;
-    random_scene_create((struct random_scene_request){.seed = seed,
-                                                      .particles = 20,
-                                                      .springs = 40,
-                                                      .features = features,
-                                                      .triples = (int64_t)(seed % 3 * 4),
-                                                      .medium = (int32_t)(seed % 16),
-                                                      .cloth = {5, 4},
-                                                      .lattice = {3, 4, 2},
-                                                      .rope = 7},
-                        &scene);
+    owned_scene *read = NULL;
+    random_scene_with(&scene, .seed = seed, .particles = 20, .springs = 40, .features = features,
+                      .triples = (int64_t)(seed % 3 * 4), .medium = (int32_t)(seed % 16), .cloth = {5, 4},
+                      .lattice = {3, 4, 2}, .rope = 7);
     write_and_read(scene.system, &read);
     check_same_system(hooke_scene_system(read), scene.system);
-    hooke_scene_destroy(read);
   }
 }
 
@@ -101,7 +92,7 @@ TEST(lattice_and_mesh_come_back) {
       small_part(NULL, "lattice", "block",
                  "origin=0.1,0.2,0.3 edges=1.1,0.1,0,0,0.7,0,0.2,0,0.3 size=4,3,5 density=3 pinned=top,3 "
                  "shear.stiffness=7 shear.damping_ratio=0.1");
-  hooke_options *mesh = options_with("mesh",
+  owned_options *mesh = options_with("mesh",
                                      "mass=0.7 transform.scale=0.1 transform.translate=%.17g,5,-2 weld=1e-5 "
                                      "structural.stiffness=3 bend.stiffness=2 bend.damping_ratio=0.2",
                                      1.0 / 3.0);
@@ -113,7 +104,6 @@ TEST(lattice_and_mesh_come_back) {
   assert_int_equal(system->particle_count, 60 + 42);
   write_and_read(system, &read);
   check_same_system(hooke_scene_system(read), system);
-  hooke_options_destroy(mesh);
   hooke_system_destroy(system);
 }
 
@@ -154,7 +144,7 @@ static void add_strand(hooke_system *system, int curl) {
 /* Tetrahedra of parts are equal to the bit; a scene cannot express explicit ones. */
 TEST(strands_come_back) {
   hooke_system *system;
-  hooke_scene *read;
+  owned_scene *read = NULL;
   check_ok(hooke_system_create(&system));
   add_strand(system, 0);
   add_strand(system, 1);
@@ -166,7 +156,6 @@ TEST(strands_come_back) {
   assert_int_equal(found->altitudes->count, system->altitudes->count);
   assert_memory_equal(found->altitudes->tetrahedron, system->altitudes->tetrahedron,
                       (size_t)system->altitudes->count * sizeof *system->altitudes->tetrahedron);
-  hooke_scene_destroy(read);
   hooke_system_destroy(system);
 
   const int64_t corners[4] = {0, 1, 2, 3};
@@ -226,12 +215,12 @@ TEST(anchors_come_back) {
   int64_t particle[3];
   double points[9], number[3][3];
   owned_system *system = NULL, *made = NULL;
-  hooke_scene *read;
-  struct hk_variant variant;
-  struct hk_variant_map map;
+  owned_scene *read = NULL;
+  owned(hk_variant_release) struct hk_variant variant;
+  owned(hk_variant_map_release) struct hk_variant_map map;
   check_ok(hooke_system_create(&system));
   add_strand(system, 1);
-  hooke_options *options = options_with("anchors", "stiffness=0");
+  owned_options *options = options_with("anchors", "stiffness=0");
   check_ok(hooke_system_add_anchors(system, "nothing", 1, tied, options));
   check_ok(hooke_options_set_number(options, "stiffness", 3.0));
   check_ok(hooke_system_add_anchors(system, "one", 1, tied, options));
@@ -239,12 +228,10 @@ TEST(anchors_come_back) {
   check_ok(hooke_options_set_numbers(options, "points", 6, point));
   check_ok(hooke_options_set_number(options, "damping", 0.7));
   check_ok(hooke_system_add_anchors(system, "two", 2, tied, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
   write_and_read(system, &read);
   assert_true(hk_system_check_value(hooke_scene_system(read)) == hk_system_check_value(system));
   assert_int_equal(hk_system_groups_of(hooke_scene_system(read), &hk_force_anchor), 3);
-  hooke_scene_destroy(read);
 
   check_ok(hk_variant_create(system, &variant));
   variant.group[hk_system_first_group(system, &hk_force_anchor) + 1] = 1;
@@ -255,8 +242,6 @@ TEST(anchors_come_back) {
   assert_true(particle[0] == 5 && particle[1] == 3 && number[1][1] == 0.7);
   assert_memory_equal(points, point, sizeof point);
   assert_memory_equal(number[0], stiffness, sizeof stiffness);
-  hk_variant_map_release(&map);
-  hk_variant_release(&variant);
 }
 
 /* Loads are equal to the bit, and as they were given; a variant leaves a group out. */
@@ -266,8 +251,8 @@ TEST(loads_come_back) {
                                       "motion=table force=0,0,0;0.1,0.2,0.3 time=0.1,0.7"};
   owned_scene *read = NULL;
   owned_system *system = new_system(), *made = NULL;
-  struct hk_variant variant;
-  struct hk_variant_map map;
+  owned(hk_variant_release) struct hk_variant variant;
+  owned(hk_variant_map_release) struct hk_variant_map map;
   add_strand(system, 1);
   for (int k = 0; k < 3; k++) {
     owned_options *options = options_with("loads", "%s", words[k]);
@@ -287,8 +272,6 @@ TEST(loads_come_back) {
   int64_t particle[4];
   check_ok(hooke_system_members(made, "loads", particle, NULL, NULL, NULL));
   assert_true(particle[0] == 5 && particle[1] == 4 && particle[2] == 5 && particle[3] == 6);
-  hk_variant_map_release(&map);
-  hk_variant_release(&variant);
 }
 
 /* By the numbers that the particles have in the scene; in a variant those that are there. */
@@ -298,8 +281,8 @@ TEST(names_come_back) {
                                     "from=0,0,0 to=1,0,0 segments=2 mass=1 stretch.stiffness=9"),
                *made = NULL;
   owned_scene *read = NULL;
-  struct hk_variant variant;
-  struct hk_variant_map map;
+  owned(hk_variant_release) struct hk_variant variant;
+  owned(hk_variant_map_release) struct hk_variant_map map;
   check_ok(hooke_system_add_particles(system, 2, position, NULL, 1, (double[]){2.0}, NULL));
   check_ok(hooke_system_name_particle(system, "tip", 2));
   check_ok(hooke_system_name_particle(system, "bob", 4));
@@ -318,8 +301,6 @@ TEST(names_come_back) {
   check_ok(hk_variant_make(system, &variant, &made, &map));
   assert_int_equal(hooke_system_named_particle(made, "tip"), -1);
   assert_int_equal(hooke_system_named_particle(made, "bob"), 1);
-  hk_variant_map_release(&map);
-  hk_variant_release(&variant);
 }
 
 /* Of particles and parts, as options of a part and as set after it; in a variant at half the resolution it is
@@ -328,8 +309,8 @@ TEST(gravity_factors_come_back) {
   const double place[6] = {0, 5, 0, 1, 5, 0}, factor[2] = {-0.3, 2.0};
   owned_scene *read = NULL;
   owned_system *system = small_system(2, place, NULL, 1.0, 0), *made = NULL;
-  struct hk_variant variant;
-  struct hk_variant_map map;
+  owned(hk_variant_release) struct hk_variant variant;
+  owned(hk_variant_map_release) struct hk_variant_map map;
   check_ok(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
   small_part(system, "rope", "one",
              "from=0,0,0 to=1,0,0 segments=4 mass=1 stretch.stiffness=5 "
@@ -353,8 +334,6 @@ TEST(gravity_factors_come_back) {
   assert_int_equal(made->particle_count, 12);
   for (int p = 0; p < 12; p++)
     check_close(made->gravity_factor[p], right[p], 1e-15);
-  hk_variant_map_release(&map);
-  hk_variant_release(&variant);
 }
 
 /* One for all stays a ratio, which finds the same damping where other particles are held; several become
@@ -364,23 +343,20 @@ TEST(damping_ratios_come_back) {
   const int64_t ends[] = {0, 1, 1, 2};
   double gamma[4];
   owned_system *system = small_system(3, position, NULL, 0.3, 1), *made = NULL;
-  hooke_scene *read;
-  struct hk_variant variant;
-  struct hk_variant_map map;
+  owned_scene *read = NULL;
+  owned(hk_variant_release) struct hk_variant variant;
+  owned(hk_variant_map_release) struct hk_variant_map map;
   small_group(system, "springs", "one", 2, ends, "stiffness=7 damping_ratio=0.3 rest_scale=0.9");
   small_group(system, "springs", "two", 2, ends, "stiffness=7,9 damping_ratio=0.1,0.7");
   check_ok(hooke_system_commit(system));
   write_and_read(system, &read);
   assert_non_null(strstr(hooke_scene_text(read, "text"), "\"damping_ratio\": 0.3"));
-  hooke_scene_destroy(read);
 
   check_ok(hk_variant_create(system, &variant));
   variant.damping = 1;
   check_ok(hk_variant_make(system, &variant, &made, &map));
   check_ok(hooke_system_members(made, "springs", NULL, NULL, gamma, NULL));
   assert_true(gamma[0] == 0.0 && gamma[1] == 0.0 && gamma[2] == 0.0 && gamma[3] == 0.0);
-  hk_variant_map_release(&map);
-  hk_variant_release(&variant);
 }
 
 /* Driven as before: at some times, to the same positions to the bit. */
@@ -409,8 +385,7 @@ TEST(drives_come_back) {
 TEST(zeros_keep_their_sign) {
   const double at[6] = {-0.0, 0, 0, 1, -0.0, 0}, still[6] = {0, 0, -0.0, 0, 0, 0}, mass = 1;
   owned_scene *read = NULL;
-  owned_system *system = small_system(2, at, still, mass, 0);
-  check_ok(hooke_system_commit(system));
+  owned_system *system = committed(small_system(2, at, still, mass, 0));
   write_and_read(system, &read);
   check_same_system(hooke_scene_system(read), system);
 }
@@ -455,12 +430,9 @@ static void check_not_written(const hooke_system *system, const char *force) {
 TEST(forces_without_a_key_are_not_lost) {
   static const struct hk_element element = {.count = 1, .weight = {1.0}, .k_along = 2.0, .over = 1.0};
   static const double place[3] = {0.0, 0.0, 0.0}, one = 1.0;
-  struct random_scene scene;
-  random_scene_create(
-      (struct random_scene_request){.seed = 5, .particles = 10, .springs = 9, .features = SCENE_CALLBACK},
-      &scene);
+  owned_random_scene scene;
+  random_scene_with(&scene, .seed = 5, .particles = 10, .springs = 9, .features = SCENE_CALLBACK);
   check_not_written(scene.system, "callbacks");
-  random_scene_destroy(&scene);
   owned_system *system = small_system(1, place, NULL, one, 0);
   hk_system_set_linear(system, 1, &element, place);
   check_ok(hooke_system_commit(system));

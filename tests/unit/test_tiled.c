@@ -110,8 +110,7 @@ static hooke_system *build(struct random_source *source, struct sheet *sheet, in
   *drag = random_whole(source, 0, 1) ? 0.25 : 0.0;
   check_ok(hooke_system_set_gravity(system, sheet->gravity));
   check_ok(hooke_system_set_drag(system, *drag));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* The system returns the given springs, and stores no more than the law needs. */
@@ -235,8 +234,7 @@ static hooke_system *join_all(const double *q, const double *v, int64_t *ends) {
   }
   hooke_system *system = small_system(FEW, q, v, 1.0, 0);
   small_group(system, "springs", "pairs", PAIRS, ends, "stiffness=50 damping=0.1");
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* All that iterates over the springs of a small system keeps their order. */
@@ -250,7 +248,7 @@ TEST(test_small) {
   }
   owned_system *system = join_all(q, v, ends);
   assert_int_equal(system->tiled->particles, FEW);
-  struct canonical c;
+  owned_canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
   struct hk_spring_batch batch;
@@ -262,5 +260,4 @@ TEST(test_small) {
     assert_int_equal(batch.tail[k], ends[2 * k + 1]);
     assert_true(batch.kappa[k] == c.kappa[k] && batch.gamma[k] == c.gamma[k]);
   }
-  canonical_destroy(&c);
 }

@@ -38,8 +38,8 @@ struct fixture {
 static int set_up(void **state) {
   struct fixture *f = new_block(1, sizeof *f);
   f->system = new_rope();
-  f->integrator = start_run(
-      f->system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
+  f->integrator =
+      start_with(f->system, .method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01);
   f->state = start_state(f->system);
   f->stop_after = FRAMES + 1;
   assert_int_equal(hooke_integrator_count(f->integrator, "frames"), FRAMES);
@@ -243,11 +243,10 @@ TEST(a_run_without_a_frame_closes) {
 
 TEST(wrong_states_are_refused_and_do_no_harm) {
   struct fixture *f = *prepared;
-  hooke_state *other;
+  owned_state *other = NULL;
   check_ok(hooke_state_create_first_order(4, &other));
   create(f);
   check_status(hooke_trajectory_write(f->trajectory, 0, other), HOOKE_BAD_VALUE);
-  hooke_state_destroy(other);
   run(f, HOOKE_OK);
   check_ok(close_file(f, HOOKE_OK));
   check_file(f, f->path, FRAMES);
@@ -365,8 +364,8 @@ AROUND_EACH(set_up, tear_down)
 /* Without HDF5 every call says so. */
 TEST(trajectories_are_not_in_this_build) {
   owned_system *system = new_rope();
-  hooke_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
+  owned_integrator *integrator =
+      start_with(system, .method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01);
   hooke_trajectory *trajectory;
   double *values;
   int64_t rows, columns;
@@ -375,7 +374,6 @@ TEST(trajectories_are_not_in_this_build) {
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
   check_status(hk_array_read("out.h5", "/a", 0, 0, &values, &rows, &columns), HOOKE_NOT_BUILT);
   check_message("HDF5");
-  hooke_integrator_destroy(integrator);
 }
 
 #endif

@@ -1,6 +1,7 @@
 /* Continuing the file of a run that was killed or ended early: the same frames as without interruption; other
  * files are refused. */
 #include "check.h"
+#include "file_copy.h"
 #include "file_limit.h"
 #include "integrate/integrator.h"
 #include "io/trajectory/trajectory.h"
@@ -22,7 +23,7 @@ static hooke_system *braced_rope(int particles, double mass, int brace) {
   hooke_system *system = small_part(
       NULL, "rope", NULL, "from=0,0,0 to=1,0.1,0 segments=%d mass=%.17g stretch.stiffness=30 pinned=start",
       particles - 1, mass);
-  if (brace) small_springs(system, 1, ends, (struct springs){.stiffness = 1.0, .rest_length = 0.5});
+  if (brace) springs_with(system, 1, ends, .stiffness = 1.0, .rest_length = 0.5);
   return small_falling(system);
 }
 
@@ -31,8 +32,7 @@ static hooke_system *rope(int particles) {
 }
 
 static hooke_integrator *integrator_of(hooke_system *system, double duration) {
-  return start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = duration, .every = 0.01});
+  return start_with(system, .method = "symplectic-euler", .step = 1e-3, .duration = duration, .every = 0.01);
 }
 
 #if HOOKE_HAVE_HDF5
@@ -127,11 +127,10 @@ static void check_frames(const struct fixture *f, int64_t count, const char *sta
 }
 
 static int64_t planned(const struct fixture *f) {
-  hooke_record *record;
+  owned_record *record = NULL;
   int64_t rows, columns;
   check_ok(hooke_record_open(f->path, &record));
   check_ok(hooke_record_size(record, "time", &rows, &columns));
-  hooke_record_close(record);
   return rows;
 }
 
@@ -139,18 +138,6 @@ static void read_run(const struct fixture *f, char run[64]) {
   owned_record *record = NULL;
   check_ok(hooke_record_open(f->path, &record));
   snprintf(run, 64, "%s", hooke_record_text(record, "run"));
-}
-
-static char *bytes_of(const char *path, size_t *count) {
-  FILE *file = fopen(path, "rb");
-  assert_non_null(file);
-  assert_int_equal(fseek(file, 0, SEEK_END), 0);
-  *count = (size_t)ftell(file);
-  rewind(file);
-  char *bytes = new_block((int64_t)*count, 1);
-  assert_int_equal(fread(bytes, 1, *count, file), *count);
-  fclose(file);
-  return bytes;
 }
 
 /* Changes byte number `at` of a byte string in the file. */
@@ -453,9 +440,8 @@ TEST(other_runs_do_not_go_on) {
     check_not_resumed(f, f->system, integrator, HOOKE_BAD_VALUE, "only threads may be changed");
   }
   run.duration = 0.0;
-  hooke_integrator *endless = start_run(f->system, run);
+  owned_integrator *endless = start_run(f->system, run);
   check_not_resumed(f, f->system, endless, HOOKE_BAD_VALUE, "duration");
-  hooke_integrator_destroy(endless);
   check_goes_on(f, "the last whole frame, at t = 0.04");
 }
 

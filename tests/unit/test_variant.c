@@ -187,24 +187,18 @@ TEST(parts_at_another_resolution_stand_for_the_same_material) {
   }
 }
 
-static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
-  return 0;
-}
-
 TEST(a_callback_keeps_its_particles) {
   owned_random_scene scene;
-  random_scene_create(
-      (struct random_scene_request){.seed = 3, .particles = 12, .springs = 20, .cloth = {4, 4}}, &scene);
-  struct hk_variant variant = nothing_of(scene.system);
+  random_scene_with(&scene, .seed = 3, .particles = 12, .springs = 20, .cloth = {4, 4});
+  owned(hk_variant_release) struct hk_variant variant = nothing_of(scene.system);
   struct hk_variant_map map;
   hooke_system *made = make(scene.system, &variant, &map);
   hooke_system_destroy(made);
   hk_variant_map_release(&map);
 
   const double at[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0;
-  hooke_system *open = small_system(2, at, NULL, mass, 0);
-  check_ok(hooke_system_set_force(open, no_force, NULL, NULL));
+  owned_system *open = small_system(2, at, NULL, mass, 0);
+  check_ok(hooke_system_set_force(open, idle_force, NULL, NULL));
   check_ok(hooke_system_commit(open));
   struct hk_variant fewer = nothing_of(open);
   fewer.particle[0] = 1;
@@ -214,8 +208,6 @@ TEST(a_callback_keeps_its_particles) {
   made = make(open, &fewer, &map);
   assert_int_equal(hooke_system_particle_count(made), 1);
   release(&fewer, &map, made);
-  hk_variant_release(&variant);
-  hooke_system_destroy(open);
 }
 
 /* ---- one within another ---- */
@@ -251,8 +243,7 @@ static hooke_system *everything(void) {
   small_group(system, "springs", "ties", 3, ends, "stiffness=30");
   check_ok(hooke_system_add_bending(system, "hinge", 1, triple, 1, &coefficient));
   small_group(system, "altitude", "body", 1, corners, "stiffness=3");
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static int list_singles(const hooke_system *system, struct single *all) {
@@ -299,7 +290,7 @@ TEST(variants_within_variants) {
   owned_system *system = everything();
   static struct single all[MOST_SINGLE];
   const int count = list_singles(system, all);
-  struct hk_variant nothing = nothing_of(system);
+  owned(hk_variant_release) struct hk_variant nothing = nothing_of(system);
   assert_true(hk_system_groups_of(system, &hk_force_bending) >= 2);
   assert_true(hk_system_groups_of(system, &hk_force_altitude) >= 2 && system->part_count == 2);
   for (int i = 0; i < count; i++) {
@@ -311,7 +302,7 @@ TEST(variants_within_variants) {
       const int expected = (i == j && !refined) || is_within(all, i, j);
       if (hk_variant_covers(system, &all[i].variant, &all[j].variant) != expected)
         check_failed("variants %d and %d of %d: not %d", i, j, count, expected);
-      struct hk_variant both = nothing_of(system);
+      owned(hk_variant_release) struct hk_variant both = nothing_of(system);
       hk_variant_join(system, &both, &all[i].variant);
       hk_variant_join(system, &both, &all[j].variant);
       for (int k = 0; k < count; k++) {
@@ -319,10 +310,8 @@ TEST(variants_within_variants) {
                            hk_variant_covers(system, &all[j].variant, &all[k].variant);
         assert_int_equal(hk_variant_covers(system, &both, &all[k].variant), either);
       }
-      hk_variant_release(&both);
     }
   }
   for (int i = 0; i < count; i++)
     hk_variant_release(&all[i].variant);
-  hk_variant_release(&nothing);
 }

@@ -19,16 +19,14 @@ struct what {
 };
 
 static hooke_system *without(const hooke_system *system, struct what what) {
-  struct hk_variant variant;
-  struct hk_variant_map map;
+  owned(hk_variant_release) struct hk_variant variant;
+  owned(hk_variant_map_release) struct hk_variant_map map;
   hooke_system *made;
   check_ok(hk_variant_create(system, &variant));
   if (what.force) variant.without[hk_force_number(what.force)] = 1;
   variant.damping = what.damping;
   if (what.group >= 0) variant.group[what.group] = 1;
   check_ok(hk_variant_make(system, &variant, &made, &map));
-  hk_variant_map_release(&map);
-  hk_variant_release(&variant);
   return made;
 }
 
@@ -75,15 +73,10 @@ static void check_same_run(const hooke_system *found, const hooke_system *expect
 TEST(nothing_left_out_is_the_same) {
   for (int32_t features = 0; features <= SCENE_EVERYTHING; features += 7) {
     owned_random_scene scene;
-    random_scene_create((struct random_scene_request){.seed = (uint64_t)(500 + features),
-                                                      .particles = 40 + features % 50,
-                                                      .springs = 3 * (features % 70),
-                                                      .features = features,
-                                                      .medium = features % 16,
-                                                      .cloth = {features % 3 ? 12 : 0, 9},
-                                                      .rope = features % 5 ? 25 : 0},
-                        &scene);
-    hooke_system *made = without(scene.system, (struct what){.group = -1});
+    random_scene_with(&scene, .seed = (uint64_t)(500 + features), .particles = 40 + features % 50,
+                      .springs = 3 * (features % 70), .features = features, .medium = features % 16,
+                      .cloth = {features % 3 ? 12 : 0, 9}, .rope = features % 5 ? 25 : 0);
+    owned_system *made = without(scene.system, (struct what){.group = -1});
     check_same_loops(made, scene.system);
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
@@ -91,7 +84,6 @@ TEST(nothing_left_out_is_the_same) {
       if (is_fixed_step(method) && (linear || strcmp(method, "shardlow") != 0))
         check_same_run(made, scene.system, method);
     }
-    hooke_system_destroy(made);
   }
 }
 
@@ -105,28 +97,23 @@ static int has_force(const hooke_system *system, const char *name) {
 /* One ingredient is gone and all others are unchanged. */
 TEST(one_is_left_out) {
   owned_random_scene scene;
-  random_scene_create(
-      (struct random_scene_request){
-          .seed = 8, .particles = 50, .springs = 70, .features = SCENE_EVERYTHING, .cloth = {12, 9}},
-      &scene);
+  random_scene_with(&scene, .seed = 8, .particles = 50, .springs = 70, .features = SCENE_EVERYTHING,
+                    .cloth = {12, 9});
   static const char *const forces[] = {"springs", "drag", "callback", "gravity"};
   for (int k = 0; k < 4; k++) {
     const struct hk_force_row *force = k > 0 ? hk_force_find(forces[k]) : NULL;
-    hooke_system *made = without(scene.system, (struct what){.force = force, .group = -1});
+    owned_system *made = without(scene.system, (struct what){.force = force, .group = -1});
     for (int f = 0; f < 4; f++)
       assert_int_equal(has_force(made, forces[f]), f != k || k == 0);
     assert_int_equal(made->springs->count, scene.system->springs->count);
-    hooke_system_destroy(made);
   }
-  hooke_system *undamped = without(scene.system, (struct what){.damping = 1, .group = -1});
+  owned_system *undamped = without(scene.system, (struct what){.damping = 1, .group = -1});
   assert_true(hk_force_is_damped(scene.system, &hk_force_springs));
   assert_false(hk_force_is_damped(undamped, &hk_force_springs));
-  hooke_system_destroy(undamped);
   assert_in_range(scene.system->group_count, 2, 16);
   for (int64_t g = 0; g < scene.system->group_count; g++) {
-    hooke_system *made = without(scene.system, (struct what){.group = g});
+    owned_system *made = without(scene.system, (struct what){.group = g});
     check_groups(made, scene.system, g);
-    hooke_system_destroy(made);
   }
 }
 
@@ -145,7 +132,7 @@ static hooke_system *with_every_force(int32_t overdamped, int32_t wind) {
   static const int64_t ends[4] = {0, 1, 4, 5}, triple[3] = {1, 0, 2}, corners[4] = {0, 1, 2, 3}, tied = 5;
   static const struct hk_element element = {
       .count = 1, .particle = {4}, .weight = {1.0}, .k_along = 2.0, .k_across = 2.0, .over = 1.0};
-  hooke_options *spring = options_of("springs"), *altitude = options_of("altitude"),
+  owned_options *spring = options_of("springs"), *altitude = options_of("altitude"),
                 *anchor = options_of("anchors");
   hooke_system *system = new_system();
   check_ok(hooke_system_set_dynamics(system, overdamped ? "overdamped" : "inertial"));
@@ -164,17 +151,12 @@ static hooke_system *with_every_force(int32_t overdamped, int32_t wind) {
     small_part(system, "rope", "rope",
                "from=0,0,0 to=1,1,0 segments=2 mass=1 fluid_drag.density=2 fluid_drag.diameter=0.3 "
                "fluid_drag.normal=1 fluid_drag.tangential=0.1");
-  hooke_options *medium =
+  owned_options *medium =
       options_with("scene", "dynamics=%s drag=0.3%s%s", overdamped ? "overdamped" : "inertial",
                    wind ? " wind=1,2,3" : "", wind && !overdamped ? " quadratic_drag=1,2,3,4,5,6,7,8,9" : "");
   check_ok(hooke_scene_options_apply(medium, system));
-  hooke_options_destroy(medium);
   check_ok(hooke_system_set_force(system, random_scene_force, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(spring);
-  hooke_options_destroy(altitude);
-  hooke_options_destroy(anchor);
-  return system;
+  return committed(system);
 }
 
 /* Without this force; weight is left out and copied with gravity. */
@@ -220,7 +202,7 @@ TEST(every_force_survives_a_copy_and_is_missed) {
 /* ---- a copy that is none ---- */
 
 static void check_refused(const hooke_system *system, const char *what) {
-  struct hk_variant variant;
+  owned(hk_variant_release) struct hk_variant variant;
   struct hk_variant_map map;
   hooke_system *made;
   check_ok(hk_variant_create(system, &variant));
@@ -228,7 +210,6 @@ static void check_refused(const hooke_system *system, const char *what) {
   check_status(hk_variant_make(system, &variant, &made, &map), HOOKE_INTERNAL);
   assert_null(made);
   check_message(what);
-  hk_variant_release(&variant);
 }
 
 /* A copy makes springs from the options of their group, and particles of a part from those of the part. */

@@ -27,11 +27,9 @@ static void run_by(const hooke_system *system, struct run run, double *state) {
 TEST(same_bits) {
   static const char *const methods[] = {"cvode-bdf", "cvode-adams"};
   if (hooke_method_is_built("cvode-bdf") != 1) skip();
-  struct random_scene scene;
-  random_scene_create(
-      (struct random_scene_request){
-          .seed = 4, .particles = 1, .features = SCENE_GRAVITY | SCENE_DAMPING, .cloth = {SIDE, SIDE}},
-      &scene);
+  owned_random_scene scene;
+  random_scene_with(&scene, .seed = 4, .particles = 1, .features = SCENE_GRAVITY | SCENE_DAMPING,
+                    .cloth = {SIDE, SIDE});
   const int64_t size = 3 * hooke_system_particle_count(scene.system);
   double *exact = new_doubles(6 * size), *one = exact + 2 * size, *other = one + 2 * size;
   run_by(scene.system, (struct run){.method = "rk4", .step = 1e-6, .duration = DURATION}, exact);
@@ -51,5 +49,4 @@ TEST(same_bits) {
     }
   }
   free(exact);
-  random_scene_destroy(&scene);
 }

@@ -10,13 +10,12 @@
 #include <unistd.h>
 
 static void check_text(const char *bytes, const char *expected) {
-  struct hk_text text = {.bytes = NULL};
+  owned(hk_text_release) struct hk_text text = {.bytes = NULL};
   const int64_t count = (int64_t)strlen(bytes);
   hk_base64_add(&text, (const uint8_t *)bytes, count);
   assert_int_equal(text.length, hk_base64_length(count));
   assert_int_equal(text.length, strlen(expected));
   if (text.length > 0) assert_memory_equal(text.bytes, expected, (size_t)text.length);
-  hk_text_release(&text);
 }
 
 /* The examples of RFC 4648, and bytes from the end of the alphabet. */
@@ -35,14 +34,13 @@ TEST(bytes_as_text) {
 TEST(long_text) {
   enum { LONG = 10000 };
   uint8_t *bytes = new_block(LONG, 1);
-  struct hk_text text = {.bytes = NULL};
+  owned(hk_text_release) struct hk_text text = {.bytes = NULL};
   memset(bytes, 0xaa, LONG);
   hk_base64_add(&text, bytes, LONG);
   assert_int_equal(text.length, hk_base64_length(LONG));
   for (int64_t k = 0; k + 4 < text.length; k++)
     assert_int_equal(text.bytes[k], 'q'); /* 101010 */
   assert_memory_equal(text.bytes + text.length - 4, "qg==", 4);
-  hk_text_release(&text);
   free(bytes);
 }
 
@@ -63,9 +61,8 @@ static void write_file(const struct fixture *f, double far, double duration) {
   small_springs(system, 1, (int64_t[]){1, 2}, (struct springs){.law = "length", .stiffness = 1e-6});
   small_springs(system, 1, (int64_t[]){2, 1}, (struct springs){.stiffness = 1e-6, .rest_length = 1});
   check_ok(hooke_system_commit(system));
-  hooke_integrator *integrator = start_run(
-      system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = duration, .every = 1e-3});
-  owned_state *state = start_state(system);
+  owned_run(integrator, state, system, .method = "symplectic-euler", .step = 1e-3, .duration = duration,
+            .every = 1e-3);
   hooke_trajectory *trajectory;
   check_ok(hooke_trajectory_create(f->path, system, integrator, NULL, &trajectory));
   for (int64_t k = 0; k < hooke_integrator_count(integrator, "frames"); k++) {
@@ -73,7 +70,6 @@ static void write_file(const struct fixture *f, double far, double duration) {
     check_ok(hooke_trajectory_write(trajectory, k, state));
   }
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
-  hooke_integrator_destroy(integrator);
 }
 
 static int set_up(void **state) {
@@ -100,10 +96,9 @@ static int tear_down(void **state) {
 static hooke_measurement *open_view(const struct fixture *f, double frames, hooke_record **record) {
   hooke_measurement *view;
   check_ok(hooke_record_open(f->path, record));
-  hooke_options *options = new_options("view");
+  owned_options *options = new_options("view");
   if (frames > 0) check_ok(hooke_options_set_number(options, "frames", frames));
   check_ok(hooke_view_create(*record, options, &view));
-  hooke_options_destroy(options);
   return view;
 }
 
@@ -217,13 +212,12 @@ TEST(names_that_paraview_cannot_take) {
   write_file(f, 1.0, 0.01);
   for (int k = 0; k < 4; k++) {
     char path[PATH_SIZE];
-    hooke_record *record;
+    owned_record *record = NULL;
     snprintf(path, sizeof path, "%s/%s.h5", f->folder, names[k]);
     assert_int_equal(rename(f->path, path), 0);
     check_ok(hooke_record_open(path, &record));
     check_status(hooke_record_write_xdmf(record, NULL), HOOKE_BAD_VALUE);
     check_message("ASCII without colons");
-    hooke_record_close(record);
     assert_int_equal(rename(path, f->path), 0);
   }
 }

@@ -23,8 +23,7 @@ static hooke_system *scene(void) {
   small_group(system, "springs", "rods", 2, rods, "stiffness=50 damping=0.7 rest_length=0.8,1.5");
   small_group(system, "springs", "tie", 1, tie, "stiffness=50 damping=0.7 law=length rest_length=0");
   small_part(system, "rope", "line", "from=5,0,0 to=6,0,0 segments=4 mass=1 stretch.stiffness=10");
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static double value_of(const struct hk_watched_list *list, int64_t k, double t, const double *q,
@@ -103,7 +102,7 @@ static void check_over_groups(struct hk_watched_list *list, const double *q, con
 /* Every quantity is its formula of q and v. */
 TEST(every_form_is_read) {
   owned_system *system = scene();
-  struct hk_watched_list list = {.system = system};
+  owned(hk_watched_release) struct hk_watched_list list = {.system = system};
   double q[24], v[24], kinetic = 0.0;
   for (int k = 0; k < 24; k++) {
     char text[64];
@@ -123,7 +122,6 @@ TEST(every_form_is_read) {
   const int64_t count = list.count; /* in a list, with blanks, and repeated */
   check_ok(hk_watched_read(&list, "watch", "7.y, energy ,7.y"));
   assert_int_equal(list.count, count + 1);
-  hk_watched_release(&list);
 }
 
 TEST(what_is_nothing_is_refused) {
@@ -165,21 +163,19 @@ TEST(what_is_nothing_is_refused) {
              {":0.length", "allowed: rods, tie, line.stretch"},
              {"tie:0.strain", "allowed: length, tension"}};
   owned_system *system = scene();
-  struct hk_watched_list list = {.system = system};
+  owned(hk_watched_release) struct hk_watched_list list = {.system = system};
   check_ok(hk_watched_read(&list, "watch", "0.x"));
   for (size_t k = 0; k < COUNT(bad); k++) {
     check_status(hk_watched_read(&list, "watch", bad[k].text), HOOKE_BAD_VALUE);
     check_message(bad[k].message);
     check_message("watch");
   }
-  char *endless = new_block(4000, 1);
+  owned_text *endless = new_block(4000, 1);
   memset(endless, '1', 3998);
   check_status(hk_watched_read(&list, "watch", endless), HOOKE_BAD_VALUE);
   check_status(hk_watched_read(&list, "probe", "1.x,energy,nobody"), HOOKE_BAD_VALUE);
   check_message("probe");
   assert_int_equal(list.count, 1);
-  free(endless);
-  hk_watched_release(&list);
 }
 
 /* Indices into groups with dropped springs are refused. */
@@ -187,15 +183,13 @@ TEST(springs_that_are_left_out_are_said) {
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, stiffness[] = {0.0, 10.0};
   static const int64_t ends[] = {0, 1, 1, 2};
   owned_system *system = small_system(3, q, NULL, 1.0, 0);
-  hooke_options *options = new_options("springs");
+  owned_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  struct hk_watched_list list = {.system = system};
+  owned(hk_watched_release) struct hk_watched_list list = {.system = system};
   check_status(hk_watched_read(&list, "watch", "some:0.length"), HOOKE_BAD_VALUE);
   check_message("neither stiffness nor damping");
-  hk_watched_release(&list);
 }
 
 /* ---- tension ---- */
@@ -206,8 +200,7 @@ static hooke_system *one_spring(struct springs law) {
   static const int64_t ends[] = {0, 1};
   hooke_system *system = small_system(2, q, NULL, 1.0, 0);
   small_springs(system, 1, ends, law);
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 static double tension(const hooke_system *system, double r, double rate) {
@@ -261,7 +254,7 @@ TEST(tension_of_a_curve_is_the_force_at_any_time) {
               "law=length rest_length=1.2 curve.coefficients=30,5,80 damping=2 compression=false "
               "stiffness_scale.motion=harmonic stiffness_scale.amplitude=0.5 stiffness_scale.frequency=1");
   check_ok(hooke_system_commit(system));
-  struct hk_watched_list list = {.system = system};
+  owned(hk_watched_release) struct hk_watched_list list = {.system = system};
   check_ok(hk_watched_read(&list, "watch", "curved:0.tension"));
   for (size_t k = 0; k < COUNT(lengths) * COUNT(rates) * 2; k++) {
     const double r = lengths[k % 4], rate = rates[k / 4 % 3], t = k < 12 ? 0.0 : 0.2;
@@ -271,7 +264,6 @@ TEST(tension_of_a_curve_is_the_force_at_any_time) {
     check_close(value_of(&list, 0, t, at, v), -force[3], 1e-12);
     assert_true(r > 1.2 ? rate < 0.0 || -force[3] > 1.0 : force[3] == 0.0);
   }
-  hk_watched_release(&list);
 }
 
 /* ---- reactions ---- */
@@ -349,12 +341,11 @@ TEST(reactions_that_are_not_known_are_refused) {
   check_ok(hooke_system_add_body(system, "plate", 3, body, 0));
   check_ok(hooke_system_drive_callback(system, 1, driven, stay, NULL));
   check_ok(hooke_system_commit(system));
-  struct hk_watched_list list = {.system = system};
+  owned(hk_watched_release) struct hk_watched_list list = {.system = system};
   check_status(hk_watched_read(&list, "watch", "0.reaction"), HOOKE_BAD_VALUE);
   check_message("allowed: particles of no body");
   check_status(hk_watched_read(&list, "watch", "3.reaction_z"), HOOKE_BAD_VALUE);
   check_message("allowed: particles that are pinned, or driven by a sine or a table");
-  hk_watched_release(&list);
 }
 
 /* ---- extremes ---- */

@@ -1,6 +1,7 @@
 /* Frames written by a thread: the same bytes in the file but for the name of the run, the same number, and
  * failures reported. */
 #include "check.h"
+#include "file_copy.h"
 #include "file_limit.h"
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
@@ -30,8 +31,8 @@ static void build(struct fixture *f, int n) {
       "from=0,0,0 to=1,0.1,0 segments=%d mass=0.5 stretch.stiffness=1e-3 stretch.damping=1e-6", n - 1);
   check_ok(hooke_system_set_gravity(f->system, (double[]){0, -9.81, 0}));
   check_ok(hooke_system_commit(f->system));
-  f->integrator = start_run(
-      f->system, (struct run){.method = "symplectic-euler", .step = 1e-4, .duration = 8e-3, .every = 1e-3});
+  f->integrator =
+      start_with(f->system, .method = "symplectic-euler", .step = 1e-4, .duration = 8e-3, .every = 1e-3);
   f->state = start_state(f->system);
   snprintf(f->folder, sizeof f->folder, "%s/hooke-behind-XXXXXX", P_tmpdir);
   assert_non_null(mkdtemp(f->folder));
@@ -80,7 +81,7 @@ static void write_file(const struct fixture *f, const char *path, int behind, in
 
 /* Overwrites the random identifier of the run, which differs between files. */
 static void blank_run(const char *path, char *bytes, size_t count) {
-  hooke_record *record;
+  owned_record *record = NULL;
   int found = 0;
   check_ok(hooke_record_open(path, &record));
   const char *run = hooke_record_text(record, "run");
@@ -91,20 +92,7 @@ static void blank_run(const char *path, char *bytes, size_t count) {
     memset(bytes + k, '0', length);
     found++;
   }
-  hooke_record_close(record);
   assert_int_equal(found, 1);
-}
-
-static char *bytes_of(const char *path, size_t *count) {
-  struct stat there;
-  assert_int_equal(stat(path, &there), 0);
-  *count = (size_t)there.st_size;
-  char *bytes = new_block((int64_t)*count, 1);
-  FILE *file = fopen(path, "rb");
-  assert_non_null(file);
-  assert_int_equal(fread(bytes, 1, *count, file), *count);
-  fclose(file);
-  return bytes;
 }
 
 TEST(the_file_is_the_same) {
@@ -126,11 +114,9 @@ TEST(the_file_is_the_same) {
 }
 
 static int64_t frames_in(const char *path) {
-  hooke_record *record;
+  owned_record *record = NULL;
   check_ok(hooke_record_open(path, &record));
-  const int64_t count = hooke_record_count(record, "frames");
-  hooke_record_close(record);
-  return count;
+  return hooke_record_count(record, "frames");
 }
 
 TEST(small_frames_are_there_at_once) {
@@ -138,7 +124,7 @@ TEST(small_frames_are_there_at_once) {
   build(&f, 7);
   hooke_trajectory *trajectory = create(&f, f.path, 1);
   for (int64_t k = 0; k < FRAMES; k++) {
-    char *bytes;
+    owned_text *bytes = NULL;
     size_t size;
     check_ok(write_frame(&f, trajectory, k));
     bytes = bytes_of(f.path, &size); /* what a kill would leave */
@@ -146,7 +132,6 @@ TEST(small_frames_are_there_at_once) {
     assert_non_null(copy);
     assert_int_equal(fwrite(bytes, 1, size, copy), size);
     assert_int_equal(fclose(copy), 0);
-    free(bytes);
     assert_int_equal(frames_in(f.other), k + 1);
   }
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));

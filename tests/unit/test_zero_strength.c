@@ -143,8 +143,7 @@ static hooke_system *build(struct scene scene) {
   if (is_full(&scene, GRAVITY)) check_ok(hooke_system_set_gravity(system, down));
   if (is_zero(&scene, DRAG)) check_ok(hooke_system_set_drag(system, -0.0));
   if (is_full(&scene, DRAG)) check_ok(hooke_system_set_drag(system, 0.02));
-  check_ok(hooke_system_commit(system));
-  return system;
+  return committed(system);
 }
 
 /* ---- the same instructions ---- */
@@ -209,12 +208,10 @@ static const char *const counts[] = {"steps", "force_evaluations", "derivative_p
 enum { COUNTS = sizeof counts / sizeof counts[0] };
 
 static void run(const hooke_system *system, const char *method, hooke_state *state, int64_t count[COUNTS]) {
-  hooke_integrator *it =
-      start_run(system, (struct run){.method = method, .step = 1.0 / 1024, .duration = 10.0 / 1024});
+  owned_integrator *it = start_with(system, .method = method, .step = 1.0 / 1024, .duration = 10.0 / 1024);
   check_ok(hooke_integrator_run(it, state));
   for (int k = 0; k < COUNTS; k++)
     count[k] = hooke_integrator_count(it, counts[k]);
-  hooke_integrator_destroy(it);
 }
 
 static void check_same_run(const hooke_system *found, const hooke_system *expected, const char *method) {
@@ -238,16 +235,14 @@ static int64_t zeros_of(enum shape shape, enum ingredient what) {
 }
 
 static void check_scene(enum shape shape, enum ingredient what, int32_t full) {
-  hooke_system *with = build((struct scene){shape, what, full, 1});
-  hooke_system *without = build((struct scene){shape, what, full, 0});
+  owned_system *with = build((struct scene){shape, what, full, 1});
+  owned_system *without = build((struct scene){shape, what, full, 0});
   assert_int_equal(hooke_system_count(with, "dropped_springs"), zeros_of(shape, what));
   assert_int_equal(hooke_system_count(without, "dropped_springs"), 0);
   check_same_choice(with, without);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     if (hooke_method_is_built(hooke_method_name(m))) check_same_run(with, without, hooke_method_name(m));
   }
-  hooke_system_destroy(with);
-  hooke_system_destroy(without);
 }
 
 TEST(zero_strength_is_absence) {
@@ -261,21 +256,18 @@ TEST(zero_strength_is_absence) {
 
 /* The comparison can fail: with some strength, every ingredient affects the choice. */
 TEST(strength_is_seen) {
-  hooke_system *full = build((struct scene){CLOTH, INGREDIENTS, 1, 0});
+  owned_system *full = build((struct scene){CLOTH, INGREDIENTS, 1, 0});
   for (enum ingredient what = GROUPS; what < ALL; what++) {
     if (what == SOME_SPRINGS) continue;
-    hooke_system *without = build((struct scene){CLOTH, what, 1, 0});
+    owned_system *without = build((struct scene){CLOTH, what, 1, 0});
     int differs =
         full->springs->count != without->springs->count || full->force_row_count != without->force_row_count;
     for (int64_t r = 0; r < full->springs->run_count && r < without->springs->run_count; r++)
       differs |= full->springs->run[r].loop != without->springs->run[r].loop;
     assert_true(differs);
-    hooke_system_destroy(without);
   }
-  hooke_system_destroy(full);
-  hooke_system *cloth = build((struct scene){CLOTH, GROUPS, 0, 1});
+  owned_system *cloth = build((struct scene){CLOTH, GROUPS, 0, 1});
   assert_in_range(cloth->strided->count, 1, HOOKE_MOST_STRIDED);
-  hooke_system_destroy(cloth);
 }
 
 /* The canonical sum over all springs, including those without strength, has the bits of the sum without
@@ -284,7 +276,7 @@ TEST(canonical_sum_agrees) {
   struct network network;
   double found[3 * PARTICLES], expected[3 * PARTICLES], v[3 * PARTICLES] = {0.0};
   draw_network(1, 0.0, &network);
-  hooke_system *system = build((struct scene){NETWORK, SOME_SPRINGS, 0, 1});
+  owned_system *system = build((struct scene){NETWORK, SOME_SPRINGS, 0, 1});
   owned_canonical c;
   canonical_create(system, &c);
   struct canonical whole = c;
@@ -305,7 +297,6 @@ TEST(canonical_sum_agrees) {
   free(whole.rest_length);
   free(whole.pull_only);
   free(whole.follows);
-  hooke_system_destroy(system);
 }
 
 /* ---- numbers ---- */
@@ -319,14 +310,13 @@ TEST(numbers_are_of_what_is_there) {
   owned_system *system = small_system(4, q, NULL, 1.0, 0);
   int64_t found[2];
   double gamma;
-  hooke_options *options = new_options("springs");
+  owned_options *options = new_options("springs");
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", 2, damping));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
   check_ok(hooke_options_unset(options, "damping"));
   check_ok(hooke_options_set_number(options, "stiffness", 0.0));
   check_ok(hooke_system_add_springs(system, "none", 1, last, options));
-  hooke_options_destroy(options);
   check_ok(hooke_system_pin(system, 2, pinned));
   assert_int_equal(hooke_system_count(system, "springs"), 3);
   assert_int_equal(hooke_system_count(system, "dropped_springs"), 0);
@@ -345,11 +335,6 @@ TEST(numbers_are_of_what_is_there) {
   assert_int_equal(hooke_system_count(system, "idle"), 2);
 }
 
-static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
-  return 0;
-}
-
 /* Not idle are: a pinned particle at the end of a spring, one of a triple with strength, one that a callback
  * may read, and a free one. */
 TEST(idle_is_what_nothing_touches) {
@@ -359,10 +344,10 @@ TEST(idle_is_what_nothing_touches) {
     const int callback = k == 1;
     const double bending = k == 2 ? 1.0 : 0.0;
     owned_system *system = small_system(4, q, NULL, 1.0, 0);
-    small_springs(system, 1, ends, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
+    springs_with(system, 1, ends, .stiffness = 5.0, .rest_length = -1.0);
     check_ok(hooke_system_pin(system, 2, pinned));
     if (k >= 2) check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &bending));
-    if (callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
+    if (callback) check_ok(hooke_system_set_force(system, idle_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
     assert_int_equal(hooke_system_count(system, "idle"), callback || bending > 0.0 ? 0 : 1);
   }
