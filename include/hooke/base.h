@@ -40,7 +40,7 @@ extern "C" {
 #endif
 #endif
 
-#define HOOKE_VERSION "0.3.0"
+#define HOOKE_VERSION "0.4.0"
 #define HOOKE_ABI     1 /* number in the soname; it increases when callers need recompiling */
 
 /* Statuses. The numbers are part of the ABI and never change. */
@@ -64,7 +64,7 @@ HOOKE_API const char *hooke_last_error(void);
 /* Short name of a status, such as "bad value"; "unknown status" for any other number. */
 HOOKE_API const char *hooke_status_name(int32_t status);
 
-/* Version of the running library, which may be newer than the header: "0.3.0". */
+/* Version of the running library, which may be newer than the header: "0.4.0". */
 HOOKE_API const char *hooke_version(void);
 
 /* ABI number of the running library. */

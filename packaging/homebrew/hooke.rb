@@ -1,7 +1,7 @@
 class Hooke < Formula
   desc "Mass-spring systems, and what accuracy each method of integration costs"
   homepage "https://github.com/OWNER/hooke"
-  url "https://github.com/OWNER/hooke/releases/download/v0.3.0/hooke-0.3.0.tar.gz"
+  url "https://github.com/OWNER/hooke/releases/download/v0.4.0/hooke-0.4.0.tar.gz"
   sha256 "0000000000000000000000000000000000000000000000000000000000000000"
   license "MIT"
 

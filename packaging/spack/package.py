@@ -6,11 +6,11 @@ class Hooke(CMakePackage):
     """Mass-spring systems, and how much accuracy each method of integration buys for its cost."""
 
     homepage = "https://github.com/OWNER/hooke"
-    url = "https://github.com/OWNER/hooke/releases/download/v0.3.0/hooke-0.3.0.tar.gz"
+    url = "https://github.com/OWNER/hooke/releases/download/v0.4.0/hooke-0.4.0.tar.gz"
 
     license("MIT")
 
-    version("0.3.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
+    version("0.4.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
     parts = {
         "sundials": "sundials+cvode+arkode",
