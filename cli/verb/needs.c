@@ -55,7 +55,8 @@ static void print_row(const hooke_measurement *needs, int64_t row, int32_t width
   cli_rows_print_cell(10, error);
   print_costs(needs, "rows", row);
   const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
-  cli_say("  %s%s%s\n", verdict, note[0] ? "; " : "", note);
+  cli_say("  %s%s%s%s\n", verdict, note[0] ? "; " : "", note,
+          number(needs, "rows", row, "timed_alone") == 0.0 ? "; timed beside others" : "");
 }
 
 static void print_table(const hooke_measurement *needs) {

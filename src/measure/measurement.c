@@ -10,6 +10,7 @@
 #include "model/state.h"
 #include "model/system.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- creating ---- */
@@ -105,6 +106,16 @@ void hooke_measurement_on_progress(hooke_measurement *m, hooke_progress *progres
 int32_t hk_measurement_tell(const hooke_measurement *m, double done, const char *what) {
   if (m->progress == NULL || m->progress(done, what, m->progress_ctx) == 0) return HOOKE_OK;
   return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+}
+
+void hk_stage_begin(struct hk_stage *stage, const char *what, double until) {
+  *stage = (struct hk_stage){stage->measurement, what, stage->told, stage->until, until};
+}
+
+int32_t hk_stage_tell(double fraction, void *ctx) {
+  struct hk_stage *stage = ctx;
+  stage->told = fmax(stage->told, stage->from + fmin(1.0, fraction) * (stage->until - stage->from));
+  return hk_measurement_tell(stage->measurement, stage->told, stage->what);
 }
 
 static int32_t run_at(hooke_measurement *m, hooke_state *state) {

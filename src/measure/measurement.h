@@ -67,6 +67,17 @@ int32_t hk_measurement_require_fresh(const hooke_measurement *measurement, const
 /* Calls the progress callback. HOOKE_STOPPED, with its message, if that asks to stop. */
 int32_t hk_measurement_tell(const hooke_measurement *measurement, double done, const char *what);
 
+/* What of a measurement is under way. */
+struct hk_stage {
+  const hooke_measurement *measurement;
+  const char *what;
+  double told, from, until; /* largest reported fraction of the whole; begin and end of this stage */
+};
+/* Begins the next stage, which ends at about the fraction `until` of the whole. */
+void hk_stage_begin(struct hk_stage *stage, const char *what, double until);
+/* Reports a fraction of a stage, which is the context: that of the whole never decreases. Likewise. */
+int32_t hk_stage_tell(double fraction, void *stage);
+
 /* Composes the claims again. HOOKE_NO_MEMORY */
 int32_t hk_measurement_claim(hooke_measurement *measurement);
 

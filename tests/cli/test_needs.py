@@ -90,7 +90,7 @@ def test_keys(found):
     assert set(answer["full"]) == COST | {"own_error", "moved"} and answer["full"]["step_error"] <= 3e-4
     assert answer["full"]["own_error"] <= answer["full"]["step_error"] and answer["full"]["moved"] > 0.03
     assert next(claim["key"] for claim in answer["claims"]) == "lean" and {claim["of"] for claim in answer["claims"]} == {"whole"}
-    assert all(set(row) == COST | {"without", "kind", "error", "needed", "left_out", "note"} for row in answer["rows"])
+    assert all(set(row) == COST | {"without", "kind", "error", "needed", "left_out", "note", "timed_alone"} for row in answer["rows"])
     assert set(answer["lean"]) == COST | {"scene", "without", "error", "full", "times_less", "other_method", "other_seconds",
                                            "changed", "note", "command"}
     assert set(answer["lean"]["full"]) == COST | {"error"}

@@ -88,7 +88,7 @@ end:
 
 SCENARIO(needs) {
   struct made m = {.system = make_rope(a, 4)};
-  m.run = make_options(a, "run", "method=symplectic-euler step=1e-3 duration=0.1 every=0.02");
+  m.run = make_options(a, "run", "method=symplectic-euler step=1e-3 duration=0.1 every=0.02 threads=2");
   m.measurement = make_measurement(a, "needs", m.system, m.run, "want=1e-2 refine=0");
   m.second = make_measurement(a, "needs", m.system, m.run, "want=1e-2 refine=1");
   if (m.measurement == NULL || m.second == NULL) goto end;

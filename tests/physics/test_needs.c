@@ -444,7 +444,7 @@ TEST(what_cannot_be_is_refused) {
   check_message("duration");
   set_options(run, "duration=0.5 method=rk5");
   check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
-  check_message("\"rk5\" is not a method");
+  check_message("there is no method \"rk5\"");
 
   owned_system *alone = small_oscillator(1.0);
   needs = make(alone, half_a_second, 1e-3, NULL, 1);

@@ -44,19 +44,6 @@ static int32_t read_times(struct hk_needs *needs) {
   return hk_step_unit(needs->duration, needs->every, &needs->unit);
 }
 
-static int32_t read_method(struct hk_needs *needs) {
-  const char *method = hooke_options_text(needs->m->run, "method");
-  if (hooke_method_is_adaptive(method) < 0) {
-    char shown[HOOKE_OPTION_SHOWN];
-    hk_option_show(method, (int64_t)strlen(method), shown);
-    return hk_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method", shown);
-  }
-  if (!hooke_method_is_built(method)) {
-    return hk_fail(HOOKE_NOT_BUILT, "method", "this build is without %s", method);
-  }
-  return HOOKE_OK;
-}
-
 /* Fills `watch` from the option. HOOKE_BAD_VALUE. */
 static int32_t read_watch(struct hk_needs *needs) {
   const hooke_system *system = needs->m->system;
@@ -125,13 +112,14 @@ static int32_t read_keep(struct hk_needs *needs) {
 }
 
 static int32_t prepare(struct hk_needs *needs) {
+  const struct hk_method *method;
   int32_t status = hk_options_check_required(needs->m->options);
   if (status != HOOKE_OK) return status;
   needs->watched.system = needs->m->system;
   status = hk_wants_read(&needs->wants, &needs->watched, needs->m->options);
   needs->want = needs->wants.most;
   if (status == HOOKE_OK) status = read_times(needs);
-  if (status == HOOKE_OK) status = read_method(needs);
+  if (status == HOOKE_OK) status = hk_method_take(hooke_options_text(needs->m->run, "method"), &method);
   if (status == HOOKE_OK) status = read_watch(needs);
   if (status == HOOKE_OK) status = read_keep(needs);
   if (status != HOOKE_OK) return status;
@@ -166,8 +154,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_needs *needs = m->object;
   const int32_t status = hk_measurement_require_fresh(m, state);
   if (status != HOOKE_OK) return status;
-  needs->pieces = needs->pieces_done = 0;
-  needs->told = 0.0;
+  needs->stage = (struct hk_stage){.measurement = m};
   needs->spread = 1.0;
   return hooke_options_number(needs->m->options, "refine") != 0.0 ? hk_needs_refine(needs)
                                                                   : hk_needs_find(needs);

@@ -6,10 +6,12 @@
 #include "measure/measurement.h"
 #include "measure/quantity/wants.h"
 #include "measure/recommend/soundness.h"
+#include "measure/trial/side_by_side.h"
 #include "model/variant/variant.h"
 
 enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
-#define HOOKE_NEEDS_STEP_SHARE 0.1 /* of the wanted error: allowed error of the time step */
+#define HOOKE_NEEDS_SHORT      0.02 /* [s]: time for repeating runs */
+#define HOOKE_NEEDS_STEP_SHARE 0.1  /* of the wanted error: allowed error of the time step */
 
 /* Cost of a run of one variant. NaN where it does not apply. */
 struct hk_needs_cost {
@@ -36,7 +38,8 @@ struct hk_needs_row {
   struct hk_variant variant;
   double error; /* [m] */
   int32_t measured, left_out;
-  double needed; /* 1 or 0; NaN where nothing moves that could tell, which counts as needed */
+  int32_t timed_alone; /* 0: timed while others were running */
+  double needed;       /* 1 or 0; NaN where nothing moves that could tell, which counts as needed */
   struct hk_needs_cost cost;
 };
 
@@ -121,10 +124,10 @@ struct hk_needs {
   int64_t part_count;
   struct hk_needs_part *part;
 
-  const char *under_way;
-  int64_t pieces, pieces_done, runs; /* measurements expected and done; number of runs */
-  double spread;                     /* of the times of equal runs: the largest quotient of two */
-  double told;
+  struct hk_stage stage;
+  int64_t runs;         /* number of runs */
+  double spread;        /* of the times of equal runs: the largest quotient of two */
+  struct hk_turn *turn; /* of a piece beside others, which has a copy of these for itself; NULL: none */
 };
 
 /* ---- needs_ingredients.c ---- */
@@ -192,6 +195,12 @@ int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial,
  * by a hundredth of the wanted error. Infinity if it does not finish. */
 int32_t hk_needs_compare(struct hk_needs *needs, const struct hk_needs_trial *trial,
                          const struct hk_needs_cost *cost, int32_t displaced, double *error);
+/* Makes `by_step`, unless it is there: pieces beside others only read it. */
+int32_t hk_needs_prepare(struct hk_needs *needs, int32_t displaced);
+/* The least wall times of one or two runs, with the steps of their costs, repeated in turns so that both see
+ * the same machine, for `most` seconds. */
+int32_t hk_needs_find_times(struct hk_needs *needs, int32_t count, const struct hk_needs_trial *trial,
+                            struct hk_needs_cost *const *cost, double most);
 /* The largest stable step of a system, or a bound of it; NaN if neither is known [s]. */
 double hk_needs_step_limit(struct hk_needs *needs, const hooke_system *system);
 /* Sets the step or tolerances of a cost in options of a run. */
@@ -253,6 +262,13 @@ int64_t hk_needs_known_rows(const struct hk_needs *needs);
 int32_t hk_needs_find(struct hk_needs *needs);
 void hk_needs_forget(struct hk_needs *needs); /* the table and the lean system */
 int32_t hk_needs_refine(struct hk_needs *needs);
+
+/* Runs `count` pieces from `first` on side by side: each fills its row, degree or part, and depends on no
+ * other one. Those that would begin with `most` counted work of trials [s] behind them do not count; returns
+ * in `counted`, unless NULL, how many do. */
+typedef int32_t hk_needs_piece(struct hk_needs *own, int64_t number);
+int32_t hk_needs_run_pieces(struct hk_needs *needs, int64_t first, int64_t count, hk_needs_piece *piece,
+                            double most, int64_t *counted);
 
 /* Reports the progress of one measurement; a non-zero result asks to stop. The second is that of a pick. */
 int32_t hk_needs_tell(struct hk_needs *needs, double fraction);

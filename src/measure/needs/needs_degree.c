@@ -25,6 +25,14 @@ enum {
 
 /* ---- what is asked ---- */
 
+/* As before it is tried. */
+static void forget(struct hk_needs_degree *degree) {
+  degree->factor = degree->error = degree->beyond = degree->error_beyond = NAN;
+  degree->step_limit = degree->work = NAN;
+  degree->lean_factor = 1.0;
+  degree->tried = degree->displaced = 0;
+}
+
 static int32_t add(struct hk_needs *needs, enum hk_needs_property property, int64_t number, int32_t up,
                    const char *name, const char *key) {
   if (needs->degree_count % 16 == 0) {
@@ -33,16 +41,8 @@ static int32_t add(struct hk_needs *needs, enum hk_needs_property property, int6
     if (status != HOOKE_OK) return status;
   }
   struct hk_needs_degree *degree = &needs->degree[needs->degree_count++];
-  *degree = (struct hk_needs_degree){.property = property,
-                                     .number = number,
-                                     .up = up,
-                                     .factor = NAN,
-                                     .error = NAN,
-                                     .beyond = NAN,
-                                     .error_beyond = NAN,
-                                     .step_limit = NAN,
-                                     .work = NAN,
-                                     .lean_factor = 1.0};
+  *degree = (struct hk_needs_degree){.property = property, .number = number, .up = up};
+  forget(degree);
   hk_print(degree->name, sizeof degree->name, "%s", name);
   hk_utf8_make_plain(degree->name);
   hk_print(degree->quantity, sizeof degree->quantity, "%s%s%s", degree->name, key[0] ? "." : "", key);
@@ -264,7 +264,8 @@ static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
 
 /* The factor that holds from the exact start has to hold from a displaced one, which excites all that it
  * holds. */
-static int32_t run_degree(struct hk_needs *needs, struct hk_needs_degree *degree) {
+static int32_t run_degree(struct hk_needs *needs, int64_t number) {
+  struct hk_needs_degree *degree = &needs->degree[number];
   double error = 0.0;
   int32_t status = climb(needs, degree);
   for (degree->displaced = 1; degree->factor != 1.0 && status == HOOKE_OK;) {
@@ -281,11 +282,17 @@ static int32_t run_degree(struct hk_needs *needs, struct hk_needs_degree *degree
 int32_t hk_needs_run_degrees(struct hk_needs *needs) {
   if (hk_needs_rests(needs)) return HOOKE_OK;
   int32_t status = list(needs);
-  needs->pieces += needs->degree_count;
-  for (int64_t k = 0; k < needs->degree_count && status == HOOKE_OK; k++) {
-    needs->under_way = needs->degree[k].quantity;
-    if (needs->trial_work < MOST_WORK * needs->full.work) status = run_degree(needs, &needs->degree[k]);
-    needs->pieces_done++;
+  const double most = MOST_WORK * needs->full.work;
+  const int64_t threads = (int64_t)hooke_options_number(needs->m->run, "threads"), all = needs->degree_count;
+  int64_t counted = 0;
+  if (status == HOOKE_OK && all > 0) status = hk_needs_prepare(needs, 0);
+  if (status == HOOKE_OK && all > 0) status = hk_needs_prepare(needs, 1);
+  for (int64_t k = 0, some; k < all && status == HOOKE_OK && needs->trial_work < most; k += some) {
+    some = threads < all - k ? threads : all - k;
+    hk_stage_begin(&needs->stage, "numbers that are changed", 0.5 + 0.3 * (double)(k + some) / (double)all);
+    status = hk_needs_run_pieces(needs, k, some, run_degree, most, &counted);
+    for (int64_t j = k + counted; j < k + some; j++)
+      forget(&needs->degree[j]);
   }
   return status;
 }

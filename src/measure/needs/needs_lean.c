@@ -10,8 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double CLEARLY_LESS = 0.8; /* of the work: less is not worth telling */
-enum { TURNS = 20 };
+static const double CLEARLY_LESS = 0.8;    /* of the work: less is not worth telling */
 static const double TURNS_TAKE = 0.2;      /* [s]: time for repeating two runs in turns */
 static const double WORTH_SPLITTING = 0.5; /* of the work, left over if a part is written spring by spring */
 
@@ -92,11 +91,6 @@ static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
   return found;
 }
 
-static int32_t is_worth_it(const struct hk_needs *needs, const struct hk_needs_lean *candidate) {
-  const double fraction = is_split(needs, &candidate->variant) ? WORTH_SPLITTING : 1.0;
-  return hk_needs_work(&candidate->cost) <= fraction * hk_needs_work(&needs->lean.cost);
-}
-
 static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
   struct hk_needs_lean candidate = {.system = NULL};
   int32_t status = hk_variant_create(needs->m->system, &candidate.variant);
@@ -105,7 +99,9 @@ static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
     hk_variant_join(needs->m->system, &candidate.variant, &row->variant);
     status = hk_needs_try_lean(needs, &candidate);
   }
-  if (status == HOOKE_OK && candidate.error <= needs->want && is_worth_it(needs, &candidate)) {
+  const double fraction = status == HOOKE_OK && is_split(needs, &candidate.variant) ? WORTH_SPLITTING : 1.0;
+  if (status == HOOKE_OK && candidate.error <= needs->want &&
+      hk_needs_work(&candidate.cost) <= fraction * hk_needs_work(&needs->lean.cost)) {
     row->left_out = 1;
     status = hk_needs_take(needs, &candidate);
   }
@@ -197,26 +193,6 @@ static void note_splits(struct hk_needs *needs) {
   hk_utf8_make_plain(needs->lean_note);
 }
 
-/* The least wall times of both runs, repeated in turns so that both see the same machine. */
-static int32_t compare_times(struct hk_needs *needs) {
-  const struct hk_needs_trial trial[2] = {{needs->m->system, NULL}, {needs->lean.system, &needs->lean.map}};
-  struct hk_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean.cost};
-  hooke_options *options = NULL;
-  double spent = 0.0;
-  int32_t status = hooke_options_copy(needs->m->run, &options), finished;
-  for (int k = 0; k < 2 * TURNS && spent < TURNS_TAKE && status == HOOKE_OK; k++) {
-    struct hk_needs_recorder recorder = {.needs = needs, .trial = &trial[k % 2]};
-    struct hk_needs_cost again = *cost[k % 2];
-    status = hk_needs_set_step(cost[k % 2], options);
-    if (status == HOOKE_OK) status = hk_needs_run_once(&recorder, options, &finished, &again);
-    if (status != HOOKE_OK) break;
-    cost[k % 2]->wall_seconds = fmin(cost[k % 2]->wall_seconds, again.wall_seconds);
-    spent += again.wall_seconds;
-  }
-  hooke_options_destroy(options);
-  return status;
-}
-
 /* So that savings by another method are not attributed to the omissions. */
 static int32_t find_other_method(struct hk_needs *needs) {
   struct hk_pick pick;
@@ -242,25 +218,26 @@ static int32_t is_changed(const struct hk_needs *needs) {
 static int32_t find_lean(struct hk_needs *needs) {
   uint8_t *tried = hk_new(needs->row_count, 1);
   if (tried == NULL) return HOOKE_NO_MEMORY;
-  needs->under_way = "the lean scene";
+  hk_stage_begin(&needs->stage, "the lean scene", 1.0);
   int32_t status = begin_with_everything(needs);
-  needs->pieces_done++;
   for (int64_t k; status == HOOKE_OK && (k = next_row(needs, tried)) >= 0;) {
     tried[k] = 1;
     status = add_row(needs, &needs->row[k]);
-    needs->pieces_done++;
   }
   hk_free(tried);
   tidy_up(needs);
   if (status == HOOKE_OK) status = hk_needs_soften(needs);
   if (status != HOOKE_OK) return status;
+  const struct hk_needs_trial timed[2] = {{needs->m->system, NULL}, {needs->lean.system, &needs->lean.map}};
+  struct hk_needs_cost *const times[2] = {&needs->cheapest, &needs->lean.cost};
   note_bodies(needs);
   note_splits(needs);
   for (int64_t k = 0; k < needs->row_count; k++)
     say_why_it_stays(needs, &needs->row[k]);
-  if (is_changed(needs)) status = compare_times(needs);
+  if (!isnan(needs->lean.error))
+    status = hk_needs_find_times(needs, is_changed(needs) ? 2 : 1, timed, times, TURNS_TAKE);
+  if (!is_changed(needs)) needs->lean.cost.wall_seconds = needs->cheapest.wall_seconds;
   if (is_changed(needs) && status == HOOKE_OK) status = find_other_method(needs);
-  needs->pieces_done++;
   return status;
 }
 
@@ -284,7 +261,6 @@ void hk_needs_forget(struct hk_needs *needs) {
 
 int32_t hk_needs_find(struct hk_needs *needs) {
   int32_t status = hk_needs_list(needs);
-  needs->pieces += 2 * needs->row_count + 2;
   if (status == HOOKE_OK) status = hk_needs_run_full(needs);
   if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
   if (status == HOOKE_OK) status = hk_needs_run_degrees(needs);

@@ -61,17 +61,16 @@ static void extrapolate(const struct hk_needs *needs, double step_error, struct 
   part->factor = pow(part->error / needs->want, 1.0 / part->order);
 }
 
-static int32_t refine_part(struct hk_needs *needs, int64_t k, struct hk_needs_part *part) {
+static int32_t refine_part(struct hk_needs *needs, int64_t k) {
+  struct hk_needs_part *part = &needs->part[k];
   struct hk_needs_path twice = {0}, four = {0};
   struct hk_needs_cost cost_twice, cost_four;
-  needs->under_way = part->name;
+  if (part->cells[0] < 0) return HOOKE_OK;
   int32_t status = run_at(needs, k, 2.0, &twice, &cost_twice, part->note);
-  needs->pieces_done++;
   if (status == HOOKE_OK && twice.position) {
     part->change = hk_needs_distance(needs, &needs->path, &twice);
     status = run_at(needs, k, 4.0, &four, &cost_four, part->note);
   }
-  needs->pieces_done++;
   if (status == HOOKE_OK && four.position) {
     part->change_fine = hk_needs_distance(needs, &twice, &four);
     /* the paths are those of half the step, with half its error */
@@ -90,10 +89,9 @@ int32_t hk_needs_refine(struct hk_needs *needs) {
   }
   needs->part = hk_new(system->part_count, sizeof *needs->part);
   if (needs->part == NULL) return HOOKE_NO_MEMORY;
-  needs->pieces += 2 * system->part_count;
-  int32_t status = hk_needs_run_full(needs);
-  for (int64_t k = 0; k < system->part_count && status == HOOKE_OK; k++) {
-    struct hk_needs_part *part = &needs->part[needs->part_count++];
+  needs->part_count = system->part_count;
+  for (int64_t k = 0; k < system->part_count; k++) {
+    struct hk_needs_part *part = &needs->part[k];
     *part = (struct hk_needs_part){.name = system->part[k].name,
                                    .change = NAN,
                                    .change_fine = NAN,
@@ -104,11 +102,13 @@ int32_t hk_needs_refine(struct hk_needs *needs) {
     const int32_t axes = hk_variant_cells(&system->part[k], 1.0, part->cells, made);
     for (int32_t a = axes; a < 3; a++)
       part->cells[a] = -1;
-    if (axes > 0)
-      status = refine_part(needs, k, part);
-    else
+    if (axes == 0)
       snprintf(part->note, sizeof part->note, "a %s has no resolution to change", system->part[k].kind);
   }
+  int32_t status = hk_needs_run_full(needs);
+  hk_stage_begin(&needs->stage, "resolutions", 1.0);
+  if (status == HOOKE_OK)
+    status = hk_needs_run_pieces(needs, 0, needs->part_count, refine_part, INFINITY, NULL);
   if (status < 0) {
     hk_free(needs->part);
     needs->part = NULL;

@@ -37,7 +37,7 @@ static int32_t refuse_pick(const struct hk_pick *pick) {
 static int32_t pick_method(struct hk_needs *needs) {
   struct hk_pick pick;
   if (hooke_options_is_set(needs->m->run, "method")) return HOOKE_OK;
-  needs->under_way = "picking a method";
+  hk_stage_begin(&needs->stage, "picking a method", 0.1);
   int32_t status = hk_pick_run(&pick, needs->m->system, needs->m->run, &needs->wants,
                                HOOKE_NEEDS_STEP_SHARE * needs->want, 0, NULL, hk_needs_tell_pick, needs);
   if (status == HOOKE_OK && !pick.met) status = refuse_pick(&pick);
@@ -73,13 +73,13 @@ static void say_how_it_moves(struct hk_needs *needs) {
 
 int32_t hk_needs_run_full(struct hk_needs *needs) {
   if (needs->path.position) return HOOKE_OK;
-  needs->pieces += 2;
   int32_t status = pick_method(needs);
-  needs->pieces_done++;
   const struct hk_needs_trial trial = {needs->m->system, NULL};
-  needs->under_way = "the full scene";
+  hk_stage_begin(&needs->stage, "the full scene", 0.2);
   if (status == HOOKE_OK) status = hk_needs_measure(needs, &trial, &needs->full, &needs->path);
-  needs->pieces_done++;
+  struct hk_needs_cost *full = &needs->full;
+  if (status == HOOKE_OK && full->wall_seconds < HOOKE_NEEDS_SHORT)
+    status = hk_needs_find_times(needs, 1, &trial, &full, HOOKE_NEEDS_SHORT);
   const double frames = (double)needs->frame_count,
                least = needs->wants.whole ? frames : 1.0 + LEAST_JUDGED * frames;
   if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))
@@ -177,11 +177,6 @@ static int32_t is_known(const struct hk_needs *needs, const struct hk_needs_row 
   return count == system->springs->count;
 }
 
-static void name_idle(struct hk_needs_row *row, double force, int64_t count) {
-  hk_print(row->without, HOOKE_NEEDS_NAME, "%lld %s %.3g N", (long long)count,
-           count == 1 ? "spring that never passes" : "springs that never pass", force);
-}
-
 /* The largest threshold that the want allows; the row is removed if none has springs. */
 static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   double most = 0.0;
@@ -192,7 +187,8 @@ static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
     const int64_t count = mark_idle(needs, idle_shares[k] * most, row);
     if (count == 0 || count == tried || is_known(needs, row, count)) continue;
     tried = count;
-    name_idle(row, idle_shares[k] * most, count);
+    hk_print(row->without, HOOKE_NEEDS_NAME, "%lld %s %.3g N", (long long)count,
+             count == 1 ? "spring that never passes" : "springs that never pass", idle_shares[k] * most);
     const int32_t status = run_row(needs, row);
     if (status != HOOKE_OK || row->needed == 0.0) return status;
   }
@@ -266,17 +262,41 @@ void hk_needs_drop_row(struct hk_needs *needs, int64_t row) {
   memmove(&needs->row[row], &needs->row[row + 1], (size_t)(--needs->row_count - row) * sizeof *needs->row);
 }
 
+static int32_t is_idle(const struct hk_needs_row *row) {
+  return strcmp(row->kind, "idle") == 0;
+}
+
+static int32_t run_piece(struct hk_needs *needs, int64_t number) {
+  struct hk_needs_row *row = &needs->row[number];
+  row->timed_alone = !needs->turn->serial;
+  if (strcmp(row->kind, "resolution") == 0) return run_resolution(needs, row);
+  return is_idle(row) ? run_idle(needs, row) : run_row(needs, row);
+}
+
+static int32_t time_row(struct hk_needs *needs, struct hk_needs_row *row) {
+  hooke_system *made = NULL;
+  struct hk_variant_map map;
+  if (!(row->cost.wall_seconds < HOOKE_NEEDS_SHORT)) return HOOKE_OK;
+  int32_t status = hk_variant_make(needs->m->system, &row->variant, &made, &map);
+  if (status != HOOKE_OK) return status;
+  status = hk_needs_find_times(needs, 1, &(struct hk_needs_trial){made, &map},
+                               &(struct hk_needs_cost *){&row->cost}, HOOKE_NEEDS_SHORT);
+  row->timed_alone = 1;
+  hk_variant_map_release(&map);
+  hooke_system_destroy(made);
+  return status;
+}
+
 int32_t hk_needs_run_rows(struct hk_needs *needs) {
-  for (int64_t k = 0; k < needs->row_count; k++) {
+  hk_stage_begin(&needs->stage, "what is left out", 0.5);
+  int32_t status = needs->row_count > 0 ? hk_needs_prepare(needs, 1) : HOOKE_OK;
+  if (status == HOOKE_OK) status = hk_needs_run_pieces(needs, 0, needs->row_count, run_piece, INFINITY, NULL);
+  for (int64_t k = 0; k < needs->row_count && status == HOOKE_OK; k++) {
     struct hk_needs_row *row = &needs->row[k];
-    const int32_t idle = strcmp(row->kind, "idle") == 0;
-    needs->under_way = row->without;
-    const int32_t status = idle                                   ? run_idle(needs, row)
-                           : strcmp(row->kind, "resolution") == 0 ? run_resolution(needs, row)
-                                                                  : run_row(needs, row);
-    needs->pieces_done++;
-    if (idle && !row->measured && !row->note[0] && status == HOOKE_OK) hk_needs_drop_row(needs, k--);
-    if (status != HOOKE_OK) return status;
+    if (is_idle(row) && !row->measured && !row->note[0])
+      hk_needs_drop_row(needs, k--);
+    else
+      status = time_row(needs, row);
   }
-  return HOOKE_OK;
+  return status;
 }

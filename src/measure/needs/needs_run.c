@@ -15,9 +15,8 @@ static const uint64_t SEED = 1;          /* of the displaced start */
 static const double RESTS = 1e-3;        /* of the wanted error: a smaller motion shows nothing */
 
 int32_t hk_needs_tell(struct hk_needs *needs, double fraction) {
-  const double done = ((double)needs->pieces_done + fraction) / fmax(1.0, (double)needs->pieces);
-  needs->told = fmax(needs->told, fmin(1.0, done));
-  return hk_measurement_tell(needs->m, needs->told, needs->under_way);
+  if (needs->turn) return hk_turn_tell(fraction, needs->turn);
+  return hk_stage_tell(fraction, &needs->stage);
 }
 
 int32_t hk_needs_rests(const struct hk_needs *needs) {
@@ -208,6 +207,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
                                        .on_frame = see_frame,
                                        .on_start = see_start,
                                        .most_work = recorder->needs->most_work,
+                                       .serial = recorder->needs->turn && recorder->needs->turn->serial,
                                        .ctx = recorder};
   struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN, .atol = NAN};
   struct hk_frames none = {.system = recorder->trial->system};
@@ -227,4 +227,41 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
   const int32_t judged = judge_end(recorder, *finished);
   if (judged != HOOKE_OK) return judged;
   return taken.too_long || hk_trial_gave_up(status) ? HOOKE_OK : status;
+}
+
+/* ---- pieces side by side ---- */
+
+struct pieces {
+  struct hk_needs *own; /* a copy for each */
+  int64_t first;
+  hk_needs_piece *piece;
+};
+
+static int32_t run_piece(struct hk_turn *turn, void *ctx) {
+  const struct pieces *pieces = ctx;
+  struct hk_needs *own = &pieces->own[turn->number];
+  own->turn = turn;
+  return pieces->piece(own, pieces->first + turn->number);
+}
+
+int32_t hk_needs_run_pieces(struct hk_needs *needs, int64_t first, int64_t count, hk_needs_piece *piece,
+                            double most, int64_t *counted) {
+  struct pieces pieces = {hk_new(count, sizeof *needs), first, piece};
+  int64_t k;
+  if (pieces.own == NULL) return HOOKE_NO_MEMORY;
+  for (k = 0; k < count; k++) {
+    pieces.own[k] = *needs;
+    pieces.own[k].runs = 0;
+    pieces.own[k].trial_work = 0.0;
+  }
+  const int32_t status =
+      hk_run_side_by_side(needs->m, 0, count, run_piece, &pieces, hk_stage_tell, &needs->stage);
+  for (k = 0; k < count && needs->trial_work < most; k++) {
+    needs->runs += pieces.own[k].runs;
+    needs->trial_work += pieces.own[k].trial_work;
+    needs->spread = fmax(needs->spread, pieces.own[k].spread);
+  }
+  if (counted) *counted = k;
+  hk_free(pieces.own);
+  return status;
 }

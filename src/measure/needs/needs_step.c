@@ -23,7 +23,6 @@ static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below
 static const double CERTAIN = 0.1;                     /* of a change, by the step: leaves no doubt of it */
 static const double MARGIN = 4.0; /* of the step's error, if only a part of the run can be judged */
 enum { REPEATS = 20, HALVINGS = 3 };
-static const double SHORT = 0.02; /* [s]: time for repeating runs */
 
 struct attempt {
   struct hk_needs_path path;
@@ -42,7 +41,6 @@ struct search {
   double error;      /* of the last pair; number of agreeing frames; successive pairs without improvement */
   int64_t frames;
   int32_t stalls;
-  int32_t was_judged; /* 1: the times of runs have the judging in them */
   struct attempt run[2];
 };
 
@@ -182,24 +180,34 @@ static int32_t begin_search(struct search *search, double limit) {
   return status;
 }
 
-/* Time of a whole run: the minimum of several if it is too short for one clock reading. `finished` is 0 if it
- * does not finish, beyond the judged frames. */
-static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int32_t *finished) {
+/* The counts of a whole run, where it was judged in part alone. `finished` is 0 if it does not finish. */
+static int32_t run_whole(struct search *search, struct hk_needs_cost *cost, int32_t *finished) {
   struct hk_needs *needs = search->recorder.needs;
-  const int32_t untimed = is_shortened(search) || search->was_judged;
-  double spent = untimed ? 0.0 : cost->wall_seconds, slowest = spent;
+  if (!is_shortened(search) || !*finished) return HOOKE_OK;
   search->recorder.path = NULL;
-  if (untimed) cost->wall_seconds = INFINITY;
   int32_t status = hooke_options_set_number(search->options, "duration", needs->duration);
   if (status == HOOKE_OK) status = hk_needs_set_step(cost, search->options);
-  for (int k = 0; k < REPEATS && spent < SHORT && *finished && status == HOOKE_OK; k++) {
-    struct hk_needs_cost again = *cost;
-    status = hk_needs_run_once(&search->recorder, search->options, finished, &again);
-    if (again.wall_seconds < cost->wall_seconds) *cost = again;
+  return status == HOOKE_OK ? hk_needs_run_once(&search->recorder, search->options, finished, cost) : status;
+}
+
+int32_t hk_needs_find_times(struct hk_needs *needs, int32_t count, const struct hk_needs_trial *trial,
+                            struct hk_needs_cost *const *cost, double most) {
+  hooke_options *options = NULL;
+  double spent = 0.0, slowest[2] = {0.0, 0.0};
+  int32_t finished, status = hooke_options_copy(needs->m->run, &options);
+  for (int32_t k = 0; k < count * REPEATS && spent < most && status == HOOKE_OK; k++) {
+    struct hk_needs_recorder recorder = {.needs = needs, .trial = &trial[k % count]};
+    struct hk_needs_cost *own = cost[k % count], again = *own;
+    status = hk_needs_set_step(own, options);
+    if (status == HOOKE_OK) status = hk_needs_run_once(&recorder, options, &finished, &again);
+    if (status != HOOKE_OK) break;
+    own->wall_seconds = k < count ? again.wall_seconds : fmin(own->wall_seconds, again.wall_seconds);
+    slowest[k % count] = fmax(slowest[k % count], again.wall_seconds);
     spent += again.wall_seconds;
-    slowest = fmax(slowest, again.wall_seconds);
   }
-  if (*finished && slowest > 0.0) needs->spread = fmax(needs->spread, slowest / cost->wall_seconds);
+  for (int32_t k = 0; k < count; k++)
+    if (slowest[k] > 0.0) needs->spread = fmax(needs->spread, slowest[k] / cost[k]->wall_seconds);
+  hooke_options_destroy(options);
   return status;
 }
 
@@ -272,7 +280,7 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
   int32_t finished = has_finished(&search);
   fill_cost(&search, limit, cost);
   if (finished) cost->step_error = search.error;
-  if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
+  if (status == HOOKE_OK && finished) status = run_whole(&search, cost, &finished);
   if (status == HOOKE_OK && finished && fine->position == NULL) hand_over(&search.run[1].path, fine);
   end(&search);
   return status;
@@ -297,15 +305,19 @@ static int32_t run_by_step(struct hk_needs *needs, const struct hk_needs_trial *
   return status;
 }
 
+int32_t hk_needs_prepare(struct hk_needs *needs, int32_t displaced) {
+  const struct hk_needs_trial full = {needs->m->system, NULL};
+  struct hk_needs_path *path = &needs->by_step[displaced];
+  int32_t finished;
+  return path->position ? HOOKE_OK : run_by_step(needs, &full, &needs->full, displaced, path, &finished);
+}
+
 int32_t hk_needs_compare(struct hk_needs *needs, const struct hk_needs_trial *trial,
                          const struct hk_needs_cost *cost, int32_t displaced, double *error) {
-  const struct hk_needs_trial full = {needs->m->system, NULL};
-  struct hk_needs_path own = {0}, *path = &needs->by_step[displaced];
-  int32_t finished = 0, status = HOOKE_OK;
-  if (path->position == NULL) status = run_by_step(needs, &full, &needs->full, displaced, path, &finished);
-  finished = 0;
+  struct hk_needs_path own = {0};
+  int32_t finished = 0, status = hk_needs_prepare(needs, displaced);
   if (status == HOOKE_OK) status = run_by_step(needs, trial, cost, displaced, &own, &finished);
-  *error = finished ? hk_needs_distance(needs, path, &own) : INFINITY;
+  *error = finished ? hk_needs_distance(needs, &needs->by_step[displaced], &own) : INFINITY;
   hk_needs_path_release(&own);
   return status;
 }
@@ -363,10 +375,9 @@ int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial,
   search.recorder.judges = 1;
   if (status == HOOKE_OK) status = find_coarsest(&search, error);
   search.recorder.judges = 0;
-  search.was_judged = 1;
   fill_cost(&search, limit, cost);
   int32_t finished = *error <= needs->want;
-  if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
+  if (status == HOOKE_OK && finished) status = run_whole(&search, cost, &finished);
   if (status == HOOKE_OK && finished)
     hand_over(&search.run[0].path, path);
   else

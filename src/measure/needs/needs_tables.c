@@ -182,6 +182,8 @@ const struct hk_table hk_needs_tables[] = {
              "the change is more than the wanted error; NaN where nothing moves that it could change"),
          HOOKE_COLUMN(struct hk_needs_row, left_out, FLAG, "", "the lean system is without it, too"),
          COST_COLUMNS(struct hk_needs_row, cost),
+         HOOKE_COLUMN(struct hk_needs_row, timed_alone, FLAG, "",
+                      "0: timed while other rows were running, so its time may be too long"),
          HOOKE_COLUMN(struct hk_needs_row, note, TEXT, "",
                       "why there is no change, or why it is not left out"))},
     {.name = "degrees",

@@ -60,7 +60,7 @@ int32_t hk_price_find(const hooke_system *system, const hooke_options *run, cons
     struct hk_needs *needs = m->object;
     m->progress = budget->progress;
     m->progress_ctx = budget->ctx;
-    needs->under_way = "the error of what is advised";
+    hk_stage_begin(&needs->stage, "the error of what is advised", 1.0);
     needs->most_work = fmin(MOST_WORK, SHARE * left);
     status = compare(needs, limit, change, &price->error);
     hk_budget_spend(budget, needs->trial_work);

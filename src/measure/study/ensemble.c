@@ -2,12 +2,12 @@
  * over many indistinguishable starts still can be. */
 #include "measure/study/study.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
 #include "core/random.h"
-#include "core/status.h"
+#include "measure/trial/side_by_side.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ense
   struct hk_ensemble_source *source = &ensemble->source[ensemble->source_count];
   const uint64_t seed = (uint64_t)hooke_options_number(study->m->options, "seed");
   *source = (struct hk_ensemble_source){.method = method, .value = value};
-  source->random = seed_of(seed, method < 0 ? "reference" : study->method[method]);
+  source->seed = seed_of(seed, method < 0 ? "reference" : study->method[method]);
   source->statistic = hk_new(ensemble->quantities.count, sizeof *source->statistic);
   if (source->statistic == NULL) return HOOKE_NO_MEMORY;
   ensemble->source_count++;
@@ -44,7 +44,7 @@ static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ense
 static int is_better(const struct hk_study_row *row, const struct hk_study_row *other, double want) {
   const int meets = row->trial.wanted <= want;
   if (other == NULL || meets != (other->trial.wanted <= want)) return other == NULL || meets;
-  return meets ? row->trial.wall_seconds < other->trial.wall_seconds : row->value < other->value;
+  return meets ? row->trial.work < other->trial.work : row->value < other->value;
 }
 
 /* The recommended value; otherwise, of the rows that finished, the cheapest that meets the want, or the
@@ -75,7 +75,8 @@ static int32_t create(const struct hk_study *study, struct hk_ensemble *ensemble
   const struct hk_reference *r = &study->reference;
   ensemble->members = (int64_t)hooke_options_number(study->m->options, "ensemble");
   ensemble->noise = isnan(want) ? SHARE * r->extent : NOISE * want;
-  ensemble->from = ensemble->until = NAN;
+  ensemble->from = r->frames.time[0] + (double)r->trusted * study->every;
+  ensemble->until = r->frames.time[0] + study->duration;
   ensemble->source = hk_new(study->method_count + 1, sizeof *ensemble->source);
   if (ensemble->source == NULL) return HOOKE_NO_MEMORY;
   int32_t status = find_quantities(study, &ensemble->quantities);
@@ -99,54 +100,61 @@ void hk_ensemble_release(struct hk_ensemble *ensemble) {
 
 /* ---- a member ---- */
 
-/* A running member. */
-struct member {
+/* All members of all sources, which take turns, so that each has as many when time runs out. */
+struct members {
   struct hk_study *study;
   struct hk_ensemble *ensemble;
-  struct hk_ensemble_source *source;
-  int64_t first, count;             /* first untrusted frame, and number of untrusted frames so far */
-  double *time;                     /* of these frames */
-  struct hk_watched_series *series; /* at these frames */
+  int64_t first, frames; /* first untrusted frame, and how many there are */
+  int64_t count;
+  atomic_int *ends; /* how each ended, a status; HOOKE_BAD_CALL: not at all */
+  double *value;    /* of each, of each quantity: mean over the frames, or period */
 };
 
-static int32_t tell(double fraction, void *ctx) {
-  return hk_study_tell_row(fraction, ((struct member *)ctx)->study);
+/* A running member. */
+struct member {
+  const struct members *all;
+  struct hk_turn *turn;
+  uint64_t random;                 /* of its start */
+  int64_t count;                   /* untrusted frames so far */
+  double *time;                    /* of these frames */
+  struct hk_watched_series series; /* at these frames */
+};
+
+static struct hk_ensemble_source *source_of(const struct members *all, int64_t number) {
+  return &all->ensemble->source[number % all->ensemble->source_count];
+}
+
+static int32_t tell_member(double fraction, void *ctx) {
+  return hk_turn_tell(fraction, ((struct member *)ctx)->turn);
 }
 
 static void displace(hooke_state *state, void *ctx) {
   struct member *member = ctx;
-  hk_displace(state, member->study->m->system, member->ensemble->noise / sqrt(3.0), &member->source->random);
+  const struct members *all = member->all;
+  hk_displace(state, all->study->m->system, all->ensemble->noise / sqrt(3.0), &member->random);
 }
 
 static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
   struct member *member = ctx;
   (void)step;
-  if (frame < member->first || member->count >= member->series->frames) return 0;
+  if (frame < member->all->first || member->count >= member->all->frames) return 0;
   member->time[member->count] = hooke_state_time(state);
-  hk_watched_series_keep(member->series, member->count++, hooke_state_time(state),
+  hk_watched_series_keep(&member->series, member->count++, hooke_state_time(state),
                          hooke_state_position(state), hooke_state_velocity(state));
   return 0;
 }
 
-/* Means over the frames, and periods, into a running mean and sum of squares (Welford 1962). */
-static void keep_member(const struct member *member) {
-  struct hk_ensemble *ensemble = member->ensemble;
-  for (int64_t k = 0; k < ensemble->quantities.count; k++) {
-    const double *at = hk_watched_series_of(member->series, k);
-    struct hk_statistic *statistic = &member->source->statistic[k];
+/* Means over the frames, and periods. */
+static void find_values(const struct member *member, double *value) {
+  const struct hk_watched_list *quantities = &member->all->ensemble->quantities;
+  for (int64_t k = 0; k < quantities->count; k++) {
+    const double *at = hk_watched_series_of(&member->series, k);
     double sum = 0.0;
     for (int64_t f = 0; f < member->count; f++)
       sum += at[f];
-    const double value = ensemble->quantities.item[k].is_period
-                             ? hk_watched_period(member->count, member->time, at)
-                             : sum / (double)member->count;
-    if (isnan(value)) continue;
-    const double from_mean = value - statistic->mean;
-    statistic->mean += from_mean / (double)++statistic->members;
-    statistic->squares += from_mean * (value - statistic->mean);
+    value[k] = quantities->item[k].is_period ? hk_watched_period(member->count, member->time, at)
+                                             : sum / (double)member->count;
   }
-  ensemble->from = member->time[0];
-  ensemble->until = member->time[member->count - 1];
 }
 
 static int32_t source_options(const struct hk_study *study, const struct hk_ensemble_source *source,
@@ -156,66 +164,89 @@ static int32_t source_options(const struct hk_study *study, const struct hk_ense
   return hk_reference_options(study->m->run, r->method, TOLERANCE, r, options);
 }
 
-/* A member that does not finish, and a source that has one, count as failed. */
 static int32_t run_member(struct member *member) {
-  const struct hk_listener listener = {
-      .on_progress = tell, .on_frame = see_frame, .on_start = displace, .ctx = member};
-  const struct hk_study *study = member->study;
-  struct hk_frames none = {.system = study->m->system};
+  const struct members *all = member->all;
+  const struct hk_listener listener = {.on_progress = tell_member,
+                                       .on_frame = see_frame,
+                                       .on_start = displace,
+                                       .serial = member->turn->serial,
+                                       .ctx = member};
+  struct hk_frames none = {.system = all->study->m->system};
   hooke_options *options = NULL;
-  member->count = 0;
-  hk_watched_series_clear(member->series);
-  int32_t status = source_options(study, member->source, &options);
+  const struct hk_ensemble_source *source = source_of(all, member->turn->number);
+  /* each member has a seed of its own */
+  member->random = source->seed ^ (uint64_t)(member->turn->number / all->ensemble->source_count);
+  member->random = hk_random_next(&member->random);
+  member->time = hk_new(all->frames, sizeof(double));
+  if (member->time == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = hk_watched_series_create(&all->ensemble->quantities, all->frames, &member->series);
+  if (status == HOOKE_OK) status = source_options(all->study, source, &options);
   if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL);
   hooke_options_destroy(options);
-  if (status == HOOKE_OK && member->count > 0) keep_member(member);
-  if (!hk_trial_gave_up(status)) return status;
-  member->source->failed++;
-  return HOOKE_OK;
+  return status;
+}
+
+/* What follows a member that failed is not kept. */
+static int32_t try_member(struct hk_turn *turn, void *ctx) {
+  const struct members *all = ctx;
+  struct member member = {.all = all, .turn = turn};
+  const int64_t before = turn->number - all->ensemble->source_count;
+  int32_t status = before < 0 ? HOOKE_OK : atomic_load(&all->ends[before]);
+  if (!hk_trial_gave_up(status)) status = run_member(&member);
+  if (status == HOOKE_OK) find_values(&member, all->value + turn->number * all->ensemble->quantities.count);
+  atomic_store(&all->ends[turn->number], status);
+  hk_watched_series_release(&member.series);
+  hk_free(member.time);
+  return hk_trial_gave_up(status) ? HOOKE_OK : status;
 }
 
 /* ---- all members ---- */
 
-/* All sources in turn, so that when time runs out each has as many members. */
-static int32_t run_members(struct member *member) {
-  struct hk_study *study = member->study;
-  struct hk_ensemble *ensemble = member->ensemble;
-  const double begun = hk_clock_seconds(), all = (double)(ensemble->members * ensemble->source_count);
-  double done = 0.0;
-  study->under_way = "ensemble";
-  study->work_ahead = 0.0;
-  study->late = 0;
-  study->row_deadline = study->deadline;
-  for (int64_t k = 0; k < ensemble->members; k++) {
-    for (int64_t s = 0; s < ensemble->source_count; s++) {
-      member->source = &ensemble->source[s];
-      const int32_t status = member->source->failed ? HOOKE_OK : run_member(member);
-      if (status == HOOKE_STOPPED && study->late) {
-        study->budget_spent = 1;
-        return HOOKE_OK;
-      }
-      if (status != HOOKE_OK) return status;
-      done += 1.0;
-      study->work_ahead = (hk_clock_seconds() - begun) / done * (all - done);
-    }
+/* Into a running mean and sum of squares (Welford 1962). A member that does not finish, and a source that has
+ * one, count as failed. */
+static void keep_member(const struct members *all, int64_t number) {
+  struct hk_ensemble_source *source = source_of(all, number);
+  const int64_t quantities = all->ensemble->quantities.count;
+  if (source->failed) return;
+  source->failed += hk_trial_gave_up(all->ends[number]);
+  if (all->ends[number] != HOOKE_OK) return;
+  for (int64_t k = 0; k < quantities; k++) {
+    const double value = all->value[number * quantities + k];
+    struct hk_statistic *statistic = &source->statistic[k];
+    if (isnan(value)) continue;
+    const double from_mean = value - statistic->mean;
+    statistic->mean += from_mean / (double)++statistic->members;
+    statistic->squares += from_mean * (value - statistic->mean);
   }
+}
+
+static int32_t run_members(struct members *all) {
+  struct hk_study *study = all->study;
+  hk_stage_begin(&study->stage, "ensemble", 1.0);
+  study->late = 0;
+  for (int64_t k = 0; k < all->count; k++)
+    atomic_init(&all->ends[k], HOOKE_BAD_CALL);
+  const int32_t status =
+      hk_run_side_by_side(study->m, 0, all->count, try_member, all, hk_study_tell_row, study);
+  for (int64_t k = 0; k < all->count; k++)
+    keep_member(all, k);
+  if (status != HOOKE_STOPPED || !study->late) return status;
+  study->budget_spent = 1;
   return HOOKE_OK;
 }
 
 int32_t hk_ensemble_run(struct hk_study *study) {
   const struct hk_reference *r = &study->reference;
-  const int64_t first = r->trusted, frames = r->frames.count - first;
-  if (hooke_options_number(study->m->options, "ensemble") < 1.0 || frames < 1) return HOOKE_OK;
-  struct hk_ensemble *ensemble = hk_new(1, sizeof *ensemble);
-  if (ensemble == NULL) return HOOKE_NO_MEMORY;
-  study->ensemble = ensemble;
-  struct hk_watched_series series = {.list = NULL};
-  struct member member = {.study = study, .ensemble = ensemble, .first = first, .series = &series};
-  member.time = hk_new(frames, sizeof(double));
-  int32_t status = member.time ? create(study, ensemble) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = hk_watched_series_create(&ensemble->quantities, frames, &series);
-  if (status == HOOKE_OK) status = run_members(&member);
-  hk_watched_series_release(&series);
-  hk_free(member.time);
+  struct members all = {.study = study, .first = r->trusted, .frames = r->frames.count - r->trusted};
+  if (hooke_options_number(study->m->options, "ensemble") < 1.0 || all.frames < 1) return HOOKE_OK;
+  all.ensemble = study->ensemble = hk_new(1, sizeof *study->ensemble);
+  int32_t status = all.ensemble ? create(study, all.ensemble) : HOOKE_NO_MEMORY;
+  if (status != HOOKE_OK) return status;
+  all.count = all.ensemble->members * all.ensemble->source_count;
+  all.ends = hk_new(all.count, sizeof *all.ends);
+  all.value = hk_new(all.count * all.ensemble->quantities.count, sizeof *all.value);
+  status = all.ends && all.value ? run_members(&all) : HOOKE_NO_MEMORY;
+  hk_free(all.ends);
+  hk_free(all.value);
   return status;
 }

@@ -42,24 +42,6 @@ static int32_t reached_floor(const struct hk_study *study, int32_t method) {
 
 /* ---- features of the scene that reduce orders ---- */
 
-static int pulls_only(const hooke_system *system) {
-  for (int64_t g = 0; g < system->group_count; g++)
-    if (system->group[g].pull_only && system->group[g].count > system->group[g].dropped) return 1;
-  return 0;
-}
-
-static int has_curve(const hooke_system *system) {
-  for (int64_t g = 0; g < system->group_count; g++)
-    if (system->group[g].curve && system->group[g].curve->samples > 0) return 1;
-  return 0;
-}
-
-static int has_table(const hooke_system *system) {
-  for (int64_t d = 0; d < system->drive_count; d++)
-    if (system->drive[d].course.samples > 0) return 1;
-  return 0;
-}
-
 /* 1 if the coarsest row of the fit takes half the safe step or more, and so is near the limit. */
 static int near_limit(const struct hk_study *study, int32_t method, double coarsest) {
   return coarsest >= 0.5 * study->safe_step[method] && study->safe_step[method] < study->unit;
@@ -68,16 +50,24 @@ static int near_limit(const struct hk_study *study, int32_t method, double coars
 static void list_causes(const struct hk_study *study, int32_t method, double coarsest, char *list,
                         size_t size) {
   const hooke_system *system = study->m->system;
+  int pulls = 0, curved = 0, tabled = 0;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    pulls |= group->pull_only && group->count > group->dropped;
+    curved |= group->curve && group->curve->samples > 0;
+  }
+  for (int64_t d = 0; d < system->drive_count; d++)
+    tabled |= system->drive[d].course.samples > 0;
   const struct {
     int applies;
     const char *cause;
   } rows[] = {
-      {pulls_only(system), "springs that only pull have a kink"},
+      {pulls, "springs that only pull have a kink"},
       {hk_system_groups_of(system, &hk_force_altitude) > 0, "altitude springs jump between altitudes"},
       {hk_forces_do_work(system), "a force that changes in time may not be smooth enough"},
       {system->force != NULL, "the force callback may not be smooth enough"},
-      {has_curve(system), "curves by tables bend at their samples"},
-      {has_table(system), "a drive by a table bends at its samples"},
+      {curved, "curves by tables bend at their samples"},
+      {tabled, "a drive by a table bends at its samples"},
       {hk_system_calls_back(system) & HOOKE_CALLS_DRIVE, "the drive callback may not be smooth enough"},
       {hk_force_is_present(system, &hk_force_obstacles), "contacts begin and end within steps"},
       {near_limit(study, method, coarsest), "steps are near the limit of stability"},

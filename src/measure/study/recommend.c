@@ -8,6 +8,7 @@
 #include "measure/limit/explicit_step.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/recommend/pick.h"
+#include "measure/trial/side_by_side.h"
 #include "model/generalized.h"
 #include "model/particles.h"
 #include "model/variant/variant.h"
@@ -32,7 +33,7 @@ static const double ACCURACY = 1e-3; /* of the limit, relative */
 
 static int32_t tell_limit(double done, const char *what, void *study) {
   (void)what;
-  return hk_study_tell(done, study);
+  return hk_stage_tell(done, &((struct hk_study *)study)->stage);
 }
 
 static int32_t find_limit_share(struct hk_study *study, struct hk_study_recommendation *r) {
@@ -74,12 +75,22 @@ static double judge(const struct hk_study *study, const struct hk_reference *r,
   return r->trusted >= study->reference.trusted && error + r->wanted_agreement <= want ? 1.0 : NAN;
 }
 
+enum { CHANGED = 2 * HOOKE_STUDY_CHANGES }; /* each in both directions */
+
+/* What is found with changed systems. */
+struct margins {
+  struct hk_study *study;
+  double work; /* that each may take, counted [s] */
+  double holds[CHANGED], error[CHANGED];
+};
+
 /* The recommended run on a slightly changed system; NaN if the work was too little for it or its reference.
  */
-static int32_t try_change(struct hk_study *study, const hooke_system *changed, double work, double *holds,
-                          double *error) {
+static int32_t try_change(const struct hk_study *study, const hooke_system *changed, double work,
+                          struct hk_turn *turn, double *holds, double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;
-  const struct hk_listener listener = {.on_progress = hk_study_tell_row, .most_work = work, .ctx = study};
+  const struct hk_listener listener = {
+      .on_progress = hk_turn_tell, .most_work = work, .serial = turn->serial, .ctx = turn};
   struct hk_watched_list list = study->watched;
   struct hk_wants wants = study->wants;
   const struct hk_reference_request request = {.run = study->m->run,
@@ -96,10 +107,7 @@ static int32_t try_change(struct hk_study *study, const hooke_system *changed, d
   hooke_options *options = NULL;
   list.system = changed; /* which has the same numbers and names */
   if (wants.list) wants.list = &list;
-  study->late = 0;
-  study->row_deadline = study->deadline;
   int32_t status = hk_reference_create(changed, &request, &reference);
-  if (status == HOOKE_STOPPED && study->late) return HOOKE_OK;
   if (status != HOOKE_OK) return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
   const int64_t judged = (int64_t)fmin((double)reference.trusted, (double)study->reference.trusted);
   status = hk_study_row_options(study, best->method, best->value, &options);
@@ -111,7 +119,7 @@ static int32_t try_change(struct hk_study *study, const hooke_system *changed, d
   hk_trial_release(&trial);
   hooke_options_destroy(options);
   hk_reference_release(&reference);
-  return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
+  return status;
 }
 
 static int32_t make_changed(const struct hk_study *study, enum hk_study_change change, double sign,
@@ -134,40 +142,49 @@ static int32_t make_changed(const struct hk_study *study, enum hk_study_change c
   return status;
 }
 
+static int32_t find_changed(struct hk_turn *turn, void *ctx) {
+  struct margins *margins = ctx;
+  const enum hk_study_change change = (enum hk_study_change)(turn->number / 2);
+  const int64_t k = turn->number;
+  hooke_system *changed = NULL;
+  int32_t status = make_changed(margins->study, change, k % 2 ? -1.0 : 1.0, &changed);
+  if (status == HOOKE_OK)
+    status = try_change(margins->study, changed, margins->work, turn, &margins->holds[k], &margins->error[k]);
+  hooke_system_destroy(changed);
+  return status == HOOKE_UNSUITED || status == HOOKE_BAD_VALUE ? HOOKE_OK : status;
+}
+
 /* The want is met with a change if it is met in both directions. */
-static int32_t find_change(struct hk_study *study, enum hk_study_change change, double work) {
-  struct hk_study_margin *margin = &study->recommendation.margin;
-  double holds[2] = {NAN, NAN}, error[2] = {NAN, NAN};
-  int32_t status = HOOKE_OK;
-  for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    hooke_system *changed = NULL;
-    status = make_changed(study, change, k == 0 ? 1.0 : -1.0, &changed);
-    if (status == HOOKE_OK) status = try_change(study, changed, work / 2.0, &holds[k], &error[k]);
-    hooke_system_destroy(changed);
-  }
+static void keep_change(const struct margins *margins, enum hk_study_change change) {
+  struct hk_study_margin *margin = &margins->study->recommendation.margin;
+  const double *holds = margins->holds + 2 * change, *error = margins->error + 2 * change;
   if (holds[0] == 0.0 || holds[1] == 0.0)
     margin->holds[change] = 0.0;
   else
     margin->holds[change] = holds[0] + holds[1] == 2.0 ? 1.0 : NAN;
   margin->error[change] = isnan(error[0]) || isnan(error[1]) ? NAN : fmax(error[0], error[1]);
-  return status == HOOKE_UNSUITED || status == HOOKE_BAD_VALUE ? HOOKE_OK : status;
 }
 
 static int32_t find_margin(struct hk_study *study) {
-  const double work = fmax(WORK, RUNS * study->reference.work) / HOOKE_STUDY_CHANGES;
-  study->under_way = "margin";
+  struct margins margins = {.study = study, .work = fmax(WORK, RUNS * study->reference.work) / CHANGED};
+  for (int k = 0; k < CHANGED; k++)
+    margins.holds[k] = margins.error[k] = NAN;
+  hk_stage_begin(&study->stage, "margin", 1.0);
   if (study->m->system->generalized) return HOOKE_OK; /* no limit, stiffness or direction is known of it */
   int32_t status = find_limit_share(study, &study->recommendation);
-  for (int k = 0; k < HOOKE_STUDY_CHANGES && status == HOOKE_OK; k++)
-    status = find_change(study, (enum hk_study_change)k, work);
-  return status;
+  if (status != HOOKE_OK) return status;
+  study->late = 0;
+  status = hk_run_side_by_side(study->m, 0, CHANGED, find_changed, &margins, hk_study_tell_row, study);
+  for (int k = 0; k < HOOKE_STUDY_CHANGES; k++)
+    keep_change(&margins, (enum hk_study_change)k);
+  return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
 }
 
 /* ---- the recommendation ---- */
 
 static int32_t tell_pick(double fraction, const char *what, void *ctx) {
   struct hk_study *study = ctx;
-  study->under_way = what;
+  study->stage.what = what;
   return hk_study_tell_row(fraction, study);
 }
 
@@ -282,7 +299,6 @@ static int32_t measure(struct hk_study *study, const struct hk_pick *pick) {
   const int32_t method = pick->best.method ? method_number(study, pick->best.method) : -1;
   struct hk_study_row row;
   if (method < 0) return HOOKE_OK;
-  study->row_deadline = study->deadline;
   const int32_t status = hk_study_measure(study, method, pick->best.value, &row);
   if (status == HOOKE_OK && row.trial.status) {
     keep(study, &row, frames_until(&study->reference, study->reference.frames.time[0] + until));
@@ -297,7 +313,6 @@ static int32_t measure(struct hk_study *study, const struct hk_pick *pick) {
 static int32_t pick_once(struct hk_study *study, double want, int32_t *met) {
   struct hk_pick pick;
   study->late = 0;
-  study->row_deadline = study->deadline;
   int32_t status = hk_pick_run(&pick, study->m->system, study->m->run, &study->wants, want,
                                study->method_count, study->method, tell_pick, study);
   if (status == HOOKE_STOPPED && study->late) {
@@ -323,7 +338,6 @@ static void clear(struct hk_study *study, double want) {
                                                            .wall_median = NAN,
                                                            .force_evaluations = NAN,
                                                            .margin = {NAN, {NAN, NAN}, {NAN, NAN}}};
-  study->work_ahead = 0.0;
 }
 
 int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
@@ -331,6 +345,7 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
   double aim = want;
   int32_t status = HOOKE_OK, met = 1;
   clear(study, want);
+  hk_stage_begin(&study->stage, "search", HOOKE_STUDY_SEARCH);
   if (is_untrusted(study)) return HOOKE_OK;
   for (int k = 0; k < MOST_PICKS && met && !r->met && status == HOOKE_OK; k++) {
     if (r->error > want) aim *= AIM * want / r->error;
@@ -357,7 +372,7 @@ int32_t hooke_study_recommend(hooke_measurement *m, double want) {
   /* the budget starts anew */
   study->begun = hk_clock_seconds();
   study->deadline = study->begun + study->budget;
-  study->told = 0.0;
+  study->stage.told = study->stage.until = 0.0;
   status = hk_study_find_cheapest(study, want);
   return status == HOOKE_OK ? hk_measurement_claim(m) : status;
 }

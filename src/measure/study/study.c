@@ -7,6 +7,7 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "measure/counted_work/work.h"
 #include "model/generalized.h"
 
 #include <math.h>
@@ -17,7 +18,8 @@
 /* The reference gets this fraction of a budget, a larger one if the rows are quick, and at least so many
  * seconds. */
 static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
-static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
+static const double QUICK_SHARE = 0.1;         /* of the budget, for all rows of fixed steps */
+static const double EVALUATIONS_OF_STEP = 3.0; /* cost of a step: several evaluations, or one and a solve */
 /* Fraction of the budget for an ensemble, if one is needed. */
 static const double ENSEMBLE_SHARE = 0.3;
 
@@ -87,7 +89,7 @@ static int32_t read_watch(struct hk_study *study) {
 static int32_t create(hooke_measurement *m) {
   struct hk_study *study = m->object = hk_new(1, sizeof *study);
   if (study == NULL) return HOOKE_NO_MEMORY;
-  study->m = m;
+  study->m = study->stage.measurement = m;
   int32_t status = hk_method_list_read(study->m->system, hooke_options_text(study->m->options, "methods"),
                                        hooke_method_is_built, study->method, &study->method_count);
   if (status == HOOKE_OK) status = read_times(study);
@@ -119,10 +121,19 @@ static int compare_rows(const void *a, const void *b) {
   return (x->value < y->value) - (x->value > y->value);
 }
 
+/* Roughly, of all rows of fixed steps [s]. */
+static double guess_rows(const struct hk_study *study) {
+  double steps = 0.0;
+  for (int32_t m = 0; m < study->method_count; m++)
+    for (int32_t k = 0; !hk_study_is_adaptive(study, m) && !isnan(hk_study_ladder(study, m, k)); k++)
+      steps += study->duration / hk_study_ladder(study, m, k);
+  return EVALUATIONS_OF_STEP * hk_work_of_evaluation(study->m->system) * steps;
+}
+
 static int32_t make_reference(struct hk_study *study) {
-  const struct hk_listener listener = {.on_progress = hk_study_tell_reference, .ctx = study};
+  const struct hk_listener listener = {.on_progress = hk_stage_tell, .ctx = &study->stage};
   const struct hk_wants *wants = &study->wants;
-  const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
+  const int quick = guess_rows(study) <= QUICK_SHARE * study->budget;
   const struct hk_reference_request request = {
       .run = study->m->run,
       .frame_count = hk_schedule_frames(study->duration, study->every),
@@ -133,7 +144,7 @@ static int32_t make_reference(struct hk_study *study) {
       .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
       .listener = &listener,
       .watched = &study->watched};
-  study->under_way = "reference";
+  hk_stage_begin(&study->stage, "reference", HOOKE_STUDY_REFERENCE);
   const int32_t status = hk_reference_create(study->m->system, &request, &study->reference);
   if (status == HOOKE_OK && study->reference.hurried &&
       study->reference.trusted < study->reference.frames.count)
@@ -145,7 +156,7 @@ static int32_t make_reference(struct hk_study *study) {
 static void forget(struct hk_study *study) {
   release_results(study);
   memset(&study->recommendation, 0, sizeof study->recommendation);
-  study->told = study->fixed_rows = study->adaptive_rows = study->work_ahead = 0.0;
+  study->stage.told = study->stage.until = 0.0;
   study->late = study->budget_spent = 0;
   memset(study->given_up, 0, sizeof study->given_up);
   memset(study->cut, 0, sizeof study->cut);
@@ -159,7 +170,6 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   study->begun = hk_clock_seconds();
   if (hooke_options_number(study->m->options, "ensemble") > 0.0) study->budget *= 1.0 - ENSEMBLE_SHARE;
   if (!study->once) status = hk_study_find_safe_steps(study);
-  hk_study_prepare_guesses(study);
   if (status == HOOKE_OK) status = make_reference(study);
   if (study->reference.trusted == study->reference.frames.count) study->budget = budget;
   if (status == HOOKE_OK) status = hk_study_run_ladders(study);

@@ -7,6 +7,11 @@
 #include "measure/trial/method_list.h"
 #include "measure/trial/reference.h"
 
+/* Approximate ends of the reference, of the rows and of the search in the time of all. */
+#define HOOKE_STUDY_REFERENCE 0.4
+#define HOOKE_STUDY_ROWS      0.9
+#define HOOKE_STUDY_SEARCH    0.95
+
 enum { HOOKE_STUDY_METHODS = HOOKE_LISTED_METHODS };
 
 /* A method with one step or tolerance. */
@@ -58,7 +63,7 @@ struct hk_ensemble_source {
   int32_t method; /* of the study; -1: the reference */
   double value;   /* step or rtol */
   int64_t failed;
-  uint64_t random;
+  uint64_t seed;
   struct hk_statistic *statistic; /* of each quantity */
 };
 
@@ -91,15 +96,10 @@ struct hk_study {
   double
       safe_step[HOOKE_STUDY_METHODS]; /* start of a method's ladder; error-controlled methods have none [s] */
 
-  const char *under_way;
-  double told;                           /* largest reported fraction */
-  double fixed_rows;                     /* of the ladders, approximate [s] */
-  double adaptive_rows;                  /* number of rows */
-  double work_ahead;                     /* wall time of the rows to come [s] */
+  struct hk_stage stage;
   double begun;                          /* clock at the start [s] */
   double budget;                         /* from the start [s]; infinity for none */
   double deadline;                       /* clock at which rows end [s] */
-  double row_deadline;                   /* and the current one */
   int32_t given_up[HOOKE_STUDY_METHODS]; /* 1: its first row took too long for the budget */
   int32_t cut[HOOKE_STUDY_METHODS];      /* 1: its next row cannot be what the study recommends */
   int32_t late;                          /* a row met its deadline */
@@ -118,17 +118,9 @@ const char *hk_study_chosen_ladder(const struct hk_study *study);
 /* Finds `unit` and checks the caller's ladders. */
 int32_t hk_study_check_ladder(struct hk_study *study);
 
-/* ---- progress (study_ladder.c) ---- */
-
-/* Progress of the whole study, which never decreases. Listeners of the reference and of a row; their context
- * is the study. The last one also stops a row at its deadline and marks the study as late. */
-int32_t hk_study_tell_reference(double fraction, void *ctx);
-int32_t hk_study_tell(double fraction, void *ctx);
+/* Progress of the current part, which ends a run at the deadline and marks the study, its context, as late.
+ */
 int32_t hk_study_tell_row(double fraction, void *ctx);
-/* Guesses the work of an evaluation of the forces, and counts the rows of the ladders. */
-void hk_study_prepare_guesses(struct hk_study *study);
-/* Rough prediction of the time of a row [s], for a method without rows so far. */
-double hk_study_guess(const struct hk_study *study, int32_t method, double value);
 
 /* ---- rows ---- */
 

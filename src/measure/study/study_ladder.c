@@ -5,7 +5,6 @@
 #include "core/clock.h"
 #include "core/number.h"
 #include "core/status.h"
-#include "measure/counted_work/work.h"
 #include "measure/limit/explicit_step.h"
 
 #include <math.h>
@@ -122,74 +121,23 @@ const char *hk_study_chosen_ladder(const struct hk_study *study) {
   return NULL;
 }
 
-static int32_t refuse_ladder(const struct hk_study *study) {
-  const char *chosen = hk_study_chosen_ladder(study);
-  if (chosen == NULL) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, chosen, "is not for `once`, which takes the step of the run");
-}
-
 int32_t hk_study_check_ladder(struct hk_study *study) {
-  if (study->once) return refuse_ladder(study);
+  const char *chosen = hk_study_chosen_ladder(study);
+  if (study->once && chosen)
+    return hk_fail(HOOKE_BAD_VALUE, chosen, "is not for `once`, which takes the step of the run");
+  if (study->once) return HOOKE_OK;
   int32_t status = hk_step_unit(study->duration, study->every, &study->unit);
   if (status == HOOKE_OK) status = check_list(study->m->options, "steps");
   if (status == HOOKE_OK) status = check_steps(study);
   return status == HOOKE_OK ? check_list(study->m->options, "tolerances") : status;
 }
 
-/* ---- progress: the time spent, and an estimate of the time to come ---- */
-
-/* Guesses, used for progress only. */
-static const double EVALUATIONS_OF_STEP = 3.0; /* cost of a step: several evaluations, or one and a solve */
-static const double SHARE_OF_REFERENCE = 0.06; /* time of a row by tolerance over that of the reference */
-static const double SHARE_OF_SEARCH = 0.1;     /* added by the search for a recommendation */
-
-static double guess_fixed(const struct hk_study *study, double step) {
-  return EVALUATIONS_OF_STEP * hk_work_of_evaluation(study->m->system) * study->duration / step;
-}
-
-double hk_study_guess(const struct hk_study *study, int32_t method, double value) {
-  return hk_study_is_adaptive(study, method) ? SHARE_OF_REFERENCE * study->reference.wall_seconds
-                                             : guess_fixed(study, value);
-}
-
-void hk_study_prepare_guesses(struct hk_study *study) {
-  study->told = study->fixed_rows = study->adaptive_rows = 0.0;
-  for (int32_t m = 0; m < study->method_count; m++) {
-    for (int32_t k = 0; !isnan(hk_study_ladder(study, m, k)); k++) {
-      if (hk_study_is_adaptive(study, m))
-        study->adaptive_rows += 1.0;
-      else
-        study->fixed_rows += guess_fixed(study, hk_study_ladder(study, m, k));
-    }
-  }
-}
-
-static int32_t tell(struct hk_study *study, double spent, double ahead) {
-  if (!isnan(study->wants.most)) ahead += SHARE_OF_SEARCH * (spent + ahead);
-  ahead = fmax(0.0, fmin(ahead, study->budget - spent));
-  const double done = spent > 0.0 ? spent / (spent + ahead) : 0.0;
-  study->told = fmax(study->told, done);
-  return hk_measurement_tell(study->m, study->told, study->under_way);
-}
-
-int32_t hk_study_tell_reference(double fraction, void *ctx) {
-  struct hk_study *study = ctx;
-  const double spent = hk_clock_seconds() - study->begun;
-  const double reference = spent / fraction; /* infinite at first, when nothing is done */
-  const double rows = study->fixed_rows + study->adaptive_rows * SHARE_OF_REFERENCE * reference;
-  return tell(study, spent, reference - spent + rows);
-}
-
-int32_t hk_study_tell(double fraction, void *ctx) {
-  struct hk_study *study = ctx;
-  (void)fraction;
-  return tell(study, hk_clock_seconds() - study->begun, study->work_ahead);
-}
+/* ---- progress ---- */
 
 int32_t hk_study_tell_row(double fraction, void *ctx) {
   struct hk_study *study = ctx;
-  const int32_t value = hk_study_tell(fraction, ctx);
-  if (value != 0 || hk_clock_seconds() < study->row_deadline) return value;
+  const int32_t value = hk_stage_tell(fraction, &study->stage);
+  if (value != 0 || hk_clock_seconds() < study->deadline) return value;
   study->late = 1;
   return 1;
 }

@@ -1,24 +1,20 @@
-/* The rows of a study: each a run for its error, repeated for its time; the ladders, level by level; on
- * several threads the rows of a level run in parallel. */
+/* The rows of a study: each a run for its error, repeated for its time; the ladders, level by level; the rows
+ * of a level run side by side. */
 #include "measure/study/study.h"
 
 #include "core/clock.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "measure/trial/side_by_side.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* With a wanted error, the search gets this fraction of a budget, or so many times the run of the reference,
  * but at most this fraction of the remaining time. */
 static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
-static const double REPEATS = 4.0; /* of a short row, for its time */
 
 /* A short run is repeated until its time is steady or this much has been spent on it, and this share of a
  * budget. */
@@ -58,20 +54,25 @@ static int compare_seconds(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* The first run warms up; it counts only if it is the only one. */
-static int32_t repeat_for_time(struct hk_study *study, const hooke_options *options,
-                               const struct hk_listener *listener, struct hk_study_row *row) {
-  double seconds[MOST_REPEATS], spent = row->trial.wall_seconds;
-  int32_t count = 0, status = HOOKE_OK;
+/* Repeats a short run for its time. The first one warms up; it counts only if it is the only one. */
+static int32_t time_row(struct hk_study *study, struct hk_study_row *row) {
+  const struct hk_listener listener = {.on_progress = hk_stage_tell, .ctx = &study->stage};
   const struct hk_reference *r = &study->reference;
+  double seconds[MOST_REPEATS], spent = row->trial.wall_seconds;
   const double most = fmin(REPEAT_SECONDS, REPEAT_SHARE * study->budget);
+  int32_t count = 0;
+  hooke_options *options = NULL;
+  if (study->once || strcmp(row->trial.status, "finished") != 0 || spent >= most) return HOOKE_OK;
+  study->stage.what = study->method[row->method];
+  int32_t status = hk_study_row_options(study, row->method, row->value, &options);
   while (status == HOOKE_OK && count < MOST_REPEATS && spent < most) {
-    status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
+    status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, &listener);
     seconds[count++] = row->trial.wall_seconds;
     spent += row->trial.wall_seconds;
     qsort(seconds, (size_t)count, sizeof seconds[0], compare_seconds);
     if (count >= 3 && seconds[1] <= STEADY * seconds[0]) break;
   }
+  hooke_options_destroy(options);
   if (count == 0) return status;
   row->repeats = count;
   row->timed_alone = 1;
@@ -131,45 +132,6 @@ static int32_t measure_step(const struct hk_study *study, struct hk_study_row *r
   return status;
 }
 
-/* One value of a method, for its error; several threads may do so at a time. */
-static int32_t run_row(const struct hk_study *study, int32_t method, double value,
-                       const struct hk_listener *listener, struct hk_study_row *row) {
-  const struct hk_reference *r = &study->reference;
-  hooke_options *options = NULL;
-  *row = (struct hk_study_row){.method = method, .value = value, .repeats = 1, .timed_alone = 1};
-  int32_t status = hk_study_row_options(study, method, value, &options);
-  if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, listener);
-  if (status == HOOKE_OK) status = measure_step(study, row);
-  row->wall_median = row->trial.wall_seconds;
-  hooke_options_destroy(options);
-  return status;
-}
-
-/* Then, if that was short, repeated for its time. */
-static int32_t time_row(struct hk_study *study, struct hk_study_row *row) {
-  const struct hk_listener listener = {.on_progress = hk_study_tell, .ctx = study};
-  hooke_options *options = NULL;
-  if (study->once || strcmp(row->trial.status, "finished") != 0) return HOOKE_OK;
-  study->under_way = study->method[row->method];
-  int32_t status = hk_study_row_options(study, row->method, row->value, &options);
-  if (status == HOOKE_OK) status = repeat_for_time(study, options, &listener, row);
-  hooke_options_destroy(options);
-  return status;
-}
-
-int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row) {
-  const struct hk_listener listener = {.on_progress = hk_study_tell_row, .ctx = study};
-  study->under_way = study->method[method];
-  study->late = 0;
-  const int32_t status = run_row(study, method, value, &listener, row);
-  if (status == HOOKE_STOPPED && study->late) {
-    hk_trial_release(&row->trial);
-    study->budget_spent = 1;
-    return HOOKE_OK;
-  }
-  return status == HOOKE_OK ? time_row(study, row) : status;
-}
-
 /* ---- times of rows ---- */
 
 /* Time and counted work of the next row of a method [s]: those of its last finished row, scaled by the steps;
@@ -201,119 +163,73 @@ static double least_work(const struct hk_study *study) {
   return least;
 }
 
-static double expect_seconds(const struct hk_study *study, int32_t method, double value) {
-  const double predicted = predict(study, method, value).seconds;
-  return isnan(predicted) ? hk_study_guess(study, method, value) : predicted;
-}
-
-static double seconds_ahead(const struct hk_study *study, int32_t level) {
-  double sum = 0.0;
-  for (int32_t m = 0; m < study->method_count; m++) {
-    for (int32_t k = level; !study->cut[m] && !isnan(hk_study_ladder(study, m, k)); k++) {
-      const double once = expect_seconds(study, m, hk_study_ladder(study, m, k));
-      sum += once + fmin(REPEATS * once, REPEAT_SECONDS);
-    }
-  }
-  return sum;
-}
-
 /* ---- the rows of a level ---- */
 
 struct job {
-  int32_t method;
-  double value, expected; /* step or rtol; time [s] */
-  double fraction;        /* maximum fraction of the remaining time when it begins */
+  double fraction; /* maximum fraction of the remaining time when it begins */
   double deadline;
-  struct level *level;
+  int32_t late; /* 1: that ended it */
+  struct hk_turn *turn;
   struct hk_study_row row;
-  int32_t status;
-  char message[512]; /* messages belong to the thread that failed */
 };
 
 struct level {
   struct hk_study *study;
   int32_t count;
   struct job job[HOOKE_STUDY_METHODS];
-  atomic_int next, stop, running;
 };
 
-static int32_t asked_to_stop(double fraction, void *ctx) {
+static int32_t tell_job(double fraction, void *ctx) {
   const struct job *job = ctx;
-  (void)fraction;
-  return atomic_load(&job->level->stop) || hk_clock_seconds() >= job->deadline;
+  return hk_turn_tell(fraction, job->turn) || hk_clock_seconds() >= job->deadline;
 }
 
-static double deadline_of(const struct job *job, const struct hk_study *study) {
-  const double now = hk_clock_seconds();
-  return now + job->fraction * (study->deadline - now);
-}
-
-static void *work(void *ctx) {
+/* One value of a method, for its error. */
+static int32_t run_job(struct hk_turn *turn, void *ctx) {
   struct level *level = ctx;
-  for (int32_t k; (k = atomic_fetch_add(&level->next, 1)) < level->count && !atomic_load(&level->stop);) {
-    struct job *job = &level->job[k];
-    const struct hk_listener listener = {.on_progress = asked_to_stop, .ctx = job};
-    job->deadline = deadline_of(job, level->study);
-    job->status = run_row(level->study, job->method, job->value, &listener, &job->row);
-    job->row.timed_alone = 0;
-    if (job->status != HOOKE_OK) snprintf(job->message, sizeof job->message, "%s", hooke_last_error());
-  }
-  atomic_fetch_sub(&level->running, 1);
-  return NULL;
+  struct hk_study *study = level->study;
+  const struct hk_reference *r = &study->reference;
+  struct job *job = &level->job[turn->number];
+  struct hk_study_row *row = &job->row;
+  const struct hk_listener listener = {.on_progress = tell_job, .ctx = job};
+  const double now = hk_clock_seconds();
+  hooke_options *options = NULL;
+  if (turn->worker == 0) study->stage.what = study->method[row->method];
+  job->turn = turn;
+  job->deadline = now + job->fraction * (study->deadline - now);
+  int32_t status = hk_study_row_options(study, row->method, row->value, &options);
+  if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, &listener);
+  if (status == HOOKE_OK) status = measure_step(study, row);
+  hooke_options_destroy(options);
+  row->wall_median = row->trial.wall_seconds;
+  row->repeats = 1;
+  row->timed_alone = !turn->serial;
+  job->late = status == HOOKE_STOPPED && hk_clock_seconds() >= job->deadline;
+  return job->late ? HOOKE_OK : status;
 }
 
-/* Runs rows in parallel first, for the errors; then short rows again, alone, for their times. The caller's
- * thread works too, or reports progress, which no other thread does. */
-static int32_t run_side_by_side(struct level *level, int32_t threads) {
-  pthread_t thread[HOOKE_STUDY_METHODS];
-  int32_t started = 0;
-  atomic_store(&level->running, 0);
-  for (int32_t k = 0; k < threads && k < level->count; k++) {
-    atomic_fetch_add(&level->running, 1);
-    if (pthread_create(&thread[k], NULL, work, level) != 0) {
-      atomic_fetch_sub(&level->running, 1);
-      break;
-    }
-    started++;
-  }
-  if (started == 0) {
-    atomic_fetch_add(&level->running, 1);
-    work(level);
-  }
-  level->study->under_way = "rows side by side";
-  level->study->late = 0;
-  level->study->row_deadline = level->study->deadline;
-  while (atomic_load(&level->running) > 0) {
-    const struct timespec moment = {0, 20000000};
-    nanosleep(&moment, NULL);
-    if (hk_study_tell_row(0.0, level->study) != 0) atomic_store(&level->stop, 1);
-  }
-  for (int32_t k = 0; k < started; k++)
-    pthread_join(thread[k], NULL);
-  int32_t status = HOOKE_OK;
+/* Runs rows side by side first, for the errors; then short rows again, alone, for their times. */
+static int32_t run_level(struct level *level) {
+  struct hk_study *study = level->study;
+  int32_t status =
+      hk_run_side_by_side(study->m, study->once, level->count, run_job, level, hk_stage_tell, &study->stage);
   for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
     struct job *job = &level->job[k];
-    if (job->status == HOOKE_STOPPED && hk_clock_seconds() >= job->deadline) {
+    if (job->late) {
       hk_trial_release(&job->row.trial);
-      level->study->budget_spent = level->study->given_up[job->method] = 1;
-    } else if (job->status != HOOKE_OK)
-      status = hk_fail(job->status, NULL, "%s", job->message);
-    else if (job->row.trial.status)
-      status = time_row(level->study, &job->row);
+      study->late = study->budget_spent = study->given_up[job->row.method] = 1;
+    } else {
+      status = time_row(study, &job->row);
+    }
   }
   return status;
 }
 
-static int32_t run_one_by_one(struct level *level) {
-  int32_t status = HOOKE_OK;
-  for (int32_t k = 0; k < level->count && status == HOOKE_OK; k++) {
-    struct job *job = &level->job[k];
-    const double begun = hk_clock_seconds();
-    level->study->row_deadline = deadline_of(job, level->study);
-    status = hk_study_measure(level->study, job->method, job->value, &job->row);
-    level->study->given_up[job->method] = level->study->late;
-    level->study->work_ahead = fmax(0.0, level->study->work_ahead - (hk_clock_seconds() - begun));
-  }
+int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row) {
+  struct level level = {
+      .study = study, .count = 1, .job = {{.fraction = 1.0, .row = {.method = method, .value = value}}}};
+  const int32_t status = run_level(&level);
+  *row = level.job[0].row;
   return status;
 }
 
@@ -336,13 +252,7 @@ static int32_t keep_rows(struct level *level) {
   return status;
 }
 
-static int compare_jobs(const void *a, const void *b) {
-  const struct job *x = a, *y = b;
-  return (x->expected > y->expected) - (x->expected < y->expected);
-}
-
-/* Runs the rows of a level that the budget still allows, the quickest first, so that a slow row does not keep
- * the others from running. */
+/* The rows of a level that the budget still allows. */
 static void plan_level(struct hk_study *study, int32_t number, struct level *level) {
   const double most = WINS_NO_MORE * least_work(study);
   double ahead = 0.0;
@@ -359,13 +269,9 @@ static void plan_level(struct hk_study *study, int32_t number, struct level *lev
       continue;
     }
     ahead += next;
-    level->job[level->count++] = (struct job){.method = m,
-                                              .value = value,
-                                              .expected = expect_seconds(study, m, value),
-                                              .fraction = isnan(predicted) ? UNKNOWN_SHARE : 1.0,
-                                              .level = level};
+    level->job[level->count++] = (struct job){.fraction = isnan(predicted) ? UNKNOWN_SHARE : 1.0,
+                                              .row = {.method = m, .value = value}};
   }
-  qsort(level->job, (size_t)level->count, sizeof level->job[0], compare_jobs);
 }
 
 /* A search needs time for a run as fine as the reference. */
@@ -377,17 +283,19 @@ static double end_of_rows(const struct hk_study *study) {
 }
 
 int32_t hk_study_run_ladders(struct hk_study *study) {
-  const int32_t threads = study->once ? 1 : (int32_t)hooke_options_number(study->m->run, "threads");
   int32_t status = HOOKE_OK;
   struct level *level = hk_new(1, sizeof *level);
   if (level == NULL) return HOOKE_NO_MEMORY;
   study->deadline = end_of_rows(study);
   for (int32_t number = 0; status == HOOKE_OK; number++) {
     *level = (struct level){.study = study};
-    study->work_ahead = seconds_ahead(study, number);
+    const double levels = hooke_options_number(study->m->options, "points");
+    hk_stage_begin(&study->stage, "rows",
+                   HOOKE_STUDY_REFERENCE +
+                       (HOOKE_STUDY_ROWS - HOOKE_STUDY_REFERENCE) * fmin(1.0, exp2(number + 1 - levels)));
     plan_level(study, number, level);
     if (level->count == 0) break;
-    status = threads > 1 ? run_side_by_side(level, threads) : run_one_by_one(level);
+    status = run_level(level);
     const int32_t kept = keep_rows(level);
     if (status == HOOKE_OK) status = kept;
   }

@@ -79,8 +79,11 @@ double hk_reference_now(const struct hk_reference_watch *watch) {
 }
 
 static struct hk_listener limited(struct hk_reference_watch *watch, double most_work) {
-  return (struct hk_listener){
-      .on_progress = watch_progress, .most_work = fmax(LEAST_WORK, most_work), .ctx = watch};
+  const struct hk_listener *own = watch->request->listener;
+  return (struct hk_listener){.on_progress = watch_progress,
+                              .most_work = fmax(LEAST_WORK, most_work),
+                              .serial = own && own->serial,
+                              .ctx = watch};
 }
 
 struct hk_listener hk_reference_listen(struct hk_reference_watch *watch, double deadline) {

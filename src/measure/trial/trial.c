@@ -246,6 +246,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   hooke_options *own = NULL;
   int32_t status = hooke_options_copy(options, &own);
   if (status == HOOKE_OK) status = hooke_step_settle(system, own);
+  if (status == HOOKE_OK && run->listener->serial) status = hooke_options_set_number(own, "threads", 1.0);
   if (status == HOOKE_OK) status = hooke_integrator_create(system, own, integrator);
   hooke_options_destroy(own);
   run->integrator = *integrator;

@@ -61,6 +61,7 @@ struct hk_listener {
   int32_t (*on_frame)(int64_t frame, int64_t step, const hooke_state *state, void *ctx);
   void (*on_start)(hooke_state *state, void *ctx);
   double most_work; /* counted work [s] after which a trial is stopped, as a result; 0: any */
+  int32_t serial;   /* 1: the run keeps to its thread */
   void *ctx;
 };
 
