@@ -18,14 +18,9 @@ HOOKE_INLINE void fill_block(double *restrict b, const double *restrict x, ptrdi
   }
 }
 
-HOOKE_INLINE void subtract(double *restrict f, const double *restrict b, ptrdiff_t count) {
+HOOKE_INLINE void add(double *restrict f, double weight, const double *restrict b, ptrdiff_t count) {
   for (ptrdiff_t k = 0; k < count; k++)
-    f[k] -= b[k];
-}
-
-HOOKE_INLINE void add_twice(double *restrict f, const double *restrict b, ptrdiff_t count) {
-  for (ptrdiff_t k = 0; k < count; k++)
-    f[k] += 2.0 * b[k];
+    f[k] += weight * b[k];
 }
 
 /* A particle is the third of an earlier triple, the middle of a later one, and the first of the last. */
@@ -39,9 +34,9 @@ HOOKE_INLINE void offset_loop(const struct hk_bending_run *run, const double fac
     for (int a = 0; a < 3; a++) {
       fill_block(b, x[a] + at, offset, factor * run->coefficient, factor,
                  mixed ? run->coefficients + done : NULL, count, mixed);
-      subtract(f[a] + at + 2 * offset, b, count);
-      add_twice(f[a] + at + offset, b, count);
-      subtract(f[a] + at, b, count);
+      add(f[a] + at + 2 * offset, -1.0, b, count);
+      add(f[a] + at + offset, 2.0, b, count);
+      add(f[a] + at, -1.0, b, count);
     }
   }
 }

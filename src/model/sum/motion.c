@@ -37,7 +37,8 @@ int32_t hk_goes_by_tiles(const hooke_system *system) {
   by_tiles &= !(system->falls && system->gravity_factor); /* which their moves do not know */
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    by_tiles &= row->add == NULL || row->kind & (HOOKE_LOOPED | HOOKE_UNIFORM);
+    by_tiles &= row->add == NULL || row->kind & (HOOKE_LOOPED | HOOKE_UNIFORM) ||
+                (row == &hk_force_bending && system->strided->bent > 0);
   }
   return by_tiles;
 }
