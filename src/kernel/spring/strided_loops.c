@@ -44,33 +44,34 @@ HOOKE_INLINE vec load_at(const char *at) {
   return hk_load((const double *)(const void *)at);
 }
 
-/* Adds the springs at `x` of a ring, or subtracts those that begin at the particles. */
-HOOKE_INLINE void add_ring(const char *x, ptrdiff_t stride, const int begins, vec sum[3]) {
-  for (int a = 0; a < 3; a++) {
-    const vec b = load_at(x + a * stride);
-    sum[a] = begins ? sum[a] - b : sum[a] + b;
-  }
+/* Adds what is at byte `at` of a ring, times `weight`. The empty instruction keeps the compiler from
+ * computing an address for each component, and from loading before a branch. */
+HOOKE_INLINE void add_ring(const char *ring, ptrdiff_t mask, ptrdiff_t at, ptrdiff_t stride,
+                           const double weight, vec sum[3]) {
+  const char *x = ring + (at & mask);
+  __asm__("" : "+r"(x));
+  for (int a = 0; a < 3; a++)
+    sum[a] = sum[a] + weight * load_at(x + a * stride);
 }
 
 HOOKE_INLINE void add(const struct item *item, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
-  const char *x = item->ring + ((BYTES * p - item->offset) & item->mask);
-  if (item->offset == 0) { /* empty instructions: or the compiler loads before the branch */
-    __asm__("" : "+r"(x));
-    add_ring(x, stride, 1, sum);
-  } else {
-    __asm__("" : "+r"(x));
-    add_ring(x, stride, 0, sum);
-  }
+  if (item->offset == 0)
+    add_ring(item->ring, item->mask, BYTES * p, stride, -1.0, sum);
+  else
+    add_ring(item->ring, item->mask, BYTES * p - item->offset, stride, 1.0, sum);
 }
 
-/* The ends and then the beginnings of a batch. The empty instruction keeps the compiler from computing an
- * address for each component. */
+/* The ends and then the beginnings of a batch. */
 HOOKE_INLINE void add_pair(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
-  const char *end = batch->ring + ((BYTES * p - batch->offset) & batch->mask),
-             *begin = batch->ring + (BYTES * p & batch->mask);
-  __asm__("" : "+r"(end), "+r"(begin));
-  add_ring(end, stride, 0, sum);
-  add_ring(begin, stride, 1, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p - batch->offset, stride, 1.0, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p, stride, -1.0, sum);
+}
+
+/* The triples of a batch of which particles are the last, the middle and the first one. */
+HOOKE_INLINE void add_bent(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
+  add_ring(batch->ring, batch->mask, BYTES * p - 2 * batch->offset, stride, -1.0, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p - batch->offset, stride, 2.0, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p, stride, -1.0, sum);
 }
 
 /* Numbers of the springs at p, prefetched if they are stored in a row. */
@@ -89,11 +90,15 @@ HOOKE_INLINE uint32_t present_at(const uint8_t *present, ptrdiff_t p) {
   return (uint32_t)present[(size_t)p / HOOKE_STRIDED_UNIT] >> (size_t)p % HOOKE_STRIDED_UNIT & ALL;
 }
 
-/* Clears the forces of springs that do not exist. */
-HOOKE_INLINE void clear_absent(const struct batch *batch, ptrdiff_t p, vec b[3]) {
-  const uint32_t bits = present_at(batch->present, p);
+/* Forces of the springs or triples at p into the ring of their batch; those that do not exist have none. */
+HOOKE_INLINE void store_forces(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, int whole,
+                               vec b[3]) {
+  char *x = batch->ring + (BYTES * p & batch->mask);
+  for (int a = 0; a < 3 && __builtin_expect(!whole, 0); a++)
+    b[a] = hk_keep(present_at(batch->present, p), b[a]);
+  __asm__("" : "+r"(x));
   for (int a = 0; a < 3; a++)
-    b[a] = hk_keep(bits, b[a]);
+    hk_store((double *)(void *)(x + a * stride), b[a]);
 }
 
 /* Lengths of the springs of a batch that begin at particles at q and v, whose numbers are `x` and `u`. */
@@ -133,11 +138,7 @@ HOOKE_INLINE void fill(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p,
   tension = tension * ir;
   for (int a = 0; a < 3; a++)
     b[a] = tension * batch->d[a];
-  if (__builtin_expect(!whole, 0)) clear_absent(batch, p, b);
-  char *x = batch->ring + (BYTES * p & batch->mask);
-  __asm__("" : "+r"(x));
-  for (int a = 0; a < 3; a++)
-    hk_store((double *)(void *)(x + a * stride), b[a]);
+  store_forces(batch, stride, p, whole, b);
 }
 
 /* Forces of the triples that begin at p, where q has the numbers x, into the ring of their batch. */
@@ -146,26 +147,10 @@ HOOKE_INLINE void fill_bent(const struct batch *batch, const char *q, ptrdiff_t 
   const vec c = hk_load(batch->value + p);
   vec b[3];
   const char *middle = q + batch->offset, *last = middle + batch->offset;
-  char *to = batch->ring + (BYTES * p & batch->mask);
-  __asm__("" : "+r"(middle), "+r"(last), "+r"(to));
+  __asm__("" : "+r"(middle), "+r"(last));
   for (int a = 0; a < 3; a++)
     b[a] = c * ((x[a] - 2.0 * load_at(middle + a * stride)) + load_at(last + a * stride));
-  if (__builtin_expect(!whole, 0)) clear_absent(batch, p, b);
-  for (int a = 0; a < 3; a++)
-    hk_store((double *)(void *)(to + a * ring), b[a]);
-}
-
-/* The triples of a batch of which particles are the last, the middle and the first one. */
-HOOKE_INLINE void add_bent(const struct batch *batch, ptrdiff_t ring, ptrdiff_t p, vec sum[3]) {
-  const ptrdiff_t at = BYTES * p;
-  const char *last = batch->ring + ((at - 2 * batch->offset) & batch->mask),
-             *middle = batch->ring + ((at - batch->offset) & batch->mask),
-             *first = batch->ring + (at & batch->mask);
-  __asm__("" : "+r"(last), "+r"(middle), "+r"(first));
-  for (int a = 0; a < 3; a++) {
-    const vec passed = sum[a] - load_at(last + a * ring);
-    sum[a] = (passed + 2.0 * load_at(middle + a * ring)) - load_at(first + a * ring);
-  }
+  store_forces(batch, ring, p, whole, b);
 }
 
 /* Repeats the first vector of springs of the rings that begin anew at p after their ends. */

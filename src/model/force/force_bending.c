@@ -129,7 +129,7 @@ static void add_run(hooke_system *system, const struct hk_piece *piece) {
   run->coefficient = piece->group->number[HOOKE_KAPPA][piece->from];
   memcpy(run->particle, piece->particle, sizeof run->particle);
   run->coefficients = piece->number[HOOKE_KAPPA];
-  run->loop = hk_spring_set(0)->bending[run->shape];
+  run->loop = hk_spring_set(0)->bending;
   bending->count += piece->count;
 }
 

@@ -188,12 +188,8 @@ void hk_components_from_rows(int64_t n, const double *rows, double *const compon
 
 /* Rows in the caller's numbering. */
 static void load_rows(const struct hk_motion *motion, const double *rows, double *const component[3]) {
-  if (motion->order == NULL) {
-    hk_components_from_rows(motion->n, rows, component);
-    return;
-  }
   for (int64_t p = 0; p < motion->n; p++) {
-    const double *row = rows + 3 * (int64_t)motion->order[p];
+    const double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
     for (int a = 0; a < 3; a++)
       component[a][p] = row[a];
   }

@@ -111,7 +111,7 @@ static int64_t set_ups(const struct hk_strided_batches *strided) {
     for (int32_t k = 0; k < strided->count + strided->bent; k++) {
       const struct hk_strided_batch *batch = &strided->batch[k];
       const int64_t begin = batch->first / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT,
-                    end = ((batch->last + batch->reach) / HOOKE_STRIDED_UNIT + 1) * HOOKE_STRIDED_UNIT;
+                    end = hk_whole_units(batch->last + batch->reach + 1);
       count += begin <= at && at < end;
       if (begin > at && begin < next) next = begin;
       if (end > at && end < next) next = end;
@@ -139,7 +139,7 @@ static int32_t find_whole_units(struct hk_strided_batches *strided, int64_t part
   strided->memory += units;
   for (int32_t k = 0; k < strided->count + strided->bent; k++) {
     const struct hk_strided_batch *batch = &strided->batch[k];
-    const int64_t whole = (batch->reach + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
+    const int64_t whole = hk_whole_units(batch->reach);
     if (whole > strided->reach) strided->reach = whole;
     for (int64_t u = batch->first / HOOKE_STRIDED_UNIT;
          u <= (batch->last + batch->reach) / HOOKE_STRIDED_UNIT; u++)
@@ -241,7 +241,7 @@ int32_t hk_strided_batches_create(struct hk_springs *springs, const struct hk_be
   if (found) find_bent(&finder, springs, bending);
   int32_t status = finder.failed ? HOOKE_NO_MEMORY : HOOKE_OK;
   hk_free(finder.at);
-  if (found) status = find_whole_units(strided, particle_count);
+  if (found && status == HOOKE_OK) status = find_whole_units(strided, particle_count);
   if (found && status == HOOKE_OK)
     status = hk_strided_batches_take_material(springs, particle_count, strided);
   if (!found || status != HOOKE_OK) hk_strided_batches_release(strided);

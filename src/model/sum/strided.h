@@ -39,6 +39,10 @@ struct hk_strided_batches {
   int64_t memory;
 };
 
+static inline int64_t hk_whole_units(int64_t count) {
+  return (count + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
+}
+
 /* HOOKE_NO_MEMORY. Individually stored material moves from the springs to the batches, where the runs then
  * look it up. */
 int32_t hk_strided_batches_create(struct hk_springs *springs, const struct hk_bending *bending,

@@ -48,10 +48,6 @@ static int64_t lesser(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-static int64_t whole_units(int64_t count) {
-  return (count + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
-}
-
 static int64_t ring_capacity(const struct hk_strided_batch *batch) {
   int64_t capacity = HOOKE_LEAST_RING;
   while (capacity < batch->reach + HOOKE_RING_SLACK)
@@ -193,7 +189,7 @@ static int64_t set_strided(const struct hk_strided_batches *strided, int32_t lef
   for (int32_t k = 0; k < strided->count + strided->bent; k++) {
     const struct hk_strided_batch *batch = &strided->batch[k];
     const int64_t begin = batch->first / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT,
-                  end = whole_units(batch->last + batch->reach + 1);
+                  end = hk_whole_units(batch->last + batch->reach + 1);
     if (from < begin) to = lesser(to, begin);
     if (from < begin || from >= end) continue;
     to = lesser(to, end);
@@ -234,7 +230,7 @@ static void go_on(const struct task *task, struct partition *partition, int32_t 
   const hooke_system *system = task->system;
   for (int64_t s = 0; s < system->span_count && partition->at < to; s++) {
     const int64_t from = larger(system->span[s].from, partition->at),
-                  end = lesser(whole_units(system->span[s].from + system->span[s].count), to);
+                  end = lesser(hk_whole_units(system->span[s].from + system->span[s].count), to);
     if (from >= end) continue;
     skip(task, partition, from);
     advance(task, partition, kind, end);
@@ -253,7 +249,7 @@ static void copy(double *const q, double *const v, ptrdiff_t stride, double *con
 static void begin(const struct task *task, struct partition *partition, int32_t worker, int32_t workers) {
   const struct hk_motion *m = task->motion;
   partition->from = hk_pool_share(m->n, HOOKE_TILE, worker, workers);
-  partition->to = whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
+  partition->to = hk_whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
   partition->pass.present = task->system->strided->present;
   partition->pass.ring_stride = m->rings->stride;
   partition->pass.stride = hk_motion_stride(m);
