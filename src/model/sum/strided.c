@@ -120,7 +120,6 @@ static int64_t set_ups(const struct hk_strided_batches *strided) {
   return count;
 }
 
-/* `members`: springs and triples. */
 static int pays(const struct hk_strided_batches *strided, int64_t members) {
   int64_t window = 0, reached = PARTICLES_A_SET_UP * set_ups(strided);
   for (int32_t k = 0; k < strided->count + strided->bent; k++) {

@@ -25,9 +25,7 @@ struct hk_strided_batch {
   int32_t units[HOOKE_STRIDED_NUMBERS];
 };
 
-/* `count` 0: the springs do not form batches, or too few of them for batches to pay; so with `bent` of
- * triples.
- */
+/* `count` 0: springs form no batches, or too few springs for batches to pay; `bent` 0: nor do triples. */
 struct hk_strided_batches {
   int32_t count, bent; /* batches of springs, and of triples after them */
   int64_t reach;       /* largest of a batch, in whole units */
