@@ -15,7 +15,8 @@ struct entrant {
   hooke_state *state;
   struct baseline *plain; /* or the two above */
   double step;
-  int64_t steps; /* of a turn */
+  int64_t steps;   /* of a turn */
+  int32_t threads; /* 0: one, of the plain loop */
   int turns;
   double turn[MOST_TURNS]; /* time of a step [s] */
 };
@@ -30,6 +31,7 @@ int32_t entrant_create(const hooke_system *system, const hooke_state *start, con
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", step);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", threads);
+  if (status == HOOKE_OK) e->threads = threads;
   if (status == HOOKE_OK) status = hooke_integrator_create(system, options, &e->integrator);
   hooke_options_destroy(options);
   return status;
@@ -59,9 +61,9 @@ int32_t entrant_step(struct entrant *e, int64_t steps) {
 }
 
 int32_t entrant_turn(struct entrant *e) {
-  const double begun = bench_seconds();
+  const double begun = bench_work_seconds(e->threads);
   const int32_t status = entrant_step(e, e->steps);
-  e->turn[e->turns++] = (bench_seconds() - begun) / (double)e->steps;
+  e->turn[e->turns++] = (bench_work_seconds(e->threads) - begun) / (double)e->steps;
   return status;
 }
 

@@ -80,13 +80,13 @@ static void *arithmetic(void *ctx) {
 /* Time until all threads have done `work` once [s]; 0 if they could not be started. */
 static double together(struct worker *worker, int32_t threads, void *(*work)(void *)) {
   int32_t started = 0;
-  const double begun = bench_seconds();
+  const double begun = bench_work_seconds(threads);
   while (started + 1 < threads && pthread_create(&worker[started].thread, NULL, work, &worker[started]) == 0)
     started++;
   if (started + 1 == threads) work(&worker[started]);
   for (int32_t k = 0; k < started; k++)
     pthread_join(worker[k].thread, NULL);
-  return started + 1 == threads ? bench_seconds() - begun : 0.0;
+  return started + 1 == threads ? bench_work_seconds(threads) - begun : 0.0;
 }
 
 /* Minimum time of a turn, over the `count` operations that all threads do in it; 0 if threads could not be

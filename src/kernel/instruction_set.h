@@ -25,7 +25,7 @@
 #define HOOKE_STRIDED_LOOP     HOOKE_OF_ISA(hk_strided_loop_)
 #define HOOKE_MOVE_LOOP        HOOKE_OF_ISA(hk_move_loop_)
 #define HOOKE_TILED_LOOPS      HOOKE_OF_ISA(hk_tiled_loops_)
-#define HOOKE_BENDING_LOOPS    HOOKE_OF_ISA(hk_bending_loops_)
+#define HOOKE_BENDING_LOOP     HOOKE_OF_ISA(hk_bending_loop_)
 #define HOOKE_ENERGY_SET       HOOKE_OF_ISA(hk_energy_set_)
 #define HOOKE_DAMPER_LOOP      HOOKE_OF_ISA(hk_damper_loop_)
 #define HOOKE_DERIVATIVE_LOOP  HOOKE_OF_ISA(hk_derivative_loop_)
@@ -38,7 +38,7 @@ extern const struct hk_spring_set HOOKE_SPRING_SET;
 hk_strided_loop HOOKE_STRIDED_LOOP;
 hk_move_loop HOOKE_MOVE_LOOP;
 extern const struct hk_tiled_loops HOOKE_TILED_LOOPS;
-extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
+hk_bending_loop HOOKE_BENDING_LOOP;
 extern const struct hk_energy_set HOOKE_ENERGY_SET;
 hk_damper_loop HOOKE_DAMPER_LOOP;
 hk_derivative_loop HOOKE_DERIVATIVE_LOOP;

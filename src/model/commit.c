@@ -231,7 +231,8 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) status = take_groups_over(system);
   if (status == HOOKE_OK) status = hk_overdamped_check_forces(system);
   if (status == HOOKE_OK) {
-    status = hk_strided_batches_create(system->springs, system->particle_count, system->strided);
+    status = hk_strided_batches_create(system->springs, &system->rest->bending, system->particle_count,
+                                       system->strided);
   }
   if (status == HOOKE_OK && system->strided->count == 0) {
     status = hk_tiled_create(system->springs, system->particle_count, system->inverse_mass, system->tiled);

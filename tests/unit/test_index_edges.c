@@ -148,7 +148,7 @@ static void add_triples(struct world *world, const struct hk_spring_set *set, in
                                      .coefficient = 3.0,
                                      .coefficients = drawn.kappas};
   const struct hk_fields fields = fields_of(world);
-  set->bending[shape](&run, 0.9, fields.q, fields.f);
+  set->bending(&run, 0.9, fields.q, fields.f);
 }
 
 static void add_tetrahedra(struct world *world, const struct hk_spring_set *set) {

@@ -52,6 +52,23 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   free(ends);
 }
 
+/* Triples of two offsets or of one, in stretches that ascend or go back, with a coefficient each or one. */
+static void add_bends(struct random_source *source, hooke_system *system, int64_t particles) {
+  const int64_t offset[2] = {random_whole(source, 1, 3), random_whole(source, 1, particles / 8)};
+  int64_t *triples = malloc((size_t)(6 * particles) * sizeof *triples), count = 0;
+  owned_doubles *coefficient = new_doubles(2 * particles);
+  const int own = random_whole(source, 0, 1) == 0, back = random_whole(source, 0, 3) == 0;
+  for (int64_t l = random_whole(source, 0, 20), d = 0; d < 2; l = back ? l / 2 : 0, d++) {
+    for (; l + 2 * offset[d] < particles; l += random_whole(source, 0, 9) ? 1 : 9, count++) {
+      for (int64_t e = 0; e < 3; e++)
+        triples[3 * count + e] = l + e * offset[d];
+      coefficient[count] = own || count == 0 ? random_between(source, 1.0, 9.0) : coefficient[0];
+    }
+  }
+  check_ok(hooke_system_add_bending(system, "bends", count, triples, count, coefficient));
+  free(triples);
+}
+
 static hooke_system *build(struct random_source *source, int64_t particles, int groups, int sparse, double *q,
                            double *v, double *gravity, double *drag) {
   hooke_system *system = new_system();
@@ -72,6 +89,7 @@ static hooke_system *build(struct random_source *source, int64_t particles, int 
   check_ok(hooke_system_pin(system, 2, pinned));
   for (int g = 0; g < groups; g++)
     add_group(source, system, particles, g, sparse);
+  if (groups % 2) add_bends(source, system, particles);
   gravity[1] = random_whole(source, 0, 1) ? -9.81 : 0.0;
   check_ok(hooke_system_set_gravity(system, gravity));
   *drag = random_whole(source, 0, 1) ? 0.25 : 0.0;
@@ -81,13 +99,14 @@ static hooke_system *build(struct random_source *source, int64_t particles, int 
   return system;
 }
 
-static void compare(uint64_t seed, int *in_strided, int *most) {
+static void compare(uint64_t seed, int *in_strided, int *most, int *bent) {
   struct random_source source = {seed};
   const int64_t particles = random_whole(&source, 70, PARTICLES);
   double *q = new_doubles(3 * particles), *v = new_doubles(3 * particles), gravity[3] = {0.0, 0.0, 0.0}, drag;
   hooke_system *system =
       build(&source, particles, (int)random_whole(&source, 1, 9), seed % 5 == 0, q, v, gravity, &drag);
   *in_strided += system->strided->count > 0;
+  *bent += system->strided->bent > 0;
   if (system->strided->count > *most) *most = system->strided->count;
   owned_canonical c;
   canonical_create(system, &c);
@@ -102,11 +121,43 @@ static void compare(uint64_t seed, int *in_strided, int *most) {
 
 TEST(test_same_bits) {
   for (int32_t set = 0; use_loops(set); set++) {
-    int in_strided = 0, most = 0;
+    int in_strided = 0, most = 0, bent = 0;
     for (uint64_t seed = 1; seed <= 200; seed++)
-      compare(seed, &in_strided, &most);
+      compare(seed, &in_strided, &most, &bent);
     assert_in_range(in_strided, 150, 170); /* sparse ones go by runs */
     assert_true(most > 6);                 /* more than are summed at once */
+    assert_in_range(bent, 60, in_strided);
+  }
+}
+
+/* What is infinite at one rope stays there: springs and triples that are not between ropes have no force. */
+TEST(test_absent_of_infinite) {
+  enum { LONG = 45, TWO = 2 * LONG };
+  owned_doubles *f = new_doubles(3 * TWO), *q = new_doubles(3 * TWO), *v = new_doubles(3 * TWO);
+  for (int p = 0; p < TWO; p++)
+    q[3 * p] = 0.1 * p + 0.01 * (p % 3);
+  owned_system *system = small_system(TWO, q, NULL, 1.0, 0);
+  for (int64_t rope = 0; rope < 2; rope++) {
+    int64_t ends[2 * LONG], triples[3 * LONG];
+    for (int64_t k = 0; k < 3 * LONG; k++) {
+      triples[k] = rope * LONG + k / 3 + k % 3;
+      if (k < 2 * LONG) ends[k] = rope * LONG + k / 2 + k % 2;
+    }
+    small_group(system, "springs", NULL, LONG - 1, ends, "stiffness=10");
+    check_ok(hooke_system_add_bending(system, NULL, LONG - 2, triples, 1, (double[]){2.0}));
+  }
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(system->strided->bent, 1);
+  for (int32_t set = 0; use_loops(set); set++) {
+    for (int p = LONG - 2; p <= LONG; p += 2) {
+      const double kept = q[3 * p];
+      q[3 * p] = INFINITY;
+      check_ok(hooke_system_force(system, 0.0, q, v, f));
+      q[3 * p] = kept;
+      for (int k = 0; k < 3 * TWO; k++)
+        assert_int_equal(!(fabs(f[k]) < INFINITY) && (k / 3 < LONG) != (p < LONG), 0);
+      assert_false(fabs(f[3 * p]) < INFINITY);
+    }
   }
 }
 

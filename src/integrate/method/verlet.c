@@ -6,8 +6,8 @@
  * that may be unstable, solves for the new velocity, with D = df/dv at (q', v_pred):
  *   (M - h/2 D) (v' - v_pred) = h/2 (f(t + h, q', v_pred) + M g) - M (v_pred - v_half)
  * D is that of the springs, altitude springs and drag: a callback sees v_pred. A spring that only pulls
- * counts if it pulls at (q', v_pred), else not at all. Drag alone, and with explicit damping, is a division.
- * */
+ * counts if it pulls at (q', v_pred), else not at all. Drag alone, or with explicit damping, is a division.
+ */
 #include "integrate/method/verlet.h"
 #include "core/memory.h"
 #include "core/status.h"
@@ -192,9 +192,8 @@ static int32_t step(hooke_integrator *it) {
  * K and B = h M^-1 C the explicit step is stable where A + 2 B <= 4; of one mode it is up to A < 4 - 2 B +
  * B^2, B < 2. The bound below holds wherever the particles are: of every element it takes the stiffness and
  * the damping in all directions, those of springs that follow time the largest of all times, and gives each
- * particle its row of g g^T. So the choice depends on the
- * system and the step alone, and a run that goes on from any of its states makes the same one.
- * */
+ * particle its row of g g^T. So the choice depends on the system and the step alone, and a run that goes on
+ * from any of its states makes the same one. */
 static const double MARGIN = 0.8; /* of the bound */
 
 static double larger(double along, double across, double over) {

@@ -111,7 +111,7 @@ struct hk_spring_set {
   hk_spring_loop *loop[HOOKE_RUN_SHAPES];
   hk_strided_loop *strided;
   hk_move_loop *move;
-  hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
+  hk_bending_loop *bending;
   const struct hk_tiled_loops *tiled;
   hk_damper_loop *dampers;
   hk_derivative_loop *derivative;

@@ -10,8 +10,8 @@
 typedef hk_vector vec;
 
 /* Shapes of a pass: that of its batches, if the items of each batch are consecutive in the order of batches;
- * or any. */
-enum { PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES };
+ * or any; and with triples. */
+enum { PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES, BENT = 4 * HOOKE_RUN_SHAPES };
 
 enum { STEP = HOOKE_WIDTH, ALL = (1 << STEP) - 1, BYTES = sizeof(double) };
 
@@ -44,33 +44,34 @@ HOOKE_INLINE vec load_at(const char *at) {
   return hk_load((const double *)(const void *)at);
 }
 
-/* Adds the springs at `x` of a ring, or subtracts those that begin at the particles. */
-HOOKE_INLINE void add_ring(const char *x, ptrdiff_t stride, const int begins, vec sum[3]) {
-  for (int a = 0; a < 3; a++) {
-    const vec b = load_at(x + a * stride);
-    sum[a] = begins ? sum[a] - b : sum[a] + b;
-  }
+/* Adds what is at byte `at` of a ring, times `weight`. The empty instruction keeps the compiler from
+ * computing an address for each component, and from loading before a branch. */
+HOOKE_INLINE void add_ring(const char *ring, ptrdiff_t mask, ptrdiff_t at, ptrdiff_t stride,
+                           const double weight, vec sum[3]) {
+  const char *x = ring + (at & mask);
+  __asm__("" : "+r"(x));
+  for (int a = 0; a < 3; a++)
+    sum[a] = sum[a] + weight * load_at(x + a * stride);
 }
 
 HOOKE_INLINE void add(const struct item *item, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
-  const char *x = item->ring + ((BYTES * p - item->offset) & item->mask);
-  if (item->offset == 0) { /* empty instructions: or the compiler loads before the branch */
-    __asm__("" : "+r"(x));
-    add_ring(x, stride, 1, sum);
-  } else {
-    __asm__("" : "+r"(x));
-    add_ring(x, stride, 0, sum);
-  }
+  if (item->offset == 0)
+    add_ring(item->ring, item->mask, BYTES * p, stride, -1.0, sum);
+  else
+    add_ring(item->ring, item->mask, BYTES * p - item->offset, stride, 1.0, sum);
 }
 
-/* The ends and then the beginnings of a batch. The empty instruction keeps the compiler from computing an
- * address for each component. */
+/* The ends and then the beginnings of a batch. */
 HOOKE_INLINE void add_pair(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
-  const char *end = batch->ring + ((BYTES * p - batch->offset) & batch->mask),
-             *begin = batch->ring + (BYTES * p & batch->mask);
-  __asm__("" : "+r"(end), "+r"(begin));
-  add_ring(end, stride, 0, sum);
-  add_ring(begin, stride, 1, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p - batch->offset, stride, 1.0, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p, stride, -1.0, sum);
+}
+
+/* The triples of a batch of which particles are the last, the middle and the first one. */
+HOOKE_INLINE void add_bent(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
+  add_ring(batch->ring, batch->mask, BYTES * p - 2 * batch->offset, stride, -1.0, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p - batch->offset, stride, 2.0, sum);
+  add_ring(batch->ring, batch->mask, BYTES * p, stride, -1.0, sum);
 }
 
 /* Numbers of the springs at p, prefetched if they are stored in a row. */
@@ -89,11 +90,15 @@ HOOKE_INLINE uint32_t present_at(const uint8_t *present, ptrdiff_t p) {
   return (uint32_t)present[(size_t)p / HOOKE_STRIDED_UNIT] >> (size_t)p % HOOKE_STRIDED_UNIT & ALL;
 }
 
-/* Clears the forces of springs that do not exist. */
-HOOKE_INLINE void clear_absent(const struct batch *batch, ptrdiff_t p, vec b[3]) {
-  const uint32_t bits = present_at(batch->present, p);
+/* Forces of the springs or triples at p into the ring of their batch; those that do not exist have none. */
+HOOKE_INLINE void store_forces(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p, int whole,
+                               vec b[3]) {
+  char *x = batch->ring + (BYTES * p & batch->mask);
+  for (int a = 0; a < 3 && __builtin_expect(!whole, 0); a++)
+    b[a] = hk_keep(present_at(batch->present, p), b[a]);
+  __asm__("" : "+r"(x));
   for (int a = 0; a < 3; a++)
-    b[a] = hk_keep(bits, b[a]);
+    hk_store((double *)(void *)(x + a * stride), b[a]);
 }
 
 /* Lengths of the springs of a batch that begin at particles at q and v, whose numbers are `x` and `u`. */
@@ -133,16 +138,24 @@ HOOKE_INLINE void fill(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p,
   tension = tension * ir;
   for (int a = 0; a < 3; a++)
     b[a] = tension * batch->d[a];
-  if (__builtin_expect(!whole, 0)) clear_absent(batch, p, b);
-  char *x = batch->ring + (BYTES * p & batch->mask);
-  __asm__("" : "+r"(x));
+  store_forces(batch, stride, p, whole, b);
+}
+
+/* Forces of the triples that begin at p, where q has the numbers x, into the ring of their batch. */
+HOOKE_INLINE void fill_bent(const struct batch *batch, const char *q, ptrdiff_t stride, ptrdiff_t ring,
+                            ptrdiff_t p, const vec x[3], int whole) {
+  const vec c = hk_load(batch->value + p);
+  vec b[3];
+  const char *middle = q + batch->offset, *last = middle + batch->offset;
+  __asm__("" : "+r"(middle), "+r"(last));
   for (int a = 0; a < 3; a++)
-    hk_store((double *)(void *)(x + a * stride), b[a]);
+    b[a] = c * ((x[a] - 2.0 * load_at(middle + a * stride)) + load_at(last + a * stride));
+  store_forces(batch, ring, p, whole, b);
 }
 
 /* Repeats the first vector of springs of the rings that begin anew at p after their ends. */
 static __attribute__((noinline)) void repeat_first(const struct hk_strided_pass *pass, ptrdiff_t p) {
-  for (int32_t k = 0; k < pass->count; k++) {
+  for (int32_t k = 0; k < pass->count + pass->bent; k++) {
     const ptrdiff_t mask = pass->batch[k].mask;
     double *x = pass->batch[k].ring;
     for (int a = 0; a < 3 && (p & mask) == 0; a++, x += pass->ring_stride)
@@ -246,7 +259,7 @@ HOOKE_INLINE int64_t step(struct loop *loop, ptrdiff_t p, const int shape, const
     if (shape & (HOOKE_RUN_DAMPED | ANY)) u[a] = load_at(v + a * stride);
   }
   for (const struct batch *end = batch + pass->count; batch < end; batch++, item += 2) {
-    const int kind = shape == ANY ? batch->shape : shape;
+    const int kind = shape & ANY ? batch->shape : shape;
     if (sums && shape & PAIRED) add_pair(batch, ring, p - 2 * STEP, sum);
     if (sums && !(shape & PAIRED)) {
       add(item, ring, p - 2 * STEP, sum);
@@ -255,6 +268,13 @@ HOOKE_INLINE int64_t step(struct loop *loop, ptrdiff_t p, const int shape, const
     if (forces) fill(batch, ring, p - STEP, kind, whole, &shortest);
     if (lengths) find_lengths(batch, q, v, stride, x, u, kind);
   }
+  if (shape & BENT) {
+    const int all = lengths && present_at(pass->present, p) == ALL;
+    for (const struct batch *end = batch + pass->bent; batch < end; batch++) {
+      if (sums) add_bent(batch, ring, p - 2 * STEP, sum);
+      if (lengths) fill_bent(batch, q, stride, ring, p, x, all);
+    }
+  }
   if (__builtin_expect(hk_has_none_left(shortest), 0)) lost = fill_with_care(pass, p - STEP);
   if ((p - STEP) % HOOKE_LEAST_RING == 0) repeat_first(pass, p - STEP);
   if (sums) move_on(loop, p - 2 * STEP, sum);
@@ -262,11 +282,11 @@ HOOKE_INLINE int64_t step(struct loop *loop, ptrdiff_t p, const int shape, const
 }
 
 static __attribute__((noinline)) int64_t outer_step(struct loop *loop, ptrdiff_t p) {
-  return step(loop, p, ANY, 0);
+  return step(loop, p, ANY | BENT, 0);
 }
 
 static void copy_batches(const struct hk_strided_pass *pass, struct loop *loop) {
-  for (int32_t k = 0; k < pass->count; k++) {
+  for (int32_t k = 0; k < pass->count + pass->bent; k++) {
     const struct hk_strided_view *view = &pass->batch[k];
     struct batch *batch = &loop->batch[k];
     *batch = (struct batch){.offset = BYTES * view->offset,
@@ -310,14 +330,15 @@ HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape
 
 HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
   const int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0;
+  const int32_t bent = pass->bent > 0 ? BENT : 0;
   int32_t paired = PAIRED;
   for (int32_t k = 0; k < pass->count; k++) {
     const struct hk_strided_view *batch = &pass->batch[k];
     const struct hk_strided_item *item = &pass->item[2 * k];
     if (item[0].ring != batch->ring || item[1].ring != batch->ring || item[1].offset != 0) paired = 0;
-    if (batch->shape != shape) return ANY;
+    if (batch->shape != shape) return ANY | bent;
   }
-  return shape | paired;
+  return shape | paired | bent;
 }
 
 #define ADVANCE(shape)                                                                                       \
@@ -325,6 +346,9 @@ HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
     return advance(pass, shape, from, to);                                                                   \
   case PAIRED | (shape):                                                                                     \
     return advance(pass, PAIRED | (shape), from, to);
+#define ADVANCE_BENT(shape)                                                                                  \
+  case PAIRED | BENT | (shape):                                                                              \
+    return advance(pass, PAIRED | BENT | (shape), from, to);
 
 int64_t HOOKE_STRIDED_LOOP(const struct hk_strided_pass *pass, ptrdiff_t from, ptrdiff_t to) {
   switch (shape_of(pass)) {
@@ -336,6 +360,8 @@ int64_t HOOKE_STRIDED_LOOP(const struct hk_strided_pass *pass, ptrdiff_t from, p
     ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
     ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED)
     ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
+    ADVANCE_BENT(0)
+    ADVANCE_BENT(HOOKE_RUN_DAMPED)
   }
-  return advance(pass, ANY, from, to);
+  return pass->bent > 0 ? advance(pass, ANY | BENT, from, to) : advance(pass, ANY, from, to);
 }

@@ -3,7 +3,8 @@
  *
  * Spring l of a batch joins particles l and l + offset. Its force is written into the ring of the batch when
  * the loop is at particle l, and read there and at l + offset. Particles that the loop has passed are ends of
- * no later spring, so they may move at once. */
+ * no later spring, so they may move at once. Triples of bending follow the springs: triple l of a batch joins
+ * particles l, l + offset and l + 2 offset, and its force is read at each of them. */
 #ifndef HOOKE_KERNEL_STRIDED_LOOPS_H
 #define HOOKE_KERNEL_STRIDED_LOOPS_H
 
@@ -12,15 +13,17 @@
 enum {
   HOOKE_MOST_STRIDED = 32,
   HOOKE_STRIDED_UNIT = 8, /* passes begin and end at multiples of this particle number */
-  /* A ring holds at least offset + HOOKE_RING_SLACK springs, a power of two and not less than
-   * HOOKE_LEAST_RING, and has space for a unit after them, where the first vector is repeated. */
+  /* A ring holds as many springs or triples as lie between the ends of one, and HOOKE_RING_SLACK more, a
+   * power of two and not less than HOOKE_LEAST_RING, and has space for a unit after them, where the first
+   * vector is repeated. */
   HOOKE_RING_SLACK = 48,
   HOOKE_LEAST_RING = 64
 };
 
 /* Kappa, gamma and rest length of the springs of a batch, in this order. Units equal to the bit are stored
  * once: number j of spring l is value[unit[3 (l / 8) + j & mask] + l % 8]. If all springs have one material,
- * mask is 0. If units are consecutive, values are prefetched so many ahead; 0: never. */
+ * mask is 0. If units are consecutive, values are prefetched so many ahead; 0: never. Of triples, value l is
+ * the coefficient of triple l, and there are no units. */
 struct hk_strided_material {
   double *value;
   uint32_t *unit;
@@ -55,7 +58,7 @@ struct hk_strided_item {
 /* Arrays are padded by HOOKE_STRIDED_UNIT particles, q and v also by the largest offset; the padding is read
  * and not used. */
 struct hk_strided_pass {
-  int32_t count;
+  int32_t count, bent; /* batches of springs, and of triples after them */
   struct hk_strided_view batch[HOOKE_MOST_STRIDED];
   struct hk_strided_item item[2 * HOOKE_MOST_STRIDED]; /* two a batch, in the order of the sum */
   const uint8_t *present;                              /* springs that all batches have there */

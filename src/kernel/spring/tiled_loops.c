@@ -311,14 +311,10 @@ static const void *sum_wide(ptrdiff_t count, const uint16_t *degree, const void 
 
 /* ---- rows ---- */
 
-static void row_of(ptrdiff_t p, const double *const q[3], const double *const v[3], double *restrict row) {
-  row[0] = q[0][p];
-  row[1] = q[1][p];
-  row[2] = q[2][p];
-  if (v == NULL) return;
-  row[3] = v[2][p];
-  row[4] = v[0][p];
-  row[5] = v[1][p];
+/* Stored as it is loaded: several stores would have to end before one load of them. */
+static void row_of(ptrdiff_t p, const double *const q[3], const double *const v[3], double *row) {
+  *(quad *)row = (quad){q[0][p], q[1][p], q[2][p], v ? v[2][p] : 0.0};
+  if (v) *(couple *)(row + 4) = (couple){v[0][p], v[1][p]};
 }
 
 /* Four rows from four numbers of each component; zeros for z and w if they are NULL. */

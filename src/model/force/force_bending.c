@@ -63,6 +63,7 @@ static void add_forces(const struct hk_bending *bending, double factor, const do
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
+  if (system->strided->bent > 0) return HOOKE_OK; /* the pass over springs adds them */
   const double *const q[3] = {motion->q[0], motion->q[1], motion->q[2]};
   add_forces(&system->rest->bending, 1.0, q, motion->f);
   return HOOKE_OK;
@@ -128,7 +129,7 @@ static void add_run(hooke_system *system, const struct hk_piece *piece) {
   run->coefficient = piece->group->number[HOOKE_KAPPA][piece->from];
   memcpy(run->particle, piece->particle, sizeof run->particle);
   run->coefficients = piece->number[HOOKE_KAPPA];
-  run->loop = hk_spring_set(0)->bending[run->shape];
+  run->loop = hk_spring_set(0)->bending;
   bending->count += piece->count;
 }
 

@@ -37,7 +37,8 @@ int32_t hk_goes_by_tiles(const hooke_system *system) {
   by_tiles &= !(system->falls && system->gravity_factor); /* which their moves do not know */
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    by_tiles &= row->add == NULL || row->kind & (HOOKE_LOOPED | HOOKE_UNIFORM);
+    by_tiles &= row->add == NULL || row->kind & (HOOKE_LOOPED | HOOKE_UNIFORM) ||
+                (row == &hk_force_bending && system->strided->bent > 0);
   }
   return by_tiles;
 }
@@ -187,12 +188,8 @@ void hk_components_from_rows(int64_t n, const double *rows, double *const compon
 
 /* Rows in the caller's numbering. */
 static void load_rows(const struct hk_motion *motion, const double *rows, double *const component[3]) {
-  if (motion->order == NULL) {
-    hk_components_from_rows(motion->n, rows, component);
-    return;
-  }
   for (int64_t p = 0; p < motion->n; p++) {
-    const double *row = rows + 3 * (int64_t)motion->order[p];
+    const double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
     for (int a = 0; a < 3; a++)
       component[a][p] = row[a];
   }

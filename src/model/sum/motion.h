@@ -87,9 +87,9 @@ int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, d
 int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *motion, double t,
                                  int32_t left_out);
 
-/* Sums the springs of time t at all particles in one pass over memory, and uses the sums as `move` says; only
- * for systems with strided batches or a tiled batch, and moving particles only for motions that go by tiles.
- */
+/* Sums the springs of time t, and the triples in strided batches, at all particles in one pass over memory,
+ * and uses the sums as `move` says; only for systems with strided batches or a tiled batch, and moving
+ * particles only for motions that go by tiles. */
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, double t,
                     const struct hk_move *move);
 /* What moves outside a pass move. */

@@ -3,29 +3,32 @@
  * A batch consists of springs of one offset o > 0, at most one from each particle: spring l joins particles l
  * and l + o. A particle sees a batch as two items, the springs that end there and those that begin there. The
  * items of all batches are in one order in which the springs of every particle come in ascending number, so
- * that sums have the bits of the plain order. The pass goes over the particles once; see
+ * that sums have the bits of the plain order. Triples of bending of one offset form batches likewise, in the
+ * order of which those of every particle ascend. The pass goes over the particles once; see
  * kernel/spring/strided_loops.h. */
 #ifndef HOOKE_MODEL_SUM_STRIDED_H
 #define HOOKE_MODEL_SUM_STRIDED_H
 
 #include "kernel/spring/strided_loops.h"
+#include "model/force/bending.h"
 #include "model/force/spring.h"
 
 enum { HOOKE_TILE = 256, HOOKE_MOST_ITEMS = 2 * HOOKE_MOST_STRIDED };
 
 struct hk_strided_batch {
   int64_t offset, first, last; /* lowest and highest lower end */
-  int32_t shape;               /* HOOKE_RUN_*, never indexed */
+  int64_t reach;               /* from the first particle of a spring or triple to its last */
+  int32_t shape;               /* HOOKE_RUN_*, never indexed; 0 of triples */
   uint8_t *present;            /* a bit for each particle: a spring begins there */
   /* as of their runs; and the units of values of the material up to those of each number */
   const struct hk_scaling *scaling;
   int32_t units[HOOKE_STRIDED_NUMBERS];
 };
 
-/* `count` 0: the springs do not form batches, or too few of them for batches to pay. */
+/* `count` 0: springs form no batches, or too few springs for batches to pay; `bent` 0: nor do triples. */
 struct hk_strided_batches {
-  int32_t count;
-  int64_t reach; /* largest offset, in whole units */
+  int32_t count, bent; /* batches of springs, and of triples after them */
+  int64_t reach;       /* largest of a batch, in whole units */
   struct hk_strided_batch batch[HOOKE_MOST_STRIDED];
   struct hk_strided_material material[HOOKE_MOST_STRIDED];
   uint8_t item[HOOKE_MOST_ITEMS]; /* in the order of sums: 2 k the ends of batch k, 2 k + 1 its beginnings */
@@ -34,10 +37,14 @@ struct hk_strided_batches {
   int64_t memory;
 };
 
+static inline int64_t hk_whole_units(int64_t count) {
+  return (count + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
+}
+
 /* HOOKE_NO_MEMORY. Individually stored material moves from the springs to the batches, where the runs then
  * look it up. */
-int32_t hk_strided_batches_create(struct hk_springs *springs, int64_t particle_count,
-                                  struct hk_strided_batches *strided);
+int32_t hk_strided_batches_create(struct hk_springs *springs, const struct hk_bending *bending,
+                                  int64_t particle_count, struct hk_strided_batches *strided);
 void hk_strided_batches_release(struct hk_strided_batches *strided);
 
 /* The step that moves the material, for existing batches. HOOKE_NO_MEMORY. */

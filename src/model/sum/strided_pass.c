@@ -48,13 +48,9 @@ static int64_t lesser(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-static int64_t whole_units(int64_t count) {
-  return (count + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
-}
-
 static int64_t ring_capacity(const struct hk_strided_batch *batch) {
   int64_t capacity = HOOKE_LEAST_RING;
-  while (capacity < batch->offset + HOOKE_RING_SLACK)
+  while (capacity < batch->reach + HOOKE_RING_SLACK)
     capacity *= 2;
   return capacity;
 }
@@ -67,7 +63,7 @@ static struct hk_strided_view view_of(const struct hk_strided_batches *strided, 
                                  .mask = ring_capacity(batch) - 1,
                                  .ring = ring,
                                  .material = strided->material[k]};
-  for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
+  for (int j = 0; j < HOOKE_STRIDED_NUMBERS && k < strided->count; j++)
     view.shared[j] = *hk_strided_number(&view.material, batch->first, j);
   return view;
 }
@@ -122,7 +118,7 @@ struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32
   if (rings == NULL) return NULL;
   int64_t values = 0;
   rings->stride = FROM_POWERS_OF_TWO;
-  for (int32_t k = 0; k < strided->count; k++) {
+  for (int32_t k = 0; k < strided->count + strided->bent; k++) {
     rings->stride += ring_capacity(&strided->batch[k]) + HOOKE_STRIDED_UNIT;
     values += scaled_values(&strided->batch[k]);
   }
@@ -141,8 +137,10 @@ struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32
   for (int32_t m = 0; m < workers; m++) {
     double *ring = rings->block + m * numbers;
     rings->partition[m].border = ring + 3 * rings->stride;
-    for (int32_t k = 0; k < strided->count; ring += ring_capacity(&strided->batch[k++]) + HOOKE_STRIDED_UNIT)
+    for (int32_t k = 0; k < strided->count + strided->bent; k++) {
       rings->partition[m].view[k] = view_of(strided, k, ring);
+      ring += ring_capacity(&strided->batch[k]) + HOOKE_STRIDED_UNIT;
+    }
   }
   take_values(strided, rings, rings->block + workers * numbers);
   return rings;
@@ -160,9 +158,9 @@ int64_t hk_rings_memory(const struct hk_rings *rings) {
 }
 
 /* Clears the springs below particle `from`, as far as the ring is read from there on. */
-static void clear_below(const struct hk_strided_view *batch, int64_t stride, int64_t from) {
-  const int64_t capacity = batch->mask + 1, first = (from - batch->offset) & batch->mask,
-                before_end = lesser(batch->offset, capacity - first), wrapped = batch->offset - before_end;
+static void clear_below(const struct hk_strided_view *batch, int64_t reach, int64_t stride, int64_t from) {
+  const int64_t capacity = batch->mask + 1, first = (from - reach) & batch->mask,
+                before_end = lesser(reach, capacity - first), wrapped = reach - before_end;
   for (int a = 0; a < 3; a++) {
     double *x = batch->ring + a * stride;
     memset(x + first, 0, (size_t)before_end * sizeof(double));
@@ -187,18 +185,22 @@ static void set_items(const struct hk_strided_batches *strided, const uint8_t *t
 static int64_t set_strided(const struct hk_strided_batches *strided, int32_t left_out,
                            struct partition *partition, int64_t from, int64_t to) {
   uint8_t there[HOOKE_MOST_STRIDED] = {0};
-  partition->pass.count = 0;
-  for (int32_t k = 0; k < strided->count; k++) {
+  partition->pass.count = partition->pass.bent = 0;
+  for (int32_t k = 0; k < strided->count + strided->bent; k++) {
     const struct hk_strided_batch *batch = &strided->batch[k];
     const int64_t begin = batch->first / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT,
-                  end = whole_units(batch->last + batch->offset + 1);
+                  end = hk_whole_units(batch->last + batch->reach + 1);
     if (from < begin) to = lesser(to, begin);
     if (from < begin || from >= end) continue;
     to = lesser(to, end);
-    if (!partition->open[k]) clear_below(&partition->view[k], partition->pass.ring_stride, from);
+    if (!partition->open[k])
+      clear_below(&partition->view[k], batch->reach, partition->pass.ring_stride, from);
     partition->open[k] = there[k] = 1;
-    partition->pass.batch[partition->pass.count] = partition->view[k];
-    partition->pass.batch[partition->pass.count++].shape &= ~left_out;
+    struct hk_strided_view *next = &partition->pass.batch[partition->pass.count + partition->pass.bent];
+    *next = partition->view[k];
+    next->shape &= ~left_out;
+    partition->pass.count += k < strided->count;
+    partition->pass.bent += k >= strided->count;
   }
   set_items(strided, there, partition);
   return to;
@@ -228,7 +230,7 @@ static void go_on(const struct task *task, struct partition *partition, int32_t 
   const hooke_system *system = task->system;
   for (int64_t s = 0; s < system->span_count && partition->at < to; s++) {
     const int64_t from = larger(system->span[s].from, partition->at),
-                  end = lesser(whole_units(system->span[s].from + system->span[s].count), to);
+                  end = lesser(hk_whole_units(system->span[s].from + system->span[s].count), to);
     if (from >= end) continue;
     skip(task, partition, from);
     advance(task, partition, kind, end);
@@ -247,7 +249,7 @@ static void copy(double *const q, double *const v, ptrdiff_t stride, double *con
 static void begin(const struct task *task, struct partition *partition, int32_t worker, int32_t workers) {
   const struct hk_motion *m = task->motion;
   partition->from = hk_pool_share(m->n, HOOKE_TILE, worker, workers);
-  partition->to = whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
+  partition->to = hk_whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
   partition->pass.present = task->system->strided->present;
   partition->pass.ring_stride = m->rings->stride;
   partition->pass.stride = hk_motion_stride(m);
