@@ -130,7 +130,7 @@ static int32_t prepare(struct hk_needs *needs) {
 static int32_t create(hooke_measurement *m) {
   struct hk_needs *needs = m->object = hk_new(1, sizeof *needs);
   if (needs == NULL) return HOOKE_NO_MEMORY;
-  needs->m = m;
+  needs->m = needs->stage.measurement = m;
   hk_needs_forget(needs);
   return prepare(needs);
 }
@@ -154,7 +154,6 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_needs *needs = m->object;
   const int32_t status = hk_measurement_require_fresh(m, state);
   if (status != HOOKE_OK) return status;
-  needs->stage = (struct hk_stage){.measurement = m};
   needs->spread = 1.0;
   return hooke_options_number(needs->m->options, "refine") != 0.0 ? hk_needs_refine(needs)
                                                                   : hk_needs_find(needs);
