@@ -10,8 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double MOST = 1e9;        /* largest factor tried */
-static const double RATIO = 1.2;       /* of the first factor that is too much to the one offered */
+static const double MOST = 1e9;  /* largest factor tried */
+static const double LEAST = 1.1; /* smallest factor tried, and the first: none of the others holds without */
+static const double RATIO = 1.2; /* of the first factor that is too much to the one offered */
 static const double BELOW_LIMIT = 0.9; /* step of a trial that is not stable at that of the full system */
 static const double LIGHT = 0.1; /* of the mean mass: particles below it are asked how heavy they may be */
 static const double MOST_STEPS = 2.0;    /* of a trial, of those of the full run */
@@ -208,6 +209,9 @@ static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
   int32_t status = HOOKE_OK, holds = 0;
   degree->factor = 1.0;
   degree->error = 0.0;
+  status = take_rung(needs, degree, LEAST, &holds);
+  if (holds != 1) return status;
+  holds = 0;
   if (may_vanish) status = take_rung(needs, degree, INFINITY, &holds);
   if (holds == 1) return status;
   for (int32_t k = 1; good < MOST && isinf(bad) && status == HOOKE_OK; k++) {
@@ -217,7 +221,7 @@ static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
   }
   while (bad / good > RATIO && isfinite(bad) && status == HOOKE_OK) {
     const double middle = between(good, bad);
-    if (middle <= good || middle >= bad) break;
+    if (middle <= good || middle >= bad || middle <= LEAST) break;
     status = take_rung(needs, degree, middle, &holds);
     if (holds < 0) break;
     *(holds ? &good : &bad) = middle;
