@@ -22,7 +22,7 @@ static const double REPEATS = 4.0; /* of a short row, for its time */
 
 /* A short run is repeated until its time is steady or this much has been spent on it, and this share of a
  * budget. */
-static const double REPEAT_SECONDS = 0.1, REPEAT_SHARE = 0.005;
+static const double REPEAT_SECONDS = 0.04, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 

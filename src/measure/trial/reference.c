@@ -22,6 +22,7 @@ static const double HALVED = 1.0 / 16.0, HALVED_COST_POWER = 1.0 / 4.0;
 enum { EXPECTED_LEVELS = 2 };
 
 static const double CLOSE = 1e-9;     /* agreement, as a fraction of the extent, at which tightening ends */
+static const double CLOSER = 0.5;     /* of the distance at the level before, from which tightening helps */
 static const double DIGITS = 1e-6;    /* trusted digits if none are wanted or those are out of reach */
 static const double SAFETY = 2.0;     /* the two may err in the same direction, by more than their distance */
 static const double CHECK_COST = 2.0; /* cost of the check relative to the first method, before it is known */
@@ -168,28 +169,28 @@ static int is_all(const struct hk_reference *r) {
 }
 
 /* The distance at which tightening ends [m]. */
-static double aim_of(const struct hk_reference *r) {
-  return is_all(r) ? CLOSE * r->extent : r->digits;
+static double aim_of(const struct hk_reference_request *request, const struct hk_reference *r) {
+  return is_all(r) ? fmax(CLOSE * r->extent, request->close) : r->digits;
 }
 
 /* The tolerance at which the two should agree: errors scale with the tolerance, unless motion is chaotic. */
 static double next_tolerance(const struct hk_reference_watch *watch, const struct hk_reference *r,
                              double tolerance) {
-  const double aim = AIM * aim_of(r) / watch->apart;
+  const double aim = AIM * aim_of(watch->request, r) / watch->apart;
   const double least = tolerance > TIGHT ? LEAST_FACTOR : MOST_FACTOR;
   return fmax(TIGHTEST, tolerance * fmax(least, fmin(MOST_FACTOR, aim)));
 }
 
 /* 1 if the reference is as good as requested. */
 static int is_enough(const struct hk_reference_request *request, const struct hk_reference *r) {
-  return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
+  return is_all(r) && (request->enough || r->agreement <= aim_of(request, r));
 }
 
 /* 1 if rounding alone is above the distance that tightening aims at, where more steps would only add to it.
  */
-static int is_drowned(const struct hk_reference *r) {
+static int is_drowned(const struct hk_reference_request *request, const struct hk_reference *r) {
   const int64_t frame = r->trusted < r->frames.recorded ? r->trusted : r->frames.recorded - 1;
-  return SAFETY * r->frames.rounding[frame] > aim_of(r);
+  return SAFETY * r->frames.rounding[frame] > aim_of(request, r);
 }
 
 /* 1 if the two part for good, which tighter tolerances put off a little; the first steps of rk4 are long. */
@@ -236,13 +237,14 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
   double tolerance = first_tolerance(watch->request, r);
   int32_t status = hk_reference_choose_first(watch, r, 0.1 * tolerance);
   if (status != HOOKE_OK) return status;
-  for (;;) {
+  for (double before = INFINITY;; before = watch->apart) {
     const double begun = hk_reference_now(watch);
     status = run_level(watch, r, tolerance, check);
     const int failed = hk_trial_gave_up(status); /* another tolerance may do */
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(r);
+    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(watch->request, r) ||
+                     (watch->request->close > 0.0 && is_all(r) && watch->apart > CLOSER * before);
     if (r->checked > 0 && (failed || last || is_enough(watch->request, r))) break;
     const double seconds = hk_reference_now(watch) - begun;
     double finer = of_level(r, failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance));
