@@ -44,7 +44,9 @@ static double judge_step(const struct hk_estimate *e, const char *judge, double 
   for (double least = step; least <= limit; least *= 2.0) {
     const double value = hk_estimate_fit_step(e, least);
     if (isnan(value) || value > limit) return NAN;
-    const double work = hk_work_of_steps(e->system, judge, (int64_t)round(e->duration / value));
+    const int64_t steps = (int64_t)round(e->duration / value);
+    const double work = hk_work_of_steps(e->system, judge, steps);
+    if (isnan(work) && hk_work_at_least(e->system, judge, steps) > e->left) return NAN;
     if (!(work > e->work * (1.0 + 1e-9))) return value;
   }
   return NAN;
