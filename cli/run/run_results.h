@@ -59,9 +59,9 @@ void cli_run_print_final(const struct cli_run *run);
 /* Runs the scene, with --want or its own method, into a trajectory that is removed once `show` has written it
  * as `page`. `path` names it, for cli_os_make_file(). After a blow-up, up to `beyond` frames show how
  * it goes on. Everything is reported; returns the exit code. */
-typedef int cli_show(const struct cli_run *run);
+typedef int cli_show(const struct cli_run *run, void *context);
 int cli_run_to_show(const struct cli_arguments *arguments, char *path, const char *page, double beyond,
-                    cli_show *show);
+                    cli_show *show, void *context);
 
 /* 1 if frames after divergence were asked for. */
 int32_t cli_run_goes_beyond(const struct cli_run *run);

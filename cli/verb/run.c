@@ -390,12 +390,12 @@ static void release(struct cli_run *run) {
 }
 
 /* Why the run blew up is looked into when it is shown. */
-static int run_and_show(struct cli_run *run, cli_show *show) {
+static int run_and_show(struct cli_run *run, cli_show *show, void *context) {
   int code = integrate_to_want(run);
   const int blew_up = cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED;
   if (!blew_up) cli_warnings_tell(run->arguments, run->warnings);
   code = cli_watch_check(run->arguments, code);
-  if (code == HOOKE_EXIT_DONE) code = show(run);
+  if (code == HOOKE_EXIT_DONE) code = show(run, context);
   if (code != HOOKE_EXIT_DONE || !blew_up) return code;
   find_why(run);
   if (!run->why) cli_warnings_tell(run->arguments, run->warnings);
@@ -405,7 +405,7 @@ static int run_and_show(struct cli_run *run, cli_show *show) {
 
 /* Signals are caught before there is a file to remove. */
 int cli_run_to_show(const struct cli_arguments *arguments, char *path, const char *page, double beyond,
-                    cli_show *show) {
+                    cli_show *show, void *context) {
   struct cli_run run = {.arguments = arguments, .output = path, .page = page};
   int code = make_ready(&run);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_read(arguments, &run.setup, page);
@@ -413,7 +413,7 @@ int cli_run_to_show(const struct cli_arguments *arguments, char *path, const cha
     cli_watch_start(&run.watch, arguments);
     (void)hooke_options_set_number(run.setup.options, "frames_after", beyond); /* in bounds */
     if (cli_os_make_file(path) == 0) {
-      code = run_and_show(&run, show);
+      code = run_and_show(&run, show, context);
       unlink(path);
     } else {
       code = cli_report(arguments, HOOKE_EXIT_IO, "%s: cannot write there: %s", page, strerror(errno));

@@ -24,12 +24,19 @@ static void describe_stride(const hooke_measurement *view, const char *what, cha
 
 /* What is shown, on one page. */
 struct shown {
-  int32_t count;
+  const struct cli_arguments *arguments;
+  const char *output;
+  int32_t count, ready; /* of them, in their order, are there to be shown */
   const char *path[MOST_VIEWS];
+  const struct cli_run *run[MOST_VIEWS]; /* that made it; NULL: it was there */
   hooke_record *record[MOST_VIEWS];
   hooke_measurement *view[MOST_VIEWS];
-  const struct cli_run *run; /* that made it; NULL: it was there */
 };
+
+/* The input of that number. */
+static const char *name_of(const struct shown *shown, int32_t k) {
+  return shown->run[k] ? shown->run[k]->arguments->scene : shown->path[k];
+}
 
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *view,
                         const char *name) {
@@ -53,7 +60,8 @@ static int32_t print_json(const struct shown *shown, const char *output) {
   int32_t status = HOOKE_OK;
   cli_print_json(shown->count == 1 ? "{'output': %s, " : "{'output': %s, 'views': [", output);
   for (int32_t k = 0; k < shown->count; k++) {
-    if (shown->count > 1) cli_print_json(k ? ", {'trajectory': %s, " : "{'trajectory': %s, ", shown->path[k]);
+    if (shown->count > 1)
+      cli_print_json(k ? ", {'trajectory': %s, " : "{'trajectory': %s, ", name_of(shown, k));
     cli_print_json("'status': %s", hooke_record_text(shown->record[k], "status"));
     const int32_t printed = cli_print_members(", ", shown->view[k], "view", 0);
     if (printed != HOOKE_OK) status = printed;
@@ -63,7 +71,9 @@ static int32_t print_json(const struct shown *shown, const char *output) {
   return status;
 }
 
-static int write_page(const struct cli_arguments *arguments, const struct shown *shown, const char *output) {
+static int write_page(const struct shown *shown) {
+  const struct cli_arguments *arguments = shown->arguments;
+  const char *output = shown->output;
   int32_t status = HOOKE_OK;
   for (int32_t k = 1; k < shown->count && status == HOOKE_OK; k++)
     status = hooke_view_add(shown->view[0], shown->view[k]);
@@ -72,7 +82,7 @@ static int write_page(const struct cli_arguments *arguments, const struct shown 
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   if (arguments->json) status = print_json(shown, output);
   for (int32_t k = 0; k < shown->count && !arguments->quiet; k++)
-    print_words(arguments, shown->view[k], shown->count == 1 ? output : shown->path[k]);
+    print_words(arguments, shown->view[k], shown->count == 1 ? output : name_of(shown, k));
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments);
 }
 
@@ -122,37 +132,20 @@ static int label(const struct cli_run *run, hooke_measurement *view) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
-static int show_trajectories(const struct cli_arguments *arguments, struct shown *shown, const char *output) {
+static int show_trajectories(struct shown *shown) {
+  const struct cli_arguments *arguments = shown->arguments;
   int code = HOOKE_EXIT_DONE;
   struct cli_watch watch;
   cli_watch_start(&watch, arguments);
-  for (int32_t k = 0; k < shown->count && code == HOOKE_EXIT_DONE; k++)
+  for (int32_t k = 0; k < shown->count && code == HOOKE_EXIT_DONE; k++) {
     code = cli_watch_check(arguments, open_trajectory(arguments, shown, k));
-  if (code == HOOKE_EXIT_DONE && shown->run) code = label(shown->run, shown->view[0]);
-  if (code == HOOKE_EXIT_DONE) code = write_page(arguments, shown, output);
+    if (code == HOOKE_EXIT_DONE && shown->run[k]) code = label(shown->run[k], shown->view[k]);
+  }
+  if (code == HOOKE_EXIT_DONE) code = write_page(shown);
   for (int32_t k = 0; k < shown->count; k++) {
     hooke_measurement_destroy(shown->view[k]);
     hooke_record_close(shown->record[k]);
   }
-  return code;
-}
-
-static int show_run(const struct cli_run *run) {
-  struct shown shown = {.count = 1, .path = {run->output}, .run = run};
-  return show_trajectories(run->arguments, &shown, run->page);
-}
-
-/* By way of a trajectory beside the page. */
-static int run_and_show(const struct cli_arguments *arguments, const char *output) {
-  static const char name[] = "hooke-XXXXXX";
-  const char *slash = cli_os_last_slash(output);
-  const int folder = slash ? (int)(slash - output) + 1 : 0;
-  char *path = malloc((size_t)folder + sizeof name);
-  if (!path) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  snprintf(path, (size_t)folder + sizeof name, "%.*s%s", folder, output, name);
-  const double beyond = hooke_options_number(arguments->more, "beyond");
-  const int code = cli_run_to_show(arguments, path, output, beyond, show_run);
-  free(path);
   return code;
 }
 
@@ -164,26 +157,59 @@ static int is_trajectory(const char *path) {
   return status == HOOKE_OK || status == HOOKE_NO_MEMORY;
 }
 
-/* Several trajectories have a page of another name than theirs, and none is run anew. */
+static int show(struct shown *shown);
+
+static int show_run(const struct cli_run *run, void *context) {
+  struct shown *shown = context;
+  shown->path[shown->ready] = run->output;
+  shown->run[shown->ready++] = run;
+  return show(shown);
+}
+
+/* By way of a trajectory beside the page. */
+static int run_and_show(struct shown *shown) {
+  static const char name[] = "hooke-XXXXXX";
+  struct cli_arguments arguments = *shown->arguments;
+  arguments.scene = shown->path[shown->ready];
+  const char *slash = cli_os_last_slash(shown->output);
+  const int folder = slash ? (int)(slash - shown->output) + 1 : 0;
+  char *path = malloc((size_t)folder + sizeof name);
+  if (!path) return cli_report(&arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  snprintf(path, (size_t)folder + sizeof name, "%.*s%s", folder, shown->output, name);
+  const double beyond = hooke_options_number(arguments.more, "beyond");
+  const int code = cli_run_to_show(&arguments, path, shown->output, beyond, show_run, shown);
+  free(path);
+  return code;
+}
+
+/* Once all scenes among them have been run, one within the other, so that each trajectory is there as long.
+ */
+static int show(struct shown *shown) {
+  const int anew = shown->count == 1 && !shown->ready && is_to_run(shown->arguments);
+  while (!anew && shown->ready < shown->count && is_trajectory(shown->path[shown->ready]))
+    shown->ready++;
+  return shown->ready < shown->count ? run_and_show(shown) : show_trajectories(shown);
+}
+
+/* Several have a page of another name than theirs, and no trajectory is run anew. */
 static int check_several(const struct cli_arguments *arguments) {
   if (arguments->more_count == 0) return HOOKE_EXIT_DONE;
   if (arguments->more_count >= MOST_VIEWS)
-    return cli_report(arguments, HOOKE_EXIT_USAGE, "%d trajectories at once; allowed: up to %d",
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "%d inputs at once; allowed: up to %d",
                       (int)arguments->more_count + 1, MOST_VIEWS);
   if (!cli_arguments_text(arguments, "output"))
-    return cli_report(arguments, HOOKE_EXIT_USAGE, "several trajectories need -o, the name of their page");
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "several inputs need -o, the name of their page");
   if (is_to_run(arguments))
     return cli_report(arguments, HOOKE_EXIT_USAGE,
-                      "several trajectories are shown as they are; leave out the options of a run");
+                      "several inputs are shown as they are; leave out the options of a run");
   return HOOKE_EXIT_DONE;
 }
 
 static int write_view(const struct cli_arguments *arguments, const char *output) {
-  struct shown shown = {.count = 1 + arguments->more_count, .path = {arguments->scene}};
+  struct shown shown = {arguments, output, .count = 1 + arguments->more_count, .path = {arguments->scene}};
   for (int32_t k = 1; k < shown.count; k++)
     shown.path[k] = arguments->more_scenes[k - 1];
-  const int runs = shown.count == 1 && (is_to_run(arguments) || !is_trajectory(arguments->scene));
-  return runs ? run_and_show(arguments, output) : show_trajectories(arguments, &shown, output);
+  return show(&shown);
 }
 
 static int do_view(const struct cli_arguments *arguments) {
@@ -215,8 +241,8 @@ const struct cli_verb cli_verb_view = {
             "and lattices as surfaces, ropes and strands as tubes, other springs as lines, strain as colour, "
             "what is pinned and what is driven marked, energies below. A scene is run first; its trajectory "
             "is not kept. What is left out, to keep the page small and quick, is said on it and here. A run "
-            "that was killed shows the frames it has. Several trajectories play on one page, side by side or "
-            "over one another, at the same time and seen from the same angle.",
+            "that was killed shows the frames it has. Several play on one page, side by side or over one "
+            "another, at the same time and seen from the same angle, with what is between them.",
     .several = 1,
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),

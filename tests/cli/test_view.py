@@ -157,7 +157,7 @@ def test_the_page_fetches_nothing(hooke, cloth, tmp_path):
     assert [found for found in fetches(view.page.replace(library, "")) if not found.startswith(names)] == []
     assert [found for found in re.findall(r"https?:\S+", library) if not found.startswith((names, paper))] == []
     assert view.page.count("default-src 'none'") == 1
-    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 18
+    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 19
 
 
 @needs_view
@@ -327,8 +327,8 @@ def test_several_are_refused_before_anything_is_written(hooke, cloth, tmp_path):
     for words, message in [
         ((first, second, "-o", second), "its name has to end in .html"),
         ((first, second, "-o", "twin.html"), "twin.html: is read, too, and would be replaced"),
-        ((first, second), "several trajectories need -o"),
-        ((*paths, "-o", "page.html"), "9 trajectories at once; allowed: up to 8"),
+        ((first, second), "several inputs need -o"),
+        ((*paths, "-o", "page.html"), "9 inputs at once; allowed: up to 8"),
         ((first, second, "-o", "page.html", "--step", "1e-4"), "leave out the options of a run"),
     ]:
         answer = hooke("view", *words)
@@ -336,6 +336,19 @@ def test_several_are_refused_before_anything_is_written(hooke, cloth, tmp_path):
     assert second.read_bytes() == content and not (tmp_path / "page.html").exists()
     told = hooke("view", first, second, "-o", "page.html", "--json").json
     assert [view["trajectory"] for view in told["views"]] == [str(first), str(second)] and told["output"] == "page.html"
+
+
+@needs_view
+def test_scenes_beside_a_trajectory(hooke, cloth, write, tmp_path):
+    """Each is run as it says; a scene that is refused, or blows up, is told, and nothing stays but the page."""
+    scenes = [str(write(CLOTH, name, **more)) for name, more in (("one.json", {}), ("two.json", {"step": 2e-4, "every": 0.02}))]
+    there = set(tmp_path.iterdir())
+    told = hooke("view", scenes[0], cloth, scenes[1], "-o", "page.html", "--json").json
+    assert [(view["trajectory"], view["frames"]) for view in told["views"]] == [(scenes[0], 11), (cloth, 11), (scenes[1], 6)]
+    assert hooke("view", cloth, "nothing.json", "-o", "none.html").code == 3
+    answer = hooke("view", write(STIFF_PAIR, "stiff.json", duration=10), scenes[0], "-o", "stiff.html")
+    assert answer.code == 4 and "the run diverged" in answer.err
+    assert set(tmp_path.iterdir()) - there == {tmp_path / name for name in ("page.html", "stiff.json", "stiff.html")}
 
 
 def test_help(hooke):

@@ -513,6 +513,34 @@ def test_trajectories_beside_one_another_have_the_same_axes(browser, tmp_path):
 
 
 @pytest.mark.check
+def test_distances_from_the_first_run(browser, tmp_path):
+    """Those of the positions in the files, in lines that are longer by a factor, of the same particles at the same times alone."""
+    h5py, paths, far = pytest.importorskip("h5py"), [], []
+    for name, scene, more in (("full", CLOTH, {}), ("lean", CLOTH, {"method": "backward-euler", "step": 0.01}), ("other", STIFF_PAIR, {"step": 0.01, "duration": 1})):
+        make(tmp_path, scene, **more)
+        paths.append((tmp_path / "out.h5").rename(tmp_path / f"{name}.h5"))
+    with h5py.File(paths[0]) as full, h5py.File(paths[1]) as lean:
+        a, b = (file["particles/all/position/value"][:] for file in (full, lean))
+        far = np.linalg.norm(a - b, axis=-1).max(axis=1)
+    page, k = tmp_path / "both.html", len(far) // 2
+    assert subprocess.run([CLI, "view", *paths, "-o", page, "-q"]).returncode == 0
+    browser.size(1000, 700)
+    browser.open(page)
+    browser.run(f"frames[0].contentWindow.show({k}, true)")
+    browser.settle()
+    course = browser.run("""Object.values(frames[1].contentWindow.Chart.instances).find(({ canvas }) => canvas.parentNode.id === "apart-course")
+        .data.datasets[0].data.map(({ y }) => y)""")
+    assert course == pytest.approx(far, abs=2e-5) and max(course) > 1e-3
+    drawn = pytest.importorskip("matplotlib.image").imread(io.BytesIO(browser.picture()))[150:400, :, :3]
+    dark = [(drawn[:, part] < 0.25).all(axis=2).sum() for part in (np.s_[:480], np.s_[510:])]
+    assert dark[1] > dark[0] + 200
+    told = [browser.run(f"frames[{k}].contentDocument.getElementById('apart').textContent") for k in range(3)]
+    now, most = (float(number) for number in re.findall(r"([0-9.e-]+) m \(particle", told[1]))
+    assert now == pytest.approx(course[k], rel=5e-3) and most == pytest.approx(max(course), rel=5e-3)
+    assert told[0] == "" and told[2] == "not compared with full.h5" and browser.console == []
+
+
+@pytest.mark.check
 def test_trajectories_over_one_another(browser, tmp_path):
     """Each in its colour where it is alone; a picked spring has a line for each of them."""
     paths = []

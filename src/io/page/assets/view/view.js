@@ -83,7 +83,7 @@ function drawAxes() {
 
 /* ---- frames ---- */
 
-const energies = new Diagram(at("energies")), course = new Diagram(at("course")), watched = watchedDiagrams();
+const energies = new Diagram(at("energies")), course = new Diagram(at("course")), apart = new Diagram(at("apart-course")), watched = watchedDiagrams();
 let picture = null, shown = 0, playing = false, wanted = false, turned = false, time = data.time[0], before = 0, drawn = [];
 
 /* Draws at the next occasion, once. */
@@ -115,6 +115,7 @@ function show(k, now = false) {
   if (!playing) time = data.time[shown];
   energies.moveCursor();
   course.moveCursor();
+  apart.moveCursor();
   for (const [, drawn_] of watched) drawn_.moveCursor();
   if (now) drawNow();
   else draw();
@@ -150,6 +151,7 @@ window.share = (runs_) => {
   shared = runs_;
   data.strain = Math.max(...shared.map((one) => one.data.strain));
   if (picture) picture.setHome(boxAround(shared.map((one) => homeOf(one.data).home)));
+  findAparts();
   dress();
   show(shown);
 };
@@ -313,6 +315,7 @@ function dress() {
   drawEnergies();
   drawWatched();
   drawCourse();
+  drawApart();
   draw();
 }
 

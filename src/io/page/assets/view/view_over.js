@@ -45,6 +45,7 @@ window.drawOver = (others) => {
     picture.drawOver(runs.slice(1));
     picture.fitAll();
   }
+  findAparts();
   dress();
   relook();
 };

@@ -13,7 +13,7 @@ class Picture extends Run {
   constructor(canvas, run) {
     const { home, centre, radius } = homeOf(run.data);
     super(run, { home, centre, radius });
-    Object.assign(this, { canvas, others: [] });
+    Object.assign(this, { canvas, others: [], aparts: [] });
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: run.ends.length / 2 <= THICK_BELOW });
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
@@ -42,6 +42,16 @@ class Picture extends Run {
     for (const run of this.others) this.scene.add(...run.objects);
     this.home = boxAround([this.data, ...runs.map(({ data }) => data)].map((data) => homeOf(data).home));
     this.sized = "";
+  }
+
+  setApart(aparts) {
+    for (const { lines } of this.aparts) {
+      this.scene.remove(lines);
+      lines.geometry.dispose();
+      lines.material.dispose();
+    }
+    this.aparts = aparts;
+    for (const { lines } of aparts) this.scene.add(lines);
   }
 
   setUp() {
@@ -188,6 +198,7 @@ class Picture extends Run {
     const { runs } = this, frames = runs.map((run) => (run === this ? frame : this.frameOf(run, frame)));
     const unit = this.unitOf(boxAround(runs.map(({ data }, k) => data.box[frames[k]])));
     runs.forEach((run, k) => Run.prototype.show.call(run, frames[k], unit));
+    at("apart").replaceChildren(...this.aparts.map((one) => element("li", one.show(this.data.time[frame], unit))));
   }
 
   draw() {
