@@ -12,8 +12,6 @@ static const double NEAR = 30000.0;
 static const double OF_DAMPING = 0.5;
 /* Evaluations of forces that a pass over their elements takes. */
 static const double PASS = 40.0;
-/* Evaluations of a damped step that solves nothing. */
-static const double DAMPED = 2.0;
 /* Of all dampers, in a step of shardlow. */
 static const double SWEEPS = 2.0;
 
@@ -129,8 +127,8 @@ double hk_work_of_pass(const hooke_system *system) {
 
 double hk_work_at_least(const hooke_system *system, const char *name, int64_t steps) {
   const double work = hk_work_of_steps(system, name, steps);
-  if (!isnan(work)) return work;
-  return hk_method_find(name)->explicit_step ? DAMPED * (double)steps * hk_work_of_evaluation(system) : 0.0;
+  const int32_t twice = hk_method_find(name)->explicit_step != NULL; /* verlet evaluates, with damping */
+  return !isnan(work) ? work : twice ? 2.0 * (double)steps * hk_work_of_evaluation(system) : 0.0;
 }
 
 double hk_work_of_steps(const hooke_system *system, const char *name, int64_t steps) {

@@ -206,14 +206,13 @@ static double between(double low, double high) {
 static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
   const int32_t may_vanish = !degree->up && degree->property != HOOKE_NEEDS_STIFFNESS;
   double good = 1.0, bad = INFINITY;
-  int32_t status = HOOKE_OK, holds = 0;
+  int32_t holds;
   degree->factor = 1.0;
   degree->error = 0.0;
-  status = take_rung(needs, degree, LEAST, &holds);
+  int32_t status = take_rung(needs, degree, LEAST, &holds);
   if (holds != 1) return status;
-  holds = 0;
   if (may_vanish) status = take_rung(needs, degree, INFINITY, &holds);
-  if (holds == 1) return status;
+  if (may_vanish && holds == 1) return status;
   for (int32_t k = 1; good < MOST && isinf(bad) && status == HOOKE_OK; k++) {
     status = take_rung(needs, degree, hk_needs_rung(k), &holds);
     if (holds < 0) break;

@@ -228,10 +228,9 @@ static const double ALIKE = 1.2;                                          /* cos
 static const double SPARE = 1.3; /* of a run that might be cheaper, over the best one's work */
 static const double MOST_STEPS = 1e8;
 static const double SHARE_OF_LIMITS = 0.25; /* of the work that is left, at most for the limits of one row */
-static const double SHARE_OF_REFERENCE =
-    0.2;                                 /* approximate work of a run, as a fraction of the reference's */
-static const double DISPLACEMENT = 10.0; /* of the start, in halves of a unit in the last place */
-static const uint64_t SEED = 1;          /* of that */
+static const double SHARE_OF_REFERENCE = 0.2; /* of its work: that of a run of which nothing is known */
+static const double DISPLACEMENT = 10.0;      /* of the start, in halves of a unit in the last place */
+static const uint64_t SEED = 1;               /* of that */
 
 /* A run in the search. */
 struct result {
@@ -412,21 +411,18 @@ static double next_value(const struct search *s) {
   return value;
 }
 
-/* Of the method of the reference, by the run of that; 0 of others [s]. */
-static double cost_of_tolerance(const struct search *s, double rtol) {
-  const struct hk_reference *r = &s->pick->reference;
-  return strcmp(s->method, r->method) == 0 ? r->run_work * pow(fmin(1.0, r->rtol / rtol), LEAST_COST_POWER)
-                                           : 0.0;
-}
-
-/* Work of the first run where it is known, or what it takes at least; approximate work of the others [s]. */
+/* Work of the first run where it is known, by the reference's where that is of the method, or what it takes
+ * at least; approximate work of the others; 0: unknown [s]. */
 static double cost_of(const struct search *s, double value) {
   const struct hk_pick *pick = s->pick;
+  const struct hk_reference *r = &pick->reference;
   if (s->last.row.work > 0.0)
     return s->last.row.work * pow(s->last.row.value / value, s->adaptive ? COST_POWER : 1.0);
-  const double steps = ceil(pick->fraction * pick->duration / value);
-  return s->adaptive ? cost_of_tolerance(s, value)
-                     : hk_work_at_least(pick->system, s->method, (int64_t)steps);
+  if (!s->adaptive)
+    return hk_work_at_least(pick->system, s->method, (int64_t)ceil(pick->fraction * pick->duration / value));
+  if (strcmp(s->method, r->method) != 0) return 0.0;
+  const double part = r->hurried ? (double)r->trusted / (double)r->frames.recorded : 1.0;
+  return part * r->run_work * pow(fmin(1.0, r->rtol / value), LEAST_COST_POWER);
 }
 
 /* If the bound makes the step finer than the error requires, uses the limit at the start instead. */
