@@ -17,7 +17,6 @@
 /* The reference gets this fraction of a budget, a larger one if the rows are quick, and at least so many
  * seconds. */
 static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
-static const double CLOSE = 1e-3;      /* of the wanted error: no closer reference is asked for */
 static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
 /* Fraction of the budget for an ensemble, if one is needed. */
 static const double ENSEMBLE_SHARE = 0.3;
@@ -128,7 +127,6 @@ static int32_t make_reference(struct hk_study *study) {
       .run = study->m->run,
       .frame_count = hk_schedule_frames(study->duration, study->every),
       .digits = wants->most * wants->length / 10.0,
-      .close = CLOSE * wants->most * wants->length,
       .wants = wants,
       .brief = study->once,
       .keeps_state = !study->once,

@@ -44,8 +44,6 @@ struct hk_reference_request {
   /* 1: no tighter than needed to trust all frames, beginning loosely, and no growth. 0: down to 1e-9 of the
    * extent, while there is time */
   int32_t enough;
-  double close;    /* agreement at which tightening ends [m], if above 1e-9 of the extent, or where the next
-                    level brings none twice as close; 0 or NaN: not so */
   int32_t brief;   /* 1: it ends where the two part, and measures no growth */
   int32_t counted; /* 1: the budget is one of counted work, which is the same on any machine */
   double budget;   /* [s], infinity for none */
