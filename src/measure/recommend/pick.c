@@ -17,9 +17,9 @@
 /* All in counted work: at least so much [s], and so many times the picked run, the run itself once more among
  * them. */
 static const double LEAST_WORK = 1.8, RUNS = 9.0;
-static const double REFERENCE_RUNS = 4.0, REFERENCE_SHARE = 0.75; /* of it, at most for the reference */
+static const double REFERENCE_RUNS = 5.0, REFERENCE_SHARE = 0.75; /* of it, at most for the reference */
 static const double QUICK = 0.5,
-                    SLOWER = 8.0; /* of LEAST_WORK / RUNS: first cap of quick runs; to the next */
+                    SLOWER = 4.0; /* of LEAST_WORK / RUNS: first cap of quick runs; to the next */
 static const double QUICK_TOLERANCE = 1e-2;
 static const double DIGITS = 0.02;          /* of the wanted error: accuracy of the reference */
 static const double FRAMES_BYTES = 1 << 24; /* beyond MANY_FRAMES */
@@ -223,14 +223,15 @@ static const double AIM = 0.85, GOOD = 0.75; /* of the allowed error: target; go
 static const double CLOSE = 1.1;             /* a narrower bracket is not searched further */
 static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* factors from one value to the next */
 static const double LOOSER = 10.0;                                /* after a tolerance that took too long */
-static const double COST_POWER = 1.0 / 2.0, LEAST_COST_POWER = 1.0 / 6.0; /* of a run, in its tolerance */
-static const double ALIKE = 1.2;                                          /* costs within that are alike */
-static const double SPARE = 1.3; /* of a run that might be cheaper, over the best one's work */
+static const double COST_POWER = 1.0 / 2.0; /* cost of a run in its tolerance, at most */
+static const double ALIKE = 1.2;            /* costs within that are alike */
+static const double SPARE = 1.3;            /* of a run that might be cheaper, over the best one's work */
 static const double MOST_STEPS = 1e8;
 static const double SHARE_OF_LIMITS = 0.25; /* of the work that is left, at most for the limits of one row */
-static const double SHARE_OF_REFERENCE = 0.2; /* of its work: that of a run of which nothing is known */
-static const double DISPLACEMENT = 10.0;      /* of the start, in halves of a unit in the last place */
-static const uint64_t SEED = 1;               /* of that */
+static const double SHARE_OF_REFERENCE =
+    0.2;                                 /* approximate work of a run, as a fraction of the reference's */
+static const double DISPLACEMENT = 10.0; /* of the start, in halves of a unit in the last place */
+static const uint64_t SEED = 1;          /* of that */
 
 /* A run in the search. */
 struct result {
@@ -411,18 +412,14 @@ static double next_value(const struct search *s) {
   return value;
 }
 
-/* Work of the first run where it is known, by the reference's where that is of the method, or what it takes
- * at least; approximate work of the others; 0: unknown [s]. */
+/* Work of the first run where it is known, approximate work of the others [s]. */
 static double cost_of(const struct search *s, double value) {
   const struct hk_pick *pick = s->pick;
-  const struct hk_reference *r = &pick->reference;
   if (s->last.row.work > 0.0)
     return s->last.row.work * pow(s->last.row.value / value, s->adaptive ? COST_POWER : 1.0);
-  if (!s->adaptive)
-    return hk_work_at_least(pick->system, s->method, (int64_t)ceil(pick->fraction * pick->duration / value));
-  if (strcmp(s->method, r->method) != 0) return 0.0;
-  const double part = r->hurried ? (double)r->trusted / (double)r->frames.recorded : 1.0;
-  return part * r->run_work * pow(fmin(1.0, r->rtol / value), LEAST_COST_POWER);
+  const double steps = ceil(pick->fraction * pick->duration / value);
+  const double work = s->adaptive ? NAN : hk_work_of_steps(pick->system, s->method, (int64_t)steps);
+  return isnan(work) ? 0.0 : work;
 }
 
 /* If the bound makes the step finer than the error requires, uses the limit at the start instead. */
@@ -507,12 +504,13 @@ static double promise(const struct search *s, double *value) {
   *value = s->over || s->runs == MOST_RUNS ? NAN : next_value(s);
   if (isnan(*value) || (!s->adaptive && pick->duration / *value > MOST_STEPS)) return INFINITY;
   const double cost = cost_of(s, *value);
-  return cost > 0.0 ? cost : SHARE_OF_REFERENCE * pick->reference.run_work;
+  if (s->runs > 0) return cost;
+  return cost > 0.0 ? s->order * s->order * cost : SHARE_OF_REFERENCE * pick->reference.run_work;
 }
 
-/* 1 if a looser tolerance may be quick enough where the first one was not, and nothing else is. */
+/* 1 if a looser tolerance may be quick enough where the first one was not. */
 static int32_t loosen(struct search *s, double value) {
-  if (!s->adaptive || s->pick->met || !isnan(s->meets) || !isnan(s->fails) || value >= LOOSEST) return 0;
+  if (!s->adaptive || !isnan(s->meets) || !isnan(s->fails) || value >= LOOSEST) return 0;
   s->first = LOOSER * value;
   return 1;
 }
@@ -540,8 +538,7 @@ static int32_t advance(struct search *s, double value) {
   if (s->over) return HOOKE_OK;
   /* a first row is found in any case */
   double most = pick->best.method ? fmax(left, SPARE * pick->best.work) : 0.0;
-  /* nothing is coarser than the first step of a method */
-  if (pick->met) most = fmin(most, (s->adaptive || s->runs > 0 ? SPARE : 1.0) * ALIKE * pick->best.work);
+  if (pick->met) most = fmin(most, SPARE * ALIKE * pick->best.work);
   return try_value(s, value, most);
 }
 
