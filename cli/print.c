@@ -241,22 +241,39 @@ void cli_print_json(const char *format, ...) {
   va_end(args);
 }
 
+/* Whether the library takes it as JSON: what it then refuses is the key before it. */
+static int is_json(const char *before, const char *value, const char *after) {
+  struct cli_string text = {0};
+  hooke_scene *none = NULL;
+  cli_string_add(&text, "{\"hooke\":1,\"set\":%s%s%s}", before, value, after);
+  if (text.bytes) (void)hooke_scene_parse(text.bytes, (int64_t)strlen(text.bytes), "set", NULL, NULL, &none);
+  const int is = text.bytes && strncmp(hooke_last_error(), "set:1:12:", 9) == 0;
+  free(text.bytes);
+  return is;
+}
+
+/* Values between commas are an array; what is no JSON is a text. */
+static void print_set(const char *value) {
+  const int alone = is_json("", value, ""), listed = is_json("[", value, "]");
+  if (alone && (listed || *value == '[')) /* and not a value with other members */
+    fputs(value, stdout);
+  else if (listed)
+    printf("[%s]", value);
+  else
+    write_string(value);
+}
+
 void cli_print_json_set(const hooke_options *limits) {
   struct cli_string copy = {0};
   const char *before = "{";
-  char *value, *end;
   if (limits) cli_string_add(&copy, "%s", hooke_options_text(limits, "set"));
   for (char *path = copy.bytes, *next; path && *path; path = next, before = ", ") {
     next = path + strcspn(path, "\n");
     if (*next) *next++ = '\0';
-    value = path + strcspn(path, "=");
+    char *value = path + strcspn(path, "=");
     if (*value) *value++ = '\0';
-    const double number = strtod(value, &end);
     cli_print_json(before[0] == '{' ? "'set': {%s: " : ", %s: ", path);
-    if (*value && *end == '\0' && isfinite(number))
-      cli_print_json("%g", number);
-    else
-      cli_print_json("%s", value);
+    print_set(value);
   }
   if (before[0] == ',') cli_print_json("}, ");
   free(copy.bytes);

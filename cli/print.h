@@ -59,8 +59,8 @@ void cli_print_fact(int32_t indent, int32_t width, const char *label, const char
  * null if it is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text() replaces
  * are escaped); by nothing else. */
 void cli_print_json(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* The member "set" with a comma after it, numbers as numbers, if these options of loading a scene (NULL:
- * none) have it. */
+/* The member "set" with a comma after it, values as the library takes them, if these options of loading a
+ * scene (NULL: none) have it. It may change the last error. */
 void cli_print_json_set(const hooke_options *limits);
 /* After `before`, what hooke_measurement_json() says, without the brackets around it. HOOKE_NO_MEMORY, with
  * nothing printed. */

@@ -140,7 +140,7 @@ function(hooke_complete_sundials)
 endfunction()
 
 # The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
-# looked up by name. One of them ("sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5") per call.
+# looked up by name. One of them ("sundials", "cholmod", "lapack", "gsl", "hdf5") per call.
 macro(hooke_find name)
   if("${name}" STREQUAL "sundials")
     hooke_find_library(sundials
@@ -171,14 +171,6 @@ macro(hooke_find name)
       HEADER gsl/gsl_version.h
       LIBRARIES gsl gslcblas
       VERSION gsl/gsl_version.h "GSL_VERSION \"([^\"]+)\"")
-  elseif("${name}" STREQUAL "arpack") # its headers do not tell its version
-    find_file(HOOKE_ARPACK_VERSION_FILE arpack.pc
-      PATH_SUFFIXES lib/${CMAKE_LIBRARY_ARCHITECTURE}/pkgconfig lib/pkgconfig share/pkgconfig)
-    mark_as_advanced(HOOKE_ARPACK_VERSION_FILE)
-    hooke_find_library(arpack
-      HEADER arpack/arpack.h
-      LIBRARIES arpack
-      VERSION "${HOOKE_ARPACK_VERSION_FILE}" "^Version: *([0-9.]+)")
   elseif("${name}" STREQUAL "hdf5")
     hooke_find_library(hdf5 # the serial one
       HEADER hdf5.h

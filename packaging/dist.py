@@ -30,7 +30,6 @@ LICENCES = {
     "cholmod": "LGPL-2.1-or-later AND GPL-2.0-or-later",
     "lapack": "BSD-3-Clause",
     "gsl": "GPL-3.0-or-later",
-    "arpack": "BSD-3-Clause",
     "hdf5": "BSD-3-Clause",
     "chartjs": "MIT",
     "threejs": "MIT",

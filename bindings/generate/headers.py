@@ -88,13 +88,3 @@ def write(path, text):
     path.parent.mkdir(parents=True, exist_ok=True)
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.write_text(text, encoding="utf-8")
-
-
-def signature_complaints(text, opaque, callbacks):
-    """Statements of a header that are not part of the allowed language: numbers by value, and pointers."""
-    pointed = "|".join(sorted({"void", "char", *NUMBERS, *opaque, *callbacks}))
-    value = rf"(?:{'|'.join(NUMBERS)}|(?:const )?(?:{pointed}) ?\*(?: ?\*)?)"
-    parameters = rf"void|{value} ?\w+(?:, {value} ?\w+)*"
-    allowed = rf"typedef struct ({NAME}) \1|(?:HOOKE_API|typedef) (?:void|{value}) ?{NAME} ?\((?:{parameters})\)"
-    return [f"line {line}: `{words}` is not an opaque struct, a callback or a function with HOOKE_API, or has other types"
-            for line, words in statements(text) if not re.fullmatch(allowed, words)]

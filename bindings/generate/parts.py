@@ -15,7 +15,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, TypedDict, TypeVar, Union
 
+from ._signature import takes
 from ._types import IntArray, Numbers, Particle, Path, Pins
+
+__all__ = ["Curve", "Springs", "Transform"]
 
 Quantity = Union[float, str]  #: a number, or one with a unit: "200g"
 S = TypeVar("S", bound="Parts")
@@ -129,7 +132,7 @@ def method(kind, schema):
         arguments = ["self: S", *named, "*", *required, *optional]
     note = [f"        {NOTES[kind]}", ""] if kind in NOTES else []
     call = f'_group("{kind}", "{LISTS[kind]}", locals())' if kind in LISTS else f'_part("{kind}", locals())'
-    return ["", f"    def {kind}(", *(f"        {one}," for one in arguments), "    ) -> S:",
+    return ["", "    @takes()", f"    def {kind}(", *(f"        {one}," for one in arguments), "    ) -> S:",
             f'        """Adds {ADDED.get(kind, f"a {kind}")} and returns the scene.', "", *note, *described(keys, "        "),
             '        """', f"        return self.{call}"]
 

@@ -158,11 +158,11 @@ void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
 /* ---- version ---- */
 
 int cli_version_print(const struct cli_program *program, const char *value) {
-  static const char *const parts[][2] = {
-      {"SUNDIALS", "sundials"}, {"CHOLMOD", "cholmod"},  {"LAPACK", "lapack"},
-      {"GSL", "gsl"},           {"ARPACK-NG", "arpack"}, {"HDF5", "hdf5"},
-      {"Chart.js", "chartjs"},  {"three.js", "threejs"}, {"instructions", "instructions"},
-      {"licence", "licence"}};
+  static const char *const parts[][2] = {{"SUNDIALS", "sundials"}, {"CHOLMOD", "cholmod"},
+                                         {"LAPACK", "lapack"},     {"GSL", "gsl"},
+                                         {"HDF5", "hdf5"},         {"Chart.js", "chartjs"},
+                                         {"three.js", "threejs"},  {"instructions", "instructions"},
+                                         {"licence", "licence"}};
   (void)program, (void)value;
   printf("hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
   printf("%-13s %d on this machine\n", "threads", (int)cli_os_processors());

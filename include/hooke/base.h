@@ -71,7 +71,7 @@ HOOKE_API const char *hooke_version(void);
 HOOKE_API int32_t hooke_abi(void);
 
 /* A fact about this build, as text that lives as long as the process. `what` is one of
- *   "sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5",
+ *   "sundials", "cholmod", "lapack", "gsl", "hdf5",
  *   "chartjs", "threejs"                    the version in use, or "" when the build is without it
  *   "machine"                               processor architecture of the build: "x86-64", "aarch64", "other"
  *   "instructions"                          the instruction set that the force loops use on this machine

@@ -147,9 +147,7 @@ HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
  * velocities): M x'' + C x' + K x = 0 over the free particles. K has the tension of stretched springs,
  * bending, and altitude springs without their tension; C is that of springs, altitude springs and drag. The
  * transverse stiffness of a compressed spring is negative and counts as zero: buckling is growth by physics
- * and no limit of a step. Callbacks are left out; springs that only pull count as taut. Needs LAPACK. Scenes
- * of 34 to 3333 free particles use ARPACK where it is built in; ARPACK is not thread-safe, so its searches
- * wait for each other.
+ * and no limit of a step. Callbacks are left out; springs that only pull count as taut. Needs LAPACK.
  *
  * All eigenvalues are known up to 133 free particles, and up to 500 where damping is in proportion to
  * stiffness or there is none; with C = beta K one decides at any size. Beyond that the limits of symplectic

@@ -11,7 +11,7 @@ class Hooke < Formula
   uses_from_macos "python" => :build
 
   def install
-    without = %w[CHOLMOD GSL ARPACK CHARTJS THREEJS].map { |part| "-DHOOKE_#{part}=OFF" }
+    without = %w[CHOLMOD GSL CHARTJS THREEJS].map { |part| "-DHOOKE_#{part}=OFF" }
     system "cmake", "-S", ".", "-B", "build", "-DBUILD_TESTING=OFF", *without, *std_cmake_args
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"

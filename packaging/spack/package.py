@@ -17,7 +17,6 @@ class Hooke(CMakePackage):
         "cholmod": "suite-sparse",
         "lapack": "lapack",
         "gsl": "gsl",
-        "arpack": "arpack-ng",
         "hdf5": "hdf5~mpi",
     }
     for part, package in parts.items():

@@ -5,7 +5,7 @@ vcpkg_from_github(
   SHA512 0
 )
 vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES hdf5 HOOKE_HDF5)
-foreach(part SUNDIALS CHOLMOD LAPACK GSL ARPACK CHARTJS THREEJS)
+foreach(part SUNDIALS CHOLMOD LAPACK GSL CHARTJS THREEJS)
   list(APPEND features -DHOOKE_${part}=OFF)
 endforeach()
 vcpkg_find_acquire_program(PYTHON3)

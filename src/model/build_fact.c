@@ -38,9 +38,8 @@ const char *hooke_build_fact(const char *what) {
   if (!strcmp(what, "cholmod")) return HOOKE_CHOLMOD_VERSION;
   if (!strcmp(what, "lapack")) return HOOKE_LAPACK_VERSION;
   if (!strcmp(what, "gsl")) return HOOKE_GSL_VERSION;
-  if (!strcmp(what, "arpack")) return HOOKE_ARPACK_VERSION;
   if (!strcmp(what, "hdf5")) return HOOKE_HDF5_VERSION;
-  if (!strcmp(what, "jansson")) return ""; /* scenes needed it once */
+  if (!strcmp(what, "arpack") || !strcmp(what, "jansson")) return ""; /* were needed once */
   if (!strcmp(what, "chartjs")) return HOOKE_CHARTJS_VERSION;
   if (!strcmp(what, "threejs")) return HOOKE_THREEJS_VERSION;
   if (!strcmp(what, "instructions")) return hk_kernel_instructions();

@@ -16,7 +16,7 @@ CONSUMER = Path(__file__).with_name("consumer")
 EXAMPLES = ROOT / "examples/c"
 CMAKE, CC, CXX = os.environ["HOOKE_CMAKE"], os.environ["HOOKE_CC"], os.environ["HOOKE_CXX"]
 PRESET = os.environ["HOOKE_PRESET"]
-PARTS = ("SUNDIALS", "CHOLMOD", "LAPACK", "GSL", "ARPACK", "HDF5", "CHARTJS")
+PARTS = ("SUNDIALS", "CHOLMOD", "LAPACK", "GSL", "HDF5", "CHARTJS")
 QUICK = ("-DHOOKE_KERNEL_OPTIMISATION=-O0", "-DHOOKE_KERNEL_COPIES=OFF")  # to compile
 DATE = re.compile(r"\d{4}-\d\d-\d\d")  # of the build, in the manual page
 VERSION = re.search(r'#define HOOKE_VERSION +"(.+)"', (ROOT / "include/hooke/base.h").read_text()).group(1)

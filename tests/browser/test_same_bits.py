@@ -54,7 +54,7 @@ def test_final_states(told):
 
 
 def test_limits(told):
-    """LAPACK and ARPACK here, f2c's LAPACK and the library's own search there."""
+    """LAPACK here, f2c's LAPACK there."""
     there = {(run["scene"], run["method"]): result["limit"] for run, result in zip(runs(), told["results"]) if result["limit"]}
     if not there:
         pytest.skip("this build of the playground has no LAPACK")

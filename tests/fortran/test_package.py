@@ -106,4 +106,4 @@ def test_subdirectory(tmp_path):
     """hooke::fortran exists in a project that has Fortran and builds hooke itself."""
     body = f"add_subdirectory({ROOT} hooke EXCLUDE_FROM_ALL)\nif(NOT TARGET hooke::fortran)\nmessage(FATAL_ERROR none)\nendif()"
     configure(project(tmp_path / "source", "C Fortran", body), tmp_path / "build",
-              *(f"-DHOOKE_{part}=OFF" for part in ("SUNDIALS", "CHOLMOD", "GSL", "ARPACK", "HDF5")))
+              *(f"-DHOOKE_{part}=OFF" for part in ("SUNDIALS", "CHOLMOD", "GSL", "HDF5")))

@@ -96,7 +96,7 @@ static uint64_t queries(int thread) {
   return hash;
 }
 
-/* ARPACK, which the limit of this chain takes, may be used by one thread at a time only. */
+/* The extreme eigenvalues of a chain. */
 static uint64_t top_modes(int thread) {
   (void)thread;
   hooke_options *options = NULL;

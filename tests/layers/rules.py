@@ -39,7 +39,6 @@ FENCES = [
     (r"cholmod\.h", r"src/integrate/solve/\w+_cholmod\.c"),
     (r"lapacke?\w*\.h", r"src/measure/spectrum/eigen/\w+_lapack\.c"),
     (r"gsl/.*", r"src/integrate/method/\w+_gsl\.c|tests/(physics|support)/\w+\.c"),
-    (r"arpack/.*", r"src/measure/spectrum/eigen/\w+_arpack\.[ch]"),
     (r"execinfo\.h", r"tests/fault/(process_faults|places)\.c"),  # of glibc
     (r"sys/syscall\.h", r"tests/crash/crash\.c"),  # of Linux
     (r"malloc\.h", r"cli/os/os_posix\.c|src/core/os/os_windows\.c|tests/physics/test_scale\.c|tests/long/\w+\.c"),

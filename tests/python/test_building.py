@@ -362,7 +362,7 @@ ERRORS = [
     ),
     (lambda s: s.driven(99, amplitude=(1, 0, 0), frequency=2), "driven[0].particles[0]: there is no particle 99"),
     (lambda s: s.run_defaults(duration=1, step=-1), "run.step: -1 is not allowed"),
-    (lambda s: s.run_defaults(stepp=1), 'run: unknown option "stepp"'),
+    (lambda s: s.run_defaults(stepp=1), 'run_defaults: unknown keyword "stepp"'),
 ]
 
 

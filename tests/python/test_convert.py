@@ -42,7 +42,7 @@ def test_a_mesh():
     assert told == ["cells: vertex", "data: heat", "what held 1 points that are in no edge: they are free particles"]
     assert scene.system.spring_count == 6 and scene.system.masses.sum() == 10
     hexahedron = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
-    system = from_meshio(meshio.Mesh(hexahedron, [("hexahedron", [range(8)])]), mass=1, stiffness=1).system
+    system = from_meshio(meshio.Mesh(hexahedron, [("hexahedron", [range(8)])]), mass="1 kg", stiffness="1 N").system
     lengths = np.linalg.norm(np.diff(hexahedron[system.spring_ends], axis=1), axis=2)
     assert system.spring_count == 12 and (lengths == 1).all()
 

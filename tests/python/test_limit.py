@@ -175,6 +175,12 @@ def test_picture():
     again = found.plot((plane, reach), step=0.1)
     np.testing.assert_array_equal(again[0].lines[-1].get_xydata()[:, 0], 0.1 * np.r_[found.modes, found.modes].real)
     again[0].figure.canvas.draw()
+    same = found.plot(step="100 ms")[0].lines[-1].get_xydata()
+    np.testing.assert_array_equal(same, again[0].lines[-1].get_xydata())
+    found = hooke.limit(build_damped(0.8), methods="backward-euler")
+    plane, reach = found.plot()  # neither a step nor a limit
+    assert "backward-euler: everywhere" in [line.get_label() for line in reach.lines]
+    assert np.hypot(*plane.lines[-1].get_xydata().T).max() == pytest.approx(2)
     plt.close("all")
 
 

@@ -4,6 +4,7 @@ reaches no further than its frame."""
 import copy
 import html
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -148,3 +149,11 @@ def test_a_film_without_ffmpeg(scene, tmp_path, monkeypatch):
             film.save(tmp_path / "film.mp4")
         film.save(tmp_path / "film.html")
     assert "<img" in (tmp_path / "film.html").read_text("utf-8")
+
+
+@needs_pages
+def test_a_scene_without_a_title_has_a_picture_and_no_warning():
+    scene = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1).springs(between=[[0, 1]], stiffness=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # nothing moves
+        assert "<iframe" in scene._repr_html_()

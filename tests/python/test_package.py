@@ -99,6 +99,17 @@ print(integrator.run(state))
     assert (run.returncode, run.stdout, run.stderr) == (0, "finished\n", "")
 
 
+def test_a_subinterpreter_runs():
+    """Which has no signals."""
+    inside = "import hooke; system = hooke.System(); system.add_particles([[0, 0, 0]], [[1, 0, 0]], mass=1); " \
+             "print(hooke.run(system, method='rk4', step=0.5, duration=2.0).state.q[0, 0])"
+    code = f"import _xxsubinterpreters as of; of.run_string(of.create(), {inside!r})"
+    run = python(code, PYTHONPATH=PACKAGES, HOOKE_LIBRARY=lib.path, PYTHONWARNINGS="ignore")
+    if "No module named" in run.stderr or "numpy" in run.stderr:
+        pytest.skip("NumPy loads in none here")
+    assert run.stdout == "2.0\n", run.stderr
+
+
 @pytest.mark.parametrize("first", ["h5py", "hooke"])
 def test_h5py_and_the_library_get_along(first, tmp_path):
     """Each brings its own HDF5."""

@@ -128,3 +128,16 @@ def test_errors_pass_between_processes():
     failure = hooke.SolverFailed("no")
     failure.integrator = hooke.Integrator(build_scene().system, **RUN)
     assert again(failure).diagnosis == "no"
+
+
+def test_a_pickle_runs_nothing_and_its_result_finds_its_error(monkeypatch):
+    result = build_scene().run()
+    with monkeypatch.context() as patch:
+        patch.setattr("hooke.results._settled", None)  # without which nothing runs
+        other = again(result)
+    assert other.error.estimate == result.error.estimate > 0 and str(other) == str(result)
+    system = hooke.System()
+    system.add_part("rope", from_=(0, 0, 0), to=(1, 0, 0), segments=2, mass=1, stretch={"stiffness": 1})
+    system.add_particles([[5.0, 0, 0]], mass=1)
+    lost = again(hooke.run(system, **RUN))
+    assert lost.error is None and str(lost) == repr(lost)

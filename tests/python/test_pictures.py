@@ -68,7 +68,7 @@ def test_quantities_over_time(tmp_path):
 
 def test_work_and_precision():
     study = hooke.study(build_oscillator(), ["verlet", "rk4"], duration=1, want=1e-4)
-    axes = hooke.plot.work_precision(study, cost="force_evaluations", want=1e-4)
+    axes = hooke.plot.work_precision(study, cost="force_evaluations", want="0.1mm")
     lines = {line.get_label(): line for line in axes.lines}
     rows = study.rows[study.method == "rk4"]
     np.testing.assert_array_equal(lines["rk4"].get_xdata(), rows["force_evaluations"][rows["error_max"] > 0])

@@ -33,6 +33,30 @@ def test_methods_have_them_too():
     assert {"watch", "at"} <= set(inspect.signature(hooke.Scene.rest).parameters)
 
 
+@pytest.mark.parametrize("call, of, nearest", [
+    (lambda scene: hooke.run(scene, wnat="1mm"), "run", "want"), (lambda scene: scene.run(stepp=1), "run", "step"),
+    (lambda scene: hooke.limit(scene, methds="rk4"), "limit", "methods"),
+    (lambda scene: hooke.resume("x.h5", progres=True), "resume", "progress"),
+    (lambda scene: hooke.Integrator(scene.system, stepp=1), "Integrator", "step"),
+    (lambda scene: hooke.Scene(gravty=(0, 0, 0)), "Scene", "gravity"),
+    (lambda scene: hooke.Scene().rope(segmnts=4), "rope", "segments"),
+    (lambda scene: hooke.sweep(scene, {}, executr=None), "sweep", "executor"),
+])  # fmt: skip
+def test_unknown_keywords_name_the_nearest(call, of, nearest):
+    with pytest.raises(TypeError, match=f'^{of}: unknown keyword ".*"; did you mean "{nearest}"') as told:
+        call(hooke.Scene.parse(SIX_PARTICLES))
+    assert isinstance(told.value, hooke.BadValue)
+
+
+def test_a_document_is_a_scene_and_other_things_are_none():
+    assert (hooke.run(SIX_PARTICLES).state.q == hooke.Scene.parse(SIX_PARTICLES).run().state.q).all()
+    for thing in (None, [1], 3):
+        with pytest.raises(TypeError, match="a scene, its path or document, or a system is needed"):
+            hooke.run(thing)
+    with pytest.raises(hooke.BadValue, match="^duration: is missing"):
+        hooke.run({**SIX_PARTICLES, "run": {"method": "rk4"}})
+
+
 @pytest.mark.parametrize("options", [{"every": 0.05}, {"step": 1.02e-3, "every": 0.05}, {"step": 3e-3, "duration": 0.4, "every": 0.01}])
 def test_a_run_fits_its_step_as_the_program_does(tmp_path, options):
     scene = hooke.Scene.parse({**SIX_PARTICLES, "run": {"method": "verlet", "duration": 0.5}})

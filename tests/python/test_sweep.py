@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
@@ -106,8 +107,10 @@ def test_rows_that_do_not_finish_have_a_reason(tmp_path):
     output = tmp_path / "rows.jsonl"
     values = [{"line.stretch.stiffness": -1}, {"lime.mass": 1}, {"run.step": 0.01, "line.stretch.stiffness": 1e7, "run.duration": 5},
               {"gravity": [0, -1, 0]}]  # fmt: skip
-    with pytest.warns(hooke.StepWarning):
-        rows = hooke.sweep(hooke.Scene.parse(ROPE), values, output=output, watch="4.y")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rows = hooke.sweep(ROPE, values, output=output, watch="4.y")
+    assert "above" in rows[2]["warnings"] and rows[3]["warnings"] == ""
     assert [row["status"] for row in rows] == ["refused", "refused", "diverged", "finished"]
     assert "stretch.stiffness: -1 is not allowed" in rows[0]["reason"] and 'did you mean "line"' in rows[1]["reason"]
     assert rows[2]["reason"] and rows[2]["time"] < 5 and "4.y" in rows[2] and rows[3]["gravity"] == [0, -1, 0]
@@ -136,15 +139,18 @@ def test_measurements_are_rows():
     limits = [hooke.limit(hooke.Scene.parse(ROPE, set={"line.stretch.stiffness": k}), predict=True, methods="rk4") for k in (100, 1000)]
     assert [row["frequency_max"] for row in found] == [limit.frequency_max for limit in limits]
     assert [row["claims"] for row in found] == [str(limit) for limit in limits]
+    assert [row["rk4.predicted"] for row in found] == [limit["rk4"]["predicted"] for limit in limits]
+    modes, each = hooke.sweep(ROPE, {"drag": 0.1}, run=hooke.modes)[0], hooke.modes(hooke.Scene.parse(ROPE, set={"drag": 0.1}))
+    assert [modes[f"{k}.frequency"] for k in range(len(each.rows))] == each.rows["frequency"].tolist()
     study = hooke.sweep(hooke.Scene.parse(ROPE), {"run.duration": 0.02}, run=hooke.study, methods="verlet", points=6, want=1e-3)[0]
     assert study["recommendation.method"] == "verlet" and study["recommendation.error"] <= 1e-3
 
 
 def test_mistakes_of_the_call_are_not_rows(path, tmp_path):
-    for options, kind in (({"stepp": 1}, TypeError), ({"step": 1e-3}, hooke.BadValue)):
-        with pytest.raises(kind, match="step"):
+    for options, kind in (({"stepp": 1}, TypeError), ({"step": 1e-3}, hooke.BadValue), ({"run": hooke.limit, "methds": "step"}, TypeError)):
+        with pytest.raises(kind, match="step|methods"):
             hooke.sweep(path, VARY, output=tmp_path / "rows.jsonl", **options)
-    assert (tmp_path / "rows.jsonl").read_text() == ""
+    assert not (tmp_path / "rows.jsonl").exists()
     scene = hooke.Scene.parse(ROPE)
     hooke.sweep(scene, {"run.step": 1e-3})
     scene = hooke.Scene(run=ROPE["run"]).particles([[0, 0, 0], [1, 0, 0]], mass=1)
@@ -153,6 +159,29 @@ def test_mistakes_of_the_call_are_not_rows(path, tmp_path):
         hooke.sweep(scene, {"run.step": 1e-3})
     with pytest.raises(FileNotFoundError):
         hooke.sweep(tmp_path / "none.json", {})
+
+
+def test_what_writes_a_table_is_missed_before_the_runs(path, tmp_path, monkeypatch):
+    pandas, ran = pytest.importorskip("pandas"), []
+
+    def missing(*_, **__):
+        raise ImportError("no pyarrow")
+
+    monkeypatch.setattr(pandas.DataFrame, "to_parquet", missing)
+    with pytest.raises(ImportError, match="pyarrow"):
+        hooke.sweep(path, VARY, output=tmp_path / "rows.parquet", run=lambda scene: ran.append(scene))
+    assert not ran
+
+
+def test_a_scene_keeps_the_folder_of_its_files(tmp_path):
+    (tmp_path / "scene").mkdir()
+    (tmp_path / "scene" / "tri.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    part = {"kind": "mesh", "file": "tri.obj", "mass": 1, "pinned": [0], "structural": {"stiffness": 10}}
+    (tmp_path / "scene" / "scene.json").write_text(json.dumps({**ROPE, "parts": [part]}))
+    rows = [hooke.sweep(scene, {"drag": [0, 1]}, watch="2.y") for scene in (
+        tmp_path / "scene" / "scene.json", hooke.Scene.load(tmp_path / "scene" / "scene.json"),
+        hooke.Scene.parse({**ROPE, "parts": [part]}, folder=tmp_path / "scene"))]  # fmt: skip
+    assert timeless(rows[0]) == timeless(rows[1]) == timeless(rows[2]) and rows[0][0]["status"] == "finished"
 
 
 def test_tables(path, tmp_path):

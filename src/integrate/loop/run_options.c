@@ -124,9 +124,12 @@ static int32_t refuse_step(const char *name, double value, double other, double 
 }
 
 static int32_t read_fixed(struct hk_schedule *s, double step) {
-  if (isnan(step)) {
-    return hk_fail(HOOKE_BAD_VALUE, "step", "is missing; this method needs a step > 0 [s]");
-  }
+  if (isnan(step))
+    return isnan(s->duration)
+               ? hk_fail(
+                     HOOKE_BAD_VALUE, "duration",
+                     "is missing, and so is step; a run needs the time to run, > 0 [s], and single steps a step")
+               : hk_fail(HOOKE_BAD_VALUE, "step", "is missing; this method needs a step > 0 [s]");
   if (!isnan(s->duration) && !is_multiple(s->duration, step, &s->steps)) {
     return refuse_step("duration", s->duration, s->every, step);
   }

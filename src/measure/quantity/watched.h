@@ -84,14 +84,11 @@ int32_t hk_watched_mark_particles(const hooke_system *system, const char *where,
 /* "m", "N", "J", "s", "" */
 const char *hk_watched_unit(const struct hk_watched *watched);
 
-/* Value at positions q and velocities v (rows); for a period the value of its quantity. Tension is the force
- * along the spring, including damping: positive where it pulls its ends together, 0 where a spring that only
- * pulls is slack. A reaction is m a - f: m the mass as given, a the acceleration of the drive, 0 where
- * pinned and in overdamped systems, f all forces on the particle and its own weight. It takes an evaluation
- * of the forces, callbacks included; NaN if one stops it, and without memory. */
-double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, double t,
-                        const double *q, const double *v);
-/* All of a list, with one evaluation for all reactions. */
+/* Values of a list at positions q and velocities v (rows); for a period that of its quantity. Tension is the
+ * force along the spring, including damping: positive where it pulls its ends together, 0 where a spring that
+ * only pulls is slack. A reaction is m a - f: m the mass as given, a the acceleration of the drive, 0 where
+ * pinned and in overdamped systems, f all forces on the particle and its own weight. Reactions take one
+ * evaluation of the forces, callbacks included; NaN if one stops it, and without memory. */
 void hk_watched_values(const struct hk_watched_list *list, double t, const double *q, const double *v,
                        double *value);
 

@@ -77,29 +77,17 @@ static double value_of(const struct hk_watched *watched, const hooke_system *sys
                         : value_of_spring(watched->what->kind, system, watched->spring, t, q, v);
 }
 
-static void values_of(int64_t count, const struct hk_watched *watched, const hooke_system *system, double t,
-                      const double *q, const double *v, double *value) {
-  double *force = NULL;
-  int32_t some = 0;
-  for (int64_t k = 0; k < count; k++)
-    some |= watched[k].what->kind == HOOKE_WATCHED_REACTION;
-  if (some) force = hk_new(3 * system->particle_count, sizeof(double));
-  const int32_t known = force && hooke_system_force(system, t, q, v, force) == HOOKE_OK;
-  for (int64_t k = 0; k < count; k++)
-    value[k] = value_of(&watched[k], system, t, q, v, known ? force : NULL);
-  hk_free(force);
-}
-
-double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, double t,
-                        const double *q, const double *v) {
-  double value;
-  values_of(1, watched, system, t, q, v, &value);
-  return value;
-}
-
 void hk_watched_values(const struct hk_watched_list *list, double t, const double *q, const double *v,
                        double *value) {
-  values_of(list->count, list->item, list->system, t, q, v, value);
+  double *force = NULL;
+  int32_t some = 0;
+  for (int64_t k = 0; k < list->count; k++)
+    some |= list->item[k].what->kind == HOOKE_WATCHED_REACTION;
+  if (some) force = hk_new(3 * list->system->particle_count, sizeof(double));
+  const int32_t known = force && hooke_system_force(list->system, t, q, v, force) == HOOKE_OK;
+  for (int64_t k = 0; k < list->count; k++)
+    value[k] = value_of(&list->item[k], list->system, t, q, v, known ? force : NULL);
+  hk_free(force);
 }
 
 /* ---- periods ---- */

@@ -59,8 +59,7 @@ static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out
   take_mode(s, s->stiffest_mode, out);
   out->limit = reach(s->stiffest, s->beta * s->stiffest + s->delta, 0.0);
   if (s->proportional) return HOOKE_OK;
-  const double tolerance =
-      lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? fmin(1e-7, 1e-2 * s->accuracy) : s->accuracy;
+  const double tolerance = lin->unknowns <= HOOKE_FEW_UNKNOWNS ? fmin(1e-7, 1e-2 * s->accuracy) : s->accuracy;
   double *work = hk_new(lin->size, sizeof(double)), value = 0.0, change = INFINITY;
   if (work == NULL) return HOOKE_NO_MEMORY;
   int32_t status = HOOKE_OK;

@@ -20,8 +20,6 @@ static const double UNDAMPED = 1e-18;
 /* Stiffness over the square of drag, below which drag alone says how motion decays, to a billionth. */
 static const double SOFT = 1e-9;
 
-enum { MODES_OF_STIFFNESS = 8, MODES_OF_DAMPING = 4, MOST_OF_BASIS = 16 };
-
 void hk_spectrum_release(struct hk_spectrum *s) {
   hk_free(s->stiffest_mode);
   hk_free(s->value);
@@ -250,32 +248,14 @@ static void extend(const struct hk_linearised *lin, const double *x, double *bas
   ++*count;
 }
 
-/* Computes more modes by ARPACK than the known one, where it serves. */
-static int32_t extend_by_arpack(struct hk_spectrum *s, int32_t damping, double *basis, int64_t *count) {
-  struct hk_linearised *lin = s->linearised;
-  const int64_t wanted = damping ? MODES_OF_DAMPING : MODES_OF_STIFFNESS;
-  if (!HOOKE_HAVE_ARPACK || lin->unknowns > HOOKE_ARPACK_UNKNOWNS) return HOOKE_OK;
-  double *mode = hk_new(wanted * lin->size, sizeof(double)), value[MODES_OF_STIFFNESS];
-  if (mode == NULL) return HOOKE_NO_MEMORY;
-  hk_linearised_start(lin, mode);
-  hk_linearised_combine(lin, !damping, damping);
-  int32_t status = hk_dominant_modes_arpack(lin, wanted, fmin(s->accuracy, 1e-3), value, mode);
-  for (int64_t j = 0; j < wanted && status == HOOKE_OK; j++)
-    extend(lin, mode + j * lin->size, basis, count);
-  hk_free(mode);
-  return status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
-}
-
 static int32_t solve_part(struct hk_spectrum *s, const double *decaying) {
   struct hk_linearised *lin = s->linearised;
   int64_t r = 0;
-  double *basis = hk_new(MOST_OF_BASIS * lin->size, sizeof(double));
+  double *basis = hk_new(2 * lin->size, sizeof(double));
   if (basis == NULL) return HOOKE_NO_MEMORY;
   extend(lin, s->stiffest_mode, basis, &r);
   extend(lin, decaying, basis, &r);
-  int32_t status = extend_by_arpack(s, 0, basis, &r);
-  if (status == HOOKE_OK) status = extend_by_arpack(s, 1, basis, &r);
-  if (status == HOOKE_OK) status = solve_damped(s, r, basis);
+  const int32_t status = solve_damped(s, r, basis);
   hk_free(basis);
   return status;
 }
@@ -318,7 +298,7 @@ static int32_t find_fastest_decay(struct hk_spectrum *s, double *decaying) {
   s->fastest_decay = s->beta * s->stiffest + s->delta;
   if (s->proportional) return HOOKE_OK;
   /* in large scenes only its value is used, and a part of a partial spectrum */
-  const double accuracy = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? s->accuracy : 4.0 * s->accuracy;
+  const double accuracy = lin->unknowns <= HOOKE_FEW_UNKNOWNS ? s->accuracy : 4.0 * s->accuracy;
   return hk_dominant_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
 }
 

@@ -30,109 +30,39 @@ except ModuleNotFoundError as missing:
         "hooke needs NumPy, which this Python has not: pip install numpy (Debian: python3-numpy)", name=missing.name
     ) from None
 
-from .why import Why  # isort: skip  # before the function that has the name of its module
-from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
-from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
-from .cost import Check, Cost, check, cost
-from .files import Verification, verify, view, write_xdmf
-from .integrator import FitWarning, Integrator, Method, PassageWarning, StepWarning, methods
-from .limit import Limit, limit
-from .modes import Modes, modes
-from .needs import Needs, needs
-from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
-from .parts import Curve, Springs, Transform
-from .problems import FirstOrder, SecondOrder
-from .rest import Rest, rest
-from .results import Frames, Result, RunError, resume, run, why
-from .scene import Scene
-from .state import State
-from .study import Study, compare, study
-from .sweep import Sweep, sweep
-from .system import System
-from .trajectory import Energy, Frame, Trajectory, open
+from .why import *  # isort: skip  # before the function that has the name of its module
+from ._queries import *
+from ._status import *
+from .cost import *
+from .files import *
+from .integrator import *
+from .limit import *
+from .modes import *
+from .needs import *
+from .options import *
+from .parts import *
+from .problems import *
+from .rest import *
+from .results import *
+from .scene import *
+from .state import *
+from .study import *
+from .sweep import *
+from .system import *
+from .trajectory import *
+
+_MODULES = ("animation", "convert", "plot")  # matplotlib is an extra, and slow to import
 
 __version__: str = build_facts()["version"]
-
-__all__ = [
-    "BadCall",
-    "BadValue",
-    "Blocks",
-    "BodyMotion",
-    "Check",
-    "Cost",
-    "Curve",
-    "Derived",
-    "Energy",
-    "Error",
-    "FirstOrder",
-    "FitWarning",
-    "Frame",
-    "Frames",
-    "IOFailed",
-    "Integrator",
-    "Internal",
-    "Limit",
-    "Material",
-    "Method",
-    "Modes",
-    "Needs",
-    "NoMemory",
-    "NotBuilt",
-    "Options",
-    "PassageWarning",
-    "Rest",
-    "Result",
-    "Row",
-    "RunError",
-    "Scene",
-    "SecondOrder",
-    "SolverFailed",
-    "Springs",
-    "State",
-    "StepWarning",
-    "Stopped",
-    "Study",
-    "Sweep",
-    "System",
-    "Trajectory",
-    "Transform",
-    "Unsuited",
-    "Verification",
-    "Why",
-    "animation",
-    "build_facts",
-    "check",
-    "compare",
-    "convert",
-    "cost",
-    "describe",
-    "limit",
-    "methods",
-    "modes",
-    "needs",
-    "open",
-    "options_of",
-    "part_kind_summary",
-    "part_kinds",
-    "plot",
-    "rest",
-    "resume",
-    "run",
-    "study",
-    "sweep",
-    "verify",
-    "view",
-    "why",
-    "write_xdmf",
-]
+_HERE = f"{__name__}."
+__all__ = [*_MODULES, *(name for name, one in globals().items() if str(getattr(one, "__module__", "")).startswith(_HERE))]
 
 
 def __dir__() -> list[str]:
-    return __all__
+    return sorted(__all__)
 
 
 def __getattr__(name: str) -> Any:
-    # matplotlib is an extra, and slow to import
-    if name in ("plot", "animation", "convert"):
+    if name in _MODULES:
         return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

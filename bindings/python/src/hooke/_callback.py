@@ -7,13 +7,14 @@ the same exception again (see `_status.checker`).
 from __future__ import annotations
 
 import contextlib
+import contextvars
 import ctypes
 import math
 import operator
 import os
 import signal
 import sys
-import threading
+import warnings
 from collections.abc import Iterator
 from sys import getrefcount
 from typing import Any, Callable
@@ -57,15 +58,31 @@ def guarded(function: Callable[..., Any], *arguments: Any) -> int:
     return _STOP if pending.exception is not None else answer
 
 
-def outside() -> int:
-    """The stacklevel of a warning that should point at the line that called this package."""
-    frame, level = sys._getframe(1), 1  # warnings.warn counts from `guarded`, which calls it
-    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
+#: Who hears the warnings of this thread's runs, in place of everyone.
+_heard: contextvars.ContextVar[list[str] | None] = contextvars.ContextVar("heard", default=None)
+_INSIDE = os.path.dirname(__file__), contextlib.__file__
+
+
+def warn(sentence: str, category: type[Warning]) -> None:
+    """A warning that points at the line that called this package."""
+    heard, frame, level = _heard.get(), sys._getframe(1), 2
+    if heard is not None:
+        heard.append(sentence)
+        return
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_INSIDE):
         frame, level = frame.f_back, level + 1
-    return level + 1
+    warnings.warn(sentence, category, level)
 
 
-_FOLDER = os.path.dirname(__file__)
+@contextlib.contextmanager
+def hearing() -> Iterator[list[str]]:
+    """A context in which warnings of this package are a list, of this thread alone."""
+    heard: list[str] = []
+    before = _heard.set(heard)
+    try:
+        yield heard
+    finally:
+        _heard.reset(before)
 
 
 # The arrays of a call are one block of the library, and those of the next call are there again. So each call gets new
@@ -154,20 +171,22 @@ def interruptible(integrator: Any = None) -> Iterator[None]:
     Python would call the handler of the signal on entry to the callback, before any `try`, where ctypes can only drop
     its exception. So the exception is stored like one of the callback.
     """
-    mine = threading.current_thread() is threading.main_thread()
-    before = signal.getsignal(signal.SIGINT) if mine else None
-    if not callable(before):
-        yield
-        return
+    before = signal.getsignal(signal.SIGINT)
 
     def note(number: int, frame: Any) -> None:
         try:
-            before(number, frame)
+            before(number, frame)  # type: ignore[operator, misc]
         except BaseException as exception:
             pending.exception = exception
 
+    try:
+        heard = callable(before) and bool(signal.signal(signal.SIGINT, note))
+    except ValueError:  # in another thread than the main one, or in a subinterpreter
+        heard = False
+    if not heard:
+        yield
+        return
     hear = attached(lib.hooke_integrator_on_progress, integrator, _HEAR, _HEARING) if integrator else contextlib.nullcontext()
-    signal.signal(signal.SIGINT, note)
     try:
         with hear:
             yield

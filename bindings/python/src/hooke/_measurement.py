@@ -18,7 +18,7 @@ import numpy as np
 from ._callback import listening
 from ._library import lib
 from ._look import draw
-from ._memory import Handle, address_of, text, view
+from ._memory import Asked, Handle, address_of, text, view
 from ._status import OUTCOMES, BadCall, NotBuilt, plain
 from ._types import FloatArray, Path, Table
 from .system import kept
@@ -188,8 +188,7 @@ class Measurement:
     def label(self, **labels: str | None) -> None:
         """Sets labels, such as the title of a page."""
         for what, label in labels.items():
-            lib.hooke_measurement_label(self.handle, what.encode(), label and label.encode())
-
+            lib.hooke_measurement_label(self.handle, what.encode(), label.encode() if label else None)
 
     def __reduce__(self) -> Any:
         kind, tables = self.kind.encode(), itertools.count()
@@ -323,6 +322,13 @@ class Found:
     def to_pandas(self) -> Any:
         """The rows as a pandas data frame; pandas has to be installed."""
         return draw("notebook.data_frame", self.rows)
+
+
+def _methods(found: Found) -> list[str]:
+    return [str(name) for name in dict.fromkeys(found.rows["method"])]
+
+
+methods_of_rows = Asked(_methods, "The methods with rows, in the order of the rows.")
 
 
 class Paged(Found):

@@ -12,6 +12,8 @@ from ._memory import Asked, Handle, address_of, double_pointer, index_pointer, r
 from ._types import FloatArray, IntArray
 from .problems import Problem
 
+__all__ = ["Blocks", "BodyMotion", "Derived", "Material", "build_facts"]
+
 _DOUBLE = np.dtype(np.float64)
 
 
@@ -140,6 +142,9 @@ class Queries(Problem):
     spring_ends = Asked(_ends, "The particles at both ends of every spring (m, 2), in spring order.", b"springs")
     spring_material = Asked(_material, "Stiffness, damping and rest length of every spring.", b"springs")
     bending_ends = Asked(_ends, "The particles of every triple (m, 3), in their order.", b"bending")
+    bending_coefficient = Asked[FloatArray](
+        lambda system: system._material(b"bending").kappa, "The coefficient of every triple (m,) [N/m]."
+    )
     altitude_ends = Asked(_ends, "The particles of every tetrahedron (m, 4), in their order.", b"altitude")
     altitude_material = Asked(
         _material,
@@ -155,11 +160,6 @@ class Queries(Problem):
         lib.hooke_system_force_name,
         "forces",
     )
-
-    @property
-    def bending_coefficient(self) -> FloatArray:
-        """The coefficient of every triple (m,) [N/m]."""
-        return self._material(b"bending").kappa
 
     @property
     def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -323,5 +323,5 @@ def build_facts() -> dict[str, str]:
 
 
 _FACTS = (
-    "sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "chartjs", "threejs", "instructions", "licence",
+    "sundials", "cholmod", "lapack", "gsl", "hdf5", "chartjs", "threejs", "instructions", "licence",
 )

@@ -8,6 +8,8 @@ import threading
 from collections.abc import Iterator, Sequence
 from typing import Any, Callable
 
+__all__ = ["BadCall", "BadValue", "Error", "IOFailed", "Internal", "NoMemory", "NotBuilt", "SolverFailed", "Stopped", "Unsuited"]
+
 #: Outcomes of a run: they are results, not exceptions.
 OUTCOMES = {0: "finished", 1: "stopped", 2: "diverged", 3: "step-limit"}
 

@@ -10,6 +10,8 @@ from ._signature import Unpack, takes
 from .results import Runnable, measured
 from .state import State
 
+__all__ = ["Check", "Cost", "check", "cost"]
+
 
 class Cost(Found, kind="cost"):
     """The cost of a scene, as a whole and by ingredients.
@@ -37,7 +39,6 @@ def cost(
     scene without the ingredient, at `state` (at the start, if None).
 
     ``predict=True`` skips the timing. Of many groups the `groups` largest are measured; the numbers of the others stay NaN.
-    ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
     return Cost(*measured("cost", problem, options, progress, lambda _: state))
 

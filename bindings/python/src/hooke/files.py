@@ -8,12 +8,12 @@ import ctypes
 import importlib
 import os
 import pathlib
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol, Union
 
 import numpy as np
 
+from ._callback import warn
 from ._keywords import VerifyKeywords, ViewKeywords
 from ._library import lib
 from ._look import WorkProgress
@@ -24,6 +24,8 @@ from ._status import BadValue
 from ._types import FloatArray, Path, Table
 from .options import Options
 from .scene import limits_of
+
+__all__ = ["Verification", "verify", "view", "write_xdmf"]
 
 
 def opened(path: Path) -> Handle:
@@ -118,7 +120,7 @@ def write_companion(path: bytes) -> None:
     try:
         write_xdmf(os.fsdecode(path))
     except BadValue as trouble:
-        warnings.warn(f"no .xdmf is written: {trouble}", stacklevel=4)
+        warn(f"no .xdmf is written: {trouble}", UserWarning)
 
 
 def _file_of(trajectory: Source) -> pathlib.Path:
@@ -172,8 +174,7 @@ def verify(
     """Repeats a slice of a trajectory from the contents of its file and compares it with its frames to the bit;
     compares every frame with its check value, computes the energy balance and estimates the error.
 
-    `memory` and `outside` are as in `Scene.load`; ``progress(share, what)`` receives progress, True for a bar. A file
-    that does not reproduce is a result, not an error.
+    `memory` and `outside` are as in `Scene.load`. A file that does not reproduce is a result, not an error.
     """
     given, limits = Options._of("verify").set(**options), limits_of(memory, outside)
     measurement = Measurement.made(None, lib.hooke_verify_create, os.fsencode(path), given._handle, limits)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import warnings
 from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
@@ -23,6 +22,8 @@ from .problems import FirstOrder, SecondOrder
 from .state import State
 from .system import System
 from .why import Why
+
+__all__ = ["FitWarning", "Integrator", "Method", "PassageWarning", "StepWarning", "methods"]
 
 #: observer(step, state): receives the state after `step` steps and must not change it; returns None or 0 to go on.
 Observer = Callable[[int, State], Optional[int]]
@@ -251,7 +252,7 @@ class Integrator(Closing):
             outcome = self._outcome(self._call(function, (state._handle,)))
         sentence = text(lib.hooke_integrator_text(self._handle, b"zero_passages"))
         if sentence and outcome not in ("diverged", "step-limit"):
-            warnings.warn(sentence, PassageWarning, _callback.outside() - 1)
+            _callback.warn(sentence, PassageWarning)
         return outcome
 
     def _outcome(self, code: int) -> str:
@@ -293,7 +294,7 @@ def _observer(function: Observer | None, state: State) -> Any:
 
 def _warn(kind: bytes, sentence: bytes, *_: Any) -> int:
     category = FitWarning if kind in (b"step", b"every", b"duration") else StepWarning
-    return _callback.guarded(warnings.warn, text(sentence), category, _callback.outside())
+    return _callback.guarded(_callback.warn, text(sentence), category)
 
 
 _WARN = WARNING(_warn)

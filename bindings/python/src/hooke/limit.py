@@ -11,7 +11,7 @@ import numpy as np
 from ._keywords import LimitKeywords
 from ._library import lib
 from ._look import WorkProgress, draw
-from ._measurement import Measurement, Paged, Record
+from ._measurement import Measurement, Paged, Record, methods_of_rows
 from ._signature import Unpack, takes
 from ._types import ComplexArray, FloatArray, Path
 from .files import opened
@@ -19,6 +19,8 @@ from .results import Runnable, measured
 from .state import State
 from .system import System
 from .why import Blame
+
+__all__ = ["Limit", "limit"]
 
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file with its last frame or the given one.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
@@ -61,10 +63,7 @@ class Limit(Paged, kind="limit"):
         self.participation = found.each(Participation, "participation")
         self.changes = found.one(Changes, "changes")
 
-    @property
-    def methods(self) -> list[str]:
-        """The methods in the order of the rows."""
-        return [str(name) for name in self.rows["method"]]
+    methods = methods_of_rows
 
     @staticmethod
     def step_of_mode(method: str, frequency: Any, decay: Any) -> FloatArray:
@@ -97,8 +96,7 @@ def limit(
 
     `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
     the number of a frame. With ``along=True`` it predicts at every frame of the run and returns the smallest limits and
-    their times; ``nonlinear=True`` measures on the scene itself. ``progress(fraction, what)`` receives progress
-    (``progress=True`` shows a bar, with tqdm) and stops the work by returning a non-zero number.
+    their times; ``nonlinear=True`` measures on the scene itself.
     """
     return Limit(*measured("limit", problem, {**options, "methods": methods}, progress, lambda system: state_at(system, at)))
 

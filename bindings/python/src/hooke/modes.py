@@ -12,6 +12,8 @@ from ._types import FloatArray
 from .limit import Place, state_at
 from .results import Runnable, measured
 
+__all__ = ["Modes", "modes"]
+
 
 class Modes(Paged, kind="modes"):
     """The lowest modes of a scene that have stiffness, about the positions of a state.
@@ -43,6 +45,5 @@ def modes(
     """Finds the `count` (6) lowest modes of a scene (or the path of one) or a system `at` a state, as in `hooke.limit`: at
     the start, if None. Modes without stiffness are counted and named (`zero_modes`, `translations`, `rotations`,
     `mechanisms`), and not among them. The stiffness is that of the state as it is, compressed springs and slack ones
-    included; `residual` [N] is the force that is left there. ``progress(fraction, what)`` receives progress and stops the
-    work by returning a non-zero number."""
+    included; `residual` [N] is the force that is left there."""
     return Modes(*measured("modes", problem, {**options, "count": count}, progress, lambda system: state_at(system, at)))

@@ -18,6 +18,8 @@ from .options import Options
 from .results import Length, Runnable, measured
 from .system import System, write_scene
 
+__all__ = ["Needs", "needs"]
+
 
 class RunCost(Record, table="needs.full", without=("own_error", "moved")):
     """The cost of a run; NaN where a number does not apply."""
@@ -122,9 +124,8 @@ def needs(
 
     `watch` is the name of a part or of a group, or particle numbers; None: all free particles. Steps and
     tolerances are found. ``refine=True`` does the reverse: it runs each part at once, twice and four times its
-    resolution, and finds the resolution for the wanted error. ``progress(fraction, what)`` receives progress
-    (``progress=True`` shows a bar, with tqdm) and stops the work by returning a non-zero number, with the results so
-    far. ``found.write("page.html")`` makes a page with diagrams.
+    resolution, and finds the resolution for the wanted error. Where `progress` stops it, there are the results so far.
+    ``found.write("page.html")`` makes a page with diagrams.
     """
     watch = watch if watch is None or isinstance(watch, str) else np.ravel(watch)
     return Needs(*measured("needs", problem, {**options, "want": want, "watch": watch}, progress))

@@ -14,6 +14,8 @@ from ._memory import Handle, Owner, address_of, double_pointer, doubles, plain, 
 from ._status import BadCall, BadValue, placed
 from ._types import Table
 
+__all__ = ["Options", "Row", "describe", "options_of", "part_kind_summary", "part_kinds"]
+
 Value = Union[None, bool, int, float, str, Table, list[Any]]
 
 
@@ -284,14 +286,10 @@ def _rows(handle: Handle) -> Iterator[Row]:
 
 
 def _property(handle: Handle, row: int, name: str) -> Any:
-    if name in ("above_low", "whole", "required", "flat", "word_lists"):
-        return bool(lib.hooke_options_row_number(handle, row, name.encode()))
-    if name in ("low", "high", "min_count", "max_count", "columns"):
-        number = lib.hooke_options_row_number(handle, row, name.encode())
-        if math.isnan(number):
-            return None
-        return number if name in ("low", "high") else int(number)
-    words = text(lib.hooke_options_row(handle, row, name.encode()))
-    if name == "units":
-        return words.split(", ") if words else []
-    return words.split() if name == "words" else words
+    kind: Any = Row.__annotations__[name]
+    kind = getattr(kind, "__forward_arg__", kind)
+    if kind in ("str", "list[str]"):
+        words = text(lib.hooke_options_row(handle, row, name.encode()))
+        return words if kind == "str" else [word for word in words.split(", " if name == "units" else " ") if word]
+    number = lib.hooke_options_row_number(handle, row, name.encode())
+    return None if math.isnan(number) else {"bool": bool, "int | None": int, "float | None": float}[kind](number)

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from .rest import rest as _rest
     from .results import run as _run
 
+__all__ = ["FirstOrder", "SecondOrder"]
+
 #: rate(t, x, rate): writes x' into its last argument, arrays (size,).
 Rate = Callable[[float, Table, Table], Optional[int]]
 #: f(t, q, v, force): adds to its last argument, which is zero; arrays (size,).

@@ -11,6 +11,8 @@ from .limit import Place, state_at
 from .problems import Problem
 from .results import Runnable, measured
 
+__all__ = ["Rest", "rest"]
+
 
 class Rest(Paged, kind="rest", rows="watched"):
     """The position of rest of a scene: `position` (n, 3) [m] is there, or where the search ended; `status` says which.
@@ -36,9 +38,8 @@ def rest(
 ) -> Rest:
     """Finds where a scene (or the path of one) or a system is at rest, from `at` (the start, if None), a place as
     `hooke.limit` has it. `watch` names quantities.
-    ``progress(fraction, what)`` receives progress and stops the work by returning a non-zero number.
     """
     return Rest(*measured("rest", problem, options, progress, lambda system: state_at(system, at)))
 
 
-Problem.rest = takes(RestKeywords)(rest)
+rest = Problem.rest = takes(RestKeywords)(rest)

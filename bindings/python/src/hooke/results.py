@@ -1,33 +1,20 @@
-"""Running a scene in one call.
-
-`hooke.open` reads the files of `output`. They are H5MD 1.1 (HDF5), so that h5py reads them, too, without this
-package::
-
-    with h5py.File("out.h5") as file:
-        t = file["particles/all/position/time"][:]      # (frames,) [s]
-        q = file["particles/all/position/value"][:]     # (frames, n, 3) [m]
-        springs = file["connectivity/springs"][:]       # (m, 2)
-
-After a killed run, frames that were not written have the time NaN: use only those with ``t == t``.
-"""
+"""Running a scene in one call. `hooke.open` reads the files of `output`."""
 
 from __future__ import annotations
 
 import contextlib
 import copy
 import ctypes
-import functools
 import itertools
 import math
 import os
-import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
-from ._callback import stop_value
+from ._callback import hearing, stop_value
 from ._keywords import RunKeywords
 from ._library import lib
 from ._look import WorkProgress, draw, shown
@@ -46,10 +33,12 @@ from .state import State
 from .system import Force, System, kept, posed, system_of
 from .why import Why
 
+__all__ = ["Frames", "Result", "RunError", "resume", "run", "why"]
+
 #: Problems that are no scene: a system, or a first- or second-order problem.
 Problem = Union[System, FirstOrder, SecondOrder]
-#: Problems that can be run: those, a scene or the path of one.
-Runnable = Union[Path, Scene, Problem]
+#: Problems that can be run: those, a scene, or the path or the document of one.
+Runnable = Union[Path, Mapping[str, Any], Scene, Problem]
 #: progress(fraction, state): called at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
 #: A length: a number [m], or text with a unit, such as "1mm".
@@ -71,19 +60,20 @@ class RunError(Record, table="estimate.estimate", without=("seconds", "memory_by
     """The error of a run; a number that is not known is NaN. `met` is None if that is unknown or no error was wanted."""
 
 
+@dataclass
 class Judged:
-    """The error of a run, and what is said of it, which are found when they are asked for."""
+    """The error of a run, and what is said of it, if they were `found`; the same run with these `options` finds them."""
 
-    def __init__(self, find: Callable[[], tuple[RunError | None, tuple[Claim, ...]]]):
-        self._find = find
+    found: tuple[RunError | None, tuple[Claim, ...]] | None = None
+    options: dict[str, Any] = field(default_factory=dict)
 
-    @functools.cached_property
-    def found(self) -> tuple[RunError | None, tuple[Claim, ...]]:
-        """Both."""
-        return self._find()
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"found": self.found}
+    def of(self, problem: Problem) -> tuple[RunError | None, tuple[Claim, ...]]:
+        """Both, of the problem that was run."""
+        if self.found is None:
+            with hearing():  # the first run gave its warnings
+                again = run(problem, estimate=True, strict=True, **self.options)
+            self.found = again.error, again.claims
+        return self.found
 
 
 @dataclass(frozen=True)
@@ -121,12 +111,12 @@ class Result:
     @property
     def error(self) -> RunError | None:
         """The error of the run, as runs at other steps or tolerances tell it, which are made now; None without an estimate."""
-        return self.judged.found[0] if self.judged is not None else None
+        return self.judged.of(self.problem)[0] if self.judged is not None else None
 
     @property
     def claims(self) -> tuple[Claim, ...]:
         """What is said of the run, the most important first."""
-        return self.judged.found[1] if self.judged is not None else ()
+        return self.judged.of(self.problem)[1] if self.judged is not None else ()
 
     @property
     def diagnosis(self) -> str:
@@ -155,7 +145,10 @@ class Result:
             raise AttributeError(str(missing)) from None
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**vars(self), "problem": kept(self.problem), "integrator": None}
+        problem, judged = kept(self.problem), self.judged
+        if judged is not None and judged.found is None and vars(problem)["_gone"]:
+            judged = None
+        return {**vars(self), "problem": problem, "judged": judged, "integrator": None}
 
     def __copy__(self) -> Result:
         return replace(self)
@@ -286,13 +279,14 @@ class _Once:
                 watchers.append(lambda step, state: tell(next(numbers) / last, state))
             with self._probing(integrator):
                 status = self._integrate(integrator, state, watchers)
-        result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None, self.probes)
+        frames = recorder.frames() if recorder else None
+        result = _result(status, integrator, state, self.output, frames=frames, probes_file=self.probes)
         if estimate is None:
             return result
         lib.hooke_estimate_follow(None, integrator._handle)
         estimate.run(None, state)
         found = estimate.one(RunError, "estimate") if judged else None, tuple(estimate.each(Claim, "claims"))
-        result = replace(result, judged=Judged(lambda: found))
+        result = replace(result, judged=Judged(found))
         if judged and self.output is not None and status == "finished":
             lib.hooke_estimate_write_h5(estimate.handle, os.fsencode(self.output))
         watched, wants = (estimate.rows(table) if estimate.count(table) > 0 else None for table in ("watched", "wants"))
@@ -324,16 +318,9 @@ class _Once:
 
 
 def _judged_later(result: Result, options: Options, watch: str | Iterable[str] | None) -> Result:
-    """The result with its error, which the same run once more finds when it is asked for: so it holds no frames for that."""
-    given: Any = {name: options[name] for name in options if options.is_set(name)}
-
-    def find() -> tuple[RunError | None, tuple[Claim, ...]]:
-        with warnings.catch_warnings():  # which were given by the first run
-            warnings.simplefilter("ignore")
-            again = run(result.problem, estimate=True, strict=True, watch=watch, **given)
-        return again.error, again.claims
-
-    return replace(result, judged=Judged(find)) if result.status == "finished" else result
+    """The result with its error, which is found when it is asked for."""
+    given = {"watch": watch, **{name: options[name] for name in options if options.is_set(name)}}
+    return replace(result, judged=Judged(options=given)) if result.status == "finished" else result
 
 
 def _run_to_want(
@@ -364,6 +351,7 @@ def _run_to_want(
             return result
 
 
+@takes()
 def resume(
     output: Path,
     problem: Runnable | None = None,
@@ -397,13 +385,13 @@ def resume(
         record = opened(output)
         lib.hooke_record_read(record, -1, state._handle)
         counts = {"steps": int(numbers(record, "step")[lib.hooke_record_count(record, b"frames") - 1])}
-        return replace(_result("finished", integrator, state, output, None), counts=counts, wall_seconds=np.nan)
+        return replace(_result("finished", integrator, state, output), counts=counts, wall_seconds=np.nan)
     watchers: list[Observer] = [] if on_frame is None else [on_frame]
     with shown(progress, fills=False) as tell:
         if tell is not None:
             watchers.append(lambda step, state: tell((state.t - first) / duration, state))
         status = _run_to_file(os.fsencode(output), file, integrator.resume, integrator, state, watchers, on_step)
-    return _result(status, integrator, state, output, None)
+    return _result(status, integrator, state, output)
 
 
 @takes(RunKeywords)
@@ -418,8 +406,6 @@ def why(
 
     The last steps are repeated and suggestions are tried, so callbacks are called again; within `budget` [s] of wall
     time, or as much counted work as the run took (2 s if that is less), however busy the machine is.
-    ``progress(fraction, what)`` receives progress (``progress=True``
-    shows a bar, with tqdm) and ends it by returning a non-zero number.
     """
     if isinstance(what, (Result, SolverFailed)):
         if what.integrator is None and getattr(what, "status", None) not in ("finished", "stopped"):
@@ -435,23 +421,15 @@ def why(
     return integrator.why(budget, progress) if integrator.outcome in BLOWN_UP else None
 
 
-def _result(
-    status: str,
-    integrator: Integrator,
-    state: State,
-    output: Path | None,
-    frames: Frames | None,
-    probes: Path | None = None,
-) -> Result:
+def _result(status: str, integrator: Integrator, state: State, output: Path | None, **others: Any) -> Result:
     names = ("message", "options", "counts", "wall_seconds", "diverged_at", "stop_value")
     return Result(
         status=status,
         state=state,
         problem=integrator._problem,
-        frames=frames,
         output=output,
-        probes_file=probes,
         integrator=integrator if integrator.outcome in BLOWN_UP else None,
+        **others,
         **{name: getattr(integrator, name) for name in names},
     )
 
@@ -463,6 +441,10 @@ def resolve(
     scene, given = None, Options.for_run()
     if isinstance(problem, (str, os.PathLike)):
         problem = Scene.load(problem)
+    elif isinstance(problem, Mapping):
+        problem = Scene.parse(problem)
+    elif not isinstance(problem, Base):
+        raise TypeError(f"a scene, its path or document, or a system is needed, this is {problem!r}")
     if isinstance(problem, Scene):
         scene, given = problem, problem.run_options.copy()
         problem = scene.system
@@ -558,4 +540,4 @@ def _arrays(state: State) -> list[Table]:
     return [np.asarray(state.t), *([state.x] if state._v is None else [state.q, state.v])]
 
 
-Base.run = takes(RunKeywords)(run)
+run = Base.run = takes(RunKeywords)(run)

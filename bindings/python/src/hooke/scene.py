@@ -22,6 +22,8 @@ from .parts import Parts
 from .problems import Problem
 from .system import System, part_options, particle_keys, write_scene
 
+__all__ = ["Scene"]
+
 
 class Scene(Parts, Problem):
     """A scene: its `system` and its `run_options`.
@@ -45,6 +47,7 @@ class Scene(Parts, Problem):
     defaults for runs of the scene, see `run_defaults`.
     """
 
+    @takes()
     def __init__(
         self,
         title: str = "",
@@ -61,6 +64,7 @@ class Scene(Parts, Problem):
         self._run = Options.for_run()
         self._title = title
         self._text: str | None = None  # None: to be made from the document
+        self._origin: dict[str, Any] = {}
         self._document: dict[str, Any] = {"hooke": 1}
         own = Options.for_scene().set(
             title=title or None, dynamics=dynamics, drag=drag, gravity=gravity, quadratic_drag=quadratic_drag, wind=wind,
@@ -75,10 +79,11 @@ class Scene(Parts, Problem):
             self.run_defaults(**run)
 
     @classmethod
-    def _made(cls, function: Callable[..., Any], *arguments: Any) -> Scene:
-        """The scene that a function of the library makes."""
-        handle = Handle.made(None, function, *arguments)
+    def _made(cls, set: Any, origin: dict[str, Any], function: Callable[..., Any], *given: Any) -> Scene:
+        """The scene that a function of the library makes; `origin` is what `parse` needs beside its text to make it again."""
+        handle = Handle.made(None, function, *given, limits_of(origin["memory"], origin["outside"], set))
         scene = cls.__new__(cls)
+        scene._origin = origin
         scene._system = System._of_scene(handle)
         scene._run = Options(Handle(lib.hooke_scene_run_options(handle), None, handle))
         scene._title = text(lib.hooke_scene_text(handle, b"title"))
@@ -93,7 +98,8 @@ class Scene(Parts, Problem):
         maximum memory of the scene, None: the machine's; with `outside` it may name files outside its folder;
         `set` has values by paths such as "run.step" or "cloth.structural.stiffness", which replace those of a scene file.
         BadValue describes a fault and its place; IOFailed if the file cannot be read."""
-        return cls._made(lib.hooke_scene_load, os.fsencode(path), limits_of(memory, outside, set))
+        origin = {"folder": os.path.dirname(os.path.abspath(path)), "memory": memory, "outside": outside}
+        return cls._made(set, origin, lib.hooke_scene_load, os.fsencode(path))
 
     @classmethod
     def parse(
@@ -114,11 +120,13 @@ class Scene(Parts, Problem):
         if isinstance(scene, Mapping):
             scene = _dump(scene)
         data = scene.encode() if isinstance(scene, str) else bytes(scene)
+        origin = {"folder": None if folder is None else os.path.abspath(folder), "memory": memory, "outside": outside}
         where = None if folder is None else os.fsencode(folder)
-        return cls._made(lib.hooke_scene_parse, data, len(data), name.encode(), where, limits_of(memory, outside, set))
+        return cls._made(set, origin, lib.hooke_scene_parse, data, len(data), name.encode(), where)
 
     # building
 
+    @takes()
     def particles(
         self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None,
         gravity_factor: Numbers = ()

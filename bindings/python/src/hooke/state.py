@@ -10,6 +10,8 @@ from ._library import lib
 from ._memory import Handle, address_of, double_pointer, plain, view
 from ._types import FloatArray, Table
 
+__all__ = ["State"]
+
 
 class State:
     """Time, positions and velocities of a system (``system.state()``) or of a first- or second-order problem

@@ -10,13 +10,15 @@ import numpy as np
 from ._keywords import StudyKeywords
 from ._library import lib
 from ._look import WorkProgress, draw
-from ._measurement import Measurement, Paged, Record
+from ._measurement import Measurement, Paged, Record, methods_of_rows
 from ._memory import Closing
 from ._signature import Unpack, takes
 from ._types import FloatArray, Path
 from .options import Options
 from .results import Length, Runnable, measured
 from .system import Force
+
+__all__ = ["Study", "compare", "study"]
 
 
 class Reference(Record, table="study.reference"):
@@ -97,10 +99,7 @@ class Study(Paged, Closing, kind="study"):
         for statistic in found.each(Statistic, "statistics"):
             self.statistics.setdefault(statistic.quantity, {})[statistic.method] = statistic
 
-    @property
-    def methods(self) -> list[str]:
-        """The methods with rows, in the order of the rows."""
-        return [str(name) for name in dict.fromkeys(self.rows["method"])]
+    methods = methods_of_rows
 
     @property
     def recommendation(self) -> Recommendation | None:
@@ -155,9 +154,8 @@ def study(
     the `Study`.
 
     `steps` [s] and `tolerances` are ladders of your own, `want` [m] requests a recommendation. `output` is a file to
-    write (see `Study.write`), `force` is the callback force of these runs, ``progress(fraction, what)`` receives progress
-    (``progress=True`` shows a bar, with tqdm) and stops the study by returning a non-zero number. ``hooke study --report
-    FILE.html`` makes a page with diagrams of the same study.
+    write (see `Study.write`), `force` is the callback force of these runs. ``hooke study --report FILE.html`` makes a page
+    with diagrams of the same study.
     """
     made = Study(*measured("study", problem, {**options, "methods": methods}, progress, force=force))
     made._progress = progress

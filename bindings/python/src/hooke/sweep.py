@@ -6,6 +6,7 @@ import collections
 import contextlib
 import hashlib
 import inspect
+import io
 import itertools
 import json
 import os
@@ -15,19 +16,25 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future
 from dataclasses import dataclass
 from pathlib import Path as File
-from typing import Any, Callable, Union
+from typing import Any, Callable, Union, overload
 
 import numpy as np
 
+from ._callback import hearing
+from ._keywords import RunKeywords
 from ._look import WorkProgress, draw, shown
 from ._measurement import Found
 from ._queries import build_facts
+from ._signature import Unpack, refuse_unknown
 from ._status import BadValue, Error, SolverFailed
-from ._types import Path
-from .results import Result
+from ._types import Path, Table
+from .results import Length, Result
 from .results import run as run_scene
 from .scene import Scene
 from .state import State
+from .system import Force
+
+__all__ = ["Sweep", "sweep"]
 
 #: Values by paths such as "run.step" or "cloth.structural.stiffness": their combinations, or those of each row.
 Vary = Union[Mapping[str, Iterable[Any]], Iterable[Mapping[str, Any]], Any]
@@ -72,20 +79,23 @@ class _Work:
     """What is done for every row, in this process or another one."""
 
     text: bytes
-    folder: str | None
+    origin: dict[str, Any]
     run: Callable[..., Any]
     options: dict[str, Any]
 
     def __call__(self, values: dict[str, Any]) -> dict[str, Any]:
         own = {name: value.copy() if isinstance(value, State) else value for name, value in self.options.items()}
-        try:
-            return _told(self.run(Scene.parse(self.text, folder=self.folder, set=values), **own))
-        except (OSError, MemoryError) as error:
-            return {"status": "unavailable", "reason": str(error)}
-        except TypeError:  # a mistake of the call
-            raise
-        except Error as error:
-            return {"status": "failed" if isinstance(error, SolverFailed) else "refused", "reason": str(error)}
+        with hearing() as heard:
+            try:
+                told = _told(self.run(Scene.parse(self.text, set=values, **self.origin), **own))
+            except (OSError, MemoryError) as error:
+                told = {"status": "unavailable", "reason": str(error)}
+            except TypeError:  # a mistake of the call
+                raise
+            except Error as error:
+                told = {"status": "failed" if isinstance(error, SolverFailed) else "refused", "reason": str(error)}
+        told.setdefault("warnings", "\n".join(dict.fromkeys(heard)))
+        return told
 
     def keys(self, rows: list[dict[str, Any]]) -> list[str]:
         """What each row depends on, as a number."""
@@ -102,7 +112,7 @@ def _told(found: Any) -> dict[str, Any]:
         raise TypeError(f"run: it returned {found!r}; allowed: a result, a measurement, a dict, or None")
     if not isinstance(found, Result):
         values = {**vars(found), "recommendation": getattr(found, "recommendation", None), "claims": str(found)}
-        return {"status": values.pop("outcome"), "reason": "", **_flat(values)}
+        return {"status": values.pop("outcome"), "reason": "", **_flat(values), **_table(found.rows)}
     told = {name: found.options[name] for name in ("method", "step")}
     told |= {"time": found.state.t, **found.counts, "wall_seconds": found.wall_seconds, **_flat({"error": found.error})}
     for watched in () if found.watched is None else found.watched:
@@ -110,6 +120,17 @@ def _told(found: Any) -> dict[str, Any]:
         told[name] = float(watched["value"])
         told |= {f"{name}.{which}": float(watched[which]) for which in ("minimum", "maximum")}
     return {"status": found.status, "reason": "" if found.status == "finished" else found.message, **told}
+
+
+def _table(rows: Table) -> dict[str, Any]:
+    """The numbers of a table by the names in its first column or, without names, by the numbers of its rows; none of a study,
+    which has several rows a method."""
+    columns = rows.dtype.names or ()
+    named = bool(columns) and rows.dtype[0].kind == "U"
+    names = rows[columns[0]].tolist() if named else range(len(rows))
+    if len(set(names)) < len(names):
+        return {}
+    return {f"{name}.{column}": row[column].item() for name, row in zip(names, rows) for column in columns[named:]}
 
 
 def _flat(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -176,14 +197,16 @@ def _rows(vary: Vary) -> list[dict[str, Any]]:
     return [dict(zip(vary, values)) for values in itertools.product(*(json.loads(_dump(column)) for column in columns))]
 
 
-def _text(scene: Scene | Path) -> tuple[bytes, str | None]:
-    """Its text, and the folder of the files that it names."""
+def _text(scene: Scene | Mapping[str, Any] | Path) -> tuple[bytes, dict[str, Any]]:
+    """Its text, and what `Scene.parse` needs beside it."""
+    if isinstance(scene, Mapping):
+        scene = Scene.parse(scene)
     if not isinstance(scene, Scene):
         path = File(scene).absolute()
-        return path.read_bytes(), str(path.parent)
-    if pickle.dumps(Scene.parse(scene.text)) != pickle.dumps(scene):
+        return path.read_bytes(), {"folder": str(path.parent)}
+    if pickle.dumps(Scene.parse(scene.text, **scene._origin)) != pickle.dumps(scene):
         raise BadValue("scene: it has what a scene file cannot hold; allowed: a scene that its text makes again, or a path")
-    return scene.text.encode(), None
+    return scene.text.encode(), scene._origin
 
 
 def _finished(
@@ -215,11 +238,36 @@ def _finished(
             future.cancel()
 
 
+class SweepKeywords(RunKeywords, total=False):
+    """Keywords of `hooke.sweep` and of its runs."""
+
+    watch: str | Iterable[str] | None
+    output: Path | None
+    executor: Executor | None
+    only: slice
+    error: bool
+    ahead: int | None
+    progress: WorkProgress | bool | None
+    state: State | None
+    force: Force | None
+    want: Length | None
+    estimate: bool | None
+    strict: bool
+
+
+@overload
+def sweep(scene: Scene | Mapping[str, Any] | Path, vary: Vary, **options: Unpack[SweepKeywords]) -> Sweep: ...
+
+
+@overload
+def sweep(scene: Scene | Mapping[str, Any] | Path, vary: Vary, *, run: Callable[..., Any], **options: Any) -> Sweep: ...
+
+
 def sweep(
-    scene: Scene | Path,
+    scene: Scene | Mapping[str, Any] | Path,
     vary: Vary,
     *,
-    watch: str | None = None,
+    watch: str | Iterable[str] | None = None,
     output: Path | None = None,
     executor: Executor | None = None,
     only: slice = slice(None),
@@ -259,11 +307,16 @@ def sweep(
     if options.get("probes") is not None and len(rows) > 1:
         raise BadValue("probes: all rows would write one file; allowed: watch, or a function of your own")
     options |= {"watch": watch} if watch is not None else {}
+    taken = inspect.signature(run).parameters
+    if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in taken.values()):
+        refuse_unknown("sweep", options, {**inspect.signature(sweep).parameters, **taken})
     if run is run_scene:
         options.setdefault("estimate", error)
     work = _Work(*_text(scene), run, options)
     mine = list(zip(work.keys(rows), rows))[only]
     table = File(output) if output is not None and File(output).suffix in (".csv", ".parquet") else None
+    if table:  # what it needs is missed before the runs
+        getattr(Sweep(paths, []).to_pandas(), f"to_{table.suffix[1:]}")(io.BytesIO())
     with _kept(f"{table}.jsonl" if table else output) as (done, keep), shown(progress) as tell:
         todo = {key: values for key, values in mine if key not in done}
         last, count = len(todo), itertools.count(1)

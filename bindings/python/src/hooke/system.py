@@ -20,6 +20,8 @@ from .options import Options, in_units
 from .problems import Problem
 from .state import State
 
+__all__ = ["System"]
+
 #: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.
 Force = Callable[[float, FloatArray, FloatArray, FloatArray], Optional[int]]
 #: product(t, q, v, dq, dv, out): adds (df/dq) dq + (df/dv) dv to `out`; all arrays (n, 3).
@@ -107,7 +109,7 @@ class System(Queries):
         spring whose rest length is that altitude as added. Options are ``stiffness`` [N] and ``damping`` [N s], one
         for all or (m,), ``rest_scale`` and ``compression``."""
         numbers, chosen = _members("altitude", tetrahedra, "tetrahedra"), Options.for_altitude().set(**options)
-        group = _encoded(name), numbers.size // 4, index_pointer(numbers)
+        group = name.encode() if name else None, numbers.size // 4, index_pointer(numbers)
         lib.hooke_system_add_altitude(self._handle, *group, chosen._handle)
 
     def add_anchors(self, name: str | None, particles: Any, **options: Any) -> None:
@@ -130,7 +132,7 @@ class System(Queries):
         """Adds what a scene has under the key `kind`, whose particles, None: all, are its key `what`."""
         chosen, every = Options._of(kind).set(**options), members is None and kind == "obstacles"
         numbers = _members(kind, () if every else members, what)
-        given = kind.encode(), _encoded(name), -1 if every else numbers.size, index_pointer(numbers)
+        given = kind.encode(), name.encode() if name else None, -1 if every else numbers.size, index_pointer(numbers)
         lib.hooke_system_add_members(self._handle, *given, chosen._handle)
 
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
@@ -142,8 +144,8 @@ class System(Queries):
 
     def _add_part(self, kind: str, name: str | None, options: Options) -> range:
         first, count = ctypes.c_int64(), ctypes.c_int64()
-        places = ctypes.byref(first), ctypes.byref(count)
-        lib.hooke_system_add_part(self._handle, kind.encode(), _encoded(name), options._handle, *places)
+        given = kind.encode(), name.encode() if name else None, options._handle
+        lib.hooke_system_add_part(self._handle, *given, ctypes.byref(first), ctypes.byref(count))
         return range(first.value, first.value + count.value)
 
     def set_gravity(self, gravity: Any) -> None:
@@ -368,10 +370,6 @@ def system_of(problem: Problem, what: str) -> System:
     if not isinstance(problem, System):
         raise BadValue(f"{what}: a system is needed, this is {problem._what}")
     return problem
-
-
-def _encoded(name: str | None) -> bytes | None:
-    return name.encode() if name else None
 
 
 def _numbered(particles: Any) -> tuple[int, Any]:

@@ -24,6 +24,8 @@ from .system import System
 if TYPE_CHECKING:
     from .plot._pictures import FuncAnimation
 
+__all__ = ["Energy", "Frame", "Trajectory", "open"]
+
 
 K = TypeVar("K")
 #: The numbers of an error in their order in a file.
@@ -125,6 +127,11 @@ class Trajectory(Closing):
     mass = Asked(_numbers, "Mass of every particle (n,) [kg].", "mass")
     pinned = Asked(_of_species, "Numbers of the pinned particles (k,).", 1)
     driven = Asked(_of_species, "Numbers of the driven particles (k,).", 2)
+    steps = Asked[IntArray](lambda file: file._integers("step")[: len(file)], "Numbers of the steps at the frames (frames,).")
+    springs = Asked[IntArray](
+        lambda file: file._integers("springs").reshape(-1, 2),
+        "The particles at both ends of every spring (m, 2), in spring order.",
+    )
     options = Asked(lambda file: run_options(file._handle), "The options of the run, with defaults filled in.")
     status = Asked(
         _text,
@@ -140,16 +147,6 @@ class Trajectory(Closing):
         "`resume`.",
         b"callbacks",
     )
-
-    @property
-    def steps(self) -> IntArray:
-        """Numbers of the steps at the frames (frames,)."""
-        return self._integers("step")[: self._count]
-
-    @property
-    def springs(self) -> IntArray:
-        """The particles at both ends of every spring (m, 2), in spring order."""
-        return self._integers("springs").reshape(-1, 2)
 
     @property
     def energy(self) -> Energy:

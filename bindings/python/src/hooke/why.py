@@ -13,6 +13,8 @@ from ._status import Stopped, plain
 from .options import Options
 from .problems import Problem
 
+__all__ = ["Why"]
+
 
 class Blame(NamedTuple):
     """A limiting spring: its number, its ends, its group ("" if that has no name), and its share of the whole (NaN if

@@ -215,7 +215,7 @@ function writeTable(id, rows, columns, classOf = () => "") {
   at(id).append(head, body);
 }
 
-const FACTS = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",
+const FACTS = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", hdf5: "HDF5",
   chartjs: "Chart.js", threejs: "three.js" };
 
 function writeMachine() {

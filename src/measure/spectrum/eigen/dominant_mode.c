@@ -9,8 +9,7 @@
 
 enum { DENSE_UNKNOWNS = 100 };
 
-/* ARPACK's tolerance: the eigenvalue's error scales with the square of the residual for separated values. */
-static const double TIGHTER = 1e-3;
+static const double TIGHTER = 1e-6; /* of few unknowns */
 
 static const double NOISE = 0.1;
 
@@ -50,16 +49,9 @@ int32_t hk_dominant_mode(struct hk_linearised *lin, double a, double b, const do
   double *work = hk_new(lin->size, sizeof(double));
   if (work == NULL) return HOOKE_NO_MEMORY;
   begin(lin, start, work);
-  int32_t status = HOOKE_SOLVER_FAILED;
-  if (HOOKE_HAVE_ARPACK && lin->unknowns <= HOOKE_ARPACK_UNKNOWNS)
-    status = hk_dominant_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, work);
-  if (status == HOOKE_SOLVER_FAILED) {
-    begin(lin, start, work);
-    /* few unknowns, high accuracy: iterations are cheap, and converge quickly beyond the accuracy */
-    const int few = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS;
-    status = hk_dominant_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * TIGHTER * accuracy) : accuracy, value,
-                                      work);
-  }
+  const int few = lin->unknowns <= HOOKE_FEW_UNKNOWNS;
+  const int32_t status =
+      hk_dominant_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * accuracy) : accuracy, value, work);
   memcpy(mode, work, (size_t)lin->size * sizeof(double));
   hk_free(work);
   return status;

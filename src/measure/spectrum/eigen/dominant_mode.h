@@ -4,10 +4,13 @@
 
 #include "measure/spectrum/linearised.h"
 
+/* Up to this many unknowns an iteration is cheap, and values are found far beyond the accuracy. */
+enum { HOOKE_FEW_UNKNOWNS = 10000 };
+
 /* The largest eigenvalue, in the units of the linearised system, to about the relative `accuracy`; and its
  * mode (3n, x.Mx = 1). `start` (3n) is the mode of a nearby problem, or NULL. Dense by LAPACK for few
- * unknowns, by ARPACK for more if it is built in, by plain Lanczos otherwise, which adds an estimate of part
- * of the remainder. HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
+ * unknowns, by plain Lanczos for more, which adds an estimate of part of the remainder. HOOKE_NOT_BUILT
+ * without LAPACK; HOOKE_NO_MEMORY. */
 int32_t hk_dominant_mode(struct hk_linearised *linearised, double a, double b, const double *start,
                          double accuracy, double *value, double *mode);
 
@@ -15,13 +18,5 @@ int32_t hk_dominant_mode(struct hk_linearised *linearised, double a, double b, c
  * are right), for the last hk_linearised_combine(); `mode` holds the start. */
 int32_t hk_dominant_mode_lanczos(struct hk_linearised *linearised, double accuracy, double *value,
                                  double *mode);
-
-/* The `count` largest by ARPACK, the largest first, converged to a residual of `tolerance`; `mode` (count of
- * 3n) begins with the start. HOOKE_NOT_BUILT without ARPACK; HOOKE_SOLVER_FAILED if it gave up. */
-int32_t hk_dominant_modes_arpack(struct hk_linearised *linearised, int64_t count, double tolerance,
-                                 double *value, double *mode);
-/* Limit of ARPACK: above this many unknowns, orthogonalising against its basis costs many times the products.
- */
-enum { HOOKE_ARPACK_UNKNOWNS = 10000 };
 
 #endif

@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import BadValue, Scene
+from .. import BadValue, Scene, options_of
 from .._types import FloatArray, Numbers
+from ..parts import Quantity
 
 _ANGSTROM, _DALTON, _PICOSECOND = 1e-10, 1.66053906660e-27, 1e-12
 #: Edges of the cells of meshio, 10 a + b for the corners a and b; of those of higher order the corners alone count.
@@ -49,8 +50,8 @@ def _column(rows: list[dict[str, Any]], name: str, given: Any = None) -> list[An
 
 
 def from_networkx(
-    graph: Any, pos: str | Mapping[Any, Numbers] = "pos", *, mass: float | None = None, stiffness: float | None = None,
-    damping: float = 0.0,
+    graph: Any, pos: str | Mapping[Any, Numbers] = "pos", *, mass: Quantity | None = None,
+    stiffness: Quantity | None = None, damping: Quantity = 0.0,
 ) -> Scene:
     """The scene of a graph, with a particle for each node and a spring of the strain law for each edge.
 
@@ -76,7 +77,9 @@ def from_networkx(
     return scene.springs("edges", between=np.array(ends), stiffness=strong, damping=damped, rest_length=lengths)
 
 
-def from_meshio(mesh: Any, *, mass: float, stiffness: float, damping: float = 0.0, pinned: Numbers = ()) -> Scene:
+def from_meshio(
+    mesh: Any, *, mass: Quantity, stiffness: Quantity, damping: Quantity = 0.0, pinned: Numbers = ()
+) -> Scene:
     """The scene of a mesh: a particle at each point, which share the total `mass` [kg] equally, and a spring of the strain law
     along each edge of a cell, with `stiffness` [N] and `damping` [N s]. `pinned` are numbers of points."""
     edges, lost = [np.empty((0, 2), np.int64)], set()
@@ -90,11 +93,13 @@ def from_meshio(mesh: Any, *, mass: float, stiffness: float, damping: float = 0.
     data = [*mesh.point_data, *mesh.cell_data, *mesh.field_data, *mesh.point_sets, *mesh.cell_sets]
     held = f"what held {loose} points that are in no edge: they are free particles" if loose else None
     _leave_out(*sorted(lost), *(f"data: {name}" for name in data), held)
-    scene = Scene("a mesh").particles(_points(mesh.points), mass=mass / max(1, len(mesh.points)), pinned=pinned)
+    total: Any = options_of("particles").set(mass=mass)["mass"]
+    share = total / max(1, len(mesh.points))
+    scene = Scene("a mesh").particles(_points(mesh.points), mass=share, pinned=pinned)
     return scene.springs("edges", between=ends, stiffness=stiffness, damping=damping) if len(ends) else scene
 
 
-def from_mdanalysis(universe: Any, *, stiffness: float | Mapping[Any, float], damping: float = 0.0) -> Scene:
+def from_mdanalysis(universe: Any, *, stiffness: Quantity | Mapping[Any, Quantity], damping: Quantity = 0.0) -> Scene:
     """The scene of a universe at its present frame, in SI: a particle for each atom, with its mass and its velocity, and a
     spring for each bond, by metres. `stiffness` [N/m] is one for all, or a mapping from the types of bonds, such as
     ``("C", "H")``, and `damping` [N s/m]; rest lengths are those of the frame."""

@@ -6,6 +6,7 @@ import contextlib
 import html
 import importlib
 import tempfile
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -41,7 +42,8 @@ def still(problem: Any) -> str | None:
             if scene is None:
                 return None
             scene = Scene.parse(scene.text)
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of a run that nobody asked for
             method = "symplectic-euler" if system.dynamics == "inertial" else "rk4"
             path, shown = Path(folder, "start.h5"), scene or system
             run(shown, method=method, step=1e-9, every=1e-9, duration=1e-9, output=path, estimate=False)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from .. import BadValue, Limit, Needs, Result, Scene, Study, System, Trajectory
+from .. import BadValue, Limit, Needs, Result, Scene, Study, System, Trajectory, options_of
 from .._types import FloatArray, IntArray, Path, Table
 from ._pictures import Line3DCollection, LogLocator, MaxNLocator, Poly3DCollection, to_rgb
 
@@ -144,7 +144,7 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
 
 
 def study(
-    source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | None = None
+    source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | str | None = None
 ) -> Any:
     """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error_max [m]
     against cost, one marked line a method, and error against step with the observed orders; errors of one step are dotted.
@@ -175,7 +175,7 @@ def study(
 
 
 def work_precision(
-    source: Study | Path, ax: Axes | None = None, *, cost: str = "wall_seconds", want: float | None = None
+    source: Study | Path, ax: Axes | None = None, *, cost: str = "wall_seconds", want: float | str | None = None
 ) -> Axes:
     """Draws error_max [m] against cost of a study, or of the file that one wrote, one marked line a method; with `cost` and
     `want` as for `study`."""
@@ -189,10 +189,11 @@ def work_precision(
     return ax
 
 
-def _finish(ax: Any, table: _Table, unit: str, want: float | None, lines: Iterable[Any] = ()) -> None:
+def _finish(ax: Any, table: _Table, unit: str, want: float | str | None, lines: Iterable[Any] = ()) -> None:
+    wanted: Any = options_of("study").set(want=want)["want"]
     ax.set(xscale="log", yscale="log", ylabel=f"error [{unit}]" if unit else "error")
-    if want is not None:  # before the limits are set
-        ax.axhline(want, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {want:g} {unit}")
+    if wanted is not None:  # before the limits are set
+        ax.axhline(wanted, color="0.4", linestyle="--", linewidth=0.8, label=f"wanted: {wanted:g} {unit}")
     low, high = ax.get_xlim()
     if high < 100 * low:  # few powers of ten: some numbers between them
         ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -204,23 +205,30 @@ def _finish(ax: Any, table: _Table, unit: str, want: float | None, lines: Iterab
     _legend(ax, lines)
 
 
-def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
+def limit(found: Limit, axes: Any = None, *, step: float | str | None = None) -> Any:
     """Draws the modes of a scene times `step` [s] on the regions of stability, into two axes (made if not given), and
     returns them: the eigenvalues on the regions of the methods that have one for each eigenvalue, and frequency and
     decay on those of all methods that have a limit. A method is stable while every point is within its line.
 
-    Without `step`, that of the scene is taken or, if it names none, the smallest predicted limit.
+    Without `step`, that of the scene is taken or, if it names none, the smallest predicted limit; without that, one that
+    shows all modes.
     """
     predicted = found.rows["predicted"]
     limits = predicted[(predicted > 0) & np.isfinite(predicted)]
-    if step is None:
-        step = found.step if np.isfinite(found.step) else limits.min() if limits.size else 1.0
+    h: Any = options_of("run").set(step=step)["step"]
+    if h is None:
+        fastest = np.abs(found.modes).max(initial=0.0)
+        smallest = limits.min() if limits.size else 2 / fastest if fastest > 0 else 1.0
+        h = found.step if np.isfinite(found.step) else smallest
     axes = _two_axes() if axes is None else axes
     plane, reach = axes
     angle = np.linspace(0, np.pi / 2, 181)
     for number, row in enumerate(found.rows):
         style = {**_style(number, marker=""), "label": row["method"], "linewidth": 1.5}
-        if not np.isfinite(found.step_of_mode(row["method"], 1.0, 0.5)):
+        edge = found.step_of_mode(row["method"], 1.0, 0.5)
+        if not np.isfinite(edge):
+            if edge > 0 and not limits.size:  # or nothing would tell of it
+                reach.plot([], [], linestyle="", label=f"{row['method']}: everywhere")
             continue
         if row["by_eigenvalue"]:
             edge = found.step_of_mode(row["method"], 1.0, np.sin(angle))
@@ -230,9 +238,9 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
         edge = np.minimum(found.step_of_mode(row["method"], np.cos(angle), np.sin(angle)), 100)
         reach.plot(edge * np.cos(angle), edge * np.sin(angle), **style)
     dots = {"linestyle": "", "marker": "o", "markersize": 4, "color": "0.1", "label": "modes"}
-    modes = step * np.concatenate([found.modes, found.modes.conj()])
+    modes = h * np.concatenate([found.modes, found.modes.conj()])
     plane.plot(modes.real, modes.imag, **dots)
-    reach.plot(step * found.frequency, step * found.decay, **dots)
+    reach.plot(h * found.frequency, h * found.decay, **dots)
     reach.axline((0, 0), slope=1, color="0.6", linestyle="--", linewidth=1, label="critical damping")
     for ax, left, bottom, names in (
         (plane, -3.6, -3.2, ("real part of h \u03bb", "imaginary part of h \u03bb")),
@@ -241,7 +249,7 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
         ax.set(xlim=(left, left + 4.2), ylim=(bottom, 3.2), xlabel=names[0], ylabel=names[1], aspect="equal")
     _legend(reach)
     reach.set_xlim(0, 3.2)
-    plane.set_title(f"h = {step:.4g} s")
+    plane.set_title(f"h = {h:.4g} s")
     return axes
 
 
