@@ -125,6 +125,12 @@ double hk_work_of_pass(const hooke_system *system) {
   return PASS * hk_work_of_evaluation(system);
 }
 
+double hk_work_at_least(const hooke_system *system, const char *name, int64_t steps) {
+  const double work = hk_work_of_steps(system, name, steps);
+  const int32_t twice = hk_method_find(name)->explicit_step != NULL; /* verlet evaluates, with damping */
+  return !isnan(work) ? work : twice ? 2.0 * (double)steps * hk_work_of_evaluation(system) : 0.0;
+}
+
 double hk_work_of_steps(const hooke_system *system, const char *name, int64_t steps) {
   const struct hk_method *method = hk_method_find(name);
   if (method == NULL || method->adaptive || method->solved || !hk_method_suits(name, system)) return NAN;

@@ -52,5 +52,7 @@ double hk_work_of_pass(const hooke_system *system);
 /* So many steps of a method [s]; NaN if that depends on the steps, as with error control, or where equations
  * are solved. */
 double hk_work_of_steps(const hooke_system *system, const char *method, int64_t steps);
+/* The same, or what they take at least; 0 if nothing is known of that. */
+double hk_work_at_least(const hooke_system *system, const char *method, int64_t steps);
 
 #endif

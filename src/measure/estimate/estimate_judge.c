@@ -44,8 +44,9 @@ static double judge_step(const struct hk_estimate *e, const char *judge, double 
   for (double least = step; least <= limit; least *= 2.0) {
     const double value = hk_estimate_fit_step(e, least);
     if (isnan(value) || value > limit) return NAN;
-    const double work = hk_work_of_steps(e->system, judge, (int64_t)round(e->duration / value));
-    if (!(work > e->work * (1.0 + 1e-9))) return value;
+    const int64_t steps = (int64_t)round(e->duration / value);
+    if (!(hk_work_of_steps(e->system, judge, steps) > e->work * (1.0 + 1e-9)))
+      return hk_work_at_least(e->system, judge, steps) > e->left ? NAN : value;
   }
   return NAN;
 }

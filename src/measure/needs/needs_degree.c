@@ -11,8 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double MOST = 1e9;        /* largest factor tried */
-static const double RATIO = 1.2;       /* of the first factor that is too much to the one offered */
+static const double MOST = 1e9;  /* largest factor tried */
+static const double LEAST = 1.1; /* smallest factor tried, and the first: none of the others holds without */
+static const double RATIO = 1.2; /* of the first factor that is too much to the one offered */
 static const double BELOW_LIMIT = 0.9; /* step of a trial that is not stable at that of the full system */
 static const double LIGHT = 0.1; /* of the mean mass: particles below it are asked how heavy they may be */
 static const double STIFF = 4.0; /* of the mean of its group: springs above it are asked one by one */
@@ -242,11 +243,13 @@ static double between(double low, double high) {
 static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
   const int32_t may_vanish = !degree->up && degree->property > HOOKE_NEEDS_STIFFNESS;
   double good = 1.0, bad = INFINITY;
-  int32_t status = HOOKE_OK, holds = 0;
+  int32_t holds;
   degree->factor = 1.0;
   degree->error = 0.0;
+  int32_t status = take_rung(needs, degree, LEAST, &holds);
+  if (holds != 1) return status;
   if (may_vanish) status = take_rung(needs, degree, INFINITY, &holds);
-  if (holds == 1) return status;
+  if (may_vanish && holds == 1) return status;
   for (int32_t k = 1; good < MOST && isinf(bad) && status == HOOKE_OK; k++) {
     status = take_rung(needs, degree, hk_needs_rung(k), &holds);
     if (holds < 0) break;
@@ -254,7 +257,7 @@ static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
   }
   while (bad / good > RATIO && isfinite(bad) && status == HOOKE_OK) {
     const double middle = between(good, bad);
-    if (middle <= good || middle >= bad) break;
+    if (middle <= good || middle >= bad || middle <= LEAST) break;
     status = take_rung(needs, degree, middle, &holds);
     if (holds < 0) break;
     *(holds ? &good : &bad) = middle;

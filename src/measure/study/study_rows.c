@@ -18,7 +18,7 @@ static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
 
 /* A short run is repeated until its time is steady or this much has been spent on it, and this share of a
  * budget. */
-static const double REPEAT_SECONDS = 0.1, REPEAT_SHARE = 0.005;
+static const double REPEAT_SECONDS = 0.04, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 

@@ -22,6 +22,7 @@ static const double HALVED = 1.0 / 16.0, HALVED_COST_POWER = 1.0 / 4.0;
 enum { EXPECTED_LEVELS = 2 };
 
 static const double CLOSE = 1e-9;     /* agreement, as a fraction of the extent, at which tightening ends */
+static const double CLOSER = 0.5;     /* of the distance at the level before, from which tightening helps */
 static const double DIGITS = 1e-6;    /* trusted digits if none are wanted or those are out of reach */
 static const double SAFETY = 2.0;     /* the two may err in the same direction, by more than their distance */
 static const double CHECK_COST = 2.0; /* cost of the check relative to the first method, before it is known */
@@ -253,13 +254,14 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
   double tolerance = first_tolerance(watch->request, r);
   int32_t status = hk_reference_choose_first(watch, r, 0.1 * tolerance);
   if (status != HOOKE_OK) return status;
-  for (;;) {
+  for (double before = INFINITY;; before = watch->apart) {
     const double begun = hk_reference_now(watch);
     status = run_level(watch, r, tolerance, check);
     const int failed = hk_trial_gave_up(status); /* another tolerance may do */
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(r);
+    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(r) ||
+                     (!isnan(watch->request->digits) && is_all(r) && watch->apart > CLOSER * before);
     if (r->checked > 0 && (failed || last || is_enough(watch->request, r))) break;
     const double seconds = hk_reference_now(watch) - begun;
     double finer = of_level(r, failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance));

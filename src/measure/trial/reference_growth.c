@@ -204,8 +204,12 @@ int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_
   if (r->frames.free_count == 0 || rounding > DISPLACEMENT * r->extent) return HOOKE_OK;
   if (r->agreement <= DROWNED * DISPLACEMENT * r->extent)
     return displace_and_run(watch, r, r, deadline, trial);
-  if (hk_reference_now(watch) + 2.0 * TIGHTER * r->run_work > deadline) return HOOKE_OK;
   struct hk_reference base = *r;
+  if (r->rtol <= TOLERANCE && r->frames.recorded == r->frames.count) { /* it is as tight already */
+    base.extent = r->run_extent;
+    return displace_and_run(watch, r, &base, deadline, trial);
+  }
+  if (hk_reference_now(watch) + 2.0 * TIGHTER * r->run_work > deadline) return HOOKE_OK;
   struct hk_run_cost cost;
   base.rtol = fmin(r->rtol, TOLERANCE);
   watch->ahead = RANDOM;
