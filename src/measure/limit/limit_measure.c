@@ -4,7 +4,6 @@
 #include "integrate/loop/run_loop.h"
 #include "integrate/method.h"
 #include "measure/trial/bracket.h"
-#include "measure/counted_work/work.h"
 #include "measure/limit/growth.h"
 #include "measure/spectrum/mode_growth.h"
 
@@ -38,9 +37,6 @@ struct trial {
 
 /* Certainty that a search which ended early needs for its result to be reported. */
 static const double CERTAIN = 0.05;
-
-/* Counted work of a run that is to show slow growth [s], if that suffices to be certain. */
-static const double SLOW_WORK = 0.1;
 
 /* The rise of the log of an amplitude that a run shows for certain; where it never falls, much less does. */
 static const double CERTAIN_RISE = 3.0, CERTAIN_IF_CONVEX = 0.1;
@@ -85,8 +81,7 @@ static int is_symplectic(const struct trial *trial) {
  * by, of which a rise above all swings takes 7, and as much where only the random share grows (growth.c). */
 static int64_t steps_for(const struct trial *trial) {
   const double accuracy = trial->growth->accuracy;
-  const double most = fmax(4000.0 / CERTAIN, SLOW_WORK / hk_work_of_evaluation(trial->limit->system));
-  if (trial->slow) return 1000 + (int64_t)fmin(fmin(4000.0 / accuracy, most), 1e15);
+  if (trial->slow) return 1000 + (int64_t)fmin(4000.0 / accuracy, 1e15);
   if (trial->growth->twin->lin.damped || !is_symplectic(trial))
     return 1000 + (int64_t)fmin(40.0 / accuracy, 1e15);
   return 200 + (int64_t)fmin(24.0 / sqrt(2.0 * accuracy), 1e15);
