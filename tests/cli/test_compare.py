@@ -25,7 +25,7 @@ def test_json_has_exactly_the_keys(hooke, write):
     assert (answer.code, answer.err) == (0, "")
     value = answer.json
     assert set(value) == {"scene", "duration", "frames", "reference", "rows", "orders", "recommendation", "statistics",
-                          "budget_spent", "claims"}
+                          "budget_spent", "wants", "claims"}
     assert (value["scene"], value["duration"], value["frames"]) == (scene, 0.5, 11)
     assert value["recommendation"] is value["statistics"] is None and value["reference"]["growth_seen"] is None
     assert value["reference"]["ended"] == "agreed"

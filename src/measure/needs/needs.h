@@ -128,6 +128,7 @@ struct hk_needs {
   int64_t runs;         /* number of runs */
   double spread;        /* of the times of equal runs: the largest quotient of two */
   struct hk_turn *turn; /* of a piece beside others, which has a copy of these for itself; NULL: none */
+  const char **shown;   /* what progress says is under way, by the caller's thread; NULL: by another */
 };
 
 /* ---- needs_ingredients.c ---- */
@@ -269,6 +270,9 @@ int32_t hk_needs_refine(struct hk_needs *needs);
 typedef int32_t hk_needs_piece(struct hk_needs *own, int64_t number);
 int32_t hk_needs_run_pieces(struct hk_needs *needs, int64_t first, int64_t count, hk_needs_piece *piece,
                             double most, int64_t *counted);
+
+/* Calls the piece so in what progress says. */
+void hk_needs_name(struct hk_needs *own, const char *what);
 
 /* Reports the progress of one measurement; a non-zero result asks to stop. The second is that of a pick. */
 int32_t hk_needs_tell(struct hk_needs *needs, double fraction);

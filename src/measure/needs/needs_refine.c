@@ -66,6 +66,7 @@ static int32_t refine_part(struct hk_needs *needs, int64_t k) {
   struct hk_needs_path twice = {0}, four = {0};
   struct hk_needs_cost cost_twice, cost_four;
   if (part->cells[0] < 0) return HOOKE_OK;
+  hk_needs_name(needs, needs->m->system->part[k].name);
   int32_t status = run_at(needs, k, 2.0, &twice, &cost_twice, part->note);
   if (status == HOOKE_OK && twice.position) {
     part->change = hk_needs_distance(needs, &needs->path, &twice);

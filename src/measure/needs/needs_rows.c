@@ -269,6 +269,7 @@ static int32_t is_idle(const struct hk_needs_row *row) {
 static int32_t run_piece(struct hk_needs *needs, int64_t number) {
   struct hk_needs_row *row = &needs->row[number];
   row->timed_alone = !needs->turn->serial;
+  hk_needs_name(needs, row->without);
   if (strcmp(row->kind, "resolution") == 0) return run_resolution(needs, row);
   return is_idle(row) ? run_idle(needs, row) : run_row(needs, row);
 }

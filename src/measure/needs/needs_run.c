@@ -231,8 +231,13 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
 
 /* ---- pieces side by side ---- */
 
+void hk_needs_name(struct hk_needs *own, const char *what) {
+  if (own->shown) *own->shown = what;
+}
+
 struct pieces {
   struct hk_needs *own; /* a copy for each */
+  struct hk_stage *stage;
   int64_t first;
   hk_needs_piece *piece;
 };
@@ -241,12 +246,13 @@ static int32_t run_piece(struct hk_turn *turn, void *ctx) {
   const struct pieces *pieces = ctx;
   struct hk_needs *own = &pieces->own[turn->number];
   own->turn = turn;
+  own->shown = turn->worker == 0 ? &pieces->stage->what : NULL;
   return pieces->piece(own, pieces->first + turn->number);
 }
 
 int32_t hk_needs_run_pieces(struct hk_needs *needs, int64_t first, int64_t count, hk_needs_piece *piece,
                             double most, int64_t *counted) {
-  struct pieces pieces = {hk_new(count, sizeof *needs), first, piece};
+  struct pieces pieces = {hk_new(count, sizeof *needs), &needs->stage, first, piece};
   int64_t k;
   if (pieces.own == NULL) return HOOKE_NO_MEMORY;
   for (k = 0; k < count; k++) {

@@ -75,8 +75,7 @@ static int32_t create(const struct hk_study *study, struct hk_ensemble *ensemble
   const struct hk_reference *r = &study->reference;
   ensemble->members = (int64_t)hooke_options_number(study->m->options, "ensemble");
   ensemble->noise = isnan(want) ? SHARE * r->extent : NOISE * want;
-  ensemble->from = r->frames.time[0] + (double)r->trusted * study->every;
-  ensemble->until = r->frames.time[0] + study->duration;
+  ensemble->from = ensemble->until = NAN;
   ensemble->source = hk_new(study->method_count + 1, sizeof *ensemble->source);
   if (ensemble->source == NULL) return HOOKE_NO_MEMORY;
   int32_t status = find_quantities(study, &ensemble->quantities);
@@ -210,6 +209,9 @@ static void keep_member(const struct members *all, int64_t number) {
   if (source->failed) return;
   source->failed += hk_trial_gave_up(all->ends[number]);
   if (all->ends[number] != HOOKE_OK) return;
+  const double start = all->study->reference.frames.time[0];
+  all->ensemble->from = start + (double)all->first * all->study->every;
+  all->ensemble->until = start + all->study->duration;
   for (int64_t k = 0; k < quantities; k++) {
     const double value = all->value[number * quantities + k];
     struct hk_statistic *statistic = &source->statistic[k];
