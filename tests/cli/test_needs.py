@@ -297,7 +297,7 @@ def test_every_name_that_is_left_out_is_told_whole(hooke, write):
     assert set(names) <= set(told["lean"]["without"]) and all(name in claim["text"] for name in names)
 
 
-STIFF_SPRING = "examples/scenes/stiff-spring.json"
+STIFF_SPRING = pathlib.Path(__file__).parents[2] / "examples/scenes/stiff-spring.json"
 
 
 def chain(stiffness, gravity=(0, -9.81, 0)):
@@ -338,8 +338,8 @@ def test_the_stiffest_springs_are_asked_whatever_has_no_stiffness(hooke, write):
 
 def test_a_strip_is_made_coarser_along_it(hooke, write):
     scene = copy.deepcopy(SCENE)
-    scene["parts"] = [{"kind": "cloth", "name": "c", "edges": [[0.05, 0, 0], [0, 0, 1]], "size": [2, 41], "mass": 0.2,
+    scene["parts"] = [{"kind": "cloth", "name": "c", "edges": [[0.05, 0, 0], [0, 0, 0.5]], "size": [2, 21], "mass": 0.2,
                        "pinned": [0, 1], "structural": {"stiffness": 50, "damping": 0.01},
                        "shear": {"stiffness": 5, "damping": 0.01}}]
     names = [row["without"] for row in hooke("needs", write(scene), "--want", "10cm", "--json").json["rows"]]
-    assert any(name.startswith("all but 1 x ") and name.endswith(" of 1 x 40 cells of c") for name in names), names
+    assert any(name.startswith("all but 1 x ") and name.endswith(" of 1 x 20 cells of c") for name in names), names
