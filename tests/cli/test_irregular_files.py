@@ -11,12 +11,12 @@ pytestmark = pytest.mark.everything
 
 VERBS = [["run"], ["check"], ["compare"], ["study"], ["limit"], ["why"], ["needs", "--want", "1mm"], ["view", "-o", "page.html"],
          ["run", "--resume"]]
-NO_PIPE = "is not a regular file; allowed: a scene file, no pipe and no device"
+NO_PIPE = "is not a regular file; allowed: a scene or trajectory file, no pipe and no device"
 KINDS = {
     "pipe": (NO_PIPE, os.mkfifo),
     "/dev/zero": (NO_PIPE, lambda _: None),
-    "folder": ("is a directory; allowed: a scene file", os.mkdir),
-    "socket": ("cannot be opened: No such device or address; allowed: a scene file that can be read",
+    "folder": ("is a directory; allowed: a scene or trajectory file", os.mkdir),
+    "socket": ("cannot be opened: No such device or address; allowed: a scene or trajectory file that can be read",
                lambda path: socket.socket(socket.AF_UNIX).bind(str(path))),
 }
 

@@ -537,7 +537,7 @@ def test_distances_from_the_first_run(browser, tmp_path):
     told = [browser.run(f"frames[{k}].contentDocument.getElementById('apart').textContent") for k in range(3)]
     now, most = (float(number) for number in re.findall(r"([0-9.e-]+) m \(particle", told[1]))
     assert now == pytest.approx(course[k], rel=5e-3) and most == pytest.approx(max(course), rel=5e-3)
-    assert told[0] == "" and told[2] == "not compared with full.h5" and browser.console == []
+    assert told[0] == "" and told[2] == "not compared with full.h5: other particles" and browser.console == []
 
 
 @pytest.mark.check
