@@ -11,10 +11,11 @@
 
 /* ---- what happened ---- */
 
-/* The claim of the cause; of a message its first clause, since the rest suggests what to try. */
+/* Which of several scenes, and the claim of the cause; of a message the clause before what to try. */
 static void tell_what(const struct cli_run *run) {
   const char *what = run->why ? cli_claim(run->why, "cause") : run->message, *end = strstr(what, "; ");
-  cli_report_words(run->arguments, "%.*s", !run->why && end ? (int)(end - what) : (int)strlen(what), what);
+  cli_report_words(run->arguments, run->arguments->more_count > 0 ? "%s: %.*s" : "%.0s%.*s",
+                   run->arguments->scene, !run->why && end ? (int)(end - what) : (int)strlen(what), what);
 }
 
 /* ---- what to try ---- */

@@ -389,14 +389,14 @@ static void release(struct cli_run *run) {
   cli_setup_destroy(&run->setup);
 }
 
-/* Why the run blew up is looked into when it is shown. */
+/* Why the run blew up is looked into when it is shown; a run within this one may have, too. */
 static int run_and_show(struct cli_run *run, cli_show *show, void *context) {
   int code = integrate_to_want(run);
   const int blew_up = cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED;
   if (!blew_up) cli_warnings_tell(run->arguments, run->warnings);
   code = cli_watch_check(run->arguments, code);
   if (code == HOOKE_EXIT_DONE) code = show(run, context);
-  if (code != HOOKE_EXIT_DONE || !blew_up) return code;
+  if ((code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_DIVERGED) || !blew_up) return code;
   find_why(run);
   if (!run->why) cli_warnings_tell(run->arguments, run->warnings);
   cli_blow_up_tell(run);

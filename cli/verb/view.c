@@ -100,11 +100,6 @@ static char *output_of(const struct cli_arguments *arguments) {
   return path;
 }
 
-static void open_page(const struct cli_arguments *arguments, const char *page) {
-  if (cli_os_show_page(page)) return;
-  cli_report_words(arguments, "there is no program to open it with; open %s in a browser", page);
-}
-
 /* ---- what is shown ---- */
 
 /* 1 if an option of a run, --want or --set was given: then the scene of a trajectory is run anew. */
@@ -205,11 +200,25 @@ static int check_several(const struct cli_arguments *arguments) {
   return HOOKE_EXIT_DONE;
 }
 
+/* That one of several can be opened and, as a scene, run, which is known before the first is run. */
+static int check_input(const struct cli_arguments *arguments, const char *path) {
+  struct cli_arguments one = *arguments;
+  struct cli_setup setup;
+  one.scene = path;
+  if (one.more_count == 0 || strcmp(path, "-") == 0 || is_trajectory(path)) return HOOKE_EXIT_DONE;
+  int code = cli_setup_load(&one, &setup);
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_setup_require(&one, &setup, hooke_options_text(setup.options, "method"));
+  cli_setup_destroy(&setup);
+  return code;
+}
+
 static int write_view(const struct cli_arguments *arguments, const char *output) {
   struct shown shown = {arguments, output, .count = 1 + arguments->more_count, .path = {arguments->scene}};
-  for (int32_t k = 1; k < shown.count; k++)
-    shown.path[k] = arguments->more_scenes[k - 1];
-  return show(&shown);
+  int code = check_input(arguments, arguments->scene);
+  for (int32_t k = 1; k < shown.count && code == HOOKE_EXIT_DONE; k++)
+    code = check_input(arguments, shown.path[k] = arguments->more_scenes[k - 1]);
+  return code == HOOKE_EXIT_DONE ? show(&shown) : code;
 }
 
 static int do_view(const struct cli_arguments *arguments) {
@@ -221,7 +230,8 @@ static int do_view(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) {
     code = write_view(arguments, output);
     const int written = code == HOOKE_EXIT_DONE || code == HOOKE_EXIT_DIVERGED;
-    if (written && cli_arguments_text(arguments, "open")) open_page(arguments, output);
+    if (written && cli_arguments_text(arguments, "open") && !cli_os_show_page(output))
+      cli_report_words(arguments, "there is no program to open it with; open %s in a browser", output);
   }
   free(output);
   return code;

@@ -11,12 +11,12 @@ pytestmark = pytest.mark.everything
 
 VERBS = [["run"], ["check"], ["compare"], ["study"], ["limit"], ["why"], ["needs", "--want", "1mm"], ["view", "-o", "page.html"],
          ["run", "--resume"]]
-NO_PIPE = "is not a regular file; allowed: a scene file, no pipe and no device"
+NO_PIPE = "is not a regular file; allowed: a scene or trajectory file, no pipe and no device"
 KINDS = {
     "pipe": (NO_PIPE, os.mkfifo),
     "/dev/zero": (NO_PIPE, lambda _: None),
-    "folder": ("is a directory; allowed: a scene file", os.mkdir),
-    "socket": ("cannot be opened: No such device or address; allowed: a scene file that can be read",
+    "folder": ("is a directory; allowed: a scene or trajectory file", os.mkdir),
+    "socket": ("cannot be opened: No such device or address; allowed: a scene or trajectory file that can be read",
                lambda path: socket.socket(socket.AF_UNIX).bind(str(path))),
 }
 
@@ -36,7 +36,7 @@ def test_as_a_scene(hooke, name, verb):
 
 def test_as_a_trajectory(hooke, name):
     """Where no scene is allowed: as one that is not there."""
-    said = f"{name}: {KINDS[name][0].replace('a scene file', 'a file of HDF5')}\n" if name != "socket" else "No such device or address"
+    said = f"{name}: {KINDS[name][0].replace('a scene or trajectory file', 'a file of HDF5')}\n" if name != "socket" else "No such device or address"
     hooke("verify", name, code=5, err=said)
     answer = hooke("view", name, name, "-o", "page.html")  # each may be a scene
     assert answer.code in (3, 6) and (KINDS[name][0] in answer.err or answer.code == 6)
@@ -45,7 +45,7 @@ def test_as_a_trajectory(hooke, name):
 
 def test_as_what_a_scene_names(hooke, name, tmp_path):
     answer = hooke("make", "mesh", "--file", name, "--mass", "1", "-o", "made.json")
-    assert answer.code == 3 and KINDS[name][0].replace("scene ", "") in answer.err and not os.path.exists("made.json")
+    assert answer.code == 3 and KINDS[name][0].replace("scene or trajectory ", "") in answer.err and not os.path.exists("made.json")
     if name.startswith("/"):
         return  # no scene may name it
     for place in ({"parts": [{"kind": "mesh", "file": name, "mass": 1}]}, {"particles": {"position": {"file": name, "dataset": "q"}}}):

@@ -337,9 +337,14 @@ def test_scenes_beside_a_trajectory(hooke, cloth, write, tmp_path):
     there = set(tmp_path.iterdir())
     told = hooke("view", scenes[0], cloth, scenes[1], "-o", "page.html", "--json").json
     assert [(view["trajectory"], view["frames"]) for view in told["views"]] == [(scenes[0], 11), (cloth, 11), (scenes[1], 6)]
-    assert hooke("view", cloth, "nothing.json", "-o", "none.html").code == 3
-    hooke("view", write(STIFF_PAIR, "stiff.json", duration=10), scenes[0], "-o", "stiff.html", code=4, err="the run diverged")
-    assert set(tmp_path.iterdir()) - there == {tmp_path / name for name in ("page.html", "stiff.json", "stiff.html")}
+    slow = write(CLOTH, "slow.json", duration=1e6)  # nothing is run before all are known to be there
+    hooke("view", slow, "nothing.h5", "-o", "none.html", code=3, err="nothing.h5: cannot be opened")
+    hooke("view", slow, write({"hooke": 1}, "wrong.json"), "-o", "none.html", code=3, err="wrong.json")
+    stiff = write(STIFF_PAIR, "stiff.json", duration=10)
+    for several in ((stiff, scenes[0]), (stiff, stiff)):
+        told = hooke("view", *several, "-o", "stiff.html")
+        assert told.code == 4 and told.err.count(f"{stiff}: the run diverged") == several.count(stiff)
+    assert set(tmp_path.iterdir()) - there == {tmp_path / name for name in ("page.html", "stiff.json", "stiff.html", "slow.json", "wrong.json")}
 
 
 def test_help(hooke):

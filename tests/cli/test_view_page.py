@@ -479,6 +479,7 @@ def test_trajectories_beside_one_another_play_and_turn_together(browser, tmp_pat
     assert [re.search(r"t = (.*) s", text)[1] for text in words("now")] == ["0", "0"]
     before = axes()
     assert before[0] == before[1]
+    assert browser.run("frames.every(({ offsetHeight, contentDocument }) => offsetHeight === contentDocument.body.offsetHeight)")
     browser.drag(750, 200, 100, 60)
     after = axes()
     assert after[0] == after[1] != before[0]
@@ -536,8 +537,8 @@ def test_distances_from_the_first_run(browser, tmp_path):
     assert dark[1] > dark[0] + 200
     told = [browser.run(f"frames[{k}].contentDocument.getElementById('apart').textContent") for k in range(3)]
     now, most = (float(number) for number in re.findall(r"([0-9.e-]+) m \(particle", told[1]))
-    assert now == pytest.approx(course[k], rel=5e-3) and most == pytest.approx(max(course), rel=5e-3)
-    assert told[0] == "" and told[2] == "not compared with full.h5" and browser.console == []
+    assert now == pytest.approx(course[k], rel=0.05) and most == pytest.approx(max(course), rel=0.05)  # as far as rounding allows
+    assert told[0] == "" and told[2] == "not compared with full.h5: other particles" and browser.console == []
 
 
 @pytest.mark.check
@@ -557,6 +558,8 @@ def test_trajectories_over_one_another(browser, tmp_path):
     assert browser.run("[over.checked, frames.map((frame) => frame.hidden)]") == [True, [False, True]]
     legend = browser.run("[...leader.document.getElementById('runs').children].map((item) => item.textContent)")
     assert legend == ["out.h5: symplectic-euler, step 1e-4 s", "out.h5: backward-euler, step 0.01 s, until t = 0.2 s"]
+    squares = [browser.run(f"leader.document.getElementById('{name}').lastChild.firstChild.style.background") for name in ("runs", "apart")]
+    assert squares == ["rgb(213, 94, 0)"] * 2
     browser.run("leader.document.getElementById('look').value = 'springs'; leader.relook()")
     image = pytest.importorskip("matplotlib.image").imread(io.BytesIO(browser.picture()))[110:400, 40:-40, :3]
     red, blue = image[..., 0] - image[..., 2] > 0.2, image[..., 2] - image[..., 0] > 0.2

@@ -97,6 +97,8 @@ def test_measurements_keep_their_tables(measure, tmp_path):
     assert other.rows.tobytes() == found.rows.tobytes() and str(other) == str(found) and repr(other) == repr(found)
     with pytest.raises(hooke.BadCall, match="measure again"):
         other.write(tmp_path / "it.json")
+    if hasattr(found, "_repr_html_"):
+        assert "<table" in other._repr_html_()
     copy.deepcopy(found).write(tmp_path / "it.json")
     if isinstance(found, hooke.Study):
         assert repr(again(other.recommendation)) == repr(found.recommendation)

@@ -46,6 +46,15 @@ def test_an_estimate_changes_no_bit_and_brackets_the_error(method):
     hooke.Integrator(TURN, method=method, step=0.02, duration=1).run(result.state)  # a state of the problem
 
 
+def test_a_callback_follows_its_arrays():
+    """A block that begins where another one began may have its arrays elsewhere."""
+    block, called = np.zeros(8), hooke.FirstOrder(lambda t, x, rate: rate.fill(1), [1.0, 2.0])._rate
+    for place in (2, 4, 6, 2):
+        block[:] = 0
+        assert called(2, 0.0, block.ctypes.data, block[place:].ctypes.data, None) == 0
+        assert list(np.flatnonzero(block)) == [place, place + 1]
+
+
 def test_a_want_is_met_or_said_not_to_be():
     result = TURN.run(want=1e-5, frames=True, **RUN)
     assert result.error.met and off(result) <= result.error.estimate <= 1e-5

@@ -48,6 +48,17 @@ def test_unknown_keywords_name_the_nearest(call, of, nearest):
     assert isinstance(told.value, hooke.BadValue)
 
 
+@pytest.mark.parametrize("call, words", [
+    (lambda: hooke.Scene().obstacles(kind="plane"), '^obstacles: unknown keyword "kind"; allowed: shape, '),
+    (lambda: hooke.view([], "page.html"), "^trajectory: there is none"),
+    (lambda: hooke.sweep(SIX_PARTICLES, {}, only=1), "^only: 1 is no slice"),
+    (lambda: hooke.Scene.parse(SIX_PARTICLES, set="run.step=1"), "^set: 'run.step=1' is no mapping"),
+])  # fmt: skip
+def test_what_is_none_is_refused_in_words(call, words):
+    with pytest.raises(hooke.BadValue, match=words):
+        call()
+
+
 def test_a_document_is_a_scene_and_other_things_are_none():
     assert (hooke.run(SIX_PARTICLES).state.q == hooke.Scene.parse(SIX_PARTICLES).run().state.q).all()
     for thing in (None, [1], 3):

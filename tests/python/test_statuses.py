@@ -171,7 +171,7 @@ def test_a_missing_file_is_not_found(kind, opening):
 
 
 def test_other_failures_of_files_are_found(tmp_path):
-    with pytest.raises(hooke.BadValue, match="is a directory; allowed: a scene file$") as caught:
+    with pytest.raises(hooke.BadValue, match="is a directory; allowed: a scene or trajectory file$") as caught:
         hooke.Scene.load(tmp_path)
     assert not isinstance(caught.value, FileNotFoundError)
 

@@ -63,7 +63,7 @@ int32_t hk_scene_read_file(const char *path, const double *memory_limit, char **
   if (file == NULL) {
     const int number = errno;
     if (descriptor >= 0) close(descriptor);
-    return hk_file_refuse(HOOKE_BAD_VALUE, number, memory_limit ? "scene file" : "file");
+    return hk_file_refuse(HOOKE_BAD_VALUE, number, memory_limit ? "scene or trajectory file" : "file");
   }
   int32_t status = read_all(file, memory_limit, text, length);
   fclose(file);

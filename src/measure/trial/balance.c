@@ -19,21 +19,31 @@ static double largest_energy(const hooke_system *system, double t, const double 
   return sum;
 }
 
+/* Adds the power of the callback, in rows that it may keep. */
+static int32_t call_force(struct hk_balance *balance, const hooke_state *state, double *in) {
+  const hooke_system *system = balance->system;
+  const int64_t size = 3 * system->particle_count;
+  if (hk_rows_renew(3 * size, &balance->rows) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  double *q = balance->rows, *v = q + size, *f = v + size;
+  memcpy(q, hooke_state_position(state), (size_t)size * sizeof *q);
+  memcpy(v, hooke_state_velocity(state), (size_t)size * sizeof *v);
+  memset(f, 0, (size_t)size * sizeof *f);
+  if (system->force(system->particle_count, hooke_state_time(state), q, v, f, system->force_ctx) != 0)
+    return HOOKE_STOPPED;
+  for (int64_t k = 0; k < size; k++)
+    *in += f[k] * v[k];
+  return HOOKE_OK;
+}
+
 /* Power of drives and of what else does work from outside, and dissipated power, at a state. */
-static int32_t find_powers(const struct hk_balance *balance, const hooke_state *state, double *in,
-                           double *out) {
+static int32_t find_powers(struct hk_balance *balance, const hooke_state *state, double *in, double *out) {
   const hooke_system *system = balance->system;
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   *out = balance->dissipated_power(system, hooke_state_time(state), q, v);
   *in = hk_forces_power(system, hooke_state_time(state), q, v);
   if (balance->force == NULL) return HOOKE_OK;
-  const int64_t size = 3 * system->particle_count;
-  memset(balance->force, 0, (size_t)size * sizeof(double));
-  if (system->force && system->force(system->particle_count, hooke_state_time(state), q, v, balance->force,
-                                     system->force_ctx) != 0)
-    return HOOKE_STOPPED;
-  for (int64_t k = 0; k < size; k++)
-    *in += balance->force[k] * v[k];
+  const int32_t called = system->force ? call_force(balance, state, in) : HOOKE_OK;
+  if (called != HOOKE_OK) return called;
   const int32_t status = hooke_system_force(system, hooke_state_time(state), q, v, balance->force);
   for (int64_t p = 0; status == HOOKE_OK && p < system->particle_count; p++) {
     if (system->constrained[p] != HOOKE_IS_DRIVEN) continue;
@@ -47,7 +57,8 @@ int32_t hk_balance_begin(struct hk_balance *balance, const hooke_system *system,
   *balance = (struct hk_balance){.system = system, .dissipated_power = hooke_system_dissipated_power_at};
   if (system->drive_count > 0 || system->force) {
     balance->force = hk_new(3 * system->particle_count, sizeof(double));
-    if (balance->force == NULL) return HOOKE_NO_MEMORY;
+    balance->rows = hk_rows_new(9 * system->particle_count);
+    if (balance->force == NULL || balance->rows == NULL) return HOOKE_NO_MEMORY;
   }
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   balance->time = hooke_state_time(state);
@@ -81,7 +92,8 @@ void hk_balance_close(struct hk_balance *balance, const hooke_state *state) {
 
 void hk_balance_release(struct hk_balance *balance) {
   hk_free(balance->force);
-  balance->force = NULL;
+  hooke_rows_hold(balance->rows, -1);
+  balance->force = balance->rows = NULL;
 }
 
 double hk_balance_floor(const struct hk_balance *balance) {

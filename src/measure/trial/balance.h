@@ -20,7 +20,7 @@ struct hk_balance {
   double residual, scale;    /* [J] at the last state: the residual; the largest of the energies so far */
   double time, power_in, power_out;
   int64_t points;
-  double *force; /* NULL: nothing is driven */
+  double *force, *rows; /* NULL: nothing is driven or calls back; rows of a call */
 };
 
 /* Starts at `state`; must be released in each case. HOOKE_NO_MEMORY, HOOKE_STOPPED. */

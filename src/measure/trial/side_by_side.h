@@ -7,7 +7,7 @@
 
 /* The trial that a thread is at. */
 struct hk_turn {
-  struct hk_trials *trials;
+  struct hk_turns *turns;
   int64_t number;
   int32_t worker; /* 0: the caller's thread */
   int32_t serial; /* 1: others may be running, so that it keeps to its thread, and its times tell little */

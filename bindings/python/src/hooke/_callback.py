@@ -87,7 +87,8 @@ def hearing() -> Iterator[list[str]]:
 
 # The arrays of a call are one block of the library, and those of the next call are there again. So each call gets new
 # views, which all count as references to one array over the block. If that has more of them after a call, something
-# was kept, and the block is left to it.
+# was kept, and the block is left to it. A block is known by the places of all its arrays: where one was freed, another
+# one may begin, whose arrays are elsewhere.
 
 _again = np.ndarray.view
 _MOST = 64  # blocks that are known; an integrator has few
@@ -105,12 +106,12 @@ def on_arrays(
     if function is None:
         return kind()
     user = function
-    known: dict[tuple[int, int], tuple[Table, list[Table]]] = {}
+    known: dict[tuple[int, ...], tuple[Table, list[Table]]] = {}
 
-    def look(key: tuple[int, int], others: tuple[int, ...]) -> tuple[Table, list[Table]]:
-        count, first = key
+    def look(key: tuple[int, ...]) -> tuple[Table, list[Table]]:
+        count, first = key[:2]
         size = math.prod(shape(count))
-        starts = [(place - first) // np.dtype(dtype).itemsize for place in (first, *others)]
+        starts = [(place - first) // np.dtype(dtype).itemsize for place in key[1:]]
         memory = view(first, (starts[-1] + size,), dtype=dtype)
         rows = [memory[start : start + size].reshape(shape(count)) for start in starts]
         for array in rows[:inputs]:
@@ -120,17 +121,17 @@ def on_arrays(
         known[key] = memory, rows
         return known[key]
 
-    def leave(key: tuple[int, int], memory: Any) -> None:
+    def leave(key: tuple[int, ...], memory: Any) -> None:
         known.pop(key, None)
         if memory.size:
             place = ctypes.c_double.from_address(key[1])
             lib.hooke_rows_hold(place, 1)
             memory.base.owner = Handle(place, lambda rows: lib.hooke_rows_hold(rows, -1))
 
-    def called(count: int, t: float, first: int, *others: Any) -> int:
-        key = count, first
+    def called(count: int, t: float, *places: Any) -> int:
+        key = count, *places[:-1]
         try:
-            memory, rows = known.get(key) or look(key, others[:-1])
+            memory, rows = known.get(key) or look(key)
             users = getrefcount(memory)
             try:
                 answer = user(t, *map(_again, rows))

@@ -338,8 +338,8 @@ class Paged(Found):
         try:
             shown: str = draw("notebook.embed", self.write)
             return shown
-        except NotBuilt:
-            return None
+        except (BadCall, NotBuilt):  # of another process, or without what draws
+            return super()._repr_html_()
 
     def report(self, path: Path) -> pathlib.Path:
         """Writes the page to look at, offline, and returns its path, which ends in ``.html``."""

@@ -40,7 +40,7 @@ def takes(keywords: Any = None) -> Callable[[F], F]:
         for name, hint in (keywords.__annotations__ if keywords else {}).items():
             given = {"default": None, "annotation": getattr(hint, "__forward_arg__", hint)}
             named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, **given))
-        known = {parameter.name: parameter for parameter in named}
+        known = {parameter.name: parameter for parameter in named if parameter.name != "self"}
         called = function.__qualname__.split(".")[-2 if function.__name__ == "__init__" else -1]
 
         @functools.wraps(function)

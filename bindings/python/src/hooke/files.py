@@ -93,6 +93,8 @@ def view(
     if isinstance(trajectory, str) or not isinstance(trajectory, Sequence):
         trajectory = [trajectory]
     sources = [_file_of(one) for one in trajectory]
+    if not sources:
+        raise BadValue("trajectory: there is none; allowed: a trajectory, or several")
     if output is None and len(sources) != 1:
         raise BadValue("output: is required for several trajectories")
     page = pathlib.Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")

@@ -282,6 +282,8 @@ class Scene(Parts, Problem):
 
 def limits_of(memory: float | None, outside: bool, values: Mapping[str, Any] | None = None) -> Handle:
     """Options of hooke_scene_load()."""
+    if values is not None and not isinstance(values, Mapping):
+        raise BadValue(f'set: {values!r} is no mapping; allowed: values by paths, such as {{"run.step": 0.001}}')
     lines = "\n".join(f"{path}={_dump(value)}" for path, value in (values or {}).items())
     return Options.for_scene("limits").set(memory=memory, outside=outside, set=lines or None)._handle
 

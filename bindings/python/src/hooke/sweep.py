@@ -297,6 +297,8 @@ def sweep(
     runs again. `run` is the function, such as `hooke.study` or `hooke.needs`, or one of your own: ``run(scene, **options)``
     returns a result, a measurement, or a dict.
     """
+    if not isinstance(only, slice):
+        raise BadValue(f"only: {only!r} is no slice; allowed: slice(k, None, tasks)")
     rows = _rows(vary)
     paths = list(dict.fromkeys(itertools.chain.from_iterable(rows)))
     for path in paths:

@@ -17,7 +17,7 @@ static const struct hk_option_row rows[] = {
     HOOKE_OPTION("springs", HOOKE_OPTION_WHOLE(1, 1e7), "100000",
                  "springs that the page draws at most: of more, every second, third, ..."),
     HOOKE_OPTION("size", HOOKE_OPTION_UP_TO("MB", 2000), "50",
-                 "size of the page at most, which frames are left out for"),
+                 "size of the page at most, of several runs on it of each, which frames are left out for"),
     HOOKE_OPTION("beyond", HOOKE_OPTION_WHOLE(0, 1e9), "30",
                  "frames after the run diverged that are shown at most; of a scene, so many are run"),
     HOOKE_OPTION(

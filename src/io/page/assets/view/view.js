@@ -113,10 +113,7 @@ function show(k, now = false) {
   writePicked();
   document.body.dataset.frame = shown;
   if (!playing) time = data.time[shown];
-  energies.moveCursor();
-  course.moveCursor();
-  apart.moveCursor();
-  for (const [, drawn_] of watched) drawn_.moveCursor();
+  for (const drawn_ of [energies, course, apart, ...watched.map(([, one]) => one)]) drawn_.moveCursor();
   if (now) drawNow();
   else draw();
   tell("time", data.time[shown]);

@@ -26,6 +26,9 @@ function haveSameParticles(one, other) {
   return from.every((x, k) => Math.abs(x - to[k]) <= reach);
 }
 
+/* The distance may be this much in some of these frames, to one digit, which is not below it. */
+const boundOf = (course) => `${number(1.5 * Math.max(...course.map((one) => (one ? one.far + one.rounding : 0))), 1)} m`;
+
 class Apart {
   constructor(first, other, { uniforms, radius }) {
     const count = other.data.particles;
@@ -33,8 +36,9 @@ class Apart {
     this.ends = Uint32Array.from({ length: 2 * count }, (_, k) => (k % 2) * count + (k >> 1));
     this.course = other.data.time.map((time) => this.compare(time));
     this.largest = this.course.reduce((most, one) => (most && !(one && one.far > most.far) ? most : one), null);
-    this.longer = this.scale(radius);
-    this.lines = makeLines(count, { ...uniforms, plain: uniforms.ink, width: { value: 2 }, tintedLines: { value: 1 } });
+    this.equal = this.largest && this.largest.far <= this.largest.rounding;
+    this.longer = this.equal ? 1 : this.scale(radius);
+    this.lines = makeLines(count, { ...uniforms, plain: { value: null }, width: { value: 2 }, tintedLines: { value: 1 } });
   }
 
   /* How many times as long as the distances lines are: 1, 2 or 5 times a power of ten. */
@@ -68,14 +72,19 @@ class Apart {
       place[k + place.length / 2] = here + (longer * (both[0].at[k] - both[1].at[k])) / radius;
     }
     fillLines(this.lines, place, this.ends, both ? this.order : [], 1, () => NO_STRAIN);
-    const words = [far ? `${this.words(far)} from ${this.first.data.file}` : `not compared with ${this.first.data.file}`];
-    if (largest) words.push(`of these frames at most ${this.words(largest)}, at t = ${number(largest.time, 4)} s`);
+    const { file } = this.first.data, words = far ? [] : [`not compared with ${file}: ${this.same ? "no frame at this time" : "other particles"}`];
+    if (this.equal) words.push(`${this.course.includes(null) ? "in frames of both " : ""}nowhere farther than ${boundOf(this.course)} from ${file}`);
+    else if (far) words.push(`${this.words(far)} from ${file}`);
+    if (largest && !this.equal) words.push(`in frames of both at most ${this.words(largest)}, at t = ${number(largest.time, 4)} s`);
     if (longer > 1) words.push(`drawn ${number(longer)} times as long`);
     return words.join("; ");
   }
 
-  words({ far, particle, rounding }) {
-    return far <= rounding ? `less than ${number(2 * rounding, 1)} m` : `${number(far)} m (particle ${particleNumber(this.other, particle)})`;
+  /* With the digits that rounding leaves. */
+  words(found) {
+    const { far, particle, rounding } = found, digits = 1 + Math.floor(Math.log10(far)) - Math.ceil(Math.log10(rounding));
+    if (far <= rounding) return `at most ${boundOf([found])}`;
+    return `${number(far, Math.max(1, Math.min(3, digits)))} m (particle ${particleNumber(this.other, particle)})`;
   }
 }
 
@@ -84,15 +93,16 @@ let aparts = [];
 /* Of the runs that are drawn here, those that are not the first of all. */
 function findAparts() {
   const [first] = shared;
-  aparts = picture ? runs.filter((one) => one.data !== first.data).map((one) => new Apart(first, one, picture)) : [];
+  aparts = runs.filter((one) => one.data !== first.data).map((one) => new Apart(first, one, picture || homeOf(data)));
   if (picture) picture.setApart(aparts);
 }
 
 function drawApart() {
+  for (const { lines, other } of aparts) lines.material.uniforms.plain.value = colour(other.own || styleOf("--ink"));
   const known = aparts.filter(({ largest }) => largest);
   at("apart-course").hidden = known.length === 0;
   if (known.length === 0) return;
   const lines = known.map(({ other, course: found }) => lineOf(nameOf(other), other, (frame) => (found[frame] ? found[frame].far : NaN),
     { borderColor: other.own || styleOf("--ink") }));
-  apart.draw(lines, `distance from ${known[0].first.data.file} [m]`, rangeOf(lines));
+  apart.draw(lines, "apart [m]", rangeOf(lines));
 }

@@ -18,12 +18,15 @@ function endOf(one) {
   return end < data.time_last ? `, until t = ${number(end, 4)} s` : "";
 }
 
+/* Words after a square of the run's colour, if it has one. */
+function itemOf(words, own) {
+  const item = element("li", words);
+  if (own) item.prepend(Object.assign(element("i"), { style: `background: ${own}` }));
+  return item;
+}
+
 function writeRuns() {
-  at("runs").replaceChildren(...(runs.length > 1 ? runs : []).map((one) => {
-    const item = element("li", nameOf(one) + endOf(one.data));
-    item.prepend(Object.assign(element("i"), { style: `background: ${one.own}` }));
-    return item;
-  }));
+  at("runs").replaceChildren(...(runs.length > 1 ? runs : []).map((one) => itemOf(nameOf(one) + endOf(one.data), one.own)));
 }
 
 /* Of several, each has a colour of its own. */

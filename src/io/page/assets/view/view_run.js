@@ -171,6 +171,15 @@ function frameNear(times, time) {
   return Math.abs(times[high] - time) < Math.abs(times[low] - time) ? high : low;
 }
 
+/* Takes objects out of a scene for good. */
+function release(scene, objects) {
+  scene.remove(...objects);
+  for (const { geometry, material } of objects) {
+    geometry.dispose();
+    material.dispose();
+  }
+}
+
 /* What is drawn of one trajectory. */
 class Run {
   constructor({ data, ends, marks, bytesOfFrame }, { home, centre, radius }) {
@@ -233,13 +242,6 @@ class Run {
     this.uniforms.size.value.set(wide * ratio, tall * ratio);
     this.uniforms.width.value = ratio * (count <= 300 ? 3.4 : count <= 3000 ? 2.2 : count <= 10000 ? 1.5 : 1.1);
     this.uniforms.scale.value = ratio * (this.list.length <= 100 ? 11 : 6);
-  }
-
-  release() {
-    for (const { geometry, material } of this.objects) {
-      geometry.dispose();
-      material.dispose();
-    }
   }
 
   paint() {

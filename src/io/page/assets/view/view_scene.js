@@ -34,10 +34,7 @@ class Picture extends Run {
 
   /* Draws these runs over its own; without any, its own alone. */
   drawOver(runs) {
-    for (const run of this.others) {
-      this.scene.remove(...run.objects);
-      run.release();
-    }
+    for (const run of this.others) release(this.scene, run.objects);
     this.others = runs.map((run) => new Run(run, this));
     for (const run of this.others) this.scene.add(...run.objects);
     this.home = boxAround([this.data, ...runs.map(({ data }) => data)].map((data) => homeOf(data).home));
@@ -45,11 +42,7 @@ class Picture extends Run {
   }
 
   setApart(aparts) {
-    for (const { lines } of this.aparts) {
-      this.scene.remove(lines);
-      lines.geometry.dispose();
-      lines.material.dispose();
-    }
+    for (const { lines } of this.aparts) release(this.scene, [lines]);
     this.aparts = aparts;
     for (const { lines } of aparts) this.scene.add(lines);
   }
@@ -198,7 +191,7 @@ class Picture extends Run {
     const { runs } = this, frames = runs.map((run) => (run === this ? frame : this.frameOf(run, frame)));
     const unit = this.unitOf(boxAround(runs.map(({ data }, k) => data.box[frames[k]])));
     runs.forEach((run, k) => Run.prototype.show.call(run, frames[k], unit));
-    at("apart").replaceChildren(...this.aparts.map((one) => element("li", one.show(this.data.time[frame], unit))));
+    at("apart").replaceChildren(...this.aparts.map((one) => itemOf(one.show(this.data.time[frame], unit), one.other.own)));
   }
 
   draw() {

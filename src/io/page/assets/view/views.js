@@ -29,6 +29,9 @@ addEventListener("keydown", (event) => event.key === "o" && window.putOver());
 let awaited = frames.length;
 for (const frame of frames) {
   frame.onload = () => {
+    const { body } = frame.contentDocument, stage = frame.contentDocument.getElementById("stage");
+    stage.style.height = `${stage.offsetHeight}px`; // however high its frame becomes, which is as high as the page
+    new ResizeObserver(() => { frame.style.height = `${body.offsetHeight}px`; }).observe(body);
     if (--awaited > 0) return;
     const pages = others(null), longest = Math.max(...pages.map((page) => page.duration));
     leader = pages.find((page) => page.duration === longest);
