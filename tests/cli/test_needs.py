@@ -295,3 +295,51 @@ def test_every_name_that_is_left_out_is_told_whole(hooke, write):
     told = hooke("needs", write(scene), "--want", "1cm", "--duration", "0.1", "--method", "verlet", "--json").json
     claim = next(claim for claim in told["claims"] if claim["key"] == "lean")
     assert set(names) <= set(told["lean"]["without"]) and all(name in claim["text"] for name in names)
+
+
+STIFF_SPRING = pathlib.Path(__file__).parents[2] / "examples/scenes/stiff-spring.json"
+
+
+def chain(stiffness, gravity=(0, -9.81, 0)):
+    count = len(stiffness) + 1
+    return {"hooke": 1, "gravity": gravity,
+            "particles": {"position": [[k, 0, 0] for k in range(count)], "mass": 1, "pinned": [0, count - 1]},
+            "springs": [{"name": "all", "between": [[k, k + 1] for k in range(count - 1)], "stiffness": stiffness,
+                         "damping": 0.5, "rest_scale": 1}],
+            "run": {"method": "verlet", "step": 5e-4, "duration": 0.5, "every": 0.05}}
+
+
+def test_what_lacks_the_wanted_quantity_is_needed(hooke):
+    answer = hooke("needs", STIFF_SPRING, "--want", "soft:max.tension=20%,1m", "--method", "verlet", "--duration", "0.5", "--json")
+    row = row_of(answer.json, "soft")
+    assert row["needed"] and row["error"] is None and row["note"] == "it is without what is wanted"
+
+
+@pytest.mark.parametrize("want", ["period:4.y=1%", "energy=1%", "4=1%"])
+def test_no_part_of_nothing_is_wanted(hooke, write, want):
+    scene = write(chain([100] * 9, gravity=(0, 0, 0)))
+    for verb in ("needs", "study"):
+        answer = hooke(verb, scene, "--want", want)
+        assert answer.code == 3 and f"{want[:-3]}: no run tells whether it is within 1 % of its largest value" in answer.err
+
+
+def test_errors_are_told_of_a_recommended_run_alone(hooke):
+    answer = hooke("needs", STIFF_SPRING, "--want", "stiff:max.tension=20%", "--method", "verlet", "--duration", "1", "--json").json
+    assert answer["lean"]["error"] is None and answer["wants"] == []
+    assert not [claim for claim in answer["claims"] if claim["key"] == "error"]
+
+
+def test_the_stiffest_springs_are_asked_whatever_has_no_stiffness(hooke, write):
+    stiffness = [0] + [100, 100, 5000] * 9 + [100] * 12 + [1e7]
+    answer = hooke("needs", write(chain(stiffness)), "--want", "5cm", "--json").json
+    single = [row["quantity"] for row in answer["degrees"] if ":" in row["quantity"]]
+    assert single == [f"all:{k}.stiffness" for k in (*range(3, 22, 3), len(stiffness) - 1)]
+
+
+def test_a_strip_is_made_coarser_along_it(hooke, write):
+    scene = copy.deepcopy(SCENE)
+    scene["parts"] = [{"kind": "cloth", "name": "c", "edges": [[0.05, 0, 0], [0, 0, 0.5]], "size": [2, 21], "mass": 0.2,
+                       "pinned": [0, 1], "structural": {"stiffness": 50, "damping": 0.01},
+                       "shear": {"stiffness": 5, "damping": 0.01}}]
+    names = [row["without"] for row in hooke("needs", write(scene), "--want", "10cm", "--json").json["rows"]]
+    assert any(name.startswith("all but 1 x ") and name.endswith(" of 1 x 20 cells of c") for name in names), names

@@ -88,12 +88,15 @@ def test_what_it_hangs_on():
     # by Gragg-Bulirsch-Stoer extrapolation in long double the softer spring puts the run 0.2284998 m off
     assert found.changes.error == pytest.approx(0.2284998, rel=2e-3) and np.isnan(found.changes.want)
     assert found.changes.sentence.endswith("softened so, the run is 0.23 m off (tried)")
+    assert "softening it, and its damping, by 5100 allows" in found.changes.sentence
     assert found.shape.shape == (8, 3)
     sizes = np.linalg.norm(found.shape, axis=1)
     assert sizes.max() == pytest.approx(1) and set(np.argsort(sizes)[-2:]) == {3, 4}
     free = hooke.System()
     free.add_particles([[0, 0, 0]], mass=1)
     nothing = hooke.limit(free, predict=True)
+    unstable = hooke.limit("examples/scenes/stiff-spring.json", predict=True, methods="heun")
+    assert unstable.changes is None and not any(claim.key == "changes" for claim in unstable.claims)
     assert nothing.shape is None and nothing.blame == [] and nothing.changes is None and nothing.modes.size == 0
 
 

@@ -53,7 +53,7 @@ static void forget(struct hk_limit *limit) {
   limit->mode = NULL;
   hk_participation_release(&limit->participation);
   memset(&limit->participation, 0, sizeof limit->participation);
-  memset(&limit->suggestion, 0, sizeof limit->suggestion);
+  limit->suggestion = hk_no_suggestion;
   for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     row->bound = row->predicted = row->measured = row->steps_run = NAN;

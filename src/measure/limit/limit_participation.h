@@ -95,6 +95,8 @@ struct hk_suggestion {
   char sentence[640];
 };
 
+extern const struct hk_suggestion hk_no_suggestion; /* without a sentence */
+
 /* The smallest set of springs or particles with 90 % of the mode, if it is small against the scene and the
  * step without it would be larger; `factor` is the cost of the set. `limit` is that of `method` at q as it
  * is. Without such a set `sentence` describes the limiting groups, the counts are 0 and the numbers NaN. The

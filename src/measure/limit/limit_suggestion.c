@@ -55,28 +55,14 @@ static struct set particle_set(const hooke_system *system, const struct hk_parti
 
 /* ---- deviation from the ordinary ---- */
 
-static double find_kappa(const hooke_system *system, int64_t number, double *mean_log) {
-  double found = 0.0, sum = 0.0;
-  int64_t count = 0;
-  struct hk_scaler scaler = {.t = system->moment};
-  for (int64_t r = 0; r < system->springs->run_count; r++) {
-    const struct hk_run *run = &system->springs->run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const double kappa = hk_run_spring_at(run, k, &scaler).kappa;
-      if (run->first + k == number) found = kappa;
-      if (kappa > 0.0) sum += log(kappa), count++;
-    }
-  }
-  *mean_log = count > 0 ? sum / (double)count : 0.0;
-  return found;
-}
-
-/* Geometric means: a few outliers hardly affect them. */
+/* By geometric means: a few outliers hardly affect them. */
 static void find_oddness(const hooke_system *system, const struct hk_participation *participation,
                          struct set *springs, struct set *particles) {
-  double mean, sum = 0.0;
-  const double kappa = find_kappa(system, participation->spring[0].spring, &mean);
-  springs->odd = kappa > 0.0 ? log(kappa) - mean : 0.0;
+  const struct hk_springs *all = system->springs;
+  const double kappa = hk_springs_find(all, participation->spring[0].spring, system->moment).kappa,
+               mean = hk_springs_mean(all, 0, all->count, system->moment);
+  double sum = 0.0;
+  springs->odd = kappa > 0.0 ? log(kappa / mean) : 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     sum += system->constrained[p] ? 0.0 : log(system->inertia[p]);
   particles->odd = sum / (double)particles->of - log(participation->particle[0].mass);
@@ -155,8 +141,8 @@ static void add_place(const struct hk_participation *participation, const struct
   if (one) hk_append(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", group);
 }
 
-static void tell(const struct hk_participation *participation, const struct set *set,
-                 struct hk_suggestion *suggestion) {
+static void tell(const hooke_system *system, const struct hk_participation *participation,
+                 const struct set *set, struct hk_suggestion *suggestion) {
   char *text = suggestion->sentence;
   const size_t size = sizeof suggestion->sentence;
   const int one = set->count == 1;
@@ -168,8 +154,12 @@ static void tell(const struct hk_participation *participation, const struct set 
             set->springs ? "springs" : "free particles");
   add_place(participation, set, text, size);
   hk_append(text, size, " %s a factor %s in step; ", one ? "costs" : "cost", cost);
+  int32_t damped = 0;
+  for (int64_t k = 0; k < set->count && set->springs; k++)
+    damped |= hk_springs_find(system->springs, participation->spring[k].spring, HOOKE_AS_GIVEN).gamma > 0.0;
   if (set->springs)
-    hk_append(text, size, "softening %s by %s", one ? "it" : "them", factor);
+    hk_append(text, size, "softening %s%s by %s", one ? "it" : "them",
+              damped ? one ? ", and its damping," : ", and their damping," : "", factor);
   else
     hk_append(text, size, "making %s %s times heavier", one ? "it" : "them", factor);
   hk_append(text, size, " allows a step %s times larger", gain);
@@ -273,6 +263,9 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
 
 /* ---- whole ---- */
 
+const struct hk_suggestion hk_no_suggestion = {
+    .cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN, .without = -1, .price = {NAN, NAN}};
+
 /* Fills in the suggestion if changing the set gains anything; otherwise `kind` stays NULL. */
 static int32_t try_set(const hooke_system *system, const double *q, const char *method, double limit,
                        const struct hk_participation *participation, const struct set *set,
@@ -290,14 +283,13 @@ static int32_t try_set(const hooke_system *system, const double *q, const char *
   suggestion->factor = factor;
   suggestion->gain = changed / limit;
   suggestion->gain_predicted = perturbed(participation, set, factor);
-  tell(participation, set, suggestion);
+  tell(system, participation, set, suggestion);
   return HOOKE_OK;
 }
 
 int32_t hk_suggestion_find(const hooke_system *system, const double *q, const char *method, double limit,
                            const struct hk_participation *participation, struct hk_suggestion *suggestion) {
-  *suggestion = (struct hk_suggestion){
-      .cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN, .without = -1, .price = {NAN, NAN}};
+  *suggestion = hk_no_suggestion;
   struct set first = spring_set(system, participation), second = particle_set(system, participation);
   const int springs = is_small(first.count, first.of), particles = is_small(second.count, second.of);
   if (springs && particles) find_oddness(system, participation, &first, &second);

@@ -18,11 +18,8 @@ static const double BELOW_LIMIT = 0.9; /* step of a trial that is not stable at 
 static const double LIGHT = 0.1; /* of the mean mass: particles below it are asked how heavy they may be */
 static const double STIFF = 4.0; /* of the mean of its group: springs above it are asked one by one */
 static const double MOST_STEPS = 2.0; /* of a trial, of those of the full run */
-enum {
-  MOST_LIGHT = 8,
-  MOST_SINGLE = 8,
-  MOST_WORK = 40
-}; /* particles; work of all trials, of that of the full run */
+/* Particles; springs; work of all trials, of that of the full run. */
+enum { MOST_LIGHT = 8, MOST_SINGLE = 8, MOST_WORK = 40 };
 
 /* ---- what is asked ---- */
 
@@ -99,6 +96,20 @@ static int32_t add_group(struct hk_needs *needs, int64_t g, int32_t damping) {
   return status;
 }
 
+static double kappa_of(const struct hk_needs *needs, int64_t spring) {
+  return hk_springs_find(needs->m->system->springs, spring, HOOKE_AS_GIVEN).kappa;
+}
+
+/* Of one single more than are asked; of equals the last. */
+static void drop_softest(struct hk_needs *needs) {
+  int64_t last = --needs->degree_count, softest = last;
+  for (int64_t k = last - 1; k >= last - MOST_SINGLE; k--)
+    if (kappa_of(needs, needs->degree[k].number) < kappa_of(needs, needs->degree[softest].number))
+      softest = k;
+  memmove(&needs->degree[softest], &needs->degree[softest + 1],
+          (size_t)(last - softest) * sizeof *needs->degree);
+}
+
 /* Springs that are far stiffer than the others of their group, one by one, where no part adds it. */
 static int32_t add_singles(struct hk_needs *needs) {
   const hooke_system *system = needs->m->system;
@@ -106,19 +117,16 @@ static int32_t add_singles(struct hk_needs *needs) {
   int64_t first = 0, found = 0;
   for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
-    double sum = 0.0;
     if (group->from_part || group->curve || needs->kept[g] || is_unneeded(needs, "", g)) continue;
-    for (int64_t s = first; s < first + group->count; s++)
-      sum += log(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa);
-    const double stiff = STIFF * exp(sum / (double)group->count);
+    const double stiff = STIFF * hk_springs_mean(system->springs, first, group->count, HOOKE_AS_GIVEN);
     for (int64_t s = first; s < first + group->count && status == HOOKE_OK; s++) {
       char name[HOOKE_NEEDS_NAME];
-      if (!(hk_springs_find(system->springs, s, HOOKE_AS_GIVEN).kappa > stiff) || ++found > MOST_SINGLE)
-        continue;
+      if (!(kappa_of(needs, s) > stiff)) continue;
       name_group(needs, g, name);
       hk_append(name, sizeof name, ":%lld", (long long)(s - first));
       status = add(needs, HOOKE_NEEDS_SINGLE, s, 0, name, "stiffness");
       if (status == HOOKE_OK) needs->degree[needs->degree_count - 1].group = g;
+      if (status == HOOKE_OK && ++found > MOST_SINGLE) drop_softest(needs);
     }
   }
   return status;
@@ -250,17 +258,12 @@ static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
   if (holds != 1) return status;
   if (may_vanish) status = take_rung(needs, degree, INFINITY, &holds);
   if (may_vanish && holds == 1) return status;
-  for (int32_t k = 1; good < MOST && isinf(bad) && status == HOOKE_OK; k++) {
-    status = take_rung(needs, degree, hk_needs_rung(k), &holds);
+  for (int32_t k = 1; status == HOOKE_OK; k++) {
+    const double next = isinf(bad) ? hk_needs_rung(k) : between(good, bad);
+    if (isinf(bad) ? good >= MOST : bad / good <= RATIO || next <= fmax(good, LEAST) || next >= bad) break;
+    status = take_rung(needs, degree, next, &holds);
     if (holds < 0) break;
-    *(holds ? &good : &bad) = hk_needs_rung(k);
-  }
-  while (bad / good > RATIO && isfinite(bad) && status == HOOKE_OK) {
-    const double middle = between(good, bad);
-    if (middle <= good || middle >= bad || middle <= LEAST) break;
-    status = take_rung(needs, degree, middle, &holds);
-    if (holds < 0) break;
-    *(holds ? &good : &bad) = middle;
+    *(holds ? &good : &bad) = next;
   }
   return status;
 }

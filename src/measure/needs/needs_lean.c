@@ -33,7 +33,7 @@ int32_t hk_needs_try_lean(struct hk_needs *needs, struct hk_needs_lean *candidat
   status = hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
   if (status == HOOKE_OK && !isnan(candidate->error))
     status = hk_needs_compare(needs, &trial, &candidate->cost, 1, &displaced);
-  if (!(displaced <= needs->want)) candidate->error = NAN;
+  if (!(displaced <= needs->want)) candidate->error = NAN, hk_needs_path_release(&candidate->path);
   return status;
 }
 

@@ -77,6 +77,9 @@ int32_t hk_needs_run_full(struct hk_needs *needs) {
   const struct hk_needs_trial trial = {needs->m->system, NULL};
   hk_stage_begin(&needs->stage, "the full scene", 0.2);
   if (status == HOOKE_OK) status = hk_needs_measure(needs, &trial, &needs->full, &needs->path);
+  const struct hk_needs_path *path = &needs->path;
+  if (status == HOOKE_OK && path->position)
+    status = hk_wants_require_values(&needs->wants, &path->values, path->recorded, path->recorded);
   struct hk_needs_cost *full = &needs->full;
   if (status == HOOKE_OK && full->wall_seconds < HOOKE_NEEDS_SHORT)
     status = hk_needs_find_times(needs, 1, &trial, &full, HOOKE_NEEDS_SHORT);
@@ -84,14 +87,12 @@ int32_t hk_needs_run_full(struct hk_needs *needs) {
                least = needs->wants.whole ? frames : 1.0 + LEAST_JUDGED * frames;
   if (status == HOOKE_OK && (!needs->path.position || (double)needs->judged < least))
     status = refuse_full(needs);
-  if (status == HOOKE_OK) {
-    say_how_it_moves(needs);
-  } else {
-    hk_needs_path_release(&needs->path);
-    for (int k = 0; k < 2; k++)
-      hk_needs_path_release(&needs->by_step[k]);
-    needs->judged = needs->frame_count;
-  }
+  if (status == HOOKE_OK) say_how_it_moves(needs);
+  if (status == HOOKE_OK) return status;
+  hk_needs_path_release(&needs->path);
+  for (int k = 0; k < 2; k++)
+    hk_needs_path_release(&needs->by_step[k]);
+  needs->judged = needs->frame_count;
   return status;
 }
 
@@ -226,13 +227,15 @@ static int32_t run_resolution(struct hk_needs *needs, struct hk_needs_row *row) 
   const int64_t part = part_of(row);
   double *scale = &row->variant.scale[part], kept = *scale;
   int64_t cells[3], made[3], fails = 0;
-  hk_variant_cells(&needs->m->system->part[part], kept, cells, made);
+  int32_t axis = 0, a = hk_variant_cells(&needs->m->system->part[part], kept, cells, made);
+  while (--a > 0)
+    if (cells[a] > cells[axis]) axis = a;
   int32_t status = run_row(needs, row);
   struct hk_needs_row held = *row;
-  for (int64_t holds = made[0]; status == HOOKE_OK && held.needed == 0.0;) {
+  for (int64_t holds = made[axis]; status == HOOKE_OK && held.needed == 0.0;) {
     const int64_t next = (fails + holds) / 2;
     if (next <= fails || (double)holds <= COARSER * (double)fails) break;
-    *scale = (double)next / (double)cells[0];
+    *scale = (double)next / (double)cells[axis];
     status = run_row(needs, row);
     if (status != HOOKE_OK || row->needed != 0.0) {
       fails = next;

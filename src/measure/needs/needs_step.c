@@ -20,8 +20,9 @@ static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
 static const double LEAST_GAIN = 1.12; /* factor on the predictable time that makes a finer step worthwhile */
 static const double WELL_BEGUN = 0.25; /* of the duration: beyond it one step without gain is enough */
 static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below the first stable step */
-static const double CERTAIN = 0.1;                     /* of a change, by the step: leaves no doubt of it */
-static const double MARGIN = 4.0; /* of the step's error, if only a part of the run can be judged */
+static const double FINE = 16.0;   /* below the first stable step: what has no value then has none */
+static const double CERTAIN = 0.1; /* of a change, by the step: leaves no doubt of it */
+static const double MARGIN = 4.0;  /* of the step's error, if only a part of the run can be judged */
 enum { REPEATS = 20, HALVINGS = 3 };
 
 struct attempt {
@@ -133,6 +134,7 @@ static int32_t find_step(struct search *search) {
           DIFFERENCE_FACTOR * hk_needs_distance(needs, &search->run[0].path, &search->run[1].path);
       if (has_stalled(search, error, agreed(search, bound)) || error <= bound) break;
       if (is_needed_for_certain(search, error)) break;
+      if (!isfinite(error) && search->value >= FINE * search->first_stable) break;
     } else {
       search->first_stable = finer(search, search->value);
     }

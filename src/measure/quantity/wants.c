@@ -10,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double LEAST = 1e-3; /* of the size of a scene: what a list without a length stands for */
+static const double LEAST = 1e-3;    /* of the size of a scene: what a list without a length stands for */
+static const double FAR_BELOW = 0.1; /* of a largest value: if no more is known, it is an error */
 
 /* ---- reading ---- */
 
@@ -188,6 +189,21 @@ void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_serie
     if (want->relative && is_period(wants, want)) most = period_of(series, want, frames, 1);
     bound[k] = want->relative ? want->bound * most : want->bound;
   }
+}
+
+int32_t hk_wants_require_values(const struct hk_wants *wants, const struct hk_watched_series *series,
+                                int64_t frames, int64_t known) {
+  double all[HOOKE_WANTS], first[HOOKE_WANTS];
+  hk_wants_bounds(wants, series, frames, all);
+  hk_wants_bounds(wants, series, known, first);
+  for (int32_t k = 0; k < wants->count; k++)
+    if (wants->want[k].relative && !(first[k] > FAR_BELOW * all[k]))
+      return hk_fail(
+          HOOKE_BAD_VALUE, "want",
+          "%s: no run tells whether it is within %g %% of its largest value over the run: it has none (a period takes eight frames), "
+          "or that is 0 or itself an error; want it as a number with a unit",
+          wants->want[k].name, 100.0 * wants->want[k].bound);
+  return HOOKE_OK;
 }
 
 void hk_wants_spread(const struct hk_wants *wants, const struct hk_watched_series *a, int64_t i,

@@ -52,6 +52,10 @@ const char *hk_want_unit(const struct hk_wants *wants, int32_t number);
 /* Bounds, the relative ones by the largest values over the first `frames` frames of a run. */
 void hk_wants_bounds(const struct hk_wants *wants, const struct hk_watched_series *series, int64_t frames,
                      double bound[HOOKE_WANTS]);
+/* Refuses a part of a largest value over `frames` frames of which the first `known` have less than a tenth.
+ */
+int32_t hk_wants_require_values(const struct hk_wants *wants, const struct hk_watched_series *series,
+                                int64_t frames, int64_t known);
 /* Raises `most` to the distances of frame i of a run from frame j of another one: `far` of all free
  * particles, then those of the wants; of periods that of the runs, where these are their last frames. NaN
  * where unknown. */

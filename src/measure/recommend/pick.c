@@ -27,7 +27,6 @@ static const double BEGINNING = 0.1;        /* duration studied if the reference
 static const double LONGER = 4.0;           /* from one budget to the next while it came to nothing */
 static const double LIMITS_SHARE = 0.1;     /* of LEAST_WORK, for the limit of bodies at the start */
 static const double REVERSED = 2.0;         /* ratio of times that is worth telling */
-static const double FAR_BELOW = 0.1;        /* of the largest value: no more is known of it */
 enum { FEWEST_FRAMES = 25, MOST_FRAMES = 1000, MANY_FRAMES = 100, MOST_BUDGETS = 2 };
 
 /* Counted work that all of it may take, as far as that is known [s]. */
@@ -627,7 +626,7 @@ static int32_t search_and_confirm(struct hk_pick *pick, int32_t count, struct se
 static int32_t require_judge(const struct hk_pick *pick) {
   const struct hk_reference *r = &pick->reference;
   const struct hk_wants *wants = pick->wants;
-  double bound[HOOKE_WANTS], known[HOOKE_WANTS];
+  double bound[HOOKE_WANTS];
   if (!hk_wants_is_list(wants)) return HOOKE_OK;
   hk_wants_bounds(wants, &r->frames.watched, r->frames.recorded, bound);
   if (!(pick->want * pick->fraction > r->wanted_agreement))
@@ -637,17 +636,7 @@ static int32_t require_judge(const struct hk_pick *pick) {
         "fiftieth of that, and differ by %.2g at the first frame that could tell",
         wants->want[r->parted].name, bound[r->parted], hk_want_unit(wants, r->parted), r->method, r->check,
         r->parted_by);
-  hk_wants_bounds(wants, &r->frames.watched, r->trusted, known);
-  for (int32_t k = 0; k < wants->count; k++)
-    if (wants->want[k].relative && !(known[k] > FAR_BELOW * bound[k]))
-      return hk_fail(
-          HOOKE_BAD_VALUE, "want",
-          "%s: no run tells whether it is within %g %% of its largest value over the run, %.2g %s: two "
-          "references agree on it only where it is below a tenth of that; want it as a number with a "
-          "unit",
-          wants->want[k].name, 100.0 * wants->want[k].bound, bound[k] / wants->want[k].bound,
-          hk_want_unit(wants, k));
-  return HOOKE_OK;
+  return hk_wants_require_values(wants, &r->frames.watched, r->frames.recorded, r->trusted);
 }
 
 static int32_t search_methods(struct hk_pick *pick) {

@@ -156,7 +156,10 @@ static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, d
   watch->ahead = ahead_of_level(watch) + CHECK_COST;
   int32_t status =
       hk_reference_make_frames(watch, r, first ? watch->start + fraction * budget : deadline, &cost);
-  if (status != HOOKE_OK || r->frames.recorded < 2) return status;
+  const int64_t frames = r->frames.recorded;
+  if (status == HOOKE_OK && r->frames.wants && tolerance <= QUICK && frames == r->frames.count)
+    status = hk_wants_require_values(r->frames.wants, &r->frames.watched, frames, frames);
+  if (status != HOOKE_OK || frames < 2) return status;
   if (first) status = hk_reference_choose_check(watch, r, tolerance, cost);
   watch->ahead = ahead_of_level(watch);
   const struct hk_listener listener = hk_reference_listen(watch, deadline);

@@ -43,6 +43,15 @@ struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t numbe
   return hk_run_spring_at(run, number - run->first, &(struct hk_scaler){.t = t});
 }
 
+double hk_springs_mean(const struct hk_springs *springs, int64_t first, int64_t count, double t) {
+  double sum = 0.0, stiff = 0.0;
+  for (int64_t s = first; s < first + count; s++) {
+    const double kappa = hk_springs_find(springs, s, t).kappa;
+    if (kappa > 0.0) sum += log(kappa), stiff += 1.0;
+  }
+  return exp(sum / fmax(1.0, stiff));
+}
+
 /* ---- damping ratios ---- */
 
 /* By the product, or by the roots where that leaves the range of numbers. */

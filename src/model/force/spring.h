@@ -168,5 +168,7 @@ int32_t hk_springs_find_damping(const hooke_system *system, struct hk_group *gro
 /* Finds the run of a spring, and the spring at a time. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
 struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number, double t);
+/* The geometric mean of kappa, where it is above 0, of springs from `first` on; 1 without any. */
+double hk_springs_mean(const struct hk_springs *springs, int64_t first, int64_t count, double t);
 
 #endif
