@@ -66,19 +66,19 @@ def test_json_keeps_standard_output_json(hooke, folder):
 
 
 def test_missing_file(hooke):
-    check_message(hooke("check", "no-such.json"), "no-such.json", "", "", "No such file", "a scene file")
+    check_message(hooke("check", "no-such.json"), "no-such.json", "", "", "No such file", "a scene or trajectory file")
 
 
 def test_folder_instead_of_file(hooke, tmp_path):
     (tmp_path / "folder.json").mkdir()
-    check_message(hooke("run", "folder.json"), "folder.json", "", "", "directory", "a scene file")
+    check_message(hooke("run", "folder.json"), "folder.json", "", "", "directory", "a scene or trajectory file")
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
 def test_unreadable_file(hooke, tmp_path):
     (tmp_path / "secret.json").write_text("{}")
     (tmp_path / "secret.json").chmod(0)
-    check_message(hooke("check", "secret.json"), "secret.json", "", "", "Permission denied", "a scene file")
+    check_message(hooke("check", "secret.json"), "secret.json", "", "", "Permission denied", "a scene or trajectory file")
 
 
 def test_link_out_of_the_folder(hooke, tmp_path):
