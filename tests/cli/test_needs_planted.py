@@ -35,6 +35,10 @@ GRIDS = {"flat-cloth": (7, 7), "only-falls": (17,), "smooth-rope": (41,), "taut-
 
 
 def rows_called(rows, name):
+    """A part has half its resolution, or less where that does."""
+    coarser, _, part = name.partition("the resolution")
+    if coarser == "half ":
+        return [row for row in rows if row["kind"] == "resolution" and row["without"].endswith(part)]
     return [row for row in rows if row["without"] == name or row["without"].startswith(name + " ")]
 
 
