@@ -104,7 +104,7 @@ def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tm
     assert all(one["spring"] == [one["first"], one["second"]] and one["force"] is None for one in springs)
     assert all(one["number"] is None and one["first"] is None for one in forces)
     assert [one["force"] for one in forces] == FORCES.get(kind, [])
-    assert all(list(one) == ["change", "option", "value", "command"] for one in why["advice"])
+    assert all(list(one) == ["change", "option", "value", "want", "command"] for one in why["advice"])
     assert why["sentence"] == run.json["diagnosis"] and why["left_out"] is None
     check_step_below_limit(why, json.loads((tmp_path / "scene.json").read_text())["run"])
     if isinstance(first, str):
