@@ -297,8 +297,9 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   remember(limit, hooke_state_position(state), hooke_state_velocity(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;
   note_unknown(limit, walk.frame);
-  int32_t found = status < 0 || !limit->found ? HOOKE_OK : find_participation(limit);
-  if (found == HOOKE_OK && status >= 0 && limit->found) found = hk_limit_price(limit);
+  if (status < 0 || !limit->found) return status;
+  int32_t found = find_participation(limit);
+  if (found == HOOKE_OK) found = hk_limit_price(limit);
   return found != HOOKE_OK ? found : status;
 }
 

@@ -273,6 +273,7 @@ static int32_t climb(struct hk_needs *needs, struct hk_needs_degree *degree) {
 static int32_t run_degree(struct hk_needs *needs, int64_t number) {
   struct hk_needs_degree *degree = &needs->degree[number];
   double error = 0.0;
+  hk_needs_name(needs, degree->quantity);
   int32_t status = climb(needs, degree);
   for (degree->displaced = 1; degree->factor != 1.0 && status == HOOKE_OK;) {
     status = try_factor(needs, degree, degree->factor, &error, &degree->step_limit);

@@ -200,8 +200,9 @@ int32_t hk_wants_require_values(const struct hk_wants *wants, const struct hk_wa
     if (wants->want[k].relative && !(first[k] > FAR_BELOW * all[k]))
       return hk_fail(
           HOOKE_BAD_VALUE, "want",
-          "%s: no run tells whether it is within %g %% of its largest value over the run: it has none (a period takes eight frames), "
-          "or that is 0 or itself an error; want it as a number with a unit",
+          "%s: no run tells whether it is within %g %% of its largest value over the run: it has "
+          "none (a period takes eight frames), or that is 0 or itself an error; want it as a number "
+          "with a unit",
           wants->want[k].name, 100.0 * wants->want[k].bound);
   return HOOKE_OK;
 }
