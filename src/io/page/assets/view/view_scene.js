@@ -191,7 +191,8 @@ class Picture extends Run {
     const { runs } = this, frames = runs.map((run) => (run === this ? frame : this.frameOf(run, frame)));
     const unit = this.unitOf(boxAround(runs.map(({ data }, k) => data.box[frames[k]])));
     runs.forEach((run, k) => Run.prototype.show.call(run, frames[k], unit));
-    at("apart").replaceChildren(...this.aparts.map((one) => itemOf(one.show(this.data.time[frame], unit), one.other.own)));
+    const items = this.aparts.map((one) => itemOf(one.show(this.data.time[frame], unit), one.other.own));
+    at("apart")?.replaceChildren(...items); // pages of one run have no such list
   }
 
   draw() {
