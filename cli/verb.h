@@ -1,6 +1,5 @@
 /* A verb of the command line: its name, its own options, and its function. */
-#ifndef HOOKE_CLI_VERB_H
-#define HOOKE_CLI_VERB_H
+#pragma once
 
 #include "hooke.h"
 
@@ -80,5 +79,3 @@ extern const struct cli_verb cli_verb_make;
 extern const struct cli_verb cli_verb_view;
 extern const struct cli_verb cli_verb_verify;
 extern const struct cli_verb cli_verb_modes;
-
-#endif

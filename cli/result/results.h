@@ -1,6 +1,5 @@
 /* What a verb measures of a scene, and the way that these verbs go. */
-#ifndef HOOKE_CLI_RESULTS_H
-#define HOOKE_CLI_RESULTS_H
+#pragma once
 
 #include "setup.h"
 
@@ -25,5 +24,3 @@ int cli_results_make(const struct cli_arguments *arguments, const char *kind,
 
 /* The state that --at names, FILE:FRAME, or FILE alone for its last frame; the start without it. */
 int cli_results_at(struct cli_results *results);
-
-#endif
