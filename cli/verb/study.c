@@ -9,7 +9,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12 };
