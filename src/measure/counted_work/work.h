@@ -15,13 +15,13 @@ enum {
   HOOKE_WORK_ADAPTIVE_STEP,                              /* of methods with error control */
   HOOKE_WORK_ADAPTIVE_PARTICLE,                          /* particles of these steps */
   HOOKE_WORK_EVALUATION,                                 /* evaluations of all forces */
-  HOOKE_WORK_PARTICLE,                                   /* particles of these */
+  HOOKE_WORK_PARTICLE,                                   /* particles that these visit */
   HOOKE_WORK_FAR,                                        /* those of them that no cache holds */
   HOOKE_WORK_ADAPTIVE_EVALUATED,                         /* with error control */
   HOOKE_WORK_SCATTERED,        /* springs in no order, multiplied and in matrices as well */
   HOOKE_WORK_CURVED,           /* springs with curves, likewise */
   HOOKE_WORK_BODY,             /* bodies evaluated */
-  HOOKE_WORK_BODY_PARTICLE,    /* their particles, multiplied as well */
+  HOOKE_WORK_BODY_PARTICLE,    /* their particles that a force acts on; all in products */
   HOOKE_WORK_DAMPER,           /* damped springs of steps of shardlow */
   HOOKE_WORK_PRODUCT,          /* products with the derivative */
   HOOKE_WORK_PRODUCT_PARTICLE, /* particles of these */

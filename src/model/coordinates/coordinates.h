@@ -40,6 +40,7 @@ struct hk_coordinates_row {
    * the working copy, which `clear` makes 0 where any may act; `own` += h push; free motion over h; d own/dt;
    * accelerations of its particles, 3 each of all. */
   const int32_t *(*particles)(const void *thing, int64_t *count);
+  int64_t (*acted)(const struct hooke_system *system, const void *thing); /* particles that `push` reads */
   void (*read)(const void *thing, const double *const q[3], const double *const v[3], int64_t stride,
                double *own);
   void (*write)(const struct hooke_system *system, const void *thing, const double *own, double *const q[3],
