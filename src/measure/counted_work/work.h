@@ -2,8 +2,7 @@
  * costs (costs.c). It follows from the counts and the system alone, so that it is the same on any machine,
  * however busy, for any number of threads and any instruction set. Callbacks count as their calls: nobody
  * knows what is inside of them. */
-#ifndef HOOKE_MEASURE_WORK_WORK_H
-#define HOOKE_MEASURE_WORK_WORK_H
+#pragma once
 
 #include "integrate/integrator.h"
 #include "model/force/force.h"
@@ -54,5 +53,3 @@ double hk_work_of_pass(const hooke_system *system);
 double hk_work_of_steps(const hooke_system *system, const char *method, int64_t steps);
 /* The same, or what they take at least; 0 if nothing is known of that. */
 double hk_work_at_least(const hooke_system *system, const char *method, int64_t steps);
-
-#endif

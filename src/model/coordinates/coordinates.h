@@ -2,8 +2,7 @@
  * own in place of each by itself. A new kind is one file and one row. A state is (t, q, v) with such things
  * as without: their own coordinates are a function of the rows of their particles. Components of x, y and z
  * are `stride` apart. */
-#ifndef HOOKE_MODEL_COORDINATES_COORDINATES_H
-#define HOOKE_MODEL_COORDINATES_COORDINATES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -108,5 +107,3 @@ void hk_movers_slope(const struct hooke_system *system, const double *own, const
 void hk_movers_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out);
 /* Writes the rows (3n) of the particles of all movers anew, from their own coordinates. */
 void hk_movers_renew(const struct hooke_system *system, double *q, double *v);
-
-#endif
