@@ -208,11 +208,11 @@ TEST(sizes) {
   struct hk_factor *factor = NULL;
   set_up((struct random_scene_request){.seed = 5, .particles = 2, .springs = 1, .rope = 2000}, 1e-4, 1e-2,
          &b);
-  check_ok(hk_factor_create(b.scene.system, INT64_C(1) << 40, &factor));
+  check_ok(hk_factor_create(b.scene.system, INT64_C(1) << 40, 1, &factor));
   const int64_t numbers = hk_factor_numbers(factor);
   check_between((double)numbers / 2000.0, 9.0, 200.0);
   hk_factor_destroy(factor);
-  check_ok(hk_factor_create(b.scene.system, numbers / 2, &factor));
+  check_ok(hk_factor_create(b.scene.system, numbers / 2, 1, &factor));
   assert_null(factor);
 }
 
