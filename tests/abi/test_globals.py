@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 # The message of the thread, its text about the BLAS, a lock around each library that allows one thread at a time, and what the processor runs.
-VARIABLES = {"status.c.o": {"last"}, "build_fact.c.o": {"text"}, "file_h5.c.o": {"alone", "guards"},
+VARIABLES = {"status.c.o": {"last"}, "build_fact.c.o": {"blas"}, "file_h5.c.o": {"alone", "guards"},
              "spring_choose.c.o": {"known"}, "handle.c.o": {"alive", "mutex"}}  # of builds that check handles
 
 FORBIDDEN = set(
