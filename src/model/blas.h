@@ -1,6 +1,5 @@
 /* The optimised BLAS that CHOLMOD calls. */
-#ifndef HOOKE_MODEL_BLAS_H
-#define HOOKE_MODEL_BLAS_H
+#pragma once
 
 enum { HOOKE_BLAS_SIZE = 128 };
 
@@ -8,5 +7,3 @@ enum { HOOKE_BLAS_SIZE = 128 };
  * as "OpenBLAS 0.3.21 Zen, 2 threads". "" in a build without CHOLMOD, and for another BLAS than those that
  * are known to be fast and to give the same bits each time. */
 void hk_blas_describe(char text[HOOKE_BLAS_SIZE]);
-
-#endif

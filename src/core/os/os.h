@@ -1,7 +1,6 @@
 /* What systems do differently, besides files (core/os/os_file.h) and text (core/os/os_text.h): os_posix.c is
  * for POSIX, os_windows.c for Windows. Threads are those of POSIX on both. */
-#ifndef HOOKE_CORE_OS_H
-#define HOOKE_CORE_OS_H
+#pragma once
 
 #include <pthread.h>
 #include <stddef.h>
@@ -37,5 +36,3 @@ struct hk_os_machine {
   int32_t cores;
 };
 int hk_os_describe_machine(struct hk_os_machine *machine);
-
-#endif

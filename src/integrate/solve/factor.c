@@ -4,7 +4,6 @@
 #include "core/status.h"
 #include "integrate/solve/factor_cholmod.h"
 #include "kernel/triangle_loops.h"
-#include "model/blas.h"
 #include "model/force/spring.h"
 
 #include <math.h>
@@ -200,15 +199,13 @@ int32_t hk_factor_require(const hooke_options *options) {
 static int32_t find(const hooke_system *system, int64_t most, int32_t supernodal, struct hk_factor **factor,
                     int *found) {
   struct hk_pattern pattern;
-  char blas[HOOKE_BLAS_SIZE];
-  hk_blas_describe(blas);
   *found = -1;
   *factor = NULL;
   if (hk_cholmod == NULL) return HOOKE_OK;
   struct hk_factor *x = *factor = hk_new(1, sizeof *x);
   if (x == NULL) return HOOKE_NO_MEMORY;
   x->system = system;
-  x->kind = supernodal && blas[0] ? HOOKE_FACTOR_SUPERNODAL : HOOKE_FACTOR_SIMPLICIAL;
+  x->kind = supernodal && hooke_build_fact("blas")[0] ? HOOKE_FACTOR_SUPERNODAL : HOOKE_FACTOR_SIMPLICIAL;
   x->particle = take(x, system->particle_count, sizeof *x->particle);
   x->position = take(x, system->particle_count, sizeof *x->position);
   int32_t status = x->particle && x->position ? hk_pattern_create(system, &pattern) : HOOKE_NO_MEMORY;

@@ -3,8 +3,7 @@
  *     + sum over the elements of other forces of alpha K + beta C,
  * over the free particles, computed by CHOLMOD. The part that depends only on the connectivity is computed
  * once. */
-#ifndef HOOKE_INTEGRATE_SOLVE_FACTOR_H
-#define HOOKE_INTEGRATE_SOLVE_FACTOR_H
+#pragma once
 
 #include "kernel/spring/tangent_loops.h"
 #include "model/force/force.h"
@@ -50,5 +49,3 @@ int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal,
  * apart, where constrained ones become 0, and the order of the factor, 3 numbers a free particle. */
 void hk_factor_forward(const struct hk_factor *factor, const double *all, double *ordered);
 void hk_factor_backward(const struct hk_factor *factor, const double *ordered, double *all);
-
-#endif

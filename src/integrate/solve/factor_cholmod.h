@@ -1,7 +1,6 @@
 /* Sparse Cholesky factors by CHOLMOD (Chen, Davis, Hager and Rajamanickam 2008). Simplicial ones call no
  * BLAS, so their bits depend on the numbers alone; supernodal ones do, and their bits depend on it. */
-#ifndef HOOKE_INTEGRATE_SOLVE_FACTOR_CHOLMOD_H
-#define HOOKE_INTEGRATE_SOLVE_FACTOR_CHOLMOD_H
+#pragma once
 
 #include <stdint.h>
 
@@ -47,5 +46,3 @@ struct hk_cholmod_calls {
 };
 
 extern const struct hk_cholmod_calls *const hk_cholmod; /* NULL: this build is without it */
-
-#endif

@@ -5,8 +5,7 @@
  * C, clamped likewise; by its 3x3 blocks on the diagonal (block Jacobi), or by all of it
  * (integrate/solve/factor.h). With S = L L^T the iteration uses L^-1 (...) L^-T, whose residual weighs
  * particles by their mass. */
-#ifndef HOOKE_INTEGRATE_SOLVE_REDUCED_H
-#define HOOKE_INTEGRATE_SOLVE_REDUCED_H
+#pragma once
 
 #include "integrate/solve/factor.h"
 #include "integrate/integrator.h"
@@ -114,5 +113,3 @@ int32_t hk_reduced_multiply(struct hk_reduced *reduced, const double *x, double 
 
 /* out = (df/dq) dq + (df/dv) dv of all forces at the last set position; 3n each, x y z apart. */
 int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const double *dv, double *out);
-
-#endif

@@ -1,6 +1,5 @@
 /* A trajectory file opened for reading. */
-#ifndef HOOKE_IO_TRAJECTORY_RECORD_H
-#define HOOKE_IO_TRAJECTORY_RECORD_H
+#pragma once
 
 #include "hooke/trajectory.h"
 #include "io/trajectory/frame_file.h"
@@ -53,5 +52,3 @@ int32_t hk_record_check_count(const hooke_record *record);
 
 /* HOOKE_BAD_VALUE for a file of several runs. */
 int32_t hk_record_require_run(const hooke_record *record);
-
-#endif

@@ -1,6 +1,5 @@
 /* The object of a measurement of kind "verify", and the passes over its slice. */
-#ifndef HOOKE_IO_VERIFY_VERIFY_H
-#define HOOKE_IO_VERIFY_VERIFY_H
+#pragma once
 
 #include "hooke/scene.h"
 #include "hooke/trajectory.h"
@@ -61,5 +60,3 @@ void hk_verify_claim(const hooke_measurement *measurement, struct hk_claims *cla
 extern const struct hk_table hk_verify_tables[];
 
 extern const struct hk_measurement_kind hk_verify_kind;
-
-#endif
