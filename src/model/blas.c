@@ -5,16 +5,16 @@
 #include <stdio.h>
 #include <string.h>
 
-/* OpenBLAS alone: supernodal factors by BLIS take as long as simplicial ones, and the bits of MKL depend on
- * where memory is. */
+/* OpenBLAS alone: BLIS is no faster than the reference BLAS at such small matrices, and the bits of MKL
+ * depend on where memory is. */
 void hk_blas_describe(char text[HOOKE_BLAS_SIZE]) {
-  const char *(*config)(void) = NULL, *(*processor)(void) = NULL;
-  int (*threads)(void) = NULL;
+  typedef const char *word(void);
+  typedef int count(void);
   text[0] = '\0';
   if (!HOOKE_HAVE_CHOLMOD) return;
-  *(void **)&config = hk_os_find_symbol("openblas_get_config");
-  *(void **)&processor = hk_os_find_symbol("openblas_get_corename");
-  *(void **)&threads = hk_os_find_symbol("openblas_get_num_threads");
+  word *config = (word *)hk_os_find_function("openblas_get_config");
+  word *processor = (word *)hk_os_find_function("openblas_get_corename");
+  count *threads = (count *)hk_os_find_function("openblas_get_num_threads");
   if (!config || !processor || !threads) return;
   const char *words = config(); /* "OpenBLAS 0.3.21 NO_LAPACKE DYNAMIC_ARCH ..." */
   const size_t name = strcspn(words, " "), version = strspn(words + name, " ");

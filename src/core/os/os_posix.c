@@ -60,13 +60,15 @@ void hk_os_own_file(char *path, size_t size) {
   snprintf(path, size, "%s", file);
 }
 
-void *hk_os_find_symbol(const char *name) {
+hk_os_function *hk_os_find_function(const char *name) {
+  hk_os_function *found = NULL;
 #if defined(__EMSCRIPTEN__)
   (void)name;
-  return NULL;
 #else
-  return dlsym(RTLD_DEFAULT, name);
+  void *symbol = dlsym(RTLD_DEFAULT, name);
+  memcpy(&found, &symbol, sizeof found); /* C has no cast from one to the other */
 #endif
+  return found;
 }
 
 /* Linux tells the name of the processor. */

@@ -48,7 +48,7 @@ void hk_os_own_file(char *path, size_t size) {
   hk_os_free(wide);
 }
 
-void *hk_os_find_symbol(const char *name) {
+hk_os_function *hk_os_find_function(const char *name) {
   (void)name;
   return NULL;
 }
