@@ -168,7 +168,7 @@ int cli_version_print(const struct cli_program *program, const char *value) {
   printf("%-13s %d on this machine\n", "threads", (int)cli_os_processors());
   for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++) {
     const char *fact = hooke_build_fact(parts[k][1]);
-    const char *none = strcmp(parts[k][1], "blas") == 0 ? "not called for factors" : "not in this build";
+    const char *none = strcmp(parts[k][1], "blas") == 0 ? "no optimised one" : "not in this build";
     printf("%-13s %s\n", parts[k][0], fact && fact[0] ? fact : none);
   }
   return HOOKE_EXIT_DONE;

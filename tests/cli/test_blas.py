@@ -90,7 +90,7 @@ def test_another_one_may_differ_within_the_error(hooke, write, blas):
     for threads in (0, 2):
         other = blas(threads)
         found = hooke("verify", "out.h5", "--all", "--json", code=0).json
-        assert found["blas"] == name and found["blas_here"] == ("" if other == "not called for factors" else other)
+        assert found["blas"] == name and found["blas_here"] == ("" if other == "no optimised one" else other)
         assert (found["verdict"] == "agrees") == (name == other)
 
 
