@@ -26,6 +26,11 @@ double hk_os_address_limit(void);
  * system does not tell. */
 void hk_os_own_file(char *path, size_t size);
 
+/* A function of the libraries that are loaded with this code; NULL if none has it, or the system does not
+ * tell. */
+typedef void hk_os_function(void);
+hk_os_function *hk_os_find_function(const char *name);
+
 /* "" and 0 where the system does not tell. Returns 0, or ENOMEM. */
 struct hk_os_machine {
   char processor[256], system[160]; /* the kernel with its architecture */

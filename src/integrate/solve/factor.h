@@ -16,11 +16,15 @@ struct hk_factor;
 int32_t hk_factor_require(const hooke_options *options);
 
 /* Finds order and sizes if there are at most `most` numbers: HOOKE_OK with *factor NULL if there are more,
- * and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
-int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
+ * and in a build without CHOLMOD. `supernodal` 1: by the BLAS, on which its bits then depend, where that is
+ * an optimised one (model/blas.h). Its numbers and products are counted as those of a simplicial one.
+ * HOOKE_NO_MEMORY. */
+int32_t hk_factor_create(const hooke_system *system, int64_t most, int32_t supernodal,
+                         struct hk_factor **factor);
 void hk_factor_destroy(struct hk_factor *factor);
 
-/* Memory of a factor in total [bytes], or of finding that it has more numbers than `most`. HOOKE_NO_MEMORY.
+/* Memory of a factor that may be supernodal in total [bytes], or of finding that it has more numbers than
+ * `most`. HOOKE_NO_MEMORY.
  */
 int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *bytes);
 int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes, so far */

@@ -34,6 +34,7 @@ struct hk_reduced {
   int64_t size;        /* of vectors: 3n, and more */
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
   int32_t direct;      /* by the option `linear_solver`, if it fits: a factor of S at every place */
+  int32_t supernodal;  /* that factor may be supernodal */
   int32_t downhill;    /* 1: the matrix is symmetric, or nearly, and may be not positive */
   int32_t projected;   /* 1: S stands for the matrix */
   int32_t rows_needed; /* the products of some force are made by its own function, in rows */

@@ -1,7 +1,7 @@
 /* Metadata and springs of an H5MD file. Layout (H5MD 1.1):
  *
  *   /h5md                    version [1, 1]; author, creator
- *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units,
+ *   /hooke                   attributes version, abi, sundials, cholmod, blas, instructions, machine, units,
  *                            method, `callbacks` (model/callbacks.h), of a single run `run`, which no other
  *                            run has; `scene`: the text of the scene; `options`: an attribute for each
  *                            option of the run; `status`: "running" until the file is closed

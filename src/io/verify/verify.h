@@ -5,8 +5,9 @@
 #include "hooke/trajectory.h"
 #include "measure/measurement.h"
 #include "measure/trial/balance.h"
+#include "model/blas.h"
 
-enum { HOOKE_VERIFY_FACTS = 5 };
+enum { HOOKE_VERIFY_FACTS = 6 };
 
 struct hk_verify {
   const hooke_measurement *measurement;
@@ -27,8 +28,9 @@ struct hk_verify {
   double time_from, time_to; /* of the frames `from` and `to` */
   double steps, limit, energy_change, work, heat, residual, residual_refined, bound, error, error_velocity;
   double check_scene, check_last;
-  /* version of hooke, SUNDIALS, CHOLMOD, instruction set and machine that made the file, and those here */
+  /* version of hooke, SUNDIALS, CHOLMOD, instruction set, machine and BLAS that made the file, and here */
   const char *made_by[HOOKE_VERIFY_FACTS], *here[HOOKE_VERIFY_FACTS];
+  char blas[HOOKE_BLAS_SIZE];
 };
 
 /* Results of a pass over the slice. */
