@@ -15,16 +15,20 @@ static const struct {
 static const double WANT = 0.01;
 
 /* As examples/scenes/stiff-spring.json. */
-static hooke_system *chain(void) {
+static hooke_system *chain_of(double stiffness) {
   double position[24] = {0};
   int64_t soft[] = {0, 1, 1, 2, 2, 3, 4, 5, 5, 6, 6, 7};
   for (int k = 0; k < 8; k++)
     position[3 * k] = k;
   hooke_system *system = small_system(8, position, NULL, 1.0, 0);
   check_ok(hooke_system_pin(system, 2, (int64_t[]){0, 7}));
-  small_group(system, "springs", "soft", 6, soft, "stiffness=100 damping=0.5 rest_scale=0.9");
+  small_group(system, "springs", "soft", 6, soft, "stiffness=%.17g damping=0.5 rest_scale=0.9", stiffness);
   small_group(system, "springs", "stiff", 1, (int64_t[]){3, 4}, "stiffness=1e6 damping=10");
   return small_falling(system);
+}
+
+static hooke_system *chain(void) {
+  return chain_of(100.0);
 }
 
 static hooke_measurement *needs_of(const hooke_system *system, const char *keep) {
@@ -125,4 +129,40 @@ TEST(what_is_kept_is_neither_left_out_nor_changed) {
   check_ok(hooke_options_set_text(options, "keep", "soft,stiffer"));
   check_status(hooke_measurement_create("needs", system, run, options, &other), HOOKE_BAD_VALUE);
   assert_non_null(strstr(hooke_last_error(), "\"stiffer\" is no group"));
+}
+
+/* The largest distance of a particle between two systems, at frames of 0.05 s until 1 s, by rk4. */
+static double largest_distance(const hooke_system *a, const hooke_system *b) {
+  const struct run fine = {.method = "rk4", .step = 2.5e-4};
+  owned_integrator *of_a = start_run(a, fine), *of_b = start_run(b, fine);
+  owned_state *at_a = start_state(a), *at_b = start_state(b);
+  double most = 0.0;
+  for (int frame = 0; frame < 20; frame++) {
+    check_ok(hooke_integrator_step(of_a, at_a, 200));
+    check_ok(hooke_integrator_step(of_b, at_b, 200));
+    const double *q = hooke_state_position(at_a), *p = hooke_state_position(at_b);
+    for (int64_t k = 0; k < 24; k += 3)
+      most = fmax(most, hypot(hypot(q[k] - p[k], q[k + 1] - p[k + 1]), q[k + 2] - p[k + 2]));
+  }
+  return most;
+}
+
+/* Symplectic Euler takes steps far below its limit for such a want: what is far beyond it is told by longer
+ * ones, to a quarter, and takes no run as fine as the full scene's. */
+TEST(a_change_far_beyond_the_want_is_told_by_longer_steps) {
+  owned_system *system = chain(), *changed = chain_of(100.0 / 1.1);
+  owned_options *options = options_with("needs", "want=%.17g keep=%s", 5e-5, "stiff"),
+                *run =
+                    run_options((struct run){.method = "symplectic-euler", .duration = 1.0, .every = 0.05});
+  owned_measurement *needs;
+  check_ok(hooke_measurement_create("needs", system, run, options, &needs));
+  check_ok(hooke_measurement_run(needs, NULL));
+  check_between(hooke_measurement_number(needs, "full", 0, "step"), 1e-8,
+                hooke_measurement_number(needs, "full", 0, "step_limit") / 64.0);
+  const int64_t row = degree_of(needs, "soft.stiffness");
+  const double change = largest_distance(system, changed),
+               told = hooke_measurement_number(needs, "degrees", row, "error_beyond");
+  check_close(hooke_measurement_number(needs, "degrees", row, "beyond"), 1.0 / 1.1, 1e-12);
+  check_close(told, change, 0.25 * change);
+  check_between(fabs(told - change), 5e-5 / 10.0, INFINITY); /* the finer steps would be closer */
 }

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-CALLED = ["dgeev", "dsyev", "dsyevx", "dstev"]
+CALLED = ["dgeev", "dsyev", "dsyevx", "dstevx"]
 REST = {"disnan", "xerbla"}
 
 

@@ -96,8 +96,8 @@ static void destroy(void *object) {
 static int32_t pick(struct hk_estimate *e, hooke_options *run) {
   hk_pick_release(&e->pick);
   const double begun = hk_clock_seconds();
-  int32_t status = hk_pick_run(&e->pick, e->system, run, &e->wants, e->wants.most, e->only != NULL, &e->only,
-                               e->measurement->progress, e->measurement->progress_ctx);
+  int32_t status = hk_pick_run(&e->pick, e->system, run, &e->wants, e->wants.most, INFINITY, e->only != NULL,
+                               &e->only, e->measurement->progress, e->measurement->progress_ctx);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
     status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here%s", e->only,

@@ -159,14 +159,17 @@ static int64_t least_steps(const struct hk_growth *growth) {
   return (int64_t)(10.0 / sqrt(growth->accuracy));
 }
 
+static int has_stopped(const struct hk_growth *growth, const struct course *course) {
+  const hooke_system *system = growth->twin->system;
+  const double speed = kinetic(system, hooke_state_velocity(growth->state));
+  return !system->overdamped && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT;
+}
+
 static int judge(const struct hk_growth *growth, const struct course *course, int64_t taken, int thorough,
                  enum hk_verdict *verdict) {
   const double rise = course->last - course->first;
-  const int inertial = !growth->twin->system->overdamped;
-  const double speed = kinetic(growth->twin->system, hooke_state_velocity(growth->state));
   const int grows = rise > certain_rise(growth);
-  if (grows || rise < NOTHING_LEFT ||
-      (inertial && rise < LITTLE_LEFT && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
+  if (grows || rise < NOTHING_LEFT || (rise < LITTLE_LEFT && has_stopped(growth, course))) {
     *verdict = grows ? HOOKE_GROWS : HOOKE_HOLDS;
     return 1;
   }

@@ -196,7 +196,7 @@ int32_t hk_needs_try(struct hk_needs *needs, const struct hk_variant *variant, i
   if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK;
   if (status != HOOKE_OK) return status;
   const struct hk_needs_trial trial = {made, &map};
-  if (limit) *limit = hk_needs_step_limit(needs, made);
+  if (limit) cost.step_limit = *limit = hk_needs_step_limit(needs, made);
   if (limit && cost.step > BELOW_LIMIT * *limit)
     cost.step = needs->unit / ceil(needs->unit / (BELOW_LIMIT * *limit));
   if (cost.step * MOST_STEPS < needs->full.step)

@@ -196,10 +196,10 @@ static void note_splits(struct hk_needs *needs) {
 /* So that savings by another method are not attributed to the omissions. */
 static int32_t find_other_method(struct hk_needs *needs) {
   struct hk_pick pick;
-  const int32_t status = hk_pick_run(&pick, needs->m->system, needs->m->run, &needs->wants, needs->want, 0,
-                                     NULL, hk_needs_tell_pick, needs);
-  if (status == HOOKE_OK && pick.met &&
-      pick.best.work < CLEARLY_LESS * pick.fraction * needs->cheapest.work &&
+  const double most = CLEARLY_LESS * needs->cheapest.work;
+  const int32_t status = hk_pick_run(&pick, needs->m->system, needs->m->run, &needs->wants, needs->want, most,
+                                     0, NULL, hk_needs_tell_pick, needs);
+  if (status == HOOKE_OK && pick.met && pick.best.work < pick.fraction * most &&
       strcmp(pick.best.method, hooke_options_text(needs->m->run, "method")) != 0) {
     needs->other_method = pick.best.method;
     needs->other_seconds = pick.best.wall_seconds / pick.fraction;

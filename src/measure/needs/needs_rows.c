@@ -38,8 +38,9 @@ static int32_t pick_method(struct hk_needs *needs) {
   struct hk_pick pick;
   if (hooke_options_is_set(needs->m->run, "method")) return HOOKE_OK;
   hk_stage_begin(&needs->stage, "picking a method", 0.1);
-  int32_t status = hk_pick_run(&pick, needs->m->system, needs->m->run, &needs->wants,
-                               HOOKE_NEEDS_STEP_SHARE * needs->want, 0, NULL, hk_needs_tell_pick, needs);
+  int32_t status =
+      hk_pick_run(&pick, needs->m->system, needs->m->run, &needs->wants, HOOKE_NEEDS_STEP_SHARE * needs->want,
+                  INFINITY, 0, NULL, hk_needs_tell_pick, needs);
   if (status == HOOKE_OK && !pick.met) status = refuse_pick(&pick);
   if (status == HOOKE_OK) status = hk_trial_set_value(needs->m->run, pick.best.method, pick.best.value);
   needs->method_picked = status == HOOKE_OK;

@@ -19,9 +19,10 @@ static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
 static const double LEAST_GAIN = 1.12; /* factor on the predictable time that makes a finer step worthwhile */
 static const double WELL_BEGUN = 0.25; /* of the duration: beyond it one step without gain is enough */
 static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below the first stable step */
-static const double FINE = 16.0;   /* below the first stable step: what has no value then has none */
-static const double CERTAIN = 0.1; /* of a change, by the step: leaves no doubt of it */
-static const double MARGIN = 4.0;  /* of the step's error, if only a part of the run can be judged */
+static const double FINE = 16.0;    /* below the first stable step: what has no value then has none */
+static const double CERTAIN = 0.25; /* of a change, by the step: leaves no doubt of it */
+static const double LONGER = 16.0, LONGEST = 64.0; /* than the step of the full system, tried before that */
+static const double MARGIN = 4.0; /* of the step's error, if only a part of the run can be judged */
 enum { REPEATS = 20, HALVINGS = 3 };
 
 struct attempt {
@@ -110,7 +111,7 @@ static void swap_runs(struct search *search) {
   search->run[1] = first;
 }
 
-/* 1 if the error of a variant exceeds the wanted one for any step, and is known to a tenth or with a step as
+/* 1 if the error of a variant exceeds the wanted one for any step, and is known to a quarter or with a step as
  * small as that of the full system. */
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const struct hk_needs *needs = search->recorder.needs;
@@ -283,6 +284,10 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
   if (finished) cost->step_error = search.error;
   if (status == HOOKE_OK && finished) status = run_whole(&search, cost, &finished);
   if (status == HOOKE_OK && finished && fine->position == NULL) hand_over(&search.run[1].path, fine);
+  if (status == HOOKE_OK && finished && trial->map == NULL) { /* what hk_needs_prepare() would run again */
+    hand_over(&search.run[0].path, &needs->by_step[0]);
+    needs->trial_work += cost->work;
+  }
   end(&search);
   return status;
 }
@@ -313,10 +318,31 @@ int32_t hk_needs_prepare(struct hk_needs *needs, int32_t displaced) {
   return path->position ? HOOKE_OK : run_by_step(needs, &full, &needs->full, displaced, path, &finished);
 }
 
+/* 1 if runs by far longer steps, below the limit of stability, leave no doubt that a variant is beyond the
+ * want, by `error`. */
+static int32_t is_beyond(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                         const struct hk_needs_cost *cost, int32_t *beyond, double *error) {
+  struct search search = new_search(needs, trial);
+  const double value = needs->unit / cost->step;
+  if (!(LONGEST * cost->step <= cost->step_limit) || needs->path.position == NULL) return HOOKE_OK;
+  int32_t status = start(&search, NAN);
+  search.value = ceil(value / LONGEST);
+  search.first_stable = value / (LONGER * FINEST); /* it ends beyond */
+  if (status == HOOKE_OK) status = find_step(&search);
+  *error = hk_needs_distance(needs, &needs->path, &search.run[1].path);
+  *beyond = status == HOOKE_OK && has_finished(&search) && is_needed_for_certain(&search, search.error);
+  if (!isnan(search.run[1].cost.work)) needs->trial_work += 2.0 * search.run[1].cost.work;
+  end(&search);
+  return status;
+}
+
 int32_t hk_needs_compare(struct hk_needs *needs, const struct hk_needs_trial *trial,
                          const struct hk_needs_cost *cost, int32_t displaced, double *error) {
   struct hk_needs_path own = {0};
-  int32_t finished = 0, status = hk_needs_prepare(needs, displaced);
+  int32_t finished = 0, beyond = 0;
+  int32_t status = displaced ? HOOKE_OK : is_beyond(needs, trial, cost, &beyond, error);
+  if (status != HOOKE_OK || beyond) return status;
+  status = hk_needs_prepare(needs, displaced);
   if (status == HOOKE_OK) status = run_by_step(needs, trial, cost, displaced, &own, &finished);
   *error = finished ? hk_needs_distance(needs, &needs->by_step[displaced], &own) : INFINITY;
   hk_needs_path_release(&own);

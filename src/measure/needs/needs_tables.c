@@ -200,7 +200,7 @@ const struct hk_table hk_needs_tables[] = {
          HOOKE_COLUMN(struct hk_needs_degree, beyond, NUMBER, "",
                       "next factor, by which the change is more than the wanted error; NaN: none was found"),
          HOOKE_COLUMN(struct hk_needs_degree, error_beyond, NUMBER, "m",
-                      "largest change by that one; NaN: its run does not end"),
+                      "largest change by that one, at least to a quarter; NaN: its run does not end"),
          HOOKE_COLUMN(struct hk_needs_degree, step_limit, NUMBER, "s",
                       "largest stable step with the factor; infinite where nothing limits it"),
          HOOKE_COLUMN(struct hk_needs_degree, work, NUMBER, "",

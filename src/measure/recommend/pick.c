@@ -534,10 +534,12 @@ static int32_t try_value(struct search *s, double value, double most_work) {
 static int32_t advance(struct search *s, double value) {
   const struct hk_pick *pick = s->pick;
   const double cost = cost_of(s, value), left = work_left(pick);
-  s->over = (pick->met && cost > ALIKE * pick->best.work) || (pick->best.method && cost > left);
+  const double useful = pick->fraction * pick->most;
+  s->over =
+      (pick->met && cost > ALIKE * pick->best.work) || (pick->best.method && cost > left) || cost > useful;
   if (s->over) return HOOKE_OK;
   /* a first row is found in any case */
-  double most = pick->best.method ? fmax(left, SPARE * pick->best.work) : 0.0;
+  double most = pick->best.method ? fmin(useful, fmax(left, SPARE * pick->best.work)) : useful;
   if (pick->met) most = fmin(most, SPARE * ALIKE * pick->best.work);
   return try_value(s, value, most);
 }
@@ -608,7 +610,7 @@ static int32_t search_and_confirm(struct hk_pick *pick, int32_t count, struct se
   int32_t status = HOOKE_OK, holds = 0;
   for (int doubts = 0; status == HOOKE_OK && !holds && doubts < MOST_DOUBTS; doubts++) {
     status = search_all(pick, count, all);
-    if (status == HOOKE_OK && !pick->met) status = fall_back(pick, count, all);
+    if (status == HOOKE_OK && !pick->met && isinf(pick->most)) status = fall_back(pick, count, all);
     struct search *best = choose(count, all, NULL);
     if (status != HOOKE_OK || best == NULL || !best->met) break;
     status = confirm(best, &holds);
@@ -657,11 +659,12 @@ static int32_t search_methods(struct hk_pick *pick) {
 }
 
 int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run,
-                    const struct hk_wants *wants, double want, int32_t count, const char *const *methods,
-                    hooke_progress *progress, void *ctx) {
+                    const struct hk_wants *wants, double want, double most, int32_t count,
+                    const char *const *methods, hooke_progress *progress, void *ctx) {
   *pick = (struct hk_pick){.system = system,
                            .wants = wants,
                            .want = want,
+                           .most = most,
                            .method_count = count,
                            .methods = methods,
                            .fraction = 1.0,

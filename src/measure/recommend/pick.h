@@ -30,6 +30,7 @@ struct hk_pick {
   hooke_options *run;           /* options of the runs: duration and frames as studied */
   const struct hk_wants *wants; /* what errors are of */
   double want;                  /* over the whole run, as in `wants` */
+  double most;                  /* see hk_pick_run() */
   double duration, fraction;    /* of the run [s]; studied part of it */
   double unit;                  /* largest step that fits frames and duration [s] */
   int32_t method_count;         /* methods allowed; 0: any */
@@ -45,12 +46,12 @@ struct hk_pick {
 };
 
 /* Picks for `want` of what is wanted, which has to outlive the pick, among `count` methods, which have to
- * outlive the pick (0: any that is built). `run` has the duration and all other options of methods. Must be
- * released in either case. HOOKE_BAD_VALUE, also where no run tells whether a list is met; HOOKE_NO_MEMORY;
- * HOOKE_STOPPED, with the best row so far. */
+ * outlive the pick (0: any that is built); a run of more work than `most` [s] is of no use, infinity for any.
+ * `run` has the duration and all other options of methods. Must be released in either case. HOOKE_BAD_VALUE,
+ * also where no run tells whether a list is met; HOOKE_NO_MEMORY; HOOKE_STOPPED, with the best row so far. */
 int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run,
-                    const struct hk_wants *wants, double want, int32_t count, const char *const *methods,
-                    hooke_progress *progress, void *ctx);
+                    const struct hk_wants *wants, double want, double most, int32_t count,
+                    const char *const *methods, hooke_progress *progress, void *ctx);
 void hk_pick_release(struct hk_pick *pick);
 
 /* Time up to which the reference can be trusted, from the start of the run [s]. */

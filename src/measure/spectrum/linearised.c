@@ -394,8 +394,7 @@ double hk_linearised_energy(const struct hk_linearised *lin, const double *x) {
   for (int64_t r = 0; r < lin->run_count; r++) {
     const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
-      const int64_t i = spring.head, j = spring.tail, s = run->first + k;
+      const int64_t i = hk_run_head(run, k), j = hk_run_tail(run, k), s = run->first + k;
       const double d[3] = {x[i] - x[j], x[n + i] - x[n + j], x[2 * n + i] - x[2 * n + j]};
       const double along = lin->g[0][s] * d[0] + lin->g[1][s] * d[1] + lin->g[2][s] * d[2];
       sum += along * along;

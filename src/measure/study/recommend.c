@@ -313,7 +313,7 @@ static int32_t measure(struct hk_study *study, const struct hk_pick *pick) {
 static int32_t pick_once(struct hk_study *study, double want, int32_t *met) {
   struct hk_pick pick;
   study->late = 0;
-  int32_t status = hk_pick_run(&pick, study->m->system, study->m->run, &study->wants, want,
+  int32_t status = hk_pick_run(&pick, study->m->system, study->m->run, &study->wants, want, INFINITY,
                                study->method_count, study->method, tell_pick, study);
   if (status == HOOKE_STOPPED && study->late) {
     study->budget_spent = 1;

@@ -24,8 +24,10 @@ extern void dsyevx_(const char *job, const char *range, const char *triangle, co
                     const int *last, const double *accuracy, int *found, double *value, double *vector,
                     const int *vector_stride, double *work, const int *work_size, int *whole, int *failed,
                     int *info, size_t, size_t, size_t);
-extern void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,
-                   const int *stride, double *work, int *info, size_t);
+extern void dstevx_(const char *job, const char *range, const int *n, double *diagonal, double *beside,
+                    const double *low, const double *high, const int *first, const int *last,
+                    const double *accuracy, int *found, double *value, double *vector, const int *stride,
+                    double *work, int *whole, int *failed, int *info, size_t, size_t);
 extern void dgeev_(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
                    double *real, double *imaginary, double *left, const int *left_stride, double *right,
                    const int *right_stride, double *work, const int *work_size, int *info, size_t, size_t);
@@ -37,7 +39,7 @@ static void dsyev_(const char *job, ...) {
   (void)job;
 }
 #define dsyevx_ dsyev_
-#define dstev_  dsyev_
+#define dstevx_ dsyev_
 #define dgeev_  dsyev_
 
 #endif
@@ -95,20 +97,18 @@ int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vec
 }
 
 int32_t hk_dense_softest(int64_t n, double *matrix, double *vector) {
-  int32_t status = check(n, n * n, matrix);
+  const int32_t status = check(n, n * n, matrix);
   if (status != HOOKE_OK) return status;
   const int size = (int)n, work_size = 40 * size, first = 1;
   const double none = 0.0;
-  double *work = hk_new(work_size + n, sizeof(double));
-  int *whole = hk_new(6 * n, sizeof(int)), found = 0, info = 0;
-  if (work && whole)
-    dsyevx_("V", "I", "U", &size, matrix, &size, &none, &none, &first, &first, &none, &found,
-            work + work_size, vector, &size, work, &work_size, whole, whole + 5 * n, &info, 1, 1, 1);
-  else
-    status = HOOKE_NO_MEMORY;
+  double *work = hk_new(work_size + 4 * n, sizeof(double));
+  if (work == NULL) return HOOKE_NO_MEMORY;
+  double *value = work + work_size;
+  int *whole = (int *)(value + n), found = 0, info = 0;
+  dsyevx_("V", "I", "U", &size, matrix, &size, &none, &none, &first, &first, &none, &found, value, vector,
+          &size, work, &work_size, whole, whole + 5 * n, &info, 1, 1, 1);
   hk_free(work);
-  hk_free(whole);
-  return status != HOOKE_OK || (info == 0 && found == 1) ? status : not_found();
+  return info == 0 && found == 1 ? HOOKE_OK : not_found();
 }
 
 int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
@@ -116,18 +116,19 @@ int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *be
   int32_t status = check(n, n, diagonal);
   if (status == HOOKE_OK) status = check(n, n - 1, beside);
   if (status != HOOKE_OK) return status;
-  double *work = hk_new(4 * n + (vector ? n * n : 0), sizeof(double));
+  double *work = hk_new(11 * n, sizeof(double));
   if (work == NULL) return HOOKE_NO_MEMORY;
-  double *values = work + 2 * n, *off = values + n, *all = off + n;
+  double *values = work + 5 * n, *off = values + n, *all = off + n;
   const int size = (int)n;
-  int info = 0;
+  const double none = 0.0;
+  int *whole = (int *)(all + n), found = 0, info = 0;
   memcpy(values, diagonal, (size_t)n * sizeof(double));
   memcpy(off, beside, (size_t)(n - 1) * sizeof(double));
-  dstev_(vector ? "V" : "N", &size, values, off, all, &size, work, &info, 1);
-  *value = values[n - 1];
-  if (vector) memcpy(vector, all + (n - 1) * n, (size_t)n * sizeof(double));
+  dstevx_(vector ? "V" : "N", "I", &size, values, off, &none, &none, &size, &size, &none, &found, all, vector,
+          &size, work, whole, whole + 5 * n, &info, 1, 1);
+  *value = all[0];
   hk_free(work);
-  return info == 0 ? HOOKE_OK : not_found();
+  return info == 0 && found == 1 ? HOOKE_OK : not_found();
 }
 
 /* ---- damped ---- */
