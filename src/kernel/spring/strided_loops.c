@@ -91,8 +91,9 @@ HOOKE_INLINE const double *row_at(const struct batch *batch, ptrdiff_t p) {
 }
 
 /* Prefetches rows that are stored one after the other: apart from the loop, which is slower with a branch
- * between its loads. */
+ * between its loads. The empty instruction keeps the compiler from leaving the call out. */
 static __attribute__((noinline)) void fetch_rows(const struct loop *loop, ptrdiff_t p) {
+  __asm__ volatile("");
   for (const struct batch *batch = loop->batch; batch < loop->batch + loop->pass->count; batch++) {
     for (int n = 0; n < HOOKE_STRIDED_NUMBERS && batch->ahead > 0; n++)
       __builtin_prefetch(row_at(batch, p) + HOOKE_STRIDED_UNIT * n + batch->ahead);
