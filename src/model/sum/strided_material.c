@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* More units than this do not fit the second-level cache, and are prefetched so many ahead. */
-enum { UNITS_IN_CACHE = 2500, EARLY = 8 };
+enum { UNITS_IN_CACHE = 800, EARLY = 8 };
 
 enum { NUMBERS = HOOKE_STRIDED_NUMBERS, ROW = HOOKE_STRIDED_ROW, ROW_BYTES = ROW * sizeof(double) };
 
