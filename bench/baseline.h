@@ -1,6 +1,5 @@
 /* The loop of a competent user: an array of spring structs, positions in rows of x y z. */
-#ifndef BENCH_BASELINE_H
-#define BENCH_BASELINE_H
+#pragma once
 
 #include "hooke.h"
 
@@ -18,5 +17,3 @@ void baseline_step(struct baseline *baseline, double h, int64_t steps);
 
 /* Positions, 3 a particle. */
 const double *baseline_position(const struct baseline *baseline);
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef BENCH_DRAW_H
-#define BENCH_DRAW_H
+#pragma once
 
 #include <stdint.h>
 
@@ -14,5 +13,3 @@ static inline uint64_t bench_draw(uint64_t *state) {
 static inline double bench_draw_unit(uint64_t *state) {
   return (double)(bench_draw(state) >> 11) * 0x1p-53;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* An entrant of a race: the library with a method and threads, or the plain loop. */
-#ifndef BENCH_ENTRANT_H
-#define BENCH_ENTRANT_H
+#pragma once
 
 #include "hooke.h"
 
@@ -32,5 +31,3 @@ const double *entrant_position(const struct entrant *entrant);
 
 /* Force evaluations a step; NaN for a plain loop. */
 double entrant_evaluations(const struct entrant *entrant);
-
-#endif

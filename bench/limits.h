@@ -1,6 +1,5 @@
 /* Limits of the machine, measured, to compare steps with. */
-#ifndef BENCH_LIMITS_H
-#define BENCH_LIMITS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -15,5 +14,3 @@ struct limits {
  * with the vectors that the compiler uses for this machine. Returns 1, or 0 without memory or threads. The
  * triad is McCalpin's (1995). */
 int limits_measure(int32_t threads, struct limits *limits);
-
-#endif

@@ -1,6 +1,5 @@
 /* Facts about the machine, from the system. */
-#ifndef BENCH_MACHINE_H
-#define BENCH_MACHINE_H
+#pragma once
 
 struct machine {
   char cpu[128];
@@ -11,5 +10,3 @@ struct machine {
 };
 
 void machine_read(struct machine *machine);
-
-#endif

@@ -1,6 +1,5 @@
 /* A race on one scene: all entrants step it in turns, so that they see the same machine. */
-#ifndef BENCH_RACE_H
-#define BENCH_RACE_H
+#pragma once
 
 #include "scenes.h"
 
@@ -34,5 +33,3 @@ struct race_row {
  * space for MOST_ROWS. Returns a status; HOOKE_DIVERGED if a timed motion did not stay finite. */
 int32_t race_run(const struct bench_scene *scene, const struct race_request *request, struct race_row *row,
                  int *count);
-
-#endif

@@ -1,6 +1,5 @@
 /* The scenes of the table. */
-#ifndef BENCH_SCENES_H
-#define BENCH_SCENES_H
+#pragma once
 
 #include "hooke.h"
 
@@ -17,5 +16,3 @@ const struct bench_scene *bench_scene(int64_t number);
 
 /* Creates the committed system, with gravity; the caller owns it. Returns a status. */
 int32_t bench_scene_create(const struct bench_scene *scene, hooke_system **system);
-
-#endif

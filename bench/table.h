@@ -1,6 +1,5 @@
 /* Rows of a race in words and as CSV. */
-#ifndef BENCH_TABLE_H
-#define BENCH_TABLE_H
+#pragma once
 
 #include "limits.h"
 #include "machine.h"
@@ -15,5 +14,3 @@ void table_begin(enum table_form form, const struct machine *machine, const stru
 /* `limits`: for the number of threads of the row. */
 void table_row(enum table_form form, const struct machine *machine, const struct race_row *row,
                const struct limits *limits);
-
-#endif

@@ -1,7 +1,6 @@
 /* The command line: parsed by getopt_long, with the options of a run, and of anything else that a verb
  * configures, taken from the library's option tables. */
-#ifndef HOOKE_CLI_ARGUMENTS_H
-#define HOOKE_CLI_ARGUMENTS_H
+#pragma once
 
 #include "verb.h"
 
@@ -68,5 +67,3 @@ int32_t cli_argument_is_flag(const struct cli_argument *argument);
 /* 1 if repeating the row of a table adds to the previous value: rows of numbers, lists of words and numbers.
  */
 int32_t cli_argument_adds_up(const struct cli_argument *argument);
-
-#endif

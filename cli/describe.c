@@ -4,7 +4,6 @@
 #include "report.h"
 
 #include <ctype.h>
-#include <stdio.h>
 #include <string.h>
 
 const struct cli_exit_row cli_exits[] = {

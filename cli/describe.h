@@ -1,6 +1,5 @@
 /* Descriptions of verbs, options, kinds and exit codes, for --help, the manual page and completion. */
-#ifndef HOOKE_CLI_DESCRIBE_H
-#define HOOKE_CLI_DESCRIBE_H
+#pragma once
 
 #include "arguments.h"
 
@@ -33,5 +32,3 @@ extern const struct cli_exit_row {
   int32_t code;
   const char *meaning;
 } cli_exits[];
-
-#endif

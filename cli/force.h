@@ -1,6 +1,5 @@
 /* --force: a force that a shared library brings. */
-#ifndef HOOKE_CLI_FORCE_H
-#define HOOKE_CLI_FORCE_H
+#pragma once
 
 #include "arguments.h"
 
@@ -19,5 +18,3 @@ int cli_force_open(const struct cli_arguments *arguments, hooke_system *system, 
 
 /* Writes the SHA-256 of a file as hexadecimal digits. Returns 0 if it cannot be read. */
 int32_t cli_digest_file(const char *path, char digest[HOOKE_DIGEST_SIZE]);
-
-#endif

@@ -4,6 +4,7 @@
 #include "pages.h"
 #include "print.h"
 #include "report.h"
+#include "results.h"
 #include "words.h"
 
 #include <stdio.h>
@@ -120,7 +121,7 @@ static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
   if (answer == HOOKE_EXIT_DONE && arguments.help)
     cli_usage_print_verb(stdout, &arguments);
   else if (answer == HOOKE_EXIT_DONE)
-    answer = verb->function(&arguments);
+    answer = verb->function ? verb->function(&arguments) : cli_results_make(&arguments, verb);
   cli_arguments_destroy(&arguments);
   return answer;
 }

@@ -1,6 +1,5 @@
 #include "print.h"
 
-#include "hooke.h"
 #include <errno.h>
 #include <float.h>
 #include <inttypes.h>

@@ -1,6 +1,5 @@
 /* Prints numbers that read back to the same bits, JSON, and text that is safe on a terminal. */
-#ifndef HOOKE_CLI_PRINT_H
-#define HOOKE_CLI_PRINT_H
+#pragma once
 
 #include "hooke.h"
 
@@ -69,5 +68,3 @@ int32_t cli_print_members(const char *before, hooke_measurement *measurement, co
 /* Position and velocity of every particle: a line each, or the member "final" of a document. */
 void cli_print_final(hooke_state *state);
 void cli_print_final_json(hooke_state *state);
-
-#endif

@@ -1,6 +1,5 @@
 /* Failures reported in words, as JSON (--json), and to the shell. */
-#ifndef HOOKE_CLI_REPORT_H
-#define HOOKE_CLI_REPORT_H
+#pragma once
 
 #include "arguments.h"
 
@@ -47,5 +46,3 @@ int cli_report_unknown_method(const struct cli_arguments *arguments, const char 
 void cli_force_fail(const char *file, int32_t value);
 int32_t cli_force_failed(void);
 const char *cli_force_stop(void);
-
-#endif

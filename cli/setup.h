@@ -1,7 +1,6 @@
 /* The common start of verbs: checks files, loads the scene with the given options, and creates its initial
  * state. */
-#ifndef HOOKE_CLI_SETUP_H
-#define HOOKE_CLI_SETUP_H
+#pragma once
 
 #include "arguments.h"
 #include "describe.h"
@@ -60,5 +59,3 @@ int cli_setup_check_report(const struct cli_arguments *arguments);
  * page that could not be written. */
 int cli_setup_write_report(const struct cli_arguments *arguments, const struct cli_setup *setup,
                            hooke_measurement *measurement, int code);
-
-#endif

@@ -1,6 +1,5 @@
 /* A verb of the command line: its name, its own options, and its function. */
-#ifndef HOOKE_CLI_VERB_H
-#define HOOKE_CLI_VERB_H
+#pragma once
 
 #include "hooke.h"
 
@@ -18,6 +17,7 @@ enum cli_exit {
 };
 
 struct cli_arguments;
+struct cli_results;
 
 /* An option of a verb; `value` names its argument, NULL for a switch. */
 struct cli_verb_row {
@@ -44,6 +44,11 @@ struct cli_verb {
   int takes_no_run;      /* 1: none of the options of a run */
   const char *without;   /* options of a run that it does not take, separated by blanks; NULL: none */
   int (*function)(const struct cli_arguments *arguments);
+  /* Instead, of one that makes the measurement that its options are of (cli_results_make()): checks the
+   * arguments (NULL: nothing to check), makes the scene ready, and tells what was found. */
+  int (*check)(const struct cli_arguments *arguments);
+  int (*ready)(struct cli_results *results);
+  int (*tell)(struct cli_results *results);
 };
 
 /* Of verbs that look at a state (cli_results_at()), and of those that may begin at rest (setup.h). */
@@ -80,5 +85,3 @@ extern const struct cli_verb cli_verb_make;
 extern const struct cli_verb cli_verb_view;
 extern const struct cli_verb cli_verb_verify;
 extern const struct cli_verb cli_verb_modes;
-
-#endif

@@ -1,6 +1,5 @@
 /* Handles Ctrl-C, and shows progress with the remaining time on a terminal. */
-#ifndef HOOKE_CLI_WATCH_H
-#define HOOKE_CLI_WATCH_H
+#pragma once
 
 #include "setup.h"
 
@@ -38,5 +37,3 @@ int32_t cli_watch_interrupted(void);
 
 /* `code` or, where that is HOOKE_EXIT_DONE and a signal came, its exit code, reported: nothing is written. */
 int cli_watch_check(const struct cli_arguments *arguments, int code);
-
-#endif

@@ -1,6 +1,5 @@
 /* What people type in place of a name: other common words, mistyped ones and their beginnings. */
-#ifndef HOOKE_CLI_WORDS_H
-#define HOOKE_CLI_WORDS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -13,5 +12,3 @@ const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const v
 
 /* The file beside the missing `path` whose name is nearest; NULL if `path` is there, or none is near. */
 const char *cli_suggest_file(const char *path);
-
-#endif

@@ -95,8 +95,7 @@ def texts(public):
     names = "".join(f"#define {name} hooke_unchecked_{headers.short(name)}\n" for _, name, _ in every)
     return {
         "guard/calls.inc": MADE_BY + includes + "\n".join(call(f, types) for f in every) + "\n",
-        "guard/names.h": MADE_BY + "#ifndef HOOKE_GUARD_NAMES_H\n#define HOOKE_GUARD_NAMES_H\n\n"
-                         f"#define HOOKE_API /* only the guard's own are exported */\n{names}\n#endif\n",
+        "guard/names.h": f"{MADE_BY}#pragma once\n\n#define HOOKE_API /* only the guard's own are exported */\n{names}",
     }
 
 

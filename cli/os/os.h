@@ -1,6 +1,5 @@
 /* What systems do differently for the program: os_posix.c is for POSIX, os_windows.c for Windows. */
-#ifndef HOOKE_CLI_OS_H
-#define HOOKE_CLI_OS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -46,5 +45,3 @@ int cli_os_make_file(char *path);
 
 /* Opens a page in the reader's browser, which stays when the program ends. Returns 0 if there is none. */
 int32_t cli_os_show_page(const char *page);
-
-#endif

@@ -1,6 +1,5 @@
 /* Commands to type: the current one with other settings, and suggestions for a run that ended early. */
-#ifndef HOOKE_CLI_COMMAND_H
-#define HOOKE_CLI_COMMAND_H
+#pragma once
 
 #include "arguments.h"
 #include "print.h"
@@ -20,5 +19,3 @@ int32_t cli_advice_label(const struct cli_arguments *arguments, hooke_measuremen
 
 /* Prints all suggestions, each with a line of words and its command. */
 void cli_advice_print(const hooke_measurement *why);
-
-#endif

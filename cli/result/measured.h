@@ -1,7 +1,6 @@
 /* What a measurement found, in words and as JSON: its claims, as the library composes them, numbers, and
  * tables. */
-#ifndef HOOKE_CLI_MEASURED_H
-#define HOOKE_CLI_MEASURED_H
+#pragma once
 
 #include "arguments.h"
 #include "print.h"
@@ -68,5 +67,3 @@ void cli_rows_known(const hooke_measurement *measurement, const struct cli_colum
 
 /* A table of all rows. */
 void cli_rows_print(const struct cli_rows *rows, int32_t method_width);
-
-#endif

@@ -47,18 +47,19 @@ static int choose_methods(struct cli_results *results) {
   return code;
 }
 
-int cli_results_make(const struct cli_arguments *arguments, const char *kind,
-                     int (*check)(const struct cli_arguments *arguments),
-                     int (*ready)(struct cli_results *results), int (*tell)(struct cli_results *results)) {
+int cli_results_make(const struct cli_arguments *arguments, const struct cli_verb *verb) {
   struct cli_results results = {.arguments = arguments};
   int code = choose_methods(&results);
-  if (code == HOOKE_EXIT_DONE && check) code = check(arguments);
+  if (code == HOOKE_EXIT_DONE && verb->check) code = verb->check(arguments);
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_setup_check_ending(arguments, "-o", cli_arguments_text(arguments, "output"));
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_report(arguments);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = ready(&results);
+  if (code == HOOKE_EXIT_DONE) code = verb->ready(&results);
   if (code == HOOKE_EXIT_DONE)
-    code = cli_watch_measure(arguments, kind, &results.setup, results.from, &results.found, &results.outcome);
-  if (code == HOOKE_EXIT_DONE) code = tell(&results);
+    code = cli_watch_measure(arguments, verb->options, &results.setup, results.from, &results.found,
+                             &results.outcome);
+  if (code == HOOKE_EXIT_DONE) code = verb->tell(&results);
   free(results.command);
   hooke_measurement_destroy(results.found);
   cli_setup_destroy(&results.setup);

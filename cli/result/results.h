@@ -1,6 +1,5 @@
 /* What a verb measures of a scene, and the way that these verbs go. */
-#ifndef HOOKE_CLI_RESULTS_H
-#define HOOKE_CLI_RESULTS_H
+#pragma once
 
 #include "setup.h"
 
@@ -17,13 +16,9 @@ struct cli_results {
   char *command;   /* that the results lead to, for free(); NULL: none */
 };
 
-/* Checks --methods, the other arguments (`check`; NULL: nothing) and the page of --report, loads the scene,
- * makes it `ready`, measures by the verb's own options, and tells, of failures too. Returns the exit code. */
-int cli_results_make(const struct cli_arguments *arguments, const char *kind,
-                     int (*check)(const struct cli_arguments *arguments),
-                     int (*ready)(struct cli_results *results), int (*tell)(struct cli_results *results));
+/* Checks --methods, the other arguments, the file of -o and the page of --report, loads the scene, makes it
+ * ready, measures by the verb's own options, and tells, of failures too. Returns the exit code. */
+int cli_results_make(const struct cli_arguments *arguments, const struct cli_verb *verb);
 
 /* The state that --at names, FILE:FRAME, or FILE alone for its last frame; the start without it. */
 int cli_results_at(struct cli_results *results);
-
-#endif

@@ -1,7 +1,6 @@
 /* A run that blew up, told on standard error in four lines: what happened, what to try, where to see more,
  * and what is kept. */
-#ifndef HOOKE_CLI_BLOW_UP_H
-#define HOOKE_CLI_BLOW_UP_H
+#pragma once
 
 #include "run_results.h"
 
@@ -11,5 +10,3 @@ void cli_blow_up_tell(const struct cli_run *run);
 /* Adds the command that explains the run: by its output, else by the scene with the options of the run; those
  * that --want chose are named. */
 void cli_blow_up_add_why(struct cli_string *text, const struct cli_run *run);
-
-#endif

@@ -2,7 +2,6 @@
 
 #include "os.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Sets an option from the text that was given. */

@@ -1,6 +1,5 @@
 /* Quantities of a run, written while it goes: --probe, --probe-every and --probes. */
-#ifndef HOOKE_CLI_PROBES_H
-#define HOOKE_CLI_PROBES_H
+#pragma once
 
 #include "run_results.h"
 
@@ -11,5 +10,3 @@ int cli_probes_read(struct cli_run *run);
 /* Begins to write them over the run of its integrator, and ends that. */
 int32_t cli_probes_begin(struct cli_run *run);
 int32_t cli_probes_end(struct cli_run *run);
-
-#endif

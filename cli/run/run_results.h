@@ -1,6 +1,5 @@
 /* A run and its results, printed in words and as JSON. */
-#ifndef HOOKE_CLI_RUN_RESULTS_H
-#define HOOKE_CLI_RUN_RESULTS_H
+#pragma once
 
 #include "print.h"
 #include "report.h"
@@ -86,5 +85,3 @@ void cli_want_print(const struct cli_run *run);
 
 /* Exit code of a finished run. */
 int cli_want_exit_code(const struct cli_run *run);
-
-#endif

@@ -1,10 +1,12 @@
 /* hooke compare: a study that runs each method once. */
 #include "arguments.h"
 #include "report.h"
+#include "results.h"
 
 static int do_compare(const struct cli_arguments *arguments) {
   const int32_t status = hooke_options_set_number(arguments->more, "once", 1.0);
-  return status == HOOKE_OK ? cli_verb_study.function(arguments) : cli_report_status(arguments, status);
+  return status == HOOKE_OK ? cli_results_make(arguments, &cli_verb_study)
+                            : cli_report_status(arguments, status);
 }
 
 static const struct cli_verb_row own_rows[] = {

@@ -5,11 +5,9 @@
 #include "report.h"
 #include "results.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { INDENT = 12 };
 
@@ -90,10 +88,6 @@ static int tell(struct cli_results *l) {
   return cli_setup_write_report(l->arguments, &l->setup, l->found, code);
 }
 
-static int do_limit(const struct cli_arguments *arguments) {
-  return cli_results_make(arguments, "limit", NULL, make_ready, tell);
-}
-
 static const struct cli_verb_row own_rows[] = {
     HOOKE_AT,
     HOOKE_FROM_REST,
@@ -114,5 +108,6 @@ const struct cli_verb cli_verb_limit = {
     HOOKE_VERB_ROWS(own_rows),
     .options = "limit",
     .without = "checkpoint",
-    .function = do_limit,
+    .ready = make_ready,
+    .tell = tell,
 };

@@ -80,10 +80,6 @@ static int tell(struct cli_results *l) {
   return cli_setup_write_report(l->arguments, &l->setup, l->found, code);
 }
 
-static int do_modes(const struct cli_arguments *arguments) {
-  return cli_results_make(arguments, "modes", NULL, cli_results_at, tell);
-}
-
 static const struct cli_verb_row own_rows[] = {
     HOOKE_AT,
     HOOKE_FROM_REST,
@@ -103,5 +99,6 @@ const struct cli_verb cli_verb_modes = {
     HOOKE_VERB_ROWS(own_rows),
     .options = "modes",
     .takes_no_run = 1,
-    .function = do_modes,
+    .ready = cli_results_at,
+    .tell = tell,
 };

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 110, LABEL = 14 };
@@ -174,7 +173,7 @@ static int check(const struct cli_arguments *arguments) {
   if (output && cli_arguments_text(arguments, "force"))
     return cli_report(arguments, HOOKE_EXIT_USAGE, "no scene holds the force of --force; leave out -o %s",
                       output);
-  return output ? cli_setup_check_ending(arguments, "-o", output) : HOOKE_EXIT_DONE;
+  return HOOKE_EXIT_DONE;
 }
 
 static int require(struct cli_results *results) {
@@ -216,10 +215,6 @@ static int tell(struct cli_results *results) {
   return code == HOOKE_EXIT_DONE ? cli_exit_code(HOOKE_STOPPED) : code;
 }
 
-static int do_needs(const struct cli_arguments *arguments) {
-  return cli_results_make(arguments, "needs", check, require, tell);
-}
-
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "LEAN.json", "writes the lean scene, replacing it"},
     {"report", 0, "FILE.html", "writes table and pictures as one page to read offline, replacing it"},
@@ -240,5 +235,7 @@ const struct cli_verb cli_verb_needs = {
     HOOKE_VERB_ROWS(own_rows),
     .options = "needs",
     .without = "step checkpoint",
-    .function = do_needs,
+    .check = check,
+    .ready = require,
+    .tell = tell,
 };

@@ -1,7 +1,6 @@
 /* What the program tells of itself, from the rows of its verbs, kinds and options: help, the manual page, and
  * completion for shells. */
-#ifndef HOOKE_CLI_PAGES_H
-#define HOOKE_CLI_PAGES_H
+#pragma once
 
 #include "arguments.h"
 
@@ -41,5 +40,3 @@ int cli_complete(const struct cli_program *program, const struct cli_verb *verb,
 
 /* hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if set, else today. */
 int cli_man_print(const struct cli_program *program, const char *value);
-
-#endif

@@ -9,11 +9,6 @@
 
 enum { INDENT = 12 };
 
-static int make_ready(struct cli_results *r) {
-  r->from = r->setup.state;
-  return HOOKE_EXIT_DONE;
-}
-
 /* ---- words ---- */
 
 static void print_watched(const hooke_measurement *found) {
@@ -72,15 +67,6 @@ static int tell(struct cli_results *r) {
   return cli_setup_write_report(r->arguments, &r->setup, r->found, code);
 }
 
-static int check(const struct cli_arguments *arguments) {
-  const char *output = cli_arguments_text(arguments, "output");
-  return output ? cli_setup_check_ending(arguments, "-o", output) : HOOKE_EXIT_DONE;
-}
-
-static int do_rest(const struct cli_arguments *arguments) {
-  return cli_results_make(arguments, "rest", check, make_ready, tell);
-}
-
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "REST.json", "writes the scene, its parts kept, that starts at rest, replacing it"},
     {"report", 0, "FILE.html",
@@ -100,5 +86,6 @@ const struct cli_verb cli_verb_rest = {
     HOOKE_VERB_ROWS(own_rows),
     .options = "rest",
     .takes_no_run = 1,
-    .function = do_rest,
+    .ready = cli_results_at,
+    .tell = tell,
 };

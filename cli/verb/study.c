@@ -9,7 +9,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { INDENT = 16, WIDTH = 110, TIMES = 5, CELL = 11, SETTING = 12 };
@@ -286,16 +285,14 @@ static int ends_in(const char *name, const char *ending) {
 
 static int check(const struct cli_arguments *arguments) {
   const char *output = cli_arguments_text(arguments, "output");
-  int code = HOOKE_EXIT_DONE;
-  if (!output) return code;
+  if (!output) return HOOKE_EXIT_DONE;
   if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
     return cli_report(arguments, HOOKE_EXIT_USAGE,
                       "-o %s: allowed: a name that ends in .csv, for the "
                       "rows as a table, or in .h5, for the whole study",
                       output);
   }
-  if (ends_in(output, ".h5")) code = cli_setup_check_output(arguments, output);
-  return code == HOOKE_EXIT_DONE ? cli_setup_check_ending(arguments, "-o", output) : code;
+  return ends_in(output, ".h5") ? cli_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
 }
 
 /* ---- the recommended command ---- */
@@ -383,10 +380,6 @@ static int require(struct cli_results *results) {
   return code;
 }
 
-static int do_study(const struct cli_arguments *arguments) {
-  return cli_results_make(arguments, "study", check, require, tell);
-}
-
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "FILE", "writes the rows to FILE.csv, or the whole study to FILE.h5, replacing it"},
     {"report", 0, "FILE.html",
@@ -408,5 +401,7 @@ const struct cli_verb cli_verb_study = {
     .options = "study",
     .hidden = "once",
     .without = "method step rtol atol atol_velocity checkpoint",
-    .function = do_study,
+    .check = check,
+    .ready = require,
+    .tell = tell,
 };

@@ -158,17 +158,18 @@ void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
 /* ---- version ---- */
 
 int cli_version_print(const struct cli_program *program, const char *value) {
-  static const char *const parts[][2] = {{"SUNDIALS", "sundials"}, {"CHOLMOD", "cholmod"},
-                                         {"LAPACK", "lapack"},     {"GSL", "gsl"},
-                                         {"HDF5", "hdf5"},         {"Chart.js", "chartjs"},
-                                         {"three.js", "threejs"},  {"instructions", "instructions"},
-                                         {"licence", "licence"}};
+  static const char *const parts[][2] = {
+      {"SUNDIALS", "sundials"}, {"CHOLMOD", "cholmod"},  {"BLAS", "blas"},
+      {"LAPACK", "lapack"},     {"GSL", "gsl"},          {"HDF5", "hdf5"},
+      {"Chart.js", "chartjs"},  {"three.js", "threejs"}, {"instructions", "instructions"},
+      {"licence", "licence"}};
   (void)program, (void)value;
   printf("hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
   printf("%-13s %d on this machine\n", "threads", (int)cli_os_processors());
   for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++) {
     const char *fact = hooke_build_fact(parts[k][1]);
-    printf("%-13s %s\n", parts[k][0], fact && fact[0] ? fact : "not in this build");
+    const char *none = strcmp(parts[k][1], "blas") == 0 ? "no optimised one" : "not in this build";
+    printf("%-13s %s\n", parts[k][0], fact && fact[0] ? fact : none);
   }
   return HOOKE_EXIT_DONE;
 }

@@ -19,11 +19,9 @@ static const char *text(const hooke_measurement *verify, const char *what) {
 /* ---- the certificate ---- */
 
 static void print_makers(const hooke_measurement *verify, const char *head, const char *suffix) {
-  static const char *const facts[][2] = {{"version", "hooke"},
-                                         {"sundials", "SUNDIALS"},
-                                         {"cholmod", "CHOLMOD"},
-                                         {"instructions", ""},
-                                         {"machine", ""}};
+  static const char *const facts[][2] = {{"version", "hooke"},   {"sundials", "SUNDIALS"},
+                                         {"cholmod", "CHOLMOD"}, {"blas", ""},
+                                         {"instructions", ""},   {"machine", ""}};
   printf("%-13s", head);
   const char *joint = " ";
   for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++) {

@@ -6,8 +6,6 @@
 #include "measured.h"
 #include "run_results.h"
 
-#include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

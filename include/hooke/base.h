@@ -70,9 +70,13 @@ HOOKE_API const char *hooke_version(void);
 /* ABI number of the running library. */
 HOOKE_API int32_t hooke_abi(void);
 
-/* A fact about this build, as text that lives as long as the process. `what` is one of
+/* A fact about this build, as text that lives as long as the process, but for "blas". `what` is one of
  *   "sundials", "cholmod", "lapack", "gsl", "hdf5",
  *   "chartjs", "threejs"                    the version in use, or "" when the build is without it
+ *   "blas"                                  name, version, processor and threads of the optimised BLAS that
+ *                                           factors for cvode-bdf call, as they are now: "OpenBLAS 0.3.21
+ *                                           Zen, 2 threads"; "" where they call none. Valid until the next
+ *                                           call in this thread
  *   "machine"                               processor architecture of the build: "x86-64", "aarch64", "other"
  *   "instructions"                          the instruction set that the force loops use on this machine
  *   "licence"                               the licence that this build falls under

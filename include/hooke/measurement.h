@@ -238,8 +238,8 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, i
  * between the two runs estimates the error.
  *
  * Where the file was made with other versions of SUNDIALS or CHOLMOD, or on another machine, error-controlled
- * methods and linear_solver direct may differ in bits: frames then have to agree to within four times the
- * estimate.
+ * methods and linear_solver direct may differ in bits, and error-controlled methods with another BLAS or
+ * number of its threads: frames then have to agree to within four times the estimate.
  *
  * hooke_measurement_run() returns HOOKE_BAD_VALUE if the file does not reproduce, with the first frame,
  * particle and component that differ and both numbers, the damaged frame, or the balance that does not hold;

@@ -1,8 +1,5 @@
 /* A monotonic clock. */
-#ifndef HOOKE_CORE_CLOCK_H
-#define HOOKE_CORE_CLOCK_H
+#pragma once
 
 /* Seconds since a fixed moment. */
 double hk_clock_seconds(void);
-
-#endif

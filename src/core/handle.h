@@ -1,7 +1,6 @@
 /* Handles: the opaque objects that callers hold. A build with HOOKE_CHECK_HANDLES keeps a list of the live
  * ones, and the guard (src/guard) checks every handle against it. Other builds have none of this. */
-#ifndef HOOKE_CORE_HANDLE_H
-#define HOOKE_CORE_HANDLE_H
+#pragma once
 
 #include "core/memory.h"
 
@@ -20,5 +19,4 @@ int32_t hk_handle_is(const void *object, const char *type, const char *function,
 #define hk_handle_new(type, size) hk_new(1, (size))
 #define hk_handle_free(object)    hk_free(object)
 
-#endif
 #endif

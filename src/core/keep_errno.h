@@ -1,6 +1,5 @@
 /* errno belongs to the caller: code that may set it restores it. */
-#ifndef HOOKE_CORE_KEEP_ERRNO_H
-#define HOOKE_CORE_KEEP_ERRNO_H
+#pragma once
 
 #include <errno.h>
 
@@ -10,5 +9,3 @@ static inline void hk_put_errno_back(const int *kept) {
 
 /* Declared at the start of a block, it restores errno at the end of the block. */
 #define HOOKE_KEEP_ERRNO __attribute__((cleanup(hk_put_errno_back), unused)) const int hk_kept_errno = errno
-
-#endif

@@ -1,6 +1,5 @@
 /* Allocation of every block of the library. */
-#ifndef HOOKE_CORE_MEMORY_H
-#define HOOKE_CORE_MEMORY_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -36,5 +35,3 @@ static inline double *hk_part(double **block, int64_t count) {
   *block += count;
   return start;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Maximum memory of a scene. */
-#ifndef HOOKE_CORE_MEMORY_LIMIT_H
-#define HOOKE_CORE_MEMORY_LIMIT_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -17,5 +16,3 @@ enum { HOOKE_BYTES_SHOWN = 32 };
 
 /* "412 GB" */
 const char *hk_show_bytes(double bytes, char shown[HOOKE_BYTES_SHOWN]);
-
-#endif

@@ -1,9 +1,7 @@
 /* Numbers looked up by name. */
-#ifndef HOOKE_CORE_NAMED_NUMBER_H
-#define HOOKE_CORE_NAMED_NUMBER_H
+#pragma once
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 struct hk_named_number {
@@ -23,5 +21,3 @@ static inline double hk_named_number_find(const struct hk_named_number *number, 
 /* The same for an array. */
 #define HOOKE_NAMED_NUMBER(numbers, name)                                                                    \
   hk_named_number_find((numbers), sizeof(numbers) / sizeof((numbers)[0]), (name))
-
-#endif

@@ -1,6 +1,5 @@
 /* Decimal numbers as text, independent of the locale. */
-#ifndef HOOKE_CORE_NUMBER_H
-#define HOOKE_CORE_NUMBER_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -24,5 +23,3 @@ enum hk_number_result hk_number_parse(const char *text, int64_t length, double *
  * characters. */
 enum { HOOKE_NUMBER_SIZE = 40 };
 void hk_number_print(double value, char *text);
-
-#endif

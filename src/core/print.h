@@ -1,6 +1,5 @@
 /* Text that does not depend on locale or thread: a decimal point, and system errors in English. */
-#ifndef HOOKE_CORE_PRINT_H
-#define HOOKE_CORE_PRINT_H
+#pragma once
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,5 +14,3 @@ void hk_append(char *text, size_t size, const char *format, ...) __attribute__((
 /* Writes the description of an errno value into `text` (HOOKE_ERROR_SIZE characters) and returns it. */
 enum { HOOKE_ERROR_SIZE = 128 };
 const char *hk_print_error(int error, char *text);
-
-#endif

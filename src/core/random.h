@@ -1,7 +1,6 @@
 /* Reproducible random numbers: splitmix64 (Steele, Lea and Flood 2014). A generator is one 64-bit number,
  * initially the seed. */
-#ifndef HOOKE_CORE_RANDOM_H
-#define HOOKE_CORE_RANDOM_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -28,5 +27,3 @@ static inline double hk_random_normal(uint64_t *random) {
   } while (square >= 1.0 || square == 0.0);
   return x * sqrt(-2.0 * log(square) / square);
 }
-
-#endif

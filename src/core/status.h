@@ -1,6 +1,5 @@
 /* Failures: a status, the place it belongs to, and a message. One record per thread. */
-#ifndef HOOKE_CORE_STATUS_H
-#define HOOKE_CORE_STATUS_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -38,5 +37,3 @@ int32_t hk_fail_status(void);
 /* Place of the last failure, "" if it had none, and its message without the place. */
 const char *hk_fail_where(void);
 const char *hk_fail_message(void);
-
-#endif

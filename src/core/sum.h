@@ -1,7 +1,6 @@
 /* Compensated sums (Neumaier 1974): the error does not grow with the number of terms. A plain sum of a
  * million equal numbers loses five digits. */
-#ifndef HOOKE_CORE_SUM_H
-#define HOOKE_CORE_SUM_H
+#pragma once
 
 #include <math.h>
 
@@ -19,5 +18,3 @@ static inline void hk_sum_add(struct hk_sum *total, double x) {
 static inline double hk_sum_value(const struct hk_sum *total) {
   return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }
-
-#endif

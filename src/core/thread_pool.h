@@ -1,7 +1,6 @@
 /* A thread pool: a fixed number of threads, including the caller's, that run one task together, any number of
  * times. Between tasks the others wait, spinning briefly and then asleep. */
-#ifndef HOOKE_CORE_THREAD_POOL_H
-#define HOOKE_CORE_THREAD_POOL_H
+#pragma once
 
 #include <stdint.h>
 
@@ -39,5 +38,3 @@ static inline int64_t hk_pool_share(int64_t count, int64_t unit, int32_t worker,
   const int64_t units = (count + unit - 1) / unit, at = units * worker / workers * unit;
   return at < count ? at : count;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Foreign text in messages, made a single line of valid UTF-8. */
-#ifndef HOOKE_CORE_UTF8_H
-#define HOOKE_CORE_UTF8_H
+#pragma once
 
 #include <stdint.h>
 
@@ -14,5 +13,3 @@ uint32_t hk_utf8_control(const char *text, int64_t bytes);
 
 /* Replaces every such character, and every byte that is part of no character, by '?'. */
 void hk_utf8_make_plain(char *text);
-
-#endif

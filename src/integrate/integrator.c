@@ -16,8 +16,6 @@
 #include "model/system.h"
 
 #include <math.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 /* ---- creating ---- */

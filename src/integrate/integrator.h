@@ -1,6 +1,5 @@
 /* The integrator, for the run loop and the methods. */
-#ifndef HOOKE_INTEGRATE_INTEGRATOR_H
-#define HOOKE_INTEGRATE_INTEGRATOR_H
+#pragma once
 
 #include "core/table/option.h"
 #include "integrate/method.h"
@@ -272,5 +271,3 @@ void hk_divergence_begin(hooke_integrator *integrator, const hooke_state *state)
 int32_t hk_divergence_check(hooke_integrator *integrator, hooke_state *state, int32_t energy);
 /* Repeats a check that another run passed at this state. */
 void hk_divergence_follow(hooke_integrator *integrator, const hooke_state *state);
-
-#endif

@@ -7,7 +7,6 @@
 #include "model/generalized.h"
 #include "model/particles.h"
 
-#include <stddef.h>
 #include <string.h>
 
 static const struct hk_method *const table[] = {

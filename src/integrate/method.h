@@ -1,6 +1,5 @@
 /* The table of methods. A new method is one file and one row in method.c. */
-#ifndef HOOKE_INTEGRATE_METHOD_H
-#define HOOKE_INTEGRATE_METHOD_H
+#pragma once
 
 #include "hooke/integrator.h"
 
@@ -116,5 +115,3 @@ const char *hk_method_of_euler(const hooke_system *system);
 
 /* 1 if no step is stable without damping. */
 int32_t hk_method_needs_damping(const char *name);
-
-#endif

@@ -1,7 +1,6 @@
 #include "kernel/altitude_loops.h"
 
 #include <math.h>
-#include <stddef.h>
 
 const int8_t hk_altitude_role[HOOKE_ALTITUDES][4] = HOOKE_ALTITUDE_ROLES;
 

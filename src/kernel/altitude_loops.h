@@ -16,8 +16,7 @@
  * altitude k and T = 0 for a spring that only pulls where h <= l or T < 0. At the shortest altitude weights
  * are from -1 to 1: its ends lie in the tetrahedron. The weighted sum of positions is h u, so h is
  * differentiated by (dh) = u.(sum of g_j dx_j) exactly. */
-#ifndef HOOKE_KERNEL_ALTITUDE_LOOPS_H
-#define HOOKE_KERNEL_ALTITUDE_LOOPS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -61,5 +60,3 @@ double hk_altitude_tension(const struct hk_tetrahedron *tetrahedron, const struc
 /* f += the forces at q and v; x, y and z apart. Compiled once for each instruction set. */
 typedef void hk_tetrahedron_loop(int64_t count, const struct hk_tetrahedron *tetrahedron,
                                  const double *const q[3], const double *const v[3], double *const f[3]);
-
-#endif

@@ -2,8 +2,7 @@
  * constant offset triple k joins particles start + k, start + k + offset and start + k + 2 offset, in any
  * other the particles are looked up. One triple, of each component, to the parenthesis:
  *   d = (x_a - 2 x_b) + x_c      F = (factor c) d      f_a -= F      f_b += 2 F      f_c -= F */
-#ifndef HOOKE_KERNEL_BENDING_LOOPS_H
-#define HOOKE_KERNEL_BENDING_LOOPS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -30,5 +29,3 @@ struct hk_bending_run {
   const double *coefficients; /* mixed: `count` long */
   hk_bending_loop *loop;
 };
-
-#endif

@@ -1,7 +1,6 @@
 /* Energies of some springs, each by itself, at positions and velocities in rows of x y z: whoever sums them
  * has the order of the sum. Every number has the same bits whatever the instruction set. */
-#ifndef HOOKE_KERNEL_ENERGY_LOOPS_H
-#define HOOKE_KERNEL_ENERGY_LOOPS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -26,5 +25,3 @@ struct hk_energy_set {
   void (*some_energies)(const struct hk_some_springs *, const double *, double *, double *);
   void (*some_heats)(const struct hk_some_springs *, const double *, const double *, double *);
 };
-
-#endif

@@ -1,6 +1,5 @@
 /* For files that are compiled once per instruction set: HOOKE_ISA names the set, and the exported names. */
-#ifndef HOOKE_KERNEL_INSTRUCTION_SET_H
-#define HOOKE_KERNEL_INSTRUCTION_SET_H
+#pragma once
 
 #include "kernel/energy_loops.h"
 #include "kernel/spring/damper_loops.h"
@@ -46,5 +45,3 @@ extern const struct hk_tangent_set HOOKE_TANGENT_SET;
 hk_tetrahedron_loop HOOKE_TETRAHEDRON_LOOP;
 extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;
 extern const struct hk_vector_set HOOKE_VECTOR_SET;
-
-#endif

@@ -1,6 +1,5 @@
 /* The moves of move_loops.h on one vector of particles, to the parenthesis. */
-#ifndef HOOKE_KERNEL_MOVE_BODY_H
-#define HOOKE_KERNEL_MOVE_BODY_H
+#pragma once
 
 #include "kernel/move_loops.h"
 #include "kernel/vector_unit.h"
@@ -101,5 +100,3 @@ HOOKE_INLINE void hk_move_vector(const struct hk_move *move, const int kind, ptr
   for (int a = 0; a < 3; a++)
     hk_move_axis(move, kind, p, a, m, f[a], q + a * stride, v + a * stride);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* The moves of explicit methods: what is done with a particle once its forces are complete, by the pass that
  * summed them or by a loop of its own. They are compiled once for each instruction set. */
-#ifndef HOOKE_KERNEL_MOVE_LOOPS_H
-#define HOOKE_KERNEL_MOVE_LOOPS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -63,5 +62,3 @@ typedef void hk_move_loop(const struct hk_move *move, const struct hk_moved *mov
 static inline int32_t hk_move_brakes(int32_t kind) {
   return kind == HOOKE_CORRECT || kind == HOOKE_KICK || kind == HOOKE_KICK_DRIFT_KICK;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* The moves of numbers x at a rate, x of a first-order problem among them; those of particles are in
  * move_loops.h.
  */
-#ifndef HOOKE_KERNEL_STEP_LOOPS_H
-#define HOOKE_KERNEL_STEP_LOOPS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -10,5 +9,3 @@
  */
 void hk_move_numbers(int32_t kind, double kick, int64_t count, const double *rate, double *start, double *sum,
                      double *x);
-
-#endif

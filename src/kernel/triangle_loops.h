@@ -1,7 +1,6 @@
 /* Solutions with a sparse lower triangular matrix L of 3x3 blocks, stored by columns of blocks. Every number
  * is computed from the same numbers in the same order in every instruction set. */
-#ifndef HOOKE_KERNEL_TRIANGLE_LOOPS_H
-#define HOOKE_KERNEL_TRIANGLE_LOOPS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -25,5 +24,3 @@ struct hk_triangle_set {
   void (*triangle_forward)(const struct hk_triangle *, double *);
   void (*triangle_backward)(const struct hk_triangle *, double *);
 };
-
-#endif

@@ -1,8 +1,7 @@
 /* Vectors of `size` numbers. Sums go in interleaved parts that are added in a fixed order, so that their bits
  * depend on the numbers alone. The loops are compiled once for each instruction set; these functions use the
  * best one of the machine. */
-#ifndef HOOKE_KERNEL_VECTOR_LOOPS_H
-#define HOOKE_KERNEL_VECTOR_LOOPS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -78,5 +77,3 @@ struct hk_vector_set {
   void (*join_rows)(int64_t, const double *, const double *, const double *, double *);
   uint64_t (*differing_bits)(int64_t, const double *, const double *, const double *, const double *);
 };
-
-#endif

@@ -1,7 +1,6 @@
 /* The vectors of an instruction set, for loops that are written on whole vectors. HOOKE_WIDTH numbers each;
  * operations without a compiler operator on vectors are functions here. */
-#ifndef HOOKE_KERNEL_VECTOR_UNIT_H
-#define HOOKE_KERNEL_VECTOR_UNIT_H
+#pragma once
 
 #include "kernel/spring/spring_body.h"
 
@@ -102,7 +101,5 @@ HOOKE_INLINE hk_vector hk_keep(uint32_t bits, hk_vector x) {
 HOOKE_INLINE int hk_has_none_left(hk_vector x) {
   return (x[0] <= 0.0) | (x[1] <= 0.0);
 }
-
-#endif
 
 #endif

@@ -1,7 +1,6 @@
 /* Claims: what a measurement says of its result, in sentences, the most important first. The program, pages,
  * bindings and files show these texts and compose none of their own. What to do is no claim: it is data. */
-#ifndef HOOKE_MEASURE_CLAIMS_H
-#define HOOKE_MEASURE_CLAIMS_H
+#pragma once
 
 #include "core/table/column.h"
 
@@ -28,5 +27,3 @@ void hk_claim(struct hk_claims *claims, const char *key, enum hk_claim_of of, co
               const char *format, ...) __attribute__((format(printf, 5, 6)));
 
 void hk_claims_release(struct hk_claims *claims);
-
-#endif

@@ -1,7 +1,6 @@
 /* The common part of all measurements: options, progress, a run, and tables of results. Each kind adds an
  * object of its own. */
-#ifndef HOOKE_MEASURE_MEASUREMENT_H
-#define HOOKE_MEASURE_MEASUREMENT_H
+#pragma once
 
 #include "core/table/column.h"
 #include "core/table/option.h"
@@ -91,5 +90,3 @@ const void *hk_measured(const hooke_measurement *measurement, const struct hk_ta
 int64_t hk_measured_rows(const hooke_measurement *measurement, const struct hk_table *table);
 struct hk_value hk_measured_value(const hooke_measurement *measurement, const struct hk_table *table,
                                   const struct hk_column *column, int64_t row);
-
-#endif

@@ -5,7 +5,6 @@
 #include "model/force/drive.h"
 #include "model/system.h"
 
-#include <stddef.h>
 #include <string.h>
 
 static const char *const texts[HOOKE_CALLS_ALL + 1] = {

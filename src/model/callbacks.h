@@ -1,6 +1,5 @@
 /* Which callbacks of the caller act on a system, as a sum of these; and as files name them. */
-#ifndef HOOKE_MODEL_CALLBACKS_H
-#define HOOKE_MODEL_CALLBACKS_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -31,5 +30,3 @@ int32_t hk_callbacks_check(int32_t had, int32_t own);
 /* HOOKE_UNSUITED if the system is from the file of a run with callbacks that it lacks, or with
  * another force. */
 int32_t hk_callbacks_require(const hooke_system *system);
-
-#endif

@@ -6,8 +6,6 @@
 #include "model/force/force.h"
 #include "model/start.h"
 
-#include <stddef.h>
-
 void hk_check_add(uint32_t *value, const void *bytes, int64_t count, size_t size) {
   *value = hk_crc32(*value, bytes, count * (int64_t)size);
 }

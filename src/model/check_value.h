@@ -1,6 +1,5 @@
 /* A number that identifies a system. */
-#ifndef HOOKE_MODEL_CHECK_VALUE_H
-#define HOOKE_MODEL_CHECK_VALUE_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -17,5 +16,3 @@ const char *hk_system_difference(const hooke_system *one, const hooke_system *ot
 /* Continue a value with `count` items of `size` bytes, or with one whole number. */
 void hk_check_add(uint32_t *value, const void *bytes, int64_t count, size_t size);
 void hk_check_whole(uint32_t *value, int64_t number);
-
-#endif

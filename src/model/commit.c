@@ -8,7 +8,6 @@
 #include "model/sum/spring_batch.h"
 #include "model/system.h"
 
-#include <stddef.h>
 #include <string.h>
 
 static int32_t check_pinned_at_rest(const hooke_system *system) {

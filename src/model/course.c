@@ -4,7 +4,6 @@
 #include "core/print.h"
 #include "core/sine.h"
 #include "core/status.h"
-#include "hooke/options.h"
 #include "model/check_value.h"
 #include "model/system.h"
 

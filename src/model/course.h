@@ -1,7 +1,6 @@
 /* A course: numbers that follow time, by a sine or by a table. Displacements of drives, loads, winds and
  * factors of springs are courses. */
-#ifndef HOOKE_MODEL_COURSE_H
-#define HOOKE_MODEL_COURSE_H
+#pragma once
 
 #include "hooke/options.h"
 
@@ -64,5 +63,3 @@ int64_t hk_course_range(const struct hk_course *course, double *low, double *hig
 
 /* Adds everything to a check value. */
 void hk_course_check(const struct hk_course *course, uint32_t *value);
-
-#endif

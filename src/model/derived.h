@@ -1,6 +1,5 @@
 /* Numbers that parts derive from their options, for display, in a list that grows while a system is built. */
-#ifndef HOOKE_MODEL_DERIVED_H
-#define HOOKE_MODEL_DERIVED_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -15,5 +14,3 @@ int32_t hk_system_add_derived(hooke_system *system, const char *part, const char
                               const char *unit, double value);
 /* Keeps only the first `kept` of them. */
 void hk_system_drop_derived(hooke_system *system, int64_t kept);
-
-#endif

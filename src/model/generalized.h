@@ -2,8 +2,7 @@
  * coordinates, the last row is filled up with zeros, and the callback force is f, which the system scales by
  * W, of particles of mass 1, or phi of an overdamped system with drag 1. So all that takes a system takes
  * these. */
-#ifndef HOOKE_MODEL_GENERALIZED_H
-#define HOOKE_MODEL_GENERALIZED_H
+#pragma once
 
 #include "hooke/state.h"
 
@@ -33,5 +32,3 @@ const char *hk_metres(const hooke_system *system);
 
 /* HOOKE_UNSUITED for a problem of coordinates; `what` begins the sentence: "a page ", or "". */
 int32_t hk_system_require_scene(const hooke_system *system, const char *place, const char *what);
-
-#endif

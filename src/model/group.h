@@ -1,7 +1,6 @@
 /* Groups of members of a force: springs, triples of bending, tetrahedra of altitude springs. A system has one
  * table of them, in the order of the table of forces; within a force, groups of parts follow the others. */
-#ifndef HOOKE_MODEL_GROUP_H
-#define HOOKE_MODEL_GROUP_H
+#pragma once
 
 #include "core/table/option.h"
 
@@ -93,5 +92,3 @@ const struct hk_group *hk_system_last_group(const struct hooke_system *system,
                                             const struct hk_force_row *force);
 /* Number of the first group of a force in the table, or where it would be. */
 int64_t hk_system_first_group(const struct hooke_system *system, const struct hk_force_row *force);
-
-#endif

@@ -1,6 +1,5 @@
 /* The medium that particles move in: coefficients of its drag, and the wind. */
-#ifndef HOOKE_MODEL_MEDIUM_H
-#define HOOKE_MODEL_MEDIUM_H
+#pragma once
 
 #include "model/course.h"
 
@@ -45,5 +44,3 @@ void hk_wind_at(const struct hooke_system *system, double t, double wind[3]);
 
 /* Adds coefficients (NULL: none), and the wind, to a check value. */
 void hk_medium_check_value(const struct hooke_system *system, const struct hk_each *each, uint32_t *value);
-
-#endif

@@ -5,7 +5,6 @@
 #include "core/status.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics) {

@@ -1,6 +1,5 @@
 /* Record of the parts of a system, so that another system can be made from it with a part changed. */
-#ifndef HOOKE_MODEL_PART_RECORD_H
-#define HOOKE_MODEL_PART_RECORD_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -31,5 +30,3 @@ int32_t hk_part_record_keep(hooke_system *system, struct hk_part_record record, 
 /* Number of its particles that are pinned. */
 int64_t hk_part_record_pinned(const hooke_system *system, const struct hk_part_record *record);
 void hk_part_record_release(struct hk_part_record *record);
-
-#endif

@@ -1,7 +1,6 @@
 /* The system as most of the library reads it: its particles, what acts on all of them, and where the rest is.
  * Whoever reads the rest includes its header. */
-#ifndef HOOKE_MODEL_PARTICLES_H
-#define HOOKE_MODEL_PARTICLES_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -89,5 +88,3 @@ static inline hooke_system hk_system_at(const hooke_system *system, double t) {
 static inline int32_t hk_is_carried(const hooke_system *system, int64_t particle) {
   return system->carried && system->carried[particle];
 }
-
-#endif

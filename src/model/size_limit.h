@@ -1,6 +1,5 @@
 /* Sizes that systems and states may have. */
-#ifndef HOOKE_MODEL_SIZE_LIMIT_H
-#define HOOKE_MODEL_SIZE_LIMIT_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -21,5 +20,3 @@ int32_t hk_system_check_size(const hooke_system *system, struct hk_more more, co
 /* The same for a problem of `size` numbers without particles, with so many doubles for each of them. */
 int32_t hk_size_check(int64_t size, int32_t doubles);
 int32_t hk_system_check_more(const hooke_system *system, const struct hk_force_row *force, int64_t count);
-
-#endif

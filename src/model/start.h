@@ -1,7 +1,6 @@
 /* Where a motion starts, if not where its particles were given: with rest lengths, frames of bodies, clamps
  * and anchors of the given positions. */
-#ifndef HOOKE_MODEL_START_H
-#define HOOKE_MODEL_START_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,5 +25,3 @@ const double *hk_undeformed_position(const struct hooke_system *system);
 
 /* Gives it to a variant. HOOKE_UNSUITED where that has particles between those of the system. */
 int32_t hk_start_copy(const struct hk_variant_maker *maker);
-
-#endif

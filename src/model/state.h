@@ -1,6 +1,5 @@
 /* A state: t, q and v in one block. */
-#ifndef HOOKE_MODEL_STATE_H
-#define HOOKE_MODEL_STATE_H
+#pragma once
 
 #include "hooke/state.h"
 
@@ -29,5 +28,3 @@ int32_t hk_state_check_system(const hooke_state *state, const hooke_system *syst
 
 /* The known energies, or those computed now. */
 struct hk_energies hk_state_energies(const hooke_state *state, const hooke_system *system);
-
-#endif

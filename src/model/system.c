@@ -4,7 +4,6 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/callbacks.h"
 #include "model/derived.h"
 #include "model/force/drive.h"
 #include "model/generalized.h"

@@ -1,6 +1,5 @@
 /* The rest of a system: what only building, committing and copying it read, and what it points to. */
-#ifndef HOOKE_MODEL_SYSTEM_H
-#define HOOKE_MODEL_SYSTEM_H
+#pragma once
 
 #include "model/callbacks.h"
 #include "model/coordinates/body.h"
@@ -113,5 +112,3 @@ struct hk_system_mark {
 };
 struct hk_system_mark hk_system_mark(const hooke_system *system);
 void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark);
-
-#endif

@@ -9,7 +9,6 @@
 #include "core/status.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 int32_t hooke_system_is_committed(const hooke_system *system) {

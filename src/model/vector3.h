@@ -1,6 +1,5 @@
 /* Vectors of three numbers. Sums are taken as written: they are part of the canonical definition. */
-#ifndef HOOKE_MODEL_VECTOR3_H
-#define HOOKE_MODEL_VECTOR3_H
+#pragma once
 
 #include <math.h>
 
@@ -36,5 +35,3 @@ static inline void hk_add3(double s, const double a[3], double out[3]) {
   for (int k = 0; k < 3; k++)
     out[k] += s * a[k];
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Drag by shape: the options `fluid_drag` of ropes and of surfaces. */
-#ifndef HOOKE_PARTS_FLUID_H
-#define HOOKE_PARTS_FLUID_H
+#pragma once
 
 #include "parts/part.h"
 
@@ -12,5 +11,3 @@ extern const struct hk_option_table hk_part_rope_fluid, hk_part_surface_fluid;
 /* Adds it to the system, for a part that has it; `corners` are three particles of each piece, of which a
  * segment repeats the second. */
 int32_t hk_part_add_fluid_drag(const struct hk_part *part, int64_t count, const int64_t *corners);
-
-#endif

@@ -1,6 +1,5 @@
 /* Grids of particles over one edge (a rope), two (a cloth) or three (a lattice). */
-#ifndef HOOKE_PARTS_GRID_H
-#define HOOKE_PARTS_GRID_H
+#pragma once
 
 #include "parts/part.h"
 
@@ -18,5 +17,3 @@ int32_t hk_grid_build(struct hk_part *part, struct hk_grid *grid, const char *si
 
 /* The same of a cloth or a lattice by its options `origin`, `edges` and `size`. */
 int32_t hk_grid_build_sized(struct hk_part *part);
-
-#endif

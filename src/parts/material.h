@@ -1,7 +1,6 @@
 /* Masses, damping and bending from material values, which do not depend on resolution: density, damping
  * ratio, bending stiffness. Every derived number is added to the system's list. */
-#ifndef HOOKE_PARTS_MATERIAL_H
-#define HOOKE_PARTS_MATERIAL_H
+#pragma once
 
 #include "model/force/spring.h"
 #include "parts/part.h"
@@ -33,5 +32,3 @@ int32_t hk_part_check_damping(const struct hk_part *part, const char *family);
 /* Records the derived stiffness and damping of spring `k` of the group added last, under these names. */
 int32_t hk_part_derive_spring(const struct hk_part *part, const char *family, int64_t k, const char *kappa,
                               const char *gamma);
-
-#endif

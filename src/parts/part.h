@@ -1,6 +1,5 @@
 /* Parts: the table of kinds, and helpers of their builders. A new kind is one file and one row in part.c. */
-#ifndef HOOKE_PARTS_PART_H
-#define HOOKE_PARTS_PART_H
+#pragma once
 
 #include "core/table/option.h"
 #include "hooke/parts.h"
@@ -103,5 +102,3 @@ char *hk_part_group_name(const struct hk_part *part, const char *family);
 
 /* A `named` of parts with two ends: their words are "start" and "end". */
 int64_t hk_part_named_end(const struct hk_part *part, const char *word, int64_t k);
-
-#endif

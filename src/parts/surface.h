@@ -1,6 +1,5 @@
 /* A surface of triangles: welds vertices, finds faults, lists edges. */
-#ifndef HOOKE_PARTS_SURFACE_H
-#define HOOKE_PARTS_SURFACE_H
+#pragma once
 
 #include "hooke/options.h"
 
@@ -33,5 +32,3 @@ struct hk_surface_lines {
 int32_t hk_surface_create(const hooke_options *options, struct hk_surface_lines *lines,
                           struct hk_surface *surface);
 void hk_surface_release(struct hk_surface *surface);
-
-#endif

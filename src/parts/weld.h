@@ -1,6 +1,5 @@
 /* Merges points that coincide or are close together. */
-#ifndef HOOKE_PARTS_WELD_H
-#define HOOKE_PARTS_WELD_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -9,5 +8,3 @@
  * points, and `first` (count) receives their original numbers. HOOKE_NO_MEMORY. */
 int32_t hk_weld(int64_t count, double distance, double *position, int32_t *became, int32_t *first,
                 int64_t *kept);
-
-#endif

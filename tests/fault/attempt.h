@@ -2,8 +2,7 @@
  * fault is checked and, if the fault was a single one, repeated: the same objects then have to give the same
  * hash. If everything fails from then on the scenario ends early and releases its objects, which must not
  * fail. */
-#ifndef FAULT_ATTEMPT_H
-#define FAULT_ATTEMPT_H
+#pragma once
 
 #include "plan.h"
 
@@ -58,5 +57,3 @@ void attempt_wrong(struct attempt *a, const char *format, ...) __attribute__((fo
 void attempt_numbers(struct attempt *a, int64_t count, const double *numbers);
 void attempt_number(struct attempt *a, double number);
 void attempt_text(struct attempt *a, const char *text);
-
-#endif

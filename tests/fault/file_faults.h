@@ -1,7 +1,6 @@
 /* System calls on files of one folder that fail by plan: these functions replace those of the system for the
  * whole process, including HDF5. */
-#ifndef FAULT_FILE_FAULTS_H
-#define FAULT_FILE_FAULTS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -15,5 +14,3 @@ void file_faults_are(int error, int32_t short_first);
 /* Fails writes, opening, allocation, truncation, syncing, renaming and closing; otherwise writes are only cut
  * short, which is no failure. */
 void file_faults_only_shorten(int32_t only);
-
-#endif

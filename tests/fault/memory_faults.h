@@ -1,7 +1,6 @@
 /* Allocations of hooke that fail by plan. The linker replaces the functions of the
  * system by these in statically linked code (--wrap). */
-#ifndef FAULT_MEMORY_FAULTS_H
-#define FAULT_MEMORY_FAULTS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -10,5 +9,3 @@ void memory_faults_are_points(int32_t are);
 
 /* Number of blocks that hooke holds. */
 int64_t memory_blocks(void);
-
-#endif

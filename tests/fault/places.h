@@ -1,8 +1,7 @@
 /* Points of one attempt by their call paths through the code of hooke: of equal paths, as in a loop or within
  * another library, the first, the 16th, the 256th ... With HOOKE_FAULT_PLACES=1 each of them fails, besides
  * the scenario's share of all points: a short way to as many branches as failures reach. */
-#ifndef FAULT_PLACES_H
-#define FAULT_PLACES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -19,5 +18,3 @@ void places_note(int64_t k);
 
 /* Number `i` = 0, 1, ... of them; 0: no more. */
 int64_t places_point(int64_t i);
-
-#endif

@@ -1,8 +1,7 @@
 /* Plan of the points at which the system fails: counted while the plan is on, in one count for all threads.
  * It also replaces the library's clock, which advances by a microsecond with each reading, so that budgets
  * have the same result on any machine. */
-#ifndef FAULT_PLAN_H
-#define FAULT_PLAN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -25,5 +24,3 @@ int64_t fault_failures(void);
 
 /* Replaces them by those of another process. */
 void fault_take_counts(int64_t points, int64_t failures);
-
-#endif

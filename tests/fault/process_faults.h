@@ -1,7 +1,6 @@
 /* Allocations of the whole process that fail by plan, where the C library allows its functions to be
  * replaced: not under sanitizers. */
-#ifndef FAULT_PROCESS_FAULTS_H
-#define FAULT_PROCESS_FAULTS_H
+#pragma once
 
 #include "sanitized.h"
 
@@ -23,5 +22,3 @@ void process_faults_prepare(struct fault_trace *trace);
 /* Library of that place: "hooke", or the name of its file. A request by the C library is attributed to its
  * caller. */
 const char *process_fault_owner(const struct fault_trace *trace, int last);
-
-#endif

@@ -1,7 +1,4 @@
 /* Name of main() of cli/main.c in the tests of faults. */
-#ifndef FAULT_PROGRAM_H
-#define FAULT_PROGRAM_H
+#pragma once
 
 int hooke_program_main(int argc, char **argv);
-
-#endif

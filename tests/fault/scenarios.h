@@ -1,6 +1,5 @@
 /* The scenarios for faults. Scenarios for which a build lacks a library are not in its list. */
-#ifndef FAULT_SCENARIOS_H
-#define FAULT_SCENARIOS_H
+#pragma once
 
 #include "attempt.h"
 
@@ -69,5 +68,3 @@ const char *path_of(const struct attempt *a, const char *name);
 
 /* Adds frames, sums and texts of a trajectory of so many frames of the system. */
 void read_back(struct attempt *a, const char *path, const hooke_system *system, int64_t frames);
-
-#endif

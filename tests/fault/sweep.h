@@ -1,6 +1,5 @@
 /* Sweeps the faults of one scenario, point by point. */
-#ifndef FAULT_SWEEP_H
-#define FAULT_SWEEP_H
+#pragma once
 
 #include "scenarios.h"
 
@@ -31,5 +30,3 @@ void sweep_all(struct sweep *sweep, const struct scenario *scenario, sweep_point
  * the sweep; returns the value of main(). */
 int sweep_every_list(struct sweep *sweep, sweep_point *try_point, int (*set_up)(void **),
                      int (*tear_down)(void **));
-
-#endif

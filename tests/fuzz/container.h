@@ -1,7 +1,6 @@
 /* Valid HDF5 files with edits in them: a trajectory that hooke itself wrote, changed by HDF5 or in the bytes
  * of its numbers, in a file in memory. */
-#ifndef TESTS_FUZZ_CONTAINER_H
-#define TESTS_FUZZ_CONTAINER_H
+#pragma once
 
 #include "edit.h"
 
@@ -42,5 +41,3 @@ int32_t container_others_opened(void);
 
 /* Number of open HDF5 objects of any kind: the same before and after a call of hooke. */
 int64_t container_open_objects(void);
-
-#endif

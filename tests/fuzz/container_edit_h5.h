@@ -1,6 +1,5 @@
 /* Edits of the objects of a container. */
-#ifndef TESTS_FUZZ_CONTAINER_EDIT_H5_H
-#define TESTS_FUZZ_CONTAINER_EDIT_H5_H
+#pragma once
 
 #include "container.h"
 
@@ -8,5 +7,3 @@
 
 /* Edits that HDF5 refuses have no effect. */
 void container_edit_structure(hid_t file, const struct container *container, const struct edit *edit);
-
-#endif

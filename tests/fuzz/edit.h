@@ -1,7 +1,6 @@
 /* Meaning of an input for the targets that read HDF5 files: which calls to make, and a list of edits, which
  * are applied to a valid container before hooke reads it. Any bytes have a meaning. */
-#ifndef TESTS_FUZZ_EDIT_H
-#define TESTS_FUZZ_EDIT_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -46,5 +45,3 @@ double edit_double(uint64_t drawn);
 
 /* For LLVMFuzzerCustomMutator: keeps the list well-formed. */
 size_t edits_mutate(uint8_t *data, size_t size, size_t most, unsigned seed);
-
-#endif

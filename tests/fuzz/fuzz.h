@@ -1,7 +1,6 @@
 /* Common parts of the fuzz targets: one function that takes an input, counts of how far inputs get, and
  * checks. */
-#ifndef HOOKE_TESTS_FUZZ_H
-#define HOOKE_TESTS_FUZZ_H
+#pragma once
 
 #include "owned.h"
 
@@ -34,5 +33,3 @@ const char *hooke_fuzz_file(const void *data, size_t size);
 
 /* 1 for one in `of` inputs, always the same ones: for expensive checks. */
 int hooke_fuzz_is_chosen(const void *data, size_t size, uint32_t of);
-
-#endif

@@ -1,7 +1,6 @@
 /* Small scenes made from any bytes: a head, records of the contents, and numbers that replace others.
  * Contents that the library refuses are left out, so the scene is valid. */
-#ifndef TESTS_FUZZ_SMALL_SCENE_H
-#define TESTS_FUZZ_SMALL_SCENE_H
+#pragma once
 
 #include "canonical.h"
 
@@ -33,5 +32,3 @@ size_t small_scene_mutate(uint8_t *data, size_t size, size_t most, unsigned seed
 /* For LLVMFuzzerCustomCrossOver: the head of one of two scenes and about half of the records of each. */
 size_t small_scene_cross(const uint8_t *one, size_t one_size, const uint8_t *two, size_t two_size,
                          uint8_t *out, size_t most, unsigned seed);
-
-#endif

@@ -1,6 +1,5 @@
 /* Compares a system with its canonical twin, to the bit. */
-#ifndef TESTS_SUPPORT_AGREE_H
-#define TESTS_SUPPORT_AGREE_H
+#pragma once
 
 #include "canonical.h"
 #include "hooke.h"
@@ -9,5 +8,3 @@
  * and heat of springs. */
 void check_agrees(const hooke_system *system, const struct canonical *canonical, const double *q,
                   const double *v);
-
-#endif

@@ -5,8 +5,7 @@
  * likewise, anchors likewise, obstacles in order, segments in a fluid, triangles in a fluid, drag, quadratic
  * drag, loads in ascending number, the callback. The acceleration is w f, then gravity is added to it, or its
  * product with a factor of the particle. Particles that are constrained (pinned or driven) have none. */
-#ifndef TESTS_SUPPORT_CANONICAL_H
-#define TESTS_SUPPORT_CANONICAL_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -103,5 +102,3 @@ double canonical_explicit_bound(const struct canonical *canonical);
  * stages, but for a few roundings. */
 double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
                         const double *q0, const double *v0, const double *q1, const double *v1);
-
-#endif

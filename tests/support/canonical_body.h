@@ -1,7 +1,6 @@
 /* The steps of systems with rigid bodies as plain loops, which the library reproduces: kicks to the bit,
  * Runge-Kutta methods, explicit and implicit, to rounding. */
-#ifndef TESTS_SUPPORT_CANONICAL_BODY_H
-#define TESTS_SUPPORT_CANONICAL_BODY_H
+#pragma once
 
 #include "canonical.h"
 
@@ -22,5 +21,3 @@ struct canonical_body {
 /* One step of any fixed-step method; one without a loop here fails the test. */
 void canonical_body_step(const struct canonical *canonical, int64_t count, const struct canonical_body *body,
                          const char *method, double t, double end, double h, double *q, double *v);
-
-#endif

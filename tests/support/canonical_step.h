@@ -1,6 +1,5 @@
 /* Pieces of the canonical steps that the equations of solved steps are made of, too. */
-#ifndef HOOKE_TESTS_SUPPORT_CANONICAL_STEP_H
-#define HOOKE_TESTS_SUPPORT_CANONICAL_STEP_H
+#pragma once
 
 #include "canonical.h"
 
@@ -36,5 +35,3 @@ int canonical_is_free(const struct canonical *canonical, int64_t k);
 
 void canonical_predict(const struct canonical *canonical, double t, double end, double h, double *q,
                        double *v, double *half, double *a);
-
-#endif

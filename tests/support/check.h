@@ -1,6 +1,5 @@
 /* Assertions with two-sided bounds and the library's own words. They fail the running cmocka test. */
-#ifndef TESTS_SUPPORT_CHECK_H
-#define TESTS_SUPPORT_CHECK_H
+#pragma once
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -72,5 +71,3 @@ double largest_difference(int64_t count, const double *a, const double *b);
 /* Memory that fails the test when there is none; zeroed. Release it with free(). */
 double *new_doubles(int64_t count);
 void *new_block(int64_t count, int64_t size);
-
-#endif

@@ -1,8 +1,7 @@
 /* Solutions of y' = f(t, y) to nearly all digits of long double, by a method that the library does not have:
  * the modified midpoint rule with 2, 4, 6, ... substeps, extrapolated to zero substep (Gragg, Bulirsch and
  * Stoer), with step and order chosen by the error of each step. */
-#ifndef TESTS_SUPPORT_EXTRAPOLATION_H
-#define TESTS_SUPPORT_EXTRAPOLATION_H
+#pragma once
 
 #include <stdint.h>
 
@@ -23,5 +22,3 @@ struct extrapolation {
  * -1 if the evaluations are used up or steps have shrunk to nothing. */
 int32_t extrapolate(struct extrapolation *problem, long double t, long double end, long double *step,
                     long double *y);
-
-#endif

@@ -1,7 +1,6 @@
 /* Runs at the extremes: their results, judges that find faults in them, and the rows of
  * docs/notes/extremes.md. */
-#ifndef TESTS_SUPPORT_EXTREME_H
-#define TESTS_SUPPORT_EXTREME_H
+#pragma once
 
 #include "hooke.h"
 
@@ -94,5 +93,3 @@ struct extreme_oscillator {
  * that does. Error-controlled methods need an error between 1e-5 and 1e4 times their tolerance; far from the
  * origin the tolerance is relative to the distance. */
 void extreme_oscillate(const struct extreme_oscillator *oscillator);
-
-#endif

@@ -1,6 +1,5 @@
 /* The bytes of files. */
-#ifndef TESTS_SUPPORT_FILE_COPY_H
-#define TESTS_SUPPORT_FILE_COPY_H
+#pragma once
 
 #include <stddef.h>
 
@@ -8,5 +7,3 @@
 void copy_file(const char *from, const char *to);
 /* All bytes of a file; release them with free(). Fails the test on error. */
 char *bytes_of(const char *path, size_t *count);
-
-#endif

@@ -1,7 +1,6 @@
 /* The motion q'' = w f(t, q, v) by an integrator that is not hooke's: GSL's of Prince and Dormand, to nearly
  * all digits. */
-#ifndef TESTS_SUPPORT_GSL_MOTION_H
-#define TESTS_SUPPORT_GSL_MOTION_H
+#pragma once
 
 #include "hooke.h"
 
@@ -16,5 +15,3 @@ struct gsl_motion {
 
 /* Takes q, then v, 2 `count` together, from one time to another. */
 void gsl_move(const struct gsl_motion *motion, double from, double to, double *y);
-
-#endif

@@ -1,6 +1,5 @@
 /* 64-bit FNV-1a over the bytes of doubles, and the first difference of two arrays. */
-#ifndef TESTS_SUPPORT_HASH_H
-#define TESTS_SUPPORT_HASH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -11,5 +10,3 @@ uint64_t hash_doubles(int64_t count, const double *values, uint64_t hash);
 
 /* Index of the first number whose bits differ, -1 if there is none. */
 int64_t first_difference(int64_t count, const double *a, const double *b);
-
-#endif

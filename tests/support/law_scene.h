@@ -1,6 +1,5 @@
 /* Small scenes, one a law or force, at points where the forces are smooth. */
-#ifndef TESTS_SUPPORT_LAW_SCENE_H
-#define TESTS_SUPPORT_LAW_SCENE_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -44,5 +43,3 @@ void law_scene_destroy(struct law_scene *scene);
  * 8. */
 typedef void law_curve(double s, double *value, void *ctx);
 void differentiate(int64_t count, law_curve *curve, double h, void *ctx, double *derivative);
-
-#endif

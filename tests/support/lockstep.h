@@ -1,6 +1,5 @@
 /* Steps of the library compared with canonical steps. */
-#ifndef TESTS_SUPPORT_LOCKSTEP_H
-#define TESTS_SUPPORT_LOCKSTEP_H
+#pragma once
 
 #include "random_scene.h"
 
@@ -11,5 +10,3 @@
  * with driven particles starts at 0, where hooke_state_create() places them. */
 void check_lockstep(const struct random_scene *scene, const char *method, int32_t threads, double start,
                     double step, int64_t steps);
-
-#endif

@@ -1,6 +1,5 @@
 /* The accelerations of canonical.h in long double, with prescribed motions, as a rate for extrapolation.h. */
-#ifndef TESTS_SUPPORT_LONG_FORCE_H
-#define TESTS_SUPPORT_LONG_FORCE_H
+#pragma once
 
 #include "canonical.h"
 #include "extrapolation.h"
@@ -38,5 +37,3 @@ void long_force_scale(const long double *y, const long double *f, long double *s
 
 /* Half the largest distance between two of the positions, coordinate by coordinate; 1 if all coincide. */
 double long_force_extent(int64_t particles, const double *q);
-
-#endif

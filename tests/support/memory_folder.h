@@ -1,6 +1,5 @@
 /* A folder for files that only this machine and this run need. */
-#ifndef TESTS_SUPPORT_MEMORY_FOLDER_H
-#define TESTS_SUPPORT_MEMORY_FOLDER_H
+#pragma once
 
 #include <stdio.h>
 #include <unistd.h>
@@ -9,5 +8,3 @@
 static inline const char *memory_folder(void) {
   return access("/dev/shm", W_OK) == 0 ? "/dev/shm" : P_tmpdir;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Small moving scenes, each with something that a run has to remember: for tests that compare all methods. */
-#ifndef TESTS_SUPPORT_MOVING_SCENE_H
-#define TESTS_SUPPORT_MOVING_SCENE_H
+#pragma once
 
 #include "hooke.h"
 
@@ -17,5 +16,3 @@ extern const struct moving_scene moving_scenes[MOVING_SCENES + 1]; /* large enou
 
 /* A committed system. */
 hooke_system *moving_system(const struct moving_scene *scene);
-
-#endif

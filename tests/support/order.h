@@ -1,6 +1,5 @@
 /* Observed order of convergence. */
-#ifndef TESTS_SUPPORT_ORDER_H
-#define TESTS_SUPPORT_ORDER_H
+#pragma once
 
 #include <stdint.h>
 
@@ -10,5 +9,3 @@ double observed_order(double coarse, double fine);
 /* Fails unless every halving in `error` (count errors at h, h/2, h/4, ...) shows an order between low and
  * high. */
 void check_order(const char *what, int64_t count, const double *error, double low, double high);
-
-#endif

@@ -1,7 +1,6 @@
 /* The damped oscillator x'' + 2 zeta x' + x = 0 (lengths in its amplitude, times in 1/omega): its solution,
  * and the result of a fixed-step method, both to more digits than the library has. */
-#ifndef TESTS_SUPPORT_OSCILLATOR_H
-#define TESTS_SUPPORT_OSCILLATOR_H
+#pragma once
 
 #include <stdint.h>
 
@@ -19,5 +18,3 @@ void oscillator_power(const long double matrix[4], int64_t count, const long dou
 /* The first step at which (x^2 + x'^2)/2 has risen by more than 100 times its initial value, where a run
  * counts as diverged; 0 if there is none in `count` steps. */
 int64_t oscillator_diverges(const long double matrix[4], int64_t count, const long double start[2]);
-
-#endif

@@ -1,7 +1,6 @@
 /* Objects and memory that are released where the block that declares them ends, the last declared first:
  * declare a system before what is made for it. A test that fails releases none. */
-#ifndef TESTS_SUPPORT_OWNED_H
-#define TESTS_SUPPORT_OWNED_H
+#pragma once
 
 #include "hooke.h"
 
@@ -59,5 +58,3 @@ static inline void release_wholes(int64_t **numbers) {
 static inline void release_doubles(double **numbers) {
   free(*numbers);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Calls of every public function with arguments of every kind, made from the headers: public_calls.inc has
  * the table of functions, and a pool the objects that arguments refer to. */
-#ifndef TESTS_SUPPORT_PUBLIC_CALLS_H
-#define TESTS_SUPPORT_PUBLIC_CALLS_H
+#pragma once
 
 #include <stdint.h>
 
@@ -87,5 +86,3 @@ void choose(const struct pool *pool, const struct function *function, int32_t pa
 int32_t is_bad_handle(const struct parameter *parameter, int32_t choice);
 /* 1 if the choice is an object that does not fit the good ones: a state of another size or kind. */
 int32_t is_misfit(const struct pool *pool, const struct parameter *parameter, int32_t choice);
-
-#endif

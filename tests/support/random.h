@@ -1,6 +1,5 @@
 /* A seeded random generator (splitmix64) that gives the same numbers everywhere. */
-#ifndef TESTS_SUPPORT_RANDOM_H
-#define TESTS_SUPPORT_RANDOM_H
+#pragma once
 
 #include <stdint.h>
 
@@ -15,5 +14,3 @@ double random_between(struct random_source *source, double low, double high);
 
 /* A uniform integer from low to high, both included. */
 int64_t random_whole(struct random_source *source, int64_t low, int64_t high);
-
-#endif

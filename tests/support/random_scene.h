@@ -1,6 +1,5 @@
 /* Random valid systems, built through the public interface, with their canonical twin. */
-#ifndef TESTS_SUPPORT_RANDOM_SCENE_H
-#define TESTS_SUPPORT_RANDOM_SCENE_H
+#pragma once
 
 #include "hooke.h"
 #include "canonical.h"
@@ -68,5 +67,3 @@ void random_scene_shake(const struct random_scene *scene, uint64_t seed, double 
 int32_t random_scene_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
 int32_t random_scene_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
                                    const double *dv, double *out, void *ctx);
-
-#endif

@@ -1,6 +1,5 @@
 /* Scenes with solutions to 15 digits, and the expected errors of fixed-step methods (data: tests/data). */
-#ifndef TESTS_SUPPORT_REFERENCE_H
-#define TESTS_SUPPORT_REFERENCE_H
+#pragma once
 
 #include "run.h"
 
@@ -46,5 +45,3 @@ struct reference_errors {
 };
 enum { REFERENCE_ERROR_COUNT = 12 };
 extern const struct reference_errors reference_errors[REFERENCE_ERROR_COUNT];
-
-#endif

@@ -1,6 +1,5 @@
 /* Short forms for creating integrators. Every function fails the running test when the library refuses. */
-#ifndef TESTS_SUPPORT_RUN_H
-#define TESTS_SUPPORT_RUN_H
+#pragma once
 
 #include "hooke.h"
 #include "owned.h"
@@ -70,5 +69,3 @@ double largest(int64_t count, const double *a);
 /* hooke_step_bound() at the initial positions; a build without it skips the test, and the system is
  * destroyed. */
 double bound_at_start(const hooke_system *system, const char *method);
-
-#endif

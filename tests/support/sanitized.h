@@ -1,7 +1,6 @@
 /* Builds with a sanitizer take ten times as long: there a test may run a share of its cases, unless
  * HOOKE_LONG is set; and in any build with HOOKE_SHORT, for tests whose every case runs elsewhere. */
-#ifndef HOOKE_TEST_SANITIZED_H
-#define HOOKE_TEST_SANITIZED_H
+#pragma once
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -27,5 +26,3 @@ static inline int left_out(int64_t k, int64_t share) {
   if (k % share == 0) return 0;
   return getenv("HOOKE_SHORT") != NULL || (HOOKE_SANITIZED && getenv("HOOKE_LONG") == NULL);
 }
-
-#endif

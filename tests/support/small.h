@@ -1,6 +1,5 @@
 /* Small systems by hand, in a few lines. Every call fails the running test when the library refuses. */
-#ifndef TESTS_SUPPORT_SMALL_H
-#define TESTS_SUPPORT_SMALL_H
+#pragma once
 
 #include "hooke.h"
 
@@ -66,5 +65,3 @@ int32_t idle_force(int64_t n, double t, const double *q, const double *v, double
 
 /* Six times the volume of the tetrahedron with these corners, with its sign. */
 double volume_of(const double *q, const int64_t *corners);
-
-#endif

@@ -1,5 +1,6 @@
 /* The sparse factor of S compared with S itself, computed column by column from its definition; and GMRES. */
 #include "check.h"
+#include "integrate/solve/factor_cholmod.h"
 #include "integrate/solve/krylov.h"
 #include "integrate/solve/reduced.h"
 #include "random.h"
@@ -208,12 +209,70 @@ TEST(sizes) {
   struct hk_factor *factor = NULL;
   set_up((struct random_scene_request){.seed = 5, .particles = 2, .springs = 1, .rope = 2000}, 1e-4, 1e-2,
          &b);
-  check_ok(hk_factor_create(b.scene.system, INT64_C(1) << 40, &factor));
+  check_ok(hk_factor_create(b.scene.system, INT64_C(1) << 40, 1, &factor));
   const int64_t numbers = hk_factor_numbers(factor);
   check_between((double)numbers / 2000.0, 9.0, 200.0);
   hk_factor_destroy(factor);
-  check_ok(hk_factor_create(b.scene.system, numbers / 2, &factor));
+  check_ok(hk_factor_create(b.scene.system, numbers / 2, 1, &factor));
   assert_null(factor);
+}
+
+/* Of a tree of particles, each coupled to the one above: the factor has no other blocks. */
+enum { TREE = 31, BLOCKS = 2 * TREE - 1 };
+
+static int32_t above(int32_t particle, int32_t first, int32_t size) {
+  const int32_t half = (size - 1) / 2, root = first + size - 1;
+  if (particle == first + half - 1 || particle == root - 1) return root;
+  return above(particle, particle < first + half ? first : first + half, half);
+}
+
+static void fill_tree(const struct hk_columns *m) {
+  int32_t count = 0;
+  for (int32_t k = 0; k < 3 * TREE; k++) {
+    m->start[k] = count;
+    for (int32_t other = 0; other <= k / 3; other++) {
+      const int32_t coupled = other == k / 3 || above(other, 0, TREE) == k / 3;
+      for (int32_t row = 3 * other; coupled && row < 3 * other + 3 && row <= k; row++) {
+        m->number[count] = row == k ? 9.0 + k : sin(1.0 + row + 5.0 * k);
+        m->row[count++] = row;
+      }
+    }
+  }
+  m->start[3 * TREE] = count;
+}
+
+/* Supernodal factors are the simplicial ones with zeros between their nonzeros, particle by particle. */
+TEST(supernodal) {
+  needs_factor();
+  int32_t start[3 * TREE + 1], row[9 * BLOCKS], zeros = 0, at[2] = {0, 0};
+  double number[9 * BLOCKS];
+  struct hk_cholmod *made[2];
+  const struct hk_columns m = {3 * TREE, start, row, number};
+  fill_tree(&m);
+  for (int kind = HOOKE_FACTOR_SIMPLICIAL; kind <= HOOKE_FACTOR_SUPERNODAL; kind++) {
+    assert_non_null(made[kind] = hk_cholmod->create(&m, kind));
+    for (int again = 0; again < 2; again++)
+      assert_int_equal(hk_cholmod->compute(made[kind], &m, 0.0), 1);
+    assert_true(hk_cholmod->room(made[kind]) >= 8 * 9 * BLOCKS);
+  }
+  for (int32_t k = 0; k < 3 * TREE; k++) {
+    const struct hk_factor_column one = hk_cholmod->column(made[0], k, at),
+                                  two = hk_cholmod->column(made[1], k, at + 1);
+    assert_int_equal(hk_cholmod->counts(made[0])[k], hk_cholmod->counts(made[1])[k]);
+    assert_int_equal(one.count % 3, (3 - k % 3) % 3);
+    assert_int_equal(two.count % 3, one.count % 3);
+    int32_t j = 0;
+    for (int32_t i = 0; i < two.count; i++) {
+      const int same = j < one.count && one.row[j] == two.row[i];
+      check_close(two.number[i], same ? one.number[j] : 0.0, same ? 1e-14 : 0.0);
+      zeros += !same;
+      j += same;
+    }
+    assert_int_equal(j, one.count);
+  }
+  assert_true(zeros > 0);
+  hk_cholmod->destroy(made[0]);
+  hk_cholmod->destroy(made[1]);
 }
 
 /* A build without factors reports none. */

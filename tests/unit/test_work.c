@@ -2,12 +2,14 @@
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
+#include "small.h"
 
 #include "measure/counted_work/work.h"
 #include "model/force/force.h"
 #include "model/sum/tiled.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static const struct random_scene_request mixed = {.seed = 3,
                                                   .particles = 40,
@@ -113,6 +115,33 @@ TEST(test_every_member_counts) {
                                : 0.0;
   const double work = hk_work_of_evaluation(scene.system);
   assert_true(work > sum && work < 1.02 * (sum + scattered));
+}
+
+/* A step of a long bar that hangs on one spring. */
+static double work_of_body(int64_t particles) {
+  double *q = calloc((size_t)(3 * particles), sizeof *q), *mass = calloc((size_t)particles, sizeof *mass);
+  int64_t *member = calloc((size_t)particles, sizeof *member);
+  for (int64_t p = 0; p < particles; p++) {
+    q[3 * p] = (double)p;
+    mass[p] = 1.0;
+    member[p] = p + 1;
+  }
+  owned_system *system = new_system();
+  check_ok(hooke_system_add_particles(system, 1, (double[]){0.0, 1.0, 0.0}, NULL, 1, (double[]){1.0}, NULL));
+  check_ok(hooke_system_add_particles(system, particles, q, NULL, particles, mass, NULL));
+  check_ok(hooke_system_pin(system, 1, (int64_t[]){0}));
+  small_group(system, "springs", NULL, 1, (int64_t[]){0, 1}, "stiffness=40 rest_length=1");
+  check_ok(hooke_system_add_body(system, "bar", particles, member, 0));
+  free(q);
+  free(mass);
+  free(member);
+  return hk_work_of_steps(committed(system), "rk4", 1);
+}
+
+/* A step visits the particles of a body that a force acts on. */
+TEST(test_particles_that_nothing_acts_on_cost_nothing) {
+  const double few = work_of_body(8);
+  assert_true(few > 0.0 && work_of_body(20000) < 2.0 * few);
 }
 
 /* A factor counts by its size, and a step that has one is dearer than its matrix alone. */

@@ -1,6 +1,5 @@
 /* Passes by thread pools of any size have the bits of one thread. */
-#ifndef MEMBERS_H
-#define MEMBERS_H
+#pragma once
 
 #include "check.h"
 
@@ -51,5 +50,3 @@ static void check_members(const hooke_system *system, const double *q, const dou
   free(alone);
   free(together);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* What systems do differently, besides files (core/os/os_file.h) and text (core/os/os_text.h): os_posix.c is
  * for POSIX, os_windows.c for Windows. Threads are those of POSIX on both. */
-#ifndef HOOKE_CORE_OS_H
-#define HOOKE_CORE_OS_H
+#pragma once
 
 #include <pthread.h>
 #include <stddef.h>
@@ -27,11 +26,14 @@ double hk_os_address_limit(void);
  * system does not tell. */
 void hk_os_own_file(char *path, size_t size);
 
+/* A function of the libraries that are loaded with this code; NULL if none has it, or the system does not
+ * tell. */
+typedef void hk_os_function(void);
+hk_os_function *hk_os_find_function(const char *name);
+
 /* "" and 0 where the system does not tell. Returns 0, or ENOMEM. */
 struct hk_os_machine {
   char processor[256], system[160]; /* the kernel with its architecture */
   int32_t cores;
 };
 int hk_os_describe_machine(struct hk_os_machine *machine);
-
-#endif

@@ -2,10 +2,8 @@
  * UTF-8 and both slashes separate folders. Functions that return int return 0, or -1 with errno, unless said
  * otherwise. Descriptors are those of <unistd.h>; bytes are never translated, and no other program inherits
  * them. */
-#ifndef HOOKE_CORE_OS_FILE_H
-#define HOOKE_CORE_OS_FILE_H
+#pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -101,5 +99,3 @@ int hk_os_remove(const char *path);
 
 /* Random bytes of the system, at most 256. */
 int hk_os_random(void *bytes, size_t count);
-
-#endif

@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* dladdr(), sched_getaffinity() */
+#define _GNU_SOURCE /* dladdr(), RTLD_DEFAULT, sched_getaffinity() */
 #include "core/os/os.h"
 
 #include "core/keep_errno.h"
@@ -58,6 +58,17 @@ void hk_os_own_file(char *path, size_t size) {
   Dl_info info;
   const char *file = dladdr(&here, &info) != 0 && info.dli_fname ? info.dli_fname : "";
   snprintf(path, size, "%s", file);
+}
+
+hk_os_function *hk_os_find_function(const char *name) {
+  hk_os_function *found = NULL;
+#if defined(__EMSCRIPTEN__)
+  (void)name;
+#else
+  void *symbol = dlsym(RTLD_DEFAULT, name);
+  memcpy(&found, &symbol, sizeof found); /* C has no cast from one to the other */
+#endif
+  return found;
 }
 
 /* Linux tells the name of the processor. */

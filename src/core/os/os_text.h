@@ -1,6 +1,5 @@
 /* Locales and messages as systems have them: os_text_posix.c is for POSIX, os_text_windows.c for Windows. */
-#ifndef HOOKE_CORE_OS_TEXT_H
-#define HOOKE_CORE_OS_TEXT_H
+#pragma once
 
 #include <stddef.h>
 
@@ -15,5 +14,3 @@ void hk_os_end_plain(struct hk_os_locale locale);
 
 /* Describes an errno value in at most `size` bytes. Returns 0, or another number if it has no description. */
 int hk_os_describe_error(int error, char *text, size_t size);
-
-#endif

@@ -48,6 +48,11 @@ void hk_os_own_file(char *path, size_t size) {
   hk_os_free(wide);
 }
 
+hk_os_function *hk_os_find_function(const char *name) {
+  (void)name;
+  return NULL;
+}
+
 /* The registry has the name of the processor. */
 int hk_os_describe_machine(struct hk_os_machine *machine) {
   static const char key[] = "HARDWARE\\DESCRIPTION\\System\\CentralProcessor\\0";

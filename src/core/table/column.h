@@ -2,8 +2,7 @@
  * documentation, and by the member of a row that holds its values; rows are structs of the object itself. All
  * output of results (C, JSON, CSV, HDF5, pages, Python, Fortran, the reference) is made from the same tables.
  */
-#ifndef HOOKE_CORE_TABLE_COLUMN_H
-#define HOOKE_CORE_TABLE_COLUMN_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -150,5 +149,3 @@ int64_t hk_table_count(const struct hk_table *table, const void *object);
 /* Value of a column in a row; none for a column that is NULL and for a row that is not there. */
 struct hk_value hk_table_value(const struct hk_table *table, const struct hk_column *column,
                                const void *object, int64_t row);
-
-#endif

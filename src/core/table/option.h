@@ -1,7 +1,6 @@
 /* Option tables: one row per option. The rows are the only place where a name, a type, a unit, a bound, a
  * default or a line of documentation is written down. */
-#ifndef HOOKE_CORE_TABLE_OPTION_H
-#define HOOKE_CORE_TABLE_OPTION_H
+#pragma once
 
 #include "hooke/options.h"
 
@@ -127,5 +126,3 @@ void hk_option_show(const char *text, int64_t length, char *shown);
  * (may be NULL). The message lists the known names and the closest match. `what` is "option" or "key". */
 int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *where,
                           const char *what, const char *name);
-
-#endif

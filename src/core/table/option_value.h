@@ -1,6 +1,5 @@
 /* The value of one option: parsing and checks. */
-#ifndef HOOKE_CORE_TABLE_OPTION_VALUE_H
-#define HOOKE_CORE_TABLE_OPTION_VALUE_H
+#pragma once
 
 #include "core/table/option.h"
 
@@ -28,5 +27,3 @@ int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char
                                      const double *numbers, struct hk_option_value *value);
 int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *where, const char *text,
                                   struct hk_option_value *value);
-
-#endif

@@ -1,6 +1,5 @@
 /* Units of numbers in texts: "1ms", "0.5 cm", "2kN". */
-#ifndef HOOKE_CORE_TABLE_UNIT_H
-#define HOOKE_CORE_TABLE_UNIT_H
+#pragma once
 
 #include "core/number.h"
 
@@ -31,5 +30,3 @@ struct hk_quantity hk_unit_scan(const char *bases, const char *text, int64_t len
  * so that 3um is 3e-6 to the bit; a factor is multiplied. */
 enum hk_number_result hk_unit_parse(const char *text, int64_t length, const struct hk_unit *unit,
                                     double *value);
-
-#endif

@@ -23,7 +23,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 static const double RISE = 100.0, ROUNDING = 1e-12;

@@ -1,6 +1,5 @@
 #include "integrate/loop/recent.h"
 
-#include <stddef.h>
 #include <string.h>
 
 static const int64_t MOST_BYTES = 16000000; /* for all states together, unless one alone needs more */

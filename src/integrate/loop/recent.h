@@ -1,7 +1,6 @@
 /* The last states of a run that passed the check, and its initial one, as far as a small memory holds them.
  */
-#ifndef HOOKE_INTEGRATE_LOOP_RECENT_H
-#define HOOKE_INTEGRATE_LOOP_RECENT_H
+#pragma once
 
 #include "model/state.h"
 
@@ -35,5 +34,3 @@ void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t 
 /* The state kept `back` before the newest (0: the newest itself), and its step; NULL if there is none, or no
  * space. */
 const hooke_state *hk_recent_state(const struct hk_recent *recent, int64_t back, int64_t *step);
-
-#endif

@@ -1,8 +1,7 @@
 /* The pieces of the run loop: what is the same for every method (run.c), internal steps of an
  * error-controlled one (run_adaptive.c), going on from a place that another run came to (resume.c), and
  * frames after divergence (run_beyond.c). */
-#ifndef HOOKE_INTEGRATE_LOOP_RUN_LOOP_H
-#define HOOKE_INTEGRATE_LOOP_RUN_LOOP_H
+#pragma once
 
 #include "integrate/integrator.h"
 
@@ -62,5 +61,3 @@ int32_t hk_run_keep_restart(hooke_integrator *integrator, const hooke_state *sta
 
 /* The smallest number j >= 1 with t0 + j every > t. */
 int64_t hk_run_first_after(double t0, double every, double t);
-
-#endif

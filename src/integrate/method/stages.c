@@ -5,7 +5,6 @@
 #include "kernel/step_loops.h"
 #include "model/coordinates/coordinates.h"
 
-#include <stddef.h>
 #include <string.h>
 
 /* `own` has the start of the step and the sum of the rates: components of q and v as in the motion. */

@@ -17,7 +17,6 @@
 #include "model/force/spring.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 /* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does,

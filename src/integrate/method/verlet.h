@@ -1,10 +1,7 @@
 /* What the step that contains one of Verlet takes from it. */
-#ifndef HOOKE_INTEGRATE_METHOD_VERLET_H
-#define HOOKE_INTEGRATE_METHOD_VERLET_H
+#pragma once
 
 #include "integrate/integrator.h"
 
 int32_t hk_verlet_begin(hooke_integrator *integrator, const hooke_state *state);
 void hk_verlet_forget(hooke_integrator *integrator);
-
-#endif

@@ -10,8 +10,7 @@
  *
  * The whole matrix is the derivative of all this. S is T^T S T of the particles' S, with the displacements
  * T of the particles of bodies and with J0 as inertia: changes of arms and axes are left out. */
-#ifndef HOOKE_INTEGRATE_SOLVE_BODY_STAGE_H
-#define HOOKE_INTEGRATE_SOLVE_BODY_STAGE_H
+#pragma once
 
 #include "integrate/integrator.h"
 #include "integrate/solve/reduced.h"
@@ -85,5 +84,3 @@ void hk_body_moments(const struct hk_body *body, double moment[3]);
 void hk_body_weigh(const double axes[3][3], const double weight[3], const double x[3], double out[3]);
 /* out = P x, which lies in the axes that the body turns about. */
 void hk_body_project(const struct hk_body *body, const double axes[3][3], const double x[3], double out[3]);
-
-#endif

@@ -16,8 +16,7 @@
  *
  * In a system with inertia and from rest, backward Euler without damping is the same with M |q' - q|^2/(2
  * h^2): the search for a position of rest descends so (measure/rest). */
-#ifndef HOOKE_INTEGRATE_SOLVE_DESCENT_H
-#define HOOKE_INTEGRATE_SOLVE_DESCENT_H
+#pragma once
 
 #include "integrate/integrator.h"
 
@@ -37,5 +36,3 @@ double hk_descent_energy(struct hk_descent *descent, const hooke_integrator *int
 /* P there, for q' = place + a v, with its slack. */
 double hk_descent_potential(struct hk_descent *descent, const hooke_integrator *integrator, double a,
                             const double *v, double *slack);
-
-#endif

@@ -25,8 +25,9 @@ struct hk_factor {
   struct hk_cholmod *cholmod;
   struct hk_triangle triangle;
   double *vector;
+  int32_t kind; /* HOOKE_FACTOR_* */
   double numbers, products;
-  int64_t bytes;
+  int64_t blocks, bytes; /* below the diagonal, of the pattern */
 };
 
 static int32_t no_memory(void) {
@@ -160,13 +161,12 @@ static void count_numbers(struct hk_factor *x) {
 
 /* Columns of a particle have the same rows below the diagonal, those of other particles as a whole. */
 static int begin_triangle(struct hk_factor *x) {
-  struct hk_triangle *l = &x->triangle;
   const int32_t *count = hk_cholmod->counts(x->cholmod);
-  l->count = x->free_count;
-  l->begin = take(x, l->count + 1, sizeof *l->begin);
-  for (int64_t k = 0; l->begin && k < l->count; k++)
-    l->begin[k + 1] = l->begin[k] + (count[3 * k] - 3) / 3;
-  return l->begin != NULL;
+  x->triangle.count = x->free_count;
+  x->triangle.begin = take(x, (int64_t)x->free_count + 1, sizeof *x->triangle.begin);
+  for (int64_t k = 0; k < x->free_count; k++)
+    x->blocks += (count[3 * k] - 3) / 3;
+  return x->triangle.begin != NULL;
 }
 
 /* 1 with the factor if it is small enough, otherwise -1. */
@@ -182,7 +182,7 @@ static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_
   if (fine) fine = make_matrix(x, &blocks);
   hk_free(blocks.start);
   hk_free(blocks.row);
-  if (fine) fine = (x->cholmod = hk_cholmod->create(&x->matrix, 0)) != NULL;
+  if (fine) fine = (x->cholmod = hk_cholmod->create(&x->matrix, x->kind)) != NULL;
   if (!fine) return 0;
   x->bytes += hk_cholmod->memory(x->cholmod);
   count_numbers(x);
@@ -196,7 +196,8 @@ int32_t hk_factor_require(const hooke_options *options) {
 }
 
 /* `found` becomes 1 if there may be one, -1 if it has too many numbers, or the build has none. */
-static int32_t find(const hooke_system *system, int64_t most, struct hk_factor **factor, int *found) {
+static int32_t find(const hooke_system *system, int64_t most, int32_t supernodal, struct hk_factor **factor,
+                    int *found) {
   struct hk_pattern pattern;
   *found = -1;
   *factor = NULL;
@@ -204,6 +205,7 @@ static int32_t find(const hooke_system *system, int64_t most, struct hk_factor *
   struct hk_factor *x = *factor = hk_new(1, sizeof *x);
   if (x == NULL) return HOOKE_NO_MEMORY;
   x->system = system;
+  x->kind = supernodal && hooke_build_fact("blas")[0] ? HOOKE_FACTOR_SUPERNODAL : HOOKE_FACTOR_SIMPLICIAL;
   x->particle = take(x, system->particle_count, sizeof *x->particle);
   x->position = take(x, system->particle_count, sizeof *x->position);
   int32_t status = x->particle && x->position ? hk_pattern_create(system, &pattern) : HOOKE_NO_MEMORY;
@@ -215,9 +217,10 @@ static int32_t find(const hooke_system *system, int64_t most, struct hk_factor *
   return *found == 0 ? no_memory() : HOOKE_OK;
 }
 
-int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor) {
+int32_t hk_factor_create(const hooke_system *system, int64_t most, int32_t supernodal,
+                         struct hk_factor **factor) {
   int found;
-  const int32_t status = find(system, most, factor, &found);
+  const int32_t status = find(system, most, supernodal, factor, &found);
   if (status == HOOKE_OK && found > 0) return HOOKE_OK;
   hk_factor_destroy(*factor);
   *factor = NULL;
@@ -240,15 +243,15 @@ int64_t hk_factor_memory(const struct hk_factor *x) {
 
 /* Memory of the matrix, of the triangle with the vector, and of CHOLMOD. */
 static int64_t bytes_of_numbers(const struct hk_factor *x) {
-  const int64_t own = x->matrix.start[x->matrix.size], blocks = x->triangle.begin[x->triangle.count];
+  const int64_t own = x->matrix.start[x->matrix.size], blocks = x->blocks;
   return (own + 9 * blocks + 9 * x->triangle.count) * (int64_t)sizeof(double) +
-         blocks * (int64_t)sizeof(int32_t) + (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t)));
+         blocks * (int64_t)sizeof(int32_t) + hk_cholmod->room(x->cholmod);
 }
 
 int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *bytes) {
   struct hk_factor *x;
   int found;
-  const int32_t status = find(system, most, &x, &found);
+  const int32_t status = find(system, most, 1, &x, &found);
   *bytes = x ? x->bytes + (found > 0 ? bytes_of_numbers(x) : 0) : 0;
   hk_factor_destroy(x);
   return status;
@@ -257,7 +260,7 @@ int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *by
 /* All numbers are in one block. */
 int32_t hk_factor_reserve(struct hk_factor *x) {
   struct hk_triangle *l = &x->triangle;
-  const int64_t own = x->matrix.start[x->matrix.size], blocks = l->begin[l->count];
+  const int64_t own = x->matrix.start[x->matrix.size], blocks = x->blocks;
   if (l->row) return HOOKE_OK;
   double *numbers = hk_new(own + 9 * blocks + 9 * l->count + 2 * HOOKE_TRIANGLE_SPARE, sizeof *numbers);
   l->row = numbers ? hk_new(blocks, sizeof *l->row) : NULL;
@@ -354,24 +357,39 @@ static void add_others(const struct hk_factor *x, const struct hk_factor_parts *
   }
 }
 
-/* Copies L block by block. 0 if a number on its diagonal is not finite. */
+static int is_zero(const double block[9]) {
+  int a = 0;
+  while (a < 9 && block[a] == 0.0)
+    a++;
+  return a == 9;
+}
+
+/* Copies L block by block, but for zeros between nonzeros. 0 if a number is not finite on its diagonal, or
+ * where it should be zero. */
 static int32_t fill_triangle(struct hk_factor *x) {
-  const struct hk_columns l = hk_cholmod->factor(x->cholmod);
   struct hk_triangle *to = &x->triangle;
-  for (int64_t k = 0; k < to->count; k++) {
-    const int32_t *row = l.row + l.start[3 * k] + 3;
-    const double *one = l.number + l.start[3 * k], *two = l.number + l.start[3 * k + 1],
-                 *three = l.number + l.start[3 * k + 2];
+  int64_t count = 0;
+  int32_t supernode = 0;
+  for (int32_t k = 0; k < (int32_t)to->count; k++) {
+    const struct hk_factor_column l = hk_cholmod->column(x->cholmod, 3 * k, &supernode);
+    const double *one = l.number, *two = hk_cholmod->column(x->cholmod, 3 * k + 1, &supernode).number,
+                 *three = hk_cholmod->column(x->cholmod, 3 * k + 2, &supernode).number;
     const double corner[6] = {1.0 / one[0], one[1], one[2], 1.0 / two[0], two[1], 1.0 / three[0]};
     if (!(one[0] < INFINITY && two[0] < INFINITY && three[0] < INFINITY)) return 0;
     memcpy(to->corner + 6 * k, corner, sizeof corner);
-    for (int64_t e = to->begin[k], at = 0; e < to->begin[k + 1]; e++, at += 3) {
-      to->row[e] = row[at];
-      memcpy(to->block + 9 * e, one + 3 + at, 3 * sizeof(double));
-      memcpy(to->block + 9 * e + 3, two + 2 + at, 3 * sizeof(double));
-      memcpy(to->block + 9 * e + 6, three + 1 + at, 3 * sizeof(double));
+    to->begin[k] = count;
+    for (int32_t at = 3; at < l.count; at += 3) {
+      double block[9];
+      memcpy(block, one + at, 3 * sizeof(double));
+      memcpy(block + 3, two + at - 1, 3 * sizeof(double));
+      memcpy(block + 6, three + at - 2, 3 * sizeof(double));
+      if (x->kind == HOOKE_FACTOR_SUPERNODAL && is_zero(block)) continue;
+      if (count == x->blocks) return 0;
+      to->row[count] = l.row[at];
+      memcpy(to->block + 9 * count++, block, sizeof block);
     }
   }
+  to->begin[to->count] = count;
   return 1;
 }
 

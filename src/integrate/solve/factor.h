@@ -3,8 +3,7 @@
  *     + sum over the elements of other forces of alpha K + beta C,
  * over the free particles, computed by CHOLMOD. The part that depends only on the connectivity is computed
  * once. */
-#ifndef HOOKE_INTEGRATE_SOLVE_FACTOR_H
-#define HOOKE_INTEGRATE_SOLVE_FACTOR_H
+#pragma once
 
 #include "kernel/spring/tangent_loops.h"
 #include "model/force/force.h"
@@ -17,11 +16,15 @@ struct hk_factor;
 int32_t hk_factor_require(const hooke_options *options);
 
 /* Finds order and sizes if there are at most `most` numbers: HOOKE_OK with *factor NULL if there are more,
- * and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
-int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
+ * and in a build without CHOLMOD. `supernodal` 1: by the BLAS, on which its bits then depend, where that is
+ * an optimised one (model/blas.h). Its numbers and products are counted as those of a simplicial one.
+ * HOOKE_NO_MEMORY. */
+int32_t hk_factor_create(const hooke_system *system, int64_t most, int32_t supernodal,
+                         struct hk_factor **factor);
 void hk_factor_destroy(struct hk_factor *factor);
 
-/* Memory of a factor in total [bytes], or of finding that it has more numbers than `most`. HOOKE_NO_MEMORY.
+/* Memory of a factor that may be supernodal in total [bytes], or of finding that it has more numbers than
+ * `most`. HOOKE_NO_MEMORY.
  */
 int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *bytes);
 int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes, so far */
@@ -46,5 +49,3 @@ int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal,
  * apart, where constrained ones become 0, and the order of the factor, 3 numbers a free particle. */
 void hk_factor_forward(const struct hk_factor *factor, const double *all, double *ordered);
 void hk_factor_backward(const struct hk_factor *factor, const double *ordered, double *all);
-
-#endif

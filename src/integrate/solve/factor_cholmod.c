@@ -17,6 +17,7 @@ struct hk_cholmod {
 static void start(cholmod_common *common, int ordering, int supernodal) {
   cholmod_start(common);
   common->print = 0;
+  common->useGPU = 0;
   common->supernodal = supernodal;
   common->final_ll = 1;
   common->nmethods = 1;
@@ -60,14 +61,15 @@ static void destroy(struct hk_cholmod *x) {
   hk_free(x);
 }
 
-static struct hk_cholmod *create(const struct hk_columns *matrix, int32_t for_solutions) {
+static struct hk_cholmod *create(const struct hk_columns *matrix, int32_t kind) {
   struct hk_cholmod *x = hk_new(1, sizeof *x);
   if (x == NULL) return NULL;
   cholmod_sparse sparse = view(matrix);
-  if (for_solutions)
+  if (kind == HOOKE_FACTOR_FOR_SOLUTIONS)
     start(&x->common, CHOLMOD_AMD, CHOLMOD_AUTO);
   else
-    start(&x->common, CHOLMOD_NATURAL, CHOLMOD_SIMPLICIAL);
+    start(&x->common, CHOLMOD_NATURAL,
+          kind == HOOKE_FACTOR_SUPERNODAL ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL);
   x->factor = cholmod_analyze(&sparse, &x->common);
   if (x->factor) return x;
   destroy(x);
@@ -76,6 +78,14 @@ static struct hk_cholmod *create(const struct hk_columns *matrix, int32_t for_so
 
 static int64_t memory(const struct hk_cholmod *x) {
   return (int64_t)x->common.memory_usage;
+}
+
+static int64_t room(const struct hk_cholmod *x) {
+  const cholmod_factor *l = x->factor;
+  size_t bytes = (l->xsize + l->maxcsize) * sizeof(double); /* of supernodes; a simplicial one has none */
+  for (size_t k = 0; k < l->n && !l->is_super; k++)
+    bytes += (size_t)((const int32_t *)l->ColCount)[k] * (sizeof(double) + sizeof(int32_t));
+  return (int64_t)bytes;
 }
 
 static const int32_t *counts(const struct hk_cholmod *x) {
@@ -94,8 +104,19 @@ static int32_t compute(struct hk_cholmod *x, const struct hk_columns *matrix, do
   return fine && x->common.status == CHOLMOD_OK;
 }
 
-static struct hk_columns factor(const struct hk_cholmod *x) {
-  return (struct hk_columns){(int32_t)x->factor->n, x->factor->p, x->factor->i, x->factor->x};
+static struct hk_factor_column column(const struct hk_cholmod *x, int32_t k, int32_t *supernode) {
+  const cholmod_factor *l = x->factor;
+  const double *number = l->x;
+  if (!l->is_super) {
+    const int32_t start = ((const int32_t *)l->p)[k], count = ((const int32_t *)l->ColCount)[k];
+    return (struct hk_factor_column){count, (const int32_t *)l->i + start, number + start};
+  }
+  const int32_t *first = l->super, *start = l->pi;
+  while (first[*supernode + 1] <= k)
+    ++*supernode;
+  const int32_t s = *supernode, place = k - first[s], rows = start[s + 1] - start[s];
+  number += ((const int32_t *)l->px)[s] + (int64_t)place * (rows + 1);
+  return (struct hk_factor_column){rows - place, (const int32_t *)l->s + start[s] + place, number};
 }
 
 static int32_t solve(struct hk_cholmod *x, int64_t count, double *rows) {
@@ -114,8 +135,8 @@ static int32_t solve(struct hk_cholmod *x, int64_t count, double *rows) {
   return HOOKE_OK;
 }
 
-static const struct hk_cholmod_calls calls = {find_order, create,  destroy, memory,
-                                              counts,     compute, factor,  solve};
+static const struct hk_cholmod_calls calls = {find_order, create,  destroy, memory, room,
+                                              counts,     compute, column,  solve};
 const struct hk_cholmod_calls *const hk_cholmod = &calls;
 
 #else

@@ -1,7 +1,6 @@
 /* Krylov iterations for A x = b, from x = 0, with products of A alone. A should be near the identity: the
  * caller has to scale it. The norm is the Euclidean one. */
-#ifndef HOOKE_INTEGRATE_SOLVE_KRYLOV_H
-#define HOOKE_INTEGRATE_SOLVE_KRYLOV_H
+#pragma once
 
 #include <stdint.h>
 
@@ -50,5 +49,3 @@ int32_t hk_solve_general(const struct hk_operator *a, const double *b, double to
  * many products, for few of them. `tolerance` is absolute, and so is `residual`. */
 int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
                          double *scratch, double *x, struct hk_solution *solution);
-
-#endif

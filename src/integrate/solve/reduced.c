@@ -52,6 +52,7 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_mo
   double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   *reduced = (struct hk_reduced){.integrator = it, .symmetric = symmetric, .size = size};
+  reduced->supernodal = kind == HOOKE_REDUCED_MINIMAL;
   if (more) reduced->more = *more;
   reduced->element_count = hk_elements_of(system, HOOKE_KEPT);
   reduced->element = hk_new(reduced->element_count, sizeof *reduced->element);
@@ -412,7 +413,8 @@ double hk_reduced_trace(const struct hk_reduced *reduced) {
 
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced) {
   if (reduced->whole_state != HOOKE_WHOLE_UNKNOWN) return HOOKE_OK;
-  const int32_t status = hk_factor_create(reduced->integrator->system, HOOKE_MOST_NUMBERS, &reduced->whole);
+  const int32_t status =
+      hk_factor_create(reduced->integrator->system, HOOKE_MOST_NUMBERS, reduced->supernodal, &reduced->whole);
   if (status != HOOKE_OK) return status;
   reduced->whole_state = reduced->whole ? HOOKE_WHOLE_READY : HOOKE_WHOLE_NONE;
   if (reduced->whole) reduced->integrator->own_memory += hk_factor_memory(reduced->whole);

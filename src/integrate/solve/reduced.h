@@ -5,8 +5,7 @@
  * C, clamped likewise; by its 3x3 blocks on the diagonal (block Jacobi), or by all of it
  * (integrate/solve/factor.h). With S = L L^T the iteration uses L^-1 (...) L^-T, whose residual weighs
  * particles by their mass. */
-#ifndef HOOKE_INTEGRATE_SOLVE_REDUCED_H
-#define HOOKE_INTEGRATE_SOLVE_REDUCED_H
+#pragma once
 
 #include "integrate/solve/factor.h"
 #include "integrate/integrator.h"
@@ -35,6 +34,7 @@ struct hk_reduced {
   int64_t size;        /* of vectors: 3n, and more */
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
   int32_t direct;      /* by the option `linear_solver`, if it fits: a factor of S at every place */
+  int32_t supernodal;  /* that factor may be supernodal */
   int32_t downhill;    /* 1: the matrix is symmetric, or nearly, and may be not positive */
   int32_t projected;   /* 1: S stands for the matrix */
   int32_t rows_needed; /* the products of some force are made by its own function, in rows */
@@ -113,5 +113,3 @@ int32_t hk_reduced_multiply(struct hk_reduced *reduced, const double *x, double 
 
 /* out = (df/dq) dq + (df/dv) dv of all forces at the last set position; 3n each, x y z apart. */
 int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const double *dv, double *out);
-
-#endif

@@ -19,8 +19,7 @@
  *
  * Iterations end where the error of v', in the norm of S, is below `newton_tolerance` times the error that
  * the step makes itself. A stage that is not solved is a step that is split in two. */
-#ifndef HOOKE_INTEGRATE_SOLVE_STAGE_H
-#define HOOKE_INTEGRATE_SOLVE_STAGE_H
+#pragma once
 
 #include "integrate/solve/body_stage.h"
 #include "integrate/solve/descent.h"
@@ -68,5 +67,3 @@ int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equ
 /* Downhill all the way from the state of rest where the motion is; only where there is a potential, and
  * without bodies. After a failure the motion is as far down as it came. */
 int32_t hk_stage_descend(struct hk_stage *stage, const struct hk_equations *equations);
-
-#endif

@@ -1,7 +1,6 @@
 /* Names of SUNDIALS 7 for the older versions that hooke takes, and a context that prints nothing: what
  * differs between the versions stands here alone. */
-#ifndef HOOKE_INTEGRATE_SOLVE_SUNDIALS_NAMES_H
-#define HOOKE_INTEGRATE_SOLVE_SUNDIALS_NAMES_H
+#pragma once
 
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
@@ -69,7 +68,5 @@ static inline int hk_sundials_context(SUNContext *context, void *own) {
   if (flag == SUN_SUCCESS) flag = SUNContext_SetLogger(*context, NULL);
   return flag == SUN_SUCCESS ? SUNContext_PushErrHandler(*context, hk_sundials_message, own) : flag;
 }
-
-#endif
 
 #endif

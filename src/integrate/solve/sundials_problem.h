@@ -1,6 +1,5 @@
 /* Common parts of the methods of SUNDIALS: vectors, tolerances, the problem as callbacks, GMRES, counts. */
-#ifndef HOOKE_INTEGRATE_SOLVE_SUNDIALS_PROBLEM_H
-#define HOOKE_INTEGRATE_SOLVE_SUNDIALS_PROBLEM_H
+#pragma once
 
 #include "integrate/solve/sundials_names.h"
 #include "integrate/solve/sundials_vector.h"
@@ -86,5 +85,3 @@ int hk_sundials_slope(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
 int hk_sundials_product_setup(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
 int hk_sundials_product(N_Vector direction, N_Vector product, sunrealtype t, N_Vector y, N_Vector slope,
                         void *ctx, N_Vector scratch);
-
-#endif

@@ -1,8 +1,7 @@
 /* The serial vectors of SUNDIALS with the loops of the kernel, by several threads if they are large. Sums go
  * in blocks that depend on the size alone and are added in order: their bits are the same for any number of
  * threads. */
-#ifndef HOOKE_INTEGRATE_SOLVE_SUNDIALS_VECTOR_H
-#define HOOKE_INTEGRATE_SOLVE_SUNDIALS_VECTOR_H
+#pragma once
 
 #include "core/thread_pool.h"
 
@@ -23,5 +22,3 @@ struct hk_sundials_spare {
  */
 int32_t hk_sundials_spare_create(N_Vector v, struct hk_sundials_spare *spare);
 void hk_sundials_spare_release(struct hk_sundials_spare *spare);
-
-#endif

@@ -2,8 +2,7 @@
  * with x, y and z apart, as the working copy of a state has them, then the own coordinates of movers
  * (model/coordinates); or x of a first-order problem. If nothing is free y is one number that stays 0,
  * because solvers accept no empty vector. */
-#ifndef HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
-#define HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
+#pragma once
 
 #include "integrate/integrator.h"
 
@@ -62,5 +61,3 @@ int hk_unknowns_linearise(hooke_integrator *integrator, const struct hk_unknowns
                           const double *y);
 int hk_unknowns_product(hooke_integrator *integrator, struct hk_unknowns *unknowns, double t,
                         const double *direction, double *product);
-
-#endif

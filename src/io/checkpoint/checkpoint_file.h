@@ -9,8 +9,7 @@
  *   192  k, frames, and the counts, the first seven of struct hk_counts i64 each
  *   264  q, then v f64 each
  *   end  CRC-32 of all bytes before it u32 */
-#ifndef HOOKE_IO_CHECKPOINT_CHECKPOINT_FILE_H
-#define HOOKE_IO_CHECKPOINT_CHECKPOINT_FILE_H
+#pragma once
 
 #include "hooke/checkpoint.h"
 
@@ -35,5 +34,3 @@ uint32_t hk_checkpoint_options(const hooke_options *options);
 
 /* Removes the file and the previous one, if they exist. */
 void hk_checkpoint_remove(const char *path);
-
-#endif

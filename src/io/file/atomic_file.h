@@ -1,7 +1,6 @@
 /* Atomic files: written under a temporary name in the same folder, synced, then renamed over the older file;
  * and the lock that reserves an output file for one run. */
-#ifndef HOOKE_IO_FILE_ATOMIC_FILE_H
-#define HOOKE_IO_FILE_ATOMIC_FILE_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -83,5 +82,3 @@ int32_t hk_file_write(const char *path, const char *bytes, int64_t length);
 /* HOOKE_IO_FAILED if another file than that of the descriptor has the name meanwhile, or none any more: data
  * written by the descriptor would be lost. */
 int32_t hk_file_is(const char *path, int descriptor);
-
-#endif

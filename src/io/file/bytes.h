@@ -1,6 +1,5 @@
 /* Reads and writes of whole blocks at an offset of a file. */
-#ifndef HOOKE_IO_FILE_BYTES_H
-#define HOOKE_IO_FILE_BYTES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -11,5 +10,3 @@ int hk_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes);
 /* Copies from one file to another through `block` of `capacity` bytes. */
 int hk_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block,
                   int64_t capacity);
-
-#endif

@@ -1,7 +1,6 @@
 /* The files that a system was read from, which no output may replace. They are told apart by what they are,
  * and not by their names. */
-#ifndef HOOKE_IO_FILE_INPUTS_H
-#define HOOKE_IO_FILE_INPUTS_H
+#pragma once
 
 #include "hooke/system.h"
 
@@ -15,5 +14,3 @@ int32_t hk_inputs_refuse_save(const hooke_system *system, const char *output);
 
 /* The same for one input. */
 int32_t hk_input_refuse(const char *input, const char *output);
-
-#endif

@@ -99,6 +99,20 @@ void hk_text_number(struct hk_text *text, const char *key, double value) {
   hk_text_say(text, number);
 }
 
+void hk_text_numbers(struct hk_text *text, const char *key, int64_t count, const double *value) {
+  hk_text_open(text, key, '[');
+  for (int64_t k = 0; k < count; k++)
+    hk_text_number(text, NULL, value[k]);
+  hk_text_close(text, ']');
+}
+
+void hk_text_wholes(struct hk_text *text, const char *key, int64_t count, const int64_t *value) {
+  hk_text_open(text, key, '[');
+  for (int64_t k = 0; k < count; k++)
+    hk_text_number(text, NULL, (double)value[k]);
+  hk_text_close(text, ']');
+}
+
 void hk_text_flag(struct hk_text *text, const char *key, int32_t flag) {
   begin(text, key);
   hk_text_say(text, flag ? "true" : "false");

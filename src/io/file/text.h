@@ -1,6 +1,5 @@
 /* Growing text, and JSON in it. */
-#ifndef HOOKE_IO_FILE_TEXT_H
-#define HOOKE_IO_FILE_TEXT_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -27,8 +26,9 @@ void hk_text_close(struct hk_text *text, char bracket);
 void hk_text_number(struct hk_text *text, const char *key, double value);
 void hk_text_word(struct hk_text *text, const char *key, const char *word);
 void hk_text_flag(struct hk_text *text, const char *key, int32_t flag);
+/* Arrays of numbers. */
+void hk_text_numbers(struct hk_text *text, const char *key, int64_t count, const double *value);
+void hk_text_wholes(struct hk_text *text, const char *key, int64_t count, const int64_t *value);
 
 /* Appends to `laid` the one JSON value in `json`, in a readable layout. */
 void hk_text_lay_out(const struct hk_text *json, struct hk_text *laid);
-
-#endif

@@ -1,8 +1,6 @@
 /* Readable layout of JSON: short objects and arrays on one line, long ones with one element a line. */
 #include "io/file/text.h"
 
-#include <string.h>
-
 enum { LINE = 100, INDENT = 2 };
 
 /* The comma after the value, or the key and its value, that begins at `at`, or the end. */

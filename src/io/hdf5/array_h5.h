@@ -1,7 +1,6 @@
 /* Reads arrays of numbers from untrusted HDF5 files: sizes are checked before anything is allocated, and no
  * links out of the file are followed. */
-#ifndef HOOKE_IO_HDF5_ARRAY_H5_H
-#define HOOKE_IO_HDF5_ARRAY_H5_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -18,5 +17,3 @@ int32_t hk_array_read(const char *path, const char *dataset, int64_t frame, int3
 /* The same with at most `memory_limit` bytes; 0, as above: the machine's memory. */
 int32_t hk_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
                              int32_t has_frame, double **values, int64_t *rows, int64_t *columns);
-
-#endif

@@ -1,7 +1,6 @@
 /* Datasets of untrusted files: no links out of the file are followed, and sizes are checked against those
  * that the file can hold. */
-#ifndef HOOKE_IO_HDF5_DATASET_H5_H
-#define HOOKE_IO_HDF5_DATASET_H5_H
+#pragma once
 
 #include "io/hdf5/file_h5.h"
 
@@ -25,5 +24,3 @@ int32_t hk_array_read_open(struct hk_h5_guard *guard, const char *dataset, int64
 
 /* Fails with HOOKE_BAD_VALUE, "path: dataset <name> <what>". */
 int32_t hk_dataset_refuse(const struct hk_dataset *data, const char *what);
-
-#endif

@@ -1,7 +1,6 @@
 /* HDF5 files for writing, and guards that keep HDF5's global state as the program has it: nothing printed,
  * the thread's error handler restored, every handle closed on every path. */
-#ifndef HOOKE_IO_HDF5_FILE_H5_H
-#define HOOKE_IO_HDF5_FILE_H5_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -54,5 +53,3 @@ int32_t hk_h5_file_create(double bytes, const struct hk_atomic_file *atomic, str
  * With a `status` that is a failure, nothing more is written, and it is returned, unless a failed write came
  * first. HOOKE_IO_FAILED. */
 int32_t hk_h5_file_settle(struct hk_h5_file *file, int32_t status);
-
-#endif

@@ -1,7 +1,6 @@
 /* Helpers for small HDF5 objects: attributes, arrays of known size, texts. Functions that return herr_t or
  * hid_t give a negative number on failure, like HDF5's own. */
-#ifndef HOOKE_IO_HDF5_OBJECT_H5_H
-#define HOOKE_IO_HDF5_OBJECT_H5_H
+#pragma once
 
 #include "io/hdf5/file_h5.h"
 
@@ -61,5 +60,3 @@ int32_t hk_h5_read_text(hid_t group, const char *name, char **text);
 /* An attribute that is one text of variable length, for H5free_memory(); NULL if it is something else or
  * cannot be read. */
 char *hk_h5_attribute_text(hid_t attribute);
-
-#endif

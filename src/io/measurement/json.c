@@ -8,7 +8,6 @@
 #include "model/callbacks.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 static void add_table(struct hk_text *text, const hooke_measurement *m, const char *key,
@@ -42,13 +41,6 @@ static void add_value(struct hk_text *text, const char *key, enum hk_column_type
     hk_text_flag(text, key, value.number != 0.0);
   else
     hk_text_number(text, key, value.number);
-}
-
-static void add_series(struct hk_text *text, const char *key, struct hk_series series) {
-  hk_text_open(text, key, '[');
-  for (int64_t k = 0; series.value && k < series.count; k++)
-    hk_text_number(text, NULL, series.value[k]);
-  hk_text_close(text, ']');
 }
 
 static int is_known(struct hk_value value) {
@@ -104,10 +96,11 @@ static void add_row(struct hk_text *text, const hooke_measurement *m, const stru
   for (int32_t k = 0; k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
     if (is_said(table, column->name)) continue;
+    const struct hk_value value = value_of(m, table, column, row);
     if (column->type != HOOKE_COLUMN_SERIES)
-      add_value(text, column->name, column->type, value_of(m, table, column, row));
+      add_value(text, column->name, column->type, value);
     else if (table->series_in_json)
-      add_series(text, column->name, value_of(m, table, column, row).series);
+      hk_text_numbers(text, column->name, value.series.value ? value.series.count : 0, value.series.value);
   }
   if (table == hk_measurement_table(&hk_needs_kind, "lean")) add_left_out(text, m);
   const struct hk_table *other;

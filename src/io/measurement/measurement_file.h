@@ -1,6 +1,5 @@
 /* Measurements as files. */
-#ifndef HOOKE_IO_MEASUREMENT_MEASUREMENT_FILE_H
-#define HOOKE_IO_MEASUREMENT_MEASUREMENT_FILE_H
+#pragma once
 
 #include "io/file/text.h"
 #include "measure/measurement.h"
@@ -20,5 +19,3 @@ int32_t hk_measurement_write_page(const hooke_measurement *measurement, const ch
 void hk_measurement_add_all(struct hk_text *text, const hooke_measurement *measurement, const char *except);
 void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *measurement, const char *table,
                             int64_t row);
-
-#endif

@@ -1,7 +1,6 @@
 /* Files installed with the library, in share/hooke, and forms: those of them with {{marks}} for parts to
  * insert: files, which have a dot in their name, and what a page adds by itself. */
-#ifndef HOOKE_IO_PAGE_FORM_H
-#define HOOKE_IO_PAGE_FORM_H
+#pragma once
 
 #include "io/file/text.h"
 
@@ -16,5 +15,3 @@ typedef int32_t (*hk_form_part)(const char *name, struct hk_text *page, void *ct
  * is NULL. HOOKE_NOT_BUILT if a file does not exist, HOOKE_IO_FAILED, HOOKE_NO_MEMORY, and the failures of
  * `add`. */
 int32_t hk_form_fill(const char *form, hk_form_part add, void *ctx, struct hk_text *page);
-
-#endif

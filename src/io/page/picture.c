@@ -90,10 +90,7 @@ void hk_picture_add(struct hk_text *data, struct hk_picture *picture) {
   const double *weight = hooke_system_inverse_mass(picture->system);
   add_springs(data, picture);
   hk_text_number(data, "particles", (double)hooke_system_particle_count(picture->system));
-  hk_text_open(data, "particle", '[');
-  for (int64_t k = 0; k < picture->shown_count; k++)
-    hk_text_number(data, NULL, (double)picture->list[k]);
-  hk_text_close(data, ']');
+  hk_text_wholes(data, "particle", picture->shown_count, picture->list);
   hk_text_open(data, "held", '[');
   for (int64_t k = 0; k < picture->shown_count; k++)
     hk_text_number(data, NULL, weight[picture->list[k]] == 0.0);

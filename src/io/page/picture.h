@@ -1,6 +1,5 @@
 /* A system on a page: springs as lines between particles, as many as a page can hold. */
-#ifndef HOOKE_IO_PAGE_PICTURE_H
-#define HOOKE_IO_PAGE_PICTURE_H
+#pragma once
 
 #include "hooke/system.h"
 #include "io/file/text.h"
@@ -43,5 +42,3 @@ void hk_picture_add_vectors(struct hk_text *data, const char *key, const double 
                             int64_t count);
 /* The largest along an axis. */
 double hk_picture_extent(const double *vectors, const int64_t *list, int64_t count);
-
-#endif

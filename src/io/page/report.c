@@ -27,8 +27,8 @@ static void add_machine(struct hk_text *text) {
 }
 
 static void add_versions(struct hk_text *text) {
-  static const char *const facts[] = {"sundials", "cholmod", "lapack",       "gsl",    "hdf5",
-                                      "chartjs",  "threejs", "instructions", "licence"};
+  static const char *const facts[] = {"sundials", "cholmod", "blas",    "lapack",       "gsl",
+                                      "hdf5",     "chartjs", "threejs", "instructions", "licence"};
   hk_text_open(text, "versions", '{');
   hk_text_word(text, "hooke", hooke_version());
   for (int k = 0; k < (int)(sizeof facts / sizeof facts[0]); k++)

@@ -1,6 +1,5 @@
 /* Pages of measurements: a common frame, filled with the body, the scripts and the data of one kind. */
-#ifndef HOOKE_IO_PAGE_REPORT_H
-#define HOOKE_IO_PAGE_REPORT_H
+#pragma once
 
 #include "io/measurement/measurement_file.h"
 
@@ -17,5 +16,3 @@ void hk_limit_page_add_reach(struct hk_text *data, const hooke_system *system, c
 
 /* Adds date, machine and versions. */
 void hk_report_add_facts(struct hk_text *data);
-
-#endif

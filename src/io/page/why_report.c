@@ -80,10 +80,7 @@ static int32_t find_energies(struct frames *f, const hooke_options *run) {
 static void add_energies(struct frames *f) {
   hk_text_open(f->data, "energy", '{');
   hk_text_number(f->data, "last", (double)(f->last - f->first_energy));
-  hk_text_open(f->data, "value", '[');
-  for (int64_t k = 0; k < f->energies; k++)
-    hk_text_number(f->data, NULL, f->energy[k]);
-  hk_text_close(f->data, ']');
+  hk_text_numbers(f->data, "value", f->energies, f->energy);
   hk_text_close(f->data, '}');
 }
 

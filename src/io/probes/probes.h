@@ -1,7 +1,6 @@
 /* Watched quantities over a run, in a file that is written while it goes: a line a time. A table in HDF5 has
  * room for every line from the start, so that a killed run leaves what it had written. */
-#ifndef HOOKE_IO_PROBES_PROBES_H
-#define HOOKE_IO_PROBES_PROBES_H
+#pragma once
 
 #include "core/table/option.h"
 #include "hooke/trajectory.h"
@@ -28,5 +27,3 @@ extern const struct hk_option_table hk_probes_options;
  * they begin. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 int32_t hk_probes_make_table(const struct hk_watched_list *list, int64_t lines,
                              const struct hk_atomic_file *file, int64_t *begin);
-
-#endif

@@ -1,6 +1,5 @@
 /* JSON that is read where it lies: a value is the place in the text where it begins. */
-#ifndef HOOKE_IO_SCENE_JSON_H
-#define HOOKE_IO_SCENE_JSON_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -61,5 +60,3 @@ const char *hk_json_find(const char *text, const char *path, int32_t key);
 
 /* Line and column (from 1, in characters) of a place in a text. */
 void hk_json_line(const char *text, const char *at, int64_t *line, int64_t *column);
-
-#endif

@@ -8,7 +8,6 @@
 #include "core/table/option.h"
 #include "core/utf8.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* Meshes from files. */
-#ifndef HOOKE_IO_SCENE_MESH_H
-#define HOOKE_IO_SCENE_MESH_H
+#pragma once
 
 #include "hooke/scene.h"
 
@@ -14,5 +13,3 @@ int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit,
 /* The same from `length` bytes of text. */
 int32_t hk_mesh_parse(const char *text, int64_t length, const char *name, double memory_limit,
                       hooke_options *options);
-
-#endif

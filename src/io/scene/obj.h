@@ -1,6 +1,5 @@
 /* Wavefront OBJ: the subset that a surface needs. */
-#ifndef HOOKE_IO_SCENE_OBJ_H
-#define HOOKE_IO_SCENE_OBJ_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -18,5 +17,3 @@ int32_t hk_obj_parse(const char *text, int64_t length, struct hk_obj *obj, int64
 /* Maximum memory [bytes] for reading `length` bytes of such a file into a mesh. */
 double hk_obj_bytes(const char *text, int64_t length);
 void hk_obj_release(struct hk_obj *obj);
-
-#endif

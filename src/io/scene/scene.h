@@ -1,6 +1,5 @@
 /* A scene: its text, and the system and run options made from it. */
-#ifndef HOOKE_IO_SCENE_SCENE_H
-#define HOOKE_IO_SCENE_SCENE_H
+#pragma once
 
 #include "hooke/scene.h"
 
@@ -34,5 +33,3 @@ int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key)
  * can hold, such as one with callbacks, keeps its text. HOOKE_NO_MEMORY. */
 int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,
                             char **whole);
-
-#endif

@@ -4,7 +4,6 @@
 #include "core/memory.h"
 #include "core/os/os.h"
 #include "core/os/os_file.h"
-#include "core/table/option.h"
 #include "core/print.h"
 #include "core/memory_limit.h"
 #include "core/status.h"

@@ -1,6 +1,5 @@
 /* Reads the file of a scene, and resolves the files that it names. */
-#ifndef HOOKE_IO_SCENE_SCENE_FILE_H
-#define HOOKE_IO_SCENE_SCENE_FILE_H
+#pragma once
 
 #include "core/table/option.h"
 #include "hooke/system.h"
@@ -40,5 +39,3 @@ char *hk_scene_folder(const char *path);
  * not exist or is outside the folder, also through links, unless the scene may name any file (`outside`),
  * whose opening shows whether it exists. */
 int32_t hk_scene_find_file(const char *folder, const char *file, int32_t outside, char **path);
-
-#endif

@@ -5,7 +5,6 @@
 #include "core/status.h"
 #include "integrate/method.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { METHODS_SIZE = 512, MOST_LISTS = 16 };

@@ -1,6 +1,5 @@
 /* Internal interface of the files that read a scene from its JSON. */
-#ifndef HOOKE_IO_SCENE_SCENE_JSON_H
-#define HOOKE_IO_SCENE_SCENE_JSON_H
+#pragma once
 
 #include "core/table/option.h"
 #include "io/scene/json.h"
@@ -79,5 +78,3 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *valu
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root);
 int32_t hk_scene_add_list(struct hk_scene_reader *reader, const char *value,
                           const struct hk_scene_list *list);
-
-#endif

@@ -4,8 +4,6 @@
 #include "core/status.h"
 #include "io/scene/scene_json.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { NAMES_SIZE = 4096, DEEPEST_KEY = 8 };

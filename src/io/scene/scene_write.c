@@ -26,14 +26,13 @@
 /* An array of numbers, in rows of `columns` (0: flat). */
 static void add_numbers(struct hk_text *text, const char *key, int64_t count, int32_t columns,
                         const double *value) {
-  const int64_t width = columns > 0 ? columns : count;
-  hk_text_open(text, key, '[');
-  for (int64_t first = 0; first < count; first += width) {
-    if (columns > 0) hk_text_open(text, NULL, '[');
-    for (int64_t k = first; k < first + width; k++)
-      hk_text_number(text, NULL, value[k]);
-    if (columns > 0) hk_text_close(text, ']');
+  if (columns == 0) {
+    hk_text_numbers(text, key, count, value);
+    return;
   }
+  hk_text_open(text, key, '[');
+  for (int64_t first = 0; first < count; first += columns)
+    hk_text_numbers(text, NULL, columns, value + first);
   hk_text_close(text, ']');
 }
 

@@ -1,8 +1,7 @@
 /* Frames as plain bytes in a file whose arrays are contiguous and of their final size. These functions do not
  * call HDF5, which only one thread at a time may use, so a thread of the library may call them at any time.
  */
-#ifndef HOOKE_IO_TRAJECTORY_FRAME_FILE_H
-#define HOOKE_IO_TRAJECTORY_FRAME_FILE_H
+#pragma once
 
 #include "hooke/state.h"
 
@@ -54,5 +53,3 @@ int hk_frame_look(const struct hk_frame_file *file, int64_t frame, int32_t *whol
 
 /* Copies the first `count` frames unchanged. */
 int hk_frame_copy(const struct hk_frame_file *from, const struct hk_frame_file *to, int64_t count);
-
-#endif

@@ -12,8 +12,7 @@
  * with -1. Position and velocity, which would take as long to fill as to write, are only allocated. A frame
  * is written in place (frame_file.h), its check value and then its time last: a time marks a complete frame.
  * Nothing else of the file changes, so the file is valid whenever the process is killed. */
-#ifndef HOOKE_IO_TRAJECTORY_FRAMES_H5_H
-#define HOOKE_IO_TRAJECTORY_FRAMES_H5_H
+#pragma once
 
 #include "io/hdf5/dataset_h5.h"
 #include "io/trajectory/frame_file.h"
@@ -35,5 +34,3 @@ int32_t hk_frame_arrays_find(struct hk_h5_guard *guard, struct hk_frame_file *fr
  * files without check values, pass. `known`: the numbers of this row if they were read already, else NULL.
  * HOOKE_BAD_VALUE for a damaged frame, HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 int32_t hk_frame_check(struct hk_h5_guard *guard, const char *dataset, int64_t frame, const double *known);
-
-#endif

@@ -1,7 +1,7 @@
 /* Metadata and springs of an H5MD file. Layout (H5MD 1.1):
  *
  *   /h5md                    version [1, 1]; author, creator
- *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units,
+ *   /hooke                   attributes version, abi, sundials, cholmod, blas, instructions, machine, units,
  *                            method, `callbacks` (model/callbacks.h), of a single run `run`, which no other
  *                            run has; `scene`: the text of the scene; `options`: an attribute for each
  *                            option of the run; `status`: "running" until the file is closed
@@ -15,8 +15,7 @@
  *   /observables             frames (frames_h5.h)
  *
  * What is written after the first frame is raw data of fixed length (outcome.h). */
-#ifndef HOOKE_IO_TRAJECTORY_H5MD_H5_H
-#define HOOKE_IO_TRAJECTORY_H5MD_H5_H
+#pragma once
 
 #include "hooke/integrator.h"
 #include "io/trajectory/frames_h5.h"
@@ -56,5 +55,3 @@ herr_t hk_h5md_set_status(hid_t file, int32_t outcome);
  * HOOKE_BAD_VALUE and HOOKE_NO_MEMORY as of reading arrays. */
 int32_t hk_file_check_description(struct hk_h5_guard *guard, const char *scene, uint32_t *value);
 int32_t hk_file_check_read(struct hk_h5_guard *guard, uint32_t *value, int32_t *there);
-
-#endif

@@ -1,8 +1,7 @@
 /* What is written of a run after its first frame, as bytes, once HDF5 has closed the file: arrays of fixed
  * size in the group /hooke (h5md_h5.h); and the check values of everything but the frames. A killed process
  * could leave metadata that change in place torn. */
-#ifndef HOOKE_IO_TRAJECTORY_OUTCOME_H
-#define HOOKE_IO_TRAJECTORY_OUTCOME_H
+#pragma once
 
 #include "hooke/base.h"
 
@@ -58,5 +57,3 @@ uint32_t hk_outcome_check_error(uint32_t outcome, const double *numbers, const c
 enum { HOOKE_RUN_RANDOM = 24, HOOKE_RUN_SIZE = 33 };
 int32_t hk_outcome_new_run(uint32_t description, char run[HOOKE_RUN_SIZE]);
 int32_t hk_outcome_check_run(uint32_t description, const char *run);
-
-#endif

@@ -19,8 +19,8 @@
 #include <unistd.h>
 
 const char *const hk_record_texts[HOOKE_RECORD_TEXTS] = {
-    "scene",   "status",       "error_by", "error_reason", "run",        "version",    "sundials",
-    "cholmod", "instructions", "machine",  "callbacks",    "force_file", "force_name", "force_sha256"};
+    "scene", "status",       "error_by", "error_reason", "run",        "version",    "sundials",    "cholmod",
+    "blas",  "instructions", "machine",  "callbacks",    "force_file", "force_name", "force_sha256"};
 
 int32_t hk_record_is_one(const char *path) {
   static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};

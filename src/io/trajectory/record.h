@@ -1,6 +1,5 @@
 /* A trajectory file opened for reading. */
-#ifndef HOOKE_IO_TRAJECTORY_RECORD_H
-#define HOOKE_IO_TRAJECTORY_RECORD_H
+#pragma once
 
 #include "hooke/trajectory.h"
 #include "io/trajectory/frame_file.h"
@@ -12,7 +11,7 @@ enum { HOOKE_RECORD_SCENE, HOOKE_RECORD_STATUS, HOOKE_RECORD_BY, HOOKE_RECORD_RE
 enum {
   HOOKE_RECORD_RUN = HOOKE_RECORD_ARRAYS,
   HOOKE_RECORD_FACT = HOOKE_RECORD_RUN + 2, /* of the build, after its version */
-  HOOKE_RECORD_CALLBACKS = 10,
+  HOOKE_RECORD_CALLBACKS = 11,
   HOOKE_RECORD_FORCE, /* where it is from */
   HOOKE_RECORD_TEXTS = HOOKE_RECORD_FORCE + HOOKE_FORCE_TEXTS
 };
@@ -53,5 +52,3 @@ int32_t hk_record_check_count(const hooke_record *record);
 
 /* HOOKE_BAD_VALUE for a file of several runs. */
 int32_t hk_record_require_run(const hooke_record *record);
-
-#endif

@@ -1,7 +1,6 @@
 /* A trajectory that is being written, new or continued. HDF5 makes its file and closes it; all else is
  * written as bytes. */
-#ifndef HOOKE_IO_TRAJECTORY_TRAJECTORY_H
-#define HOOKE_IO_TRAJECTORY_TRAJECTORY_H
+#pragma once
 
 #include "hooke/checkpoint.h"
 #include "io/file/atomic_file.h"
@@ -50,5 +49,3 @@ int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const
 
 /* Of the checkpoint beside a trajectory, which goes when its run is finished. */
 #define HOOKE_CHECKPOINT_ENDING ".checkpoint"
-
-#endif

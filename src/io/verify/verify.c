@@ -59,17 +59,19 @@ static int32_t find_slice(struct hk_verify *verify) {
 
 /* The bits of these methods depend on libraries, and through them on the processor. */
 static int32_t find_makers(struct hk_verify *verify) {
-  static const char *const facts[HOOKE_VERIFY_FACTS] = {"version", "sundials", "cholmod", "instructions",
-                                                        "machine"};
+  static const char *const facts[HOOKE_VERIFY_FACTS] = {"version",      "sundials", "cholmod",
+                                                        "instructions", "machine",  "blas"};
   for (int k = 0; k < HOOKE_VERIFY_FACTS; k++) {
     verify->made_by[k] = hooke_record_text(verify->record, facts[k]);
     verify->here[k] = k == 0 ? hooke_version() : hooke_build_fact(facts[k]);
   }
+  hk_blas_describe(verify->blas);
+  verify->here[HOOKE_VERIFY_FACTS - 1] = verify->blas;
   const hooke_options *options = hooke_record_options(verify->record);
   const struct hk_method *method = hk_method_find(hooke_options_text(options, "method"));
   const int32_t factor = strcmp(hooke_options_text(options, "linear_solver"), "direct") == 0;
   if (verify->fixed && !(method->solved && factor)) return 0;
-  for (int k = 1; k < HOOKE_VERIFY_FACTS; k++) {
+  for (int k = 1; k < HOOKE_VERIFY_FACTS - verify->fixed; k++) { /* whose factors call no BLAS */
     if (strcmp(verify->made_by[k], verify->here[k]) != 0) return 1;
   }
   return 0;

@@ -1,13 +1,13 @@
 /* The object of a measurement of kind "verify", and the passes over its slice. */
-#ifndef HOOKE_IO_VERIFY_VERIFY_H
-#define HOOKE_IO_VERIFY_VERIFY_H
+#pragma once
 
 #include "hooke/scene.h"
 #include "hooke/trajectory.h"
 #include "measure/measurement.h"
 #include "measure/trial/balance.h"
+#include "model/blas.h"
 
-enum { HOOKE_VERIFY_FACTS = 5 };
+enum { HOOKE_VERIFY_FACTS = 6 };
 
 struct hk_verify {
   const hooke_measurement *measurement;
@@ -28,8 +28,9 @@ struct hk_verify {
   double time_from, time_to; /* of the frames `from` and `to` */
   double steps, limit, energy_change, work, heat, residual, residual_refined, bound, error, error_velocity;
   double check_scene, check_last;
-  /* version of hooke, SUNDIALS, CHOLMOD, instruction set and machine that made the file, and those here */
+  /* version of hooke, SUNDIALS, CHOLMOD, instruction set, machine and BLAS that made the file, and here */
   const char *made_by[HOOKE_VERIFY_FACTS], *here[HOOKE_VERIFY_FACTS];
+  char blas[HOOKE_BLAS_SIZE];
 };
 
 /* Results of a pass over the slice. */
@@ -59,5 +60,3 @@ void hk_verify_claim(const hooke_measurement *measurement, struct hk_claims *cla
 extern const struct hk_table hk_verify_tables[];
 
 extern const struct hk_measurement_kind hk_verify_kind;
-
-#endif

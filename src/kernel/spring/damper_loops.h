@@ -6,8 +6,7 @@
  *   J = m*rate, m = impulse_per_rate     b = (J*ir) d     v_i -= w_i b     v_j += w_j b
  * A spring that only pulls has J = 0 where r <= l0, and -J is at most what its tension does: half*(kappa*(r -
  * l0)). */
-#ifndef HOOKE_KERNEL_DAMPER_LOOPS_H
-#define HOOKE_KERNEL_DAMPER_LOOPS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -35,5 +34,3 @@ static inline double hk_damper_part(double z) {
   const double y = z * (1.0 + z / 2.0);
   return y > 0.0 ? 1.0 / (1.0 + 1.0 / y) : 0.0;
 }
-
-#endif

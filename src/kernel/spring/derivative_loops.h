@@ -5,8 +5,7 @@
  *   c = kappa u + (gamma (e - rate u))/r     p = c.y + gamma (u.z)     b = p u + (T/r) (y - (u.y) u)
  *   out_i -= b     out_j += b
  * b = 0 where the spring is slack; where r = 0, too, unless the rest length is 0: b = kappa y. */
-#ifndef HOOKE_KERNEL_DERIVATIVE_LOOPS_H
-#define HOOKE_KERNEL_DERIVATIVE_LOOPS_H
+#pragma once
 
 struct hk_run;
 
@@ -18,5 +17,3 @@ struct hk_derivative_rows {
 
 /* Adds the springs of a run to each particle in ascending number. */
 typedef void hk_derivative_loop(const struct hk_run *run, const struct hk_derivative_rows *rows);
-
-#endif

@@ -1,8 +1,7 @@
 /* One spring, to the parenthesis. Every loop over springs, on every instruction set, computes exactly this;
  * the library promises this order of operations, and no product may be contracted into a fused multiply-add.
  */
-#ifndef HOOKE_KERNEL_SPRING_BODY_H
-#define HOOKE_KERNEL_SPRING_BODY_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -47,5 +46,3 @@ HOOKE_INLINE double hk_spring_tension(double r, double rest_length, double kappa
   if (pull_only) tension = ((r <= rest_length) | (tension < 0.0)) ? 0.0 : tension;
   return tension;
 }
-
-#endif

@@ -3,8 +3,7 @@
  * Springs come in runs: consecutive springs that one loop can process. In a run of constant offset spring k
  * joins particles start + k and start + k + offset, so all loads are contiguous; in any other run the ends
  * are looked up. A run of one material reads no parameters. */
-#ifndef HOOKE_KERNEL_SPRING_LOOPS_H
-#define HOOKE_KERNEL_SPRING_LOOPS_H
+#pragma once
 
 #include "kernel/altitude_loops.h"
 #include "kernel/bending_loops.h"
@@ -125,5 +124,3 @@ const struct hk_spring_set *hk_spring_set(int32_t set);
 
 /* Name of the set used on this machine. */
 const char *hk_kernel_instructions(void);
-
-#endif

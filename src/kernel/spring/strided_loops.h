@@ -5,8 +5,7 @@
  * the loop is at particle l, and read there and at l + offset. Particles that the loop has passed are ends of
  * no later spring, so they may move at once. Triples of bending follow the springs: triple l of a batch joins
  * particles l, l + offset and l + 2 offset, and its force is read at each of them. */
-#ifndef HOOKE_KERNEL_STRIDED_LOOPS_H
-#define HOOKE_KERNEL_STRIDED_LOOPS_H
+#pragma once
 
 #include "kernel/move_loops.h"
 
@@ -79,5 +78,3 @@ struct hk_strided_pass {
 /* Processes particles `from` .. `to` - 1; returns how short the springs are that begin there
  * (spring_body.h). */
 typedef int64_t hk_strided_loop(const struct hk_strided_pass *pass, ptrdiff_t from, ptrdiff_t to);
-
-#endif

@@ -5,8 +5,7 @@
  * for the tension T = kappa (r - l0) + gamma v.u; nothing where it is slack or has no direction, and b =
  * alpha kappa, e = 0 where its length and rest length are 0. With alpha = 0 all of it is g g^T, g = sqrt(beta
  * gamma) u. */
-#ifndef HOOKE_KERNEL_TANGENT_LOOPS_H
-#define HOOKE_KERNEL_TANGENT_LOOPS_H
+#pragma once
 
 #include "kernel/spring/spring_loops.h"
 
@@ -51,5 +50,3 @@ struct hk_tangent_set {
   void (*tangent_damping)(const struct hk_run *, const struct hk_tangent *, const double *const[3],
                           double *const[3]);
 };
-
-#endif

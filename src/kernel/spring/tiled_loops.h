@@ -1,8 +1,7 @@
 /* The loops of tiled batches: springs whose ends are looked up, summed in one pass over tiles of particles.
  * Positions and velocities of the particles near a tile are in rows; the forces of a spring on its two ends
  * are in rows of forces, so that the sum at a particle is a sum of rows that are looked up. */
-#ifndef HOOKE_KERNEL_TILED_LOOPS_H
-#define HOOKE_KERNEL_TILED_LOOPS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -50,5 +49,3 @@ struct hk_tiled_loops {
   hk_tiled_sum *sum[2]; /* narrow, wide */
   hk_tiled_rows *rows;
 };
-
-#endif

@@ -1,6 +1,5 @@
 /* What a scene is and takes, and what is seldom meant in it, without running it. */
-#ifndef HOOKE_MEASURE_CHECK_CHECK_H
-#define HOOKE_MEASURE_CHECK_CHECK_H
+#pragma once
 
 #include "measure/measurement.h"
 #include "model/group.h"
@@ -19,5 +18,3 @@ void hk_check_claim(const hooke_measurement *measurement, struct hk_claims *clai
 
 extern const struct hk_table hk_check_tables[];
 extern const struct hk_measurement_kind hk_check_kind;
-
-#endif

@@ -1,6 +1,5 @@
 /* What each ingredient of a scene costs a step: it is timed with the ingredient and without. */
-#ifndef HOOKE_MEASURE_COST_COST_H
-#define HOOKE_MEASURE_COST_COST_H
+#pragma once
 
 #include "measure/measurement.h"
 #include "measure/trial/budget.h"
@@ -33,5 +32,3 @@ void hk_cost_claim(const hooke_measurement *measurement, struct hk_claims *claim
 
 extern const struct hk_table hk_cost_tables[];
 extern const struct hk_measurement_kind hk_cost_kind;
-
-#endif

@@ -51,15 +51,25 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
 }
 
 static void add_bodies(const hooke_system *system, const struct hk_counts *count, double *amount) {
-  int64_t particles = 0;
+  int64_t particles = 0, acted = 0;
   for (int64_t k = 0; k < system->mover_count; k++) {
+    const struct hk_mover *mover = &system->mover[k];
     int64_t some;
-    system->mover[k].row->particles(system->mover[k].thing, &some);
+    mover->row->particles(mover->thing, &some);
     particles += some;
+    acted += mover->row->acted(system, mover->thing);
   }
   amount[HOOKE_WORK_BODY] = (double)count->force_evaluations * (double)system->mover_count;
-  amount[HOOKE_WORK_BODY_PARTICLE] =
-      (double)(count->force_evaluations + count->derivative_products) * (double)particles;
+  amount[HOOKE_WORK_BODY_PARTICLE] = (double)count->force_evaluations * (double)acted +
+                                     (double)count->derivative_products * (double)particles;
+}
+
+/* Particles that a step visits: nothing acts on the others, or a body carries them. */
+static double visited(const hooke_system *system) {
+  int64_t sum = 0;
+  for (int64_t k = 0; k < system->span_count; k++)
+    sum += system->span[k].count;
+  return (double)sum;
 }
 
 static void find_amounts(const hooke_system *system, const struct hk_method *method, double particles,
@@ -68,7 +78,8 @@ static void find_amounts(const hooke_system *system, const struct hk_method *met
                products = (double)count->derivative_products, matrices = (double)count->matrices;
   /* with error control: particles with positions and velocities, or halves of them */
   const double whole = system && !system->overdamped ? 1.0 : 0.5,
-               adapted = method->adaptive ? whole * particles : 0.0;
+               adapted = method->adaptive ? whole * particles : 0.0,
+               moved = system ? visited(system) : particles;
   memset(amount, 0, HOOKE_WORKS * sizeof *amount);
   if (system) add_forces(system, method, count, amount);
   if (system) add_bodies(system, count, amount);
@@ -76,8 +87,8 @@ static void find_amounts(const hooke_system *system, const struct hk_method *met
   amount[HOOKE_WORK_ADAPTIVE_STEP] = method->adaptive ? steps : 0.0;
   amount[HOOKE_WORK_ADAPTIVE_PARTICLE] = steps * adapted;
   amount[HOOKE_WORK_EVALUATION] = evaluations;
-  amount[HOOKE_WORK_PARTICLE] = evaluations * particles;
-  amount[HOOKE_WORK_FAR] = evaluations * fmax(0.0, particles - NEAR);
+  amount[HOOKE_WORK_PARTICLE] = evaluations * moved;
+  amount[HOOKE_WORK_FAR] = evaluations * fmax(0.0, moved - NEAR);
   amount[HOOKE_WORK_ADAPTIVE_EVALUATED] = evaluations * adapted;
   amount[HOOKE_WORK_PRODUCT] = products;
   amount[HOOKE_WORK_PRODUCT_PARTICLE] = products * particles;

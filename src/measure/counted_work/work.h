@@ -2,8 +2,7 @@
  * costs (costs.c). It follows from the counts and the system alone, so that it is the same on any machine,
  * however busy, for any number of threads and any instruction set. Callbacks count as their calls: nobody
  * knows what is inside of them. */
-#ifndef HOOKE_MEASURE_WORK_WORK_H
-#define HOOKE_MEASURE_WORK_WORK_H
+#pragma once
 
 #include "integrate/integrator.h"
 #include "model/force/force.h"
@@ -16,13 +15,13 @@ enum {
   HOOKE_WORK_ADAPTIVE_STEP,                              /* of methods with error control */
   HOOKE_WORK_ADAPTIVE_PARTICLE,                          /* particles of these steps */
   HOOKE_WORK_EVALUATION,                                 /* evaluations of all forces */
-  HOOKE_WORK_PARTICLE,                                   /* particles of these */
+  HOOKE_WORK_PARTICLE,                                   /* particles that these visit */
   HOOKE_WORK_FAR,                                        /* those of them that no cache holds */
   HOOKE_WORK_ADAPTIVE_EVALUATED,                         /* with error control */
   HOOKE_WORK_SCATTERED,        /* springs in no order, multiplied and in matrices as well */
   HOOKE_WORK_CURVED,           /* springs with curves, likewise */
   HOOKE_WORK_BODY,             /* bodies evaluated */
-  HOOKE_WORK_BODY_PARTICLE,    /* their particles, multiplied as well */
+  HOOKE_WORK_BODY_PARTICLE,    /* their particles that a force acts on; all in products */
   HOOKE_WORK_DAMPER,           /* damped springs of steps of shardlow */
   HOOKE_WORK_PRODUCT,          /* products with the derivative */
   HOOKE_WORK_PRODUCT_PARTICLE, /* particles of these */
@@ -54,5 +53,3 @@ double hk_work_of_pass(const hooke_system *system);
 double hk_work_of_steps(const hooke_system *system, const char *method, int64_t steps);
 /* The same, or what they take at least; 0 if nothing is known of that. */
 double hk_work_at_least(const hooke_system *system, const char *method, int64_t steps);
-
-#endif

@@ -1,7 +1,6 @@
 /* How far a run is off at every frame: it is held against itself with half the step or a tighter tolerance,
  * against another method, or against a reference. */
-#ifndef HOOKE_MEASURE_ESTIMATE_ESTIMATE_H
-#define HOOKE_MEASURE_ESTIMATE_ESTIMATE_H
+#pragma once
 
 #include "hooke/estimate.h"
 #include "measure/recommend/pick.h"
@@ -123,5 +122,3 @@ int32_t hk_estimate_compare(struct hk_estimate *estimate, const struct hk_rerun 
                             struct hk_distance *distance);
 /* The smallest step [s] from `least` on that fits the kept frames; NaN if there is none. */
 double hk_estimate_fit_step(const struct hk_estimate *estimate, double least);
-
-#endif

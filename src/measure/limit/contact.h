@@ -1,6 +1,5 @@
 /* What the figures of a limit do not know of: contact where it does not act yet, and a force callback. */
-#ifndef HOOKE_MEASURE_LIMIT_CONTACT_H
-#define HOOKE_MEASURE_LIMIT_CONTACT_H
+#pragma once
 
 #include "hooke/system.h"
 #include "measure/claims.h"
@@ -10,5 +9,3 @@ void hk_claim_callback(struct hk_claims *claims, const hooke_system *system);
 
 /* A claim for each obstacle that nothing touches at q (3n) and time t. */
 void hk_claim_contacts(struct hk_claims *claims, const hooke_system *system, double t, const double *q);
-
-#endif

@@ -1,6 +1,5 @@
 /* Steps at which a method that could solve for damping takes it explicitly, for less. */
-#ifndef HOOKE_MEASURE_LIMIT_EXPLICIT_STEP_H
-#define HOOKE_MEASURE_LIMIT_EXPLICIT_STEP_H
+#pragma once
 
 #include "integrate/integrator.h"
 
@@ -13,5 +12,3 @@ int32_t hk_step_cheapest(const hooke_system *system, const char *method, double 
 /* The method whose limit holds for a run with these options, after hooke_step_settle(): that of symplectic
  * Euler, which takes damping explicitly, too, is within that of such a verlet. */
 const char *hk_step_limited_as(const hooke_system *system, const hooke_options *run);
-
-#endif

@@ -1,7 +1,6 @@
 /* Tests if the motion of a linear twin grows at a step: one run of the real integrator, observed through the
  * energy of the displacement. */
-#ifndef HOOKE_MEASURE_LIMIT_GROWTH_H
-#define HOOKE_MEASURE_LIMIT_GROWTH_H
+#pragma once
 
 #include "hooke/measurement.h"
 #include "measure/spectrum/linear_twin.h"
@@ -43,5 +42,3 @@ void hk_growth_release(struct hk_growth *growth);
  * by the progress; HOOKE_NO_MEMORY. */
 int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, int64_t most_steps,
                       enum hk_verdict *verdict);
-
-#endif

@@ -1,7 +1,6 @@
 /* The largest stable step of each method: predicted from the fastest motion of the linearised system,
  * measured by running, with what limits it and what would raise it. */
-#ifndef HOOKE_MEASURE_LIMIT_LIMIT_H
-#define HOOKE_MEASURE_LIMIT_LIMIT_H
+#pragma once
 
 #include "measure/limit/limit_participation.h"
 #include "measure/measurement.h"
@@ -83,5 +82,3 @@ extern const struct hk_table hk_limit_tables[];
 void hk_limit_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
 extern const struct hk_measurement_kind hk_limit_kind;
-
-#endif

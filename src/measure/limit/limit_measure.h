@@ -1,6 +1,5 @@
 /* Measured limits: bisects the step between one at which real runs are stable and one at which they grow. */
-#ifndef HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
-#define HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
+#pragma once
 
 #include "measure/limit/limit.h"
 
@@ -28,5 +27,3 @@ int32_t hk_limit_measure(const struct hk_limit *limit, const struct hk_limit_row
 int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
                                    const hooke_options *run, const char *method, double predicted,
                                    double accuracy, struct hk_budget *budget, struct hk_measured_limit *out);
-
-#endif

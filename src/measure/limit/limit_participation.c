@@ -8,7 +8,6 @@
 #include "model/group.h"
 #include "model/system.h"
 
-#include <math.h>
 #include <stddef.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* The elements that determine a limit: the springs and particles that carry the limiting mode, and the gain
  * of changing them. */
-#ifndef HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
-#define HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
+#pragma once
 
 #include "measure/needs/price.h"
 #include "measure/trial/budget.h"
@@ -108,5 +107,3 @@ int32_t hk_suggestion_find(const hooke_system *system, const double *q, const ch
 int32_t hk_suggestion_price(const hooke_system *system, const hooke_options *run, const char *method,
                             double limit, const struct hk_participation *participation,
                             struct hk_budget *budget, struct hk_suggestion *suggestion);
-
-#endif

@@ -3,8 +3,7 @@
  * M x'' + C x' + K x = 0 over the free particles: K = sum of kappa u u^T + max(0, T/r) (I - u u^T), C = sum
  * of gamma u u^T, plus drag; a spring that only pulls counts as taut, one of no length as stiff in all
  * directions. */
-#ifndef HOOKE_MEASURE_LIMIT_LIMIT_PREDICT_H
-#define HOOKE_MEASURE_LIMIT_LIMIT_PREDICT_H
+#pragma once
 
 #include "measure/trial/budget.h"
 
@@ -29,5 +28,3 @@ int32_t hk_limit_predict_within(const hooke_system *system, const double *q, con
  * stays what it was. HOOKE_NO_MEMORY. */
 int32_t hk_limit_sure(const hooke_system *system, const double *q, const double *v, const char *method,
                       struct hk_budget *budget, double *limit);
-
-#endif

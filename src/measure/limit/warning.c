@@ -8,7 +8,6 @@
 #include "measure/spectrum/naming.h"
 #include "measure/spectrum/step_bound.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static const double MARGIN = 0.05;

@@ -95,7 +95,7 @@ struct search {
 /* With the smallest of some shifts that makes it positive. */
 static int32_t factorise(struct search *s) {
   int32_t found = 0;
-  s->factor = hk_cholmod->create(s->matrix, 1);
+  s->factor = hk_cholmod->create(s->matrix, HOOKE_FACTOR_FOR_SOLUTIONS);
   if (s->factor == NULL)
     return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a factor of %lld unknowns", (long long)s->n);
   for (double part = 1e-10; found == 0 && part < 1e3; part *= 4.0) {
@@ -111,7 +111,7 @@ static const double MOST_PRODUCTS = 2e10;
 
 int32_t hk_lowest_sign(const struct hk_columns *matrix, double bound, struct hk_budget *budget,
                        int32_t *sign) {
-  struct hk_cholmod *factor = hk_cholmod ? hk_cholmod->create(matrix, 1) : NULL;
+  struct hk_cholmod *factor = hk_cholmod ? hk_cholmod->create(matrix, HOOKE_FACTOR_FOR_SOLUTIONS) : NULL;
   double products = 0.0;
   *sign = 0;
   if (hk_cholmod == NULL) return HOOKE_OK;

@@ -1,6 +1,5 @@
 /* The lowest eigenvalues of a symmetric matrix, positive or not, and all that are 0. */
-#ifndef HOOKE_MEASURE_MODES_LOWEST_H
-#define HOOKE_MEASURE_MODES_LOWEST_H
+#pragma once
 
 #include "integrate/solve/factor_cholmod.h"
 #include "measure/trial/budget.h"
@@ -32,5 +31,3 @@ int32_t hk_lowest_sparse(const struct hk_columns *matrix, double bound, int64_t 
 int32_t hk_lowest_sign(const struct hk_columns *matrix, double bound, struct hk_budget *budget,
                        int32_t *sign);
 void hk_lowest_release(struct hk_lowest *lowest);
-
-#endif

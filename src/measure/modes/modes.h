@@ -1,7 +1,6 @@
 /* Modes: free small motions about a state at rest, M x'' + C x' + K x = 0 with the signed stiffness of the
  * state (stiffness.h), as those without damping, and what damping does to each. */
-#ifndef HOOKE_MEASURE_MODES_MODES_H
-#define HOOKE_MEASURE_MODES_MODES_H
+#pragma once
 
 #include "measure/measurement.h"
 #include "measure/trial/budget.h"
@@ -55,5 +54,3 @@ extern const struct hk_table hk_modes_tables[];
 void hk_modes_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
 extern const struct hk_measurement_kind hk_modes_kind;
-
-#endif

@@ -4,9 +4,6 @@
 #include "measure/modes/lowest.h"
 #include "measure/modes/modes.h"
 
-#include <math.h>
-#include <string.h>
-
 /* A difference of the stiffness from its transpose that is not told. */
 static const double SYMMETRIC = 1e-6;
 

@@ -4,8 +4,7 @@
  * compressed springs push across, slack ones are 0, and bodies have all of what forces do to their turning.
  * Of forces that are not the gradient of an energy the symmetric part is taken; callbacks are left out, but
  * for what their forces do to bodies that turn. */
-#ifndef HOOKE_MEASURE_MODES_STIFFNESS_H
-#define HOOKE_MEASURE_MODES_STIFFNESS_H
+#pragma once
 
 #include "integrate/solve/factor_cholmod.h"
 #include "model/coordinates/body_tangent.h"
@@ -53,5 +52,3 @@ void hk_columns_release(struct hk_columns *matrix);
  * connected piece as a whole, and how many other motions of one as a rigid body. HOOKE_NO_MEMORY. */
 int32_t hk_stiffness_name_zeros(const struct hk_stiffness *stiffness, const double *q, int64_t count,
                                 const double *zero, int64_t *translations, int64_t *rotations);
-
-#endif

@@ -1,7 +1,6 @@
 /* What a scene requires for a wanted error: one ingredient after another is left out, and what changes the
  * motion by more is needed. */
-#ifndef HOOKE_MEASURE_NEEDS_NEEDS_H
-#define HOOKE_MEASURE_NEEDS_NEEDS_H
+#pragma once
 
 #include "measure/measurement.h"
 #include "measure/quantity/wants.h"
@@ -291,5 +290,3 @@ extern const struct hk_table hk_needs_tables[];
 void hk_needs_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
 extern const struct hk_measurement_kind hk_needs_kind;
-
-#endif

@@ -1,7 +1,6 @@
 /* Finds the step with which a variant has an error of at most a tenth of the wanted one. */
 #include "measure/needs/needs.h"
 
-#include "core/clock.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"

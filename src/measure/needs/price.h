@@ -1,6 +1,5 @@
 /* The price of a remedy: the error that a change of the scene makes over the whole run, as `needs` has it. */
-#ifndef HOOKE_MEASURE_NEEDS_PRICE_H
-#define HOOKE_MEASURE_NEEDS_PRICE_H
+#pragma once
 
 #include "measure/trial/budget.h"
 #include "model/variant/variant.h"
@@ -17,5 +16,3 @@ struct hk_price {
  * HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_price_find(const hooke_system *system, const hooke_options *run, const char *method, double limit,
                       const struct hk_variant *change, struct hk_budget *budget, struct hk_price *price);
-
-#endif

@@ -1,8 +1,7 @@
 /* What is wanted: bounds of errors, the option "want". A length is one of all free particles; a list,
  * "tip=2mm,line:max.tension=1%,energy=0.1J,1cm", has watched quantities, particles (the distance from where
  * they should be) and lengths. The error of a run is the largest of error over bound, times `most`. */
-#ifndef HOOKE_MEASURE_QUANTITY_WANTS_H
-#define HOOKE_MEASURE_QUANTITY_WANTS_H
+#pragma once
 
 #include "measure/claims.h"
 #include "measure/quantity/watched.h"
@@ -89,5 +88,3 @@ double hk_want_doubt(const struct hk_wants *wants, int32_t number, const struct 
 double hk_wants_error(const struct hk_wants *wants, const double bound[HOOKE_WANTS],
                       const struct hk_watched_series *a, const struct hk_watched_series *b, int64_t frame,
                       double far);
-
-#endif

@@ -10,8 +10,7 @@
  *
  * Indices begin at 0. Several are separated by commas. watched.c also reads the selection of `needs`: a part,
  * a group, or particles such as 0,7-9,tip. */
-#ifndef HOOKE_MEASURE_QUANTITY_WATCHED_H
-#define HOOKE_MEASURE_QUANTITY_WATCHED_H
+#pragma once
 
 #include "model/course.h"
 #include "model/force/spring.h"
@@ -174,5 +173,3 @@ void hk_watched_run_keep(struct hk_watched_run *run, double t, const double *q, 
 /* Makes the results: values at this last state, extremes up to it, or up to the last frame where steps after
  * it were seen. NaN where unknown: extremes of a period and of a run of which only frames were seen. */
 void hk_watched_run_end(struct hk_watched_run *run, double t, const double *q, const double *v);
-
-#endif

@@ -11,8 +11,7 @@
  * All of that takes at most ten times the work of the picked run, or the counted equal of 2 s. Where it does
  * not suffice for a reference of the whole run, the beginning is studied, for the same fraction of the error:
  * errors grow at least in proportion to time. */
-#ifndef HOOKE_MEASURE_RECOMMEND_PICK_H
-#define HOOKE_MEASURE_RECOMMEND_PICK_H
+#pragma once
 
 #include "measure/trial/reference.h"
 
@@ -62,5 +61,3 @@ int32_t hk_pick_options(const hooke_options *run, const char *method, double val
 
 /* In words, if the times of this machine would reverse the two best by more than 2; "" if not. */
 void hk_pick_say_reversal(const struct hk_pick *pick, char *text, int32_t size);
-
-#endif

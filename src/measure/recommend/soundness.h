@@ -1,7 +1,6 @@
 /* Soundness of a run: its step must stay clear of the stability limit, and its energy must not grow by
  * itself. */
-#ifndef HOOKE_MEASURE_RECOMMEND_SOUNDNESS_H
-#define HOOKE_MEASURE_RECOMMEND_SOUNDNESS_H
+#pragma once
 
 #include "measure/spectrum/node_blocks.h"
 
@@ -57,5 +56,3 @@ int32_t hk_soundness_holds(const struct hk_soundness *soundness);
 /* Fraction of energy from which on a run counts as gaining energy by itself, and fraction of the stable step
  * that may be taken. */
 extern const double hk_soundness_most_rise, hk_soundness_limit_share;
-
-#endif

@@ -1,7 +1,6 @@
 /* A rest: where the forces of a scene are in equilibrium, whether its energy is least there, and what one
  * watches. */
-#ifndef HOOKE_MEASURE_REST_REST_H
-#define HOOKE_MEASURE_REST_REST_H
+#pragma once
 
 #include "measure/measurement.h"
 #include "measure/modes/modes.h"
@@ -37,5 +36,3 @@ void hk_rest_claim(const hooke_measurement *measurement, struct hk_claims *claim
 
 extern const struct hk_table hk_rest_tables[];
 extern const struct hk_measurement_kind hk_rest_kind;
-
-#endif

@@ -3,8 +3,6 @@
 #include "measure/rest/rest.h"
 #include "model/system.h"
 
-#include <math.h>
-
 static void tell_rest(const struct hk_resting *r, struct hk_claims *claims) {
   const struct hk_rest *rest = &r->rest;
   char share[80] = "";

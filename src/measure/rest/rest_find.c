@@ -86,7 +86,7 @@ static int32_t place_driven(const struct search *s, double *q) {
 static int32_t find_factor(const hooke_system *system, int32_t *pays) {
   struct hk_factor *factor = NULL;
   if (system->mover_count > 0) return HOOKE_OK;
-  const int32_t status = hk_factor_create(system, MOST_NUMBERS * (system->particle_count + 1), &factor);
+  const int32_t status = hk_factor_create(system, MOST_NUMBERS * (system->particle_count + 1), 0, &factor);
   *pays = factor != NULL;
   hk_factor_destroy(factor);
   return status;

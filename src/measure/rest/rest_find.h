@@ -4,8 +4,7 @@
  * and so is short and downhill at first, and a correction of Newton's method at last; M/h^2 keeps the matrix
  * regular where nothing resists. Where the forces have an energy no step may raise it. Driven particles and
  * obstacles stay where they are at that time, and friction is left out. */
-#ifndef HOOKE_MEASURE_REST_FIND_H
-#define HOOKE_MEASURE_REST_FIND_H
+#pragma once
 
 #include "hooke/system.h"
 #include "measure/trial/budget.h"
@@ -34,5 +33,3 @@ struct hk_rest {
  * and the failures of an integrator. */
 int32_t hk_rest_find(const hooke_system *system, double t, double *q, struct hk_budget *budget,
                      struct hk_rest *rest);
-
-#endif

@@ -2,7 +2,6 @@
 #include "measure/rest/rest.h"
 #include "model/particles.h"
 
-#include <math.h>
 #include <stddef.h>
 
 static const char *status_of(const struct hk_resting *r) {

@@ -1,6 +1,5 @@
 /* The largest stable step by the spectrum, one rule a method. */
-#ifndef HOOKE_MEASURE_SPECTRUM_LIMIT_RULES_H
-#define HOOKE_MEASURE_SPECTRUM_LIMIT_RULES_H
+#pragma once
 
 #include "measure/spectrum/spectrum.h"
 
@@ -32,5 +31,3 @@ double hk_limit_of_mode_in(const hooke_system *system, const char *method, doubl
 /* Distance from 0 up to which the Runge-Kutta method of degree 1, 2 or 4 is stable on the ray to (real,
  * imaginary), real <= 0 (stable_ray.c). */
 double hk_ray_reach(int32_t degree, double real, double imaginary);
-
-#endif

@@ -13,8 +13,7 @@
  * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned.
  * Rigid bodies that move are rigid bodies, their geometric stiffness (rigid.h) a part of the force that
  * balances. */
-#ifndef HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
-#define HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
+#pragma once
 
 #include "measure/spectrum/linearised.h"
 
@@ -39,5 +38,3 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
 /* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: projects any x onto motion that springs and
  * drag act on. */
 void hk_twin_push(struct hk_twin *twin, const double *x, double *out);
-
-#endif

@@ -10,8 +10,7 @@
  * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is constrained.
  * Eigenvalues come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses
  * overflow: K is divided by rate^2, C by rate. */
-#ifndef HOOKE_MEASURE_SPECTRUM_LINEARISED_H
-#define HOOKE_MEASURE_SPECTRUM_LINEARISED_H
+#pragma once
 
 #include "kernel/spring/tangent_loops.h"
 #include "measure/spectrum/rigid.h"
@@ -92,5 +91,3 @@ void hk_linearised_project(const struct hk_linearised *linearised, double *x);
  * long), then those of bodies (rigid.h). */
 void hk_linearised_pack(const struct hk_linearised *linearised, const double *x, double *unknown);
 void hk_linearised_unpack(const struct hk_linearised *linearised, const double *unknown, double *x);
-
-#endif

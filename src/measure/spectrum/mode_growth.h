@@ -1,6 +1,5 @@
 /* How one step of a method multiplies the amplitude of a single mode. */
-#ifndef HOOKE_MEASURE_SPECTRUM_MODE_GROWTH_H
-#define HOOKE_MEASURE_SPECTRUM_MODE_GROWTH_H
+#pragma once
 
 #include "integrate/method.h"
 
@@ -11,5 +10,3 @@ double hk_mode_growth(const struct hk_stability *stability, double h, double fre
 /* The same of a motion exp(lambda t), lambda = real + i imaginary [1/s], for methods whose step is a
  * polynomial of h lambda; NaN for others. */
 double hk_eigenvalue_growth(const struct hk_stability *stability, double h, double real, double imaginary);
-
-#endif

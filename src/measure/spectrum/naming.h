@@ -1,7 +1,6 @@
 /* Elements in words: "spring 12 (particles 3 and 7, group hem)", "the bending of particles 1, 2 and 3 (group
  * beam.bending)". */
-#ifndef HOOKE_MEASURE_SPECTRUM_NAMING_H
-#define HOOKE_MEASURE_SPECTRUM_NAMING_H
+#pragma once
 
 #include "model/force/force.h"
 
@@ -31,5 +30,3 @@ int64_t hk_naming_heaviest(const hooke_system *system, const struct hk_force_row
 /* The same over all forces, in words ("" if there is none); returns the spring, -1 if it is none. */
 int64_t hk_naming_heaviest_words(const hooke_system *system, int64_t particle, double h,
                                  char text[HOOKE_NAMING_SIZE]);
-
-#endif

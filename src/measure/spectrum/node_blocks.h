@@ -4,8 +4,7 @@
  * with w_j = |g_j| times the sum of |g| over the particles of the element that are free, from
  *   (a + b + c)^2 <= (a^2/p + b^2/q + c^2/r) (p + q + r):
  * 2 for a spring, and 1 where its other end is constrained; 4, 8, 4 for a triple. */
-#ifndef HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
-#define HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
+#pragma once
 
 #include "measure/trial/budget.h"
 #include "model/particles.h"
@@ -38,5 +37,3 @@ struct hk_node_limit {
  * elimination a particle. */
 double hk_node_blocks_reach(const struct hk_node_blocks *blocks, struct hk_node_limit limit, double most,
                             int64_t *particle);
-
-#endif

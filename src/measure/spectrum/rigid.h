@@ -5,8 +5,7 @@
  * the geometric stiffness (model/body_tangent.h): of gravity and tensions, callbacks left out. It is made
  * symmetric, which it is by itself in equilibrium, and what would tip a body over, like the transverse
  * stiffness of compressed springs, counts as 0. Components are `stride` apart. */
-#ifndef HOOKE_MEASURE_SPECTRUM_RIGID_H
-#define HOOKE_MEASURE_SPECTRUM_RIGID_H
+#pragma once
 
 #include "model/coordinates/body_tangent.h"
 
@@ -38,5 +37,3 @@ double hk_rigid_spin(const struct hk_rigid *rigid, const double *v);
 int64_t hk_rigid_unknowns(const struct hk_rigid *rigid);
 void hk_rigid_pack(const struct hk_rigid *rigid, const double *const x[3], int64_t stride, double *unknown);
 void hk_rigid_unpack(const struct hk_rigid *rigid, const double *unknown, double *const x[3], int64_t stride);
-
-#endif

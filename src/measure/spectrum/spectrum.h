@@ -1,8 +1,7 @@
 /* Eigenvalues lambda of lambda^2 M + lambda C + K: all of them for small scenes, those of the fastest modes
  * for large ones. Numbers in the units of the linearised system (rate = 1); modes are displacements, x, y and
  * z apart (3n). */
-#ifndef HOOKE_MEASURE_SPECTRUM_SPECTRUM_H
-#define HOOKE_MEASURE_SPECTRUM_SPECTRUM_H
+#pragma once
 
 #include "measure/spectrum/linearised.h"
 
@@ -42,5 +41,3 @@ void hk_spectrum_release(struct hk_spectrum *spectrum);
 
 /* The roots of lambda^2 + c lambda + k, the larger one first, the imaginary part of conjugates positive. */
 void hk_spectrum_roots(double c, double k, double real[2], double imaginary[2]);
-
-#endif

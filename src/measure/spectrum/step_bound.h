@@ -1,6 +1,5 @@
 /* Safety of a step, for frequent checks: one pass over the springs and no eigenvalues. */
-#ifndef HOOKE_MEASURE_SPECTRUM_STEP_BOUND_H
-#define HOOKE_MEASURE_SPECTRUM_STEP_BOUND_H
+#pragma once
 
 #include "measure/spectrum/node_blocks.h"
 
@@ -15,5 +14,3 @@ double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method,
 /* hooke_step_bound() where velocities are known. */
 int32_t hk_step_bound_at(const hooke_system *system, const char *method, const double *q, const double *v,
                          double *bound);
-
-#endif

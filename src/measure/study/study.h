@@ -1,7 +1,6 @@
 /* The trade of error against cost: each method over a ladder of steps or tolerances, against a reference that
  * checks itself. */
-#ifndef HOOKE_MEASURE_STUDY_STUDY_H
-#define HOOKE_MEASURE_STUDY_STUDY_H
+#pragma once
 
 #include "measure/measurement.h"
 #include "measure/trial/method_list.h"
@@ -168,5 +167,3 @@ extern const struct hk_table hk_study_tables[];
 void hk_study_claim(const hooke_measurement *measurement, struct hk_claims *claims);
 
 extern const struct hk_measurement_kind hk_study_kind;
-
-#endif

@@ -7,7 +7,6 @@
 #include "model/particles.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { SETTING_SIZE = 96 };
 

@@ -8,8 +8,7 @@
  * with E of hooke_system_energy(), which excludes constrained particles. The integrals are sums over steps by
  * the trapezoidal rule; the residual E(t) - E(a) - W + D scales with the error of the method and of that
  * rule. */
-#ifndef HOOKE_MEASURE_TRIAL_BALANCE_H
-#define HOOKE_MEASURE_TRIAL_BALANCE_H
+#pragma once
 
 #include "hooke/state.h"
 
@@ -40,5 +39,3 @@ double hk_balance_floor(const struct hk_balance *balance);
  * bound. */
 int32_t hk_balance_holds(int64_t count, const double *coarse, const double *fine, double floor,
                          double *largest, double *bound);
-
-#endif

@@ -1,7 +1,6 @@
 /* The search for the smallest step that fails: a bracket about a guess, widened until both sides are known,
  * then halved. */
-#ifndef HOOKE_MEASURE_TRIAL_BRACKET_H
-#define HOOKE_MEASURE_TRIAL_BRACKET_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,5 +25,3 @@ struct hk_bracket {
 /* Narrows the bracket from `guess` on until it is as wide as half of the accuracy, or a side lies beyond
  * `least` or `most`, or a trial has no answer. */
 int32_t hk_bracket_search(struct hk_bracket *bracket, double guess);
-
-#endif

@@ -1,7 +1,6 @@
 /* Limit of a measurement, on its time or on its counted work (counted_work), which is the same on any
  * machine, however busy; or until the caller asks to stop. */
-#ifndef HOOKE_MEASURE_TRIAL_BUDGET_H
-#define HOOKE_MEASURE_TRIAL_BUDGET_H
+#pragma once
 
 #include "hooke/measurement.h"
 
@@ -43,5 +42,3 @@ double hk_budget_left(const struct hk_budget *budget);
  * it was spent. */
 void hk_budget_lend(struct hk_budget *budget, double fraction);
 int32_t hk_budget_take_back(struct hk_budget *budget);
-
-#endif

@@ -1,6 +1,5 @@
 /* Lists of methods in an option: names separated by commas or spaces. */
-#ifndef HOOKE_MEASURE_TRIAL_METHOD_LIST_H
-#define HOOKE_MEASURE_TRIAL_METHOD_LIST_H
+#pragma once
 
 #include "hooke/integrator.h"
 
@@ -12,5 +11,3 @@ enum { HOOKE_LISTED_METHODS = 32 };
 int32_t hk_method_list_read(const hooke_system *system, const char *names,
                             int32_t (*suits)(const char *method), const char *method[HOOKE_LISTED_METHODS],
                             int32_t *count);
-
-#endif

@@ -1,8 +1,7 @@
 /* A reference that checks itself: two integrators that share only the force, at tightening tolerances, until
  * they agree; without SUNDIALS, two runs by rk4, one in half the steps of the other. If they part for good
  * (chaos), only the time until which they agree can be judged. */
-#ifndef HOOKE_MEASURE_TRIAL_REFERENCE_H
-#define HOOKE_MEASURE_TRIAL_REFERENCE_H
+#pragma once
 
 #include "measure/trial/trial.h"
 
@@ -80,5 +79,3 @@ double hk_reference_setting(const struct hk_reference *reference, const char *me
  * in either case. */
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
                              const struct hk_reference *reference, hooke_options **out);
-
-#endif

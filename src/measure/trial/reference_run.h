@@ -1,6 +1,5 @@
 /* The runs of a reference: tight ones, recorded as frames or judged by frames, each until a deadline. */
-#ifndef HOOKE_MEASURE_TRIAL_REFERENCE_RUN_H
-#define HOOKE_MEASURE_TRIAL_REFERENCE_RUN_H
+#pragma once
 
 #include "measure/trial/reference.h"
 
@@ -52,5 +51,3 @@ int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_re
 /* Largest growth of a small displacement of the start, over the frames (reference_growth.c). */
 int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_reference *reference,
                                     struct hk_trial *trial);
-
-#endif

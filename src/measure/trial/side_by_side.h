@@ -1,7 +1,6 @@
 /* Trials side by side: independent runs of a measurement, each with a result of its own, on several threads.
  * What a trial finds does not depend on the others, so no number depends on the threads. */
-#ifndef HOOKE_MEASURE_TRIAL_SIDE_BY_SIDE_H
-#define HOOKE_MEASURE_TRIAL_SIDE_BY_SIDE_H
+#pragma once
 
 #include "measure/measurement.h"
 
@@ -26,5 +25,3 @@ int32_t hk_run_side_by_side(const hooke_measurement *measurement, int32_t alone,
 
 /* Progress of a trial, whose context is the turn: non-zero if it is to end. */
 int32_t hk_turn_tell(double fraction, void *turn);
-
-#endif

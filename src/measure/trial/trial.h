@@ -1,7 +1,6 @@
 /* A trial: one method with one step or tolerance, run once and judged against the frames of a reference.
  * Error and cost come from the same run. */
-#ifndef HOOKE_MEASURE_TRIAL_TRIAL_H
-#define HOOKE_MEASURE_TRIAL_TRIAL_H
+#pragma once
 
 #include "hooke/measurement.h"
 #include "integrate/integrator.h"
@@ -125,5 +124,3 @@ int32_t hk_step_times(hooke_options *run, double *duration, double *every);
 
 /* 1 if a quotient is a whole number >= 1, to 1e-9 relative. */
 int32_t hk_step_is_whole(double quotient);
-
-#endif

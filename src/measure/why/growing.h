@@ -2,8 +2,7 @@
  * positions by products only (the power method): K and C as in linearised.h, computed from the springs
  * directly, in the memory of two vectors. Every iterate gives a lower bound of that eigenvalue, so that a
  * step is proven to be above its limit long before the limit is known. */
-#ifndef HOOKE_MEASURE_WHY_GROWING_H
-#define HOOKE_MEASURE_WHY_GROWING_H
+#pragma once
 
 #include "measure/trial/budget.h"
 #include "model/particles.h"
@@ -37,5 +36,3 @@ double hk_growing_turn(struct hk_growing *growing, const double *q, double a, do
  * step of h over the root of f to be too large, too. */
 int32_t hk_growing_rule(const hooke_system *system, const char *method, double h, double *a, double *b,
                         double *most);
-
-#endif

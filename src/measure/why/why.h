@@ -1,6 +1,5 @@
 /* A diagnosis: repeats the last steps under observation, finds the cause, and tries suggestions. */
-#ifndef HOOKE_MEASURE_WHY_WHY_H
-#define HOOKE_MEASURE_WHY_WHY_H
+#pragma once
 
 #include "integrate/integrator.h"
 #include "measure/limit/limit_participation.h"
@@ -133,5 +132,3 @@ extern const struct hk_measurement_kind hk_why_kind;
 /* The largest round step (1, 2 or 5 times a power of ten, else an integer fraction) up to `limit` of which
  * `every` (NaN: free) and `duration` are whole multiples; `step` (NaN: none) is one that fits. */
 double hk_handy_step(double step, double limit, double every, double duration);
-
-#endif

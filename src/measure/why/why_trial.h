@@ -1,6 +1,5 @@
 /* Trials of suggestions: a change of the run is suggested only if a run with it got past the failure. */
-#ifndef HOOKE_MEASURE_WHY_WHY_TRIAL_H
-#define HOOKE_MEASURE_WHY_WHY_TRIAL_H
+#pragma once
 
 #include "measure/why/why.h"
 
@@ -57,5 +56,3 @@ void hk_trials_try_damping(struct hk_trials *trials);
 int32_t hk_trials_offer(struct hk_trials *trials, struct hk_change *change);
 /* Adds it without a trial. */
 void hk_trials_take(struct hk_trials *trials, struct hk_change *change, const char *proof);
-
-#endif

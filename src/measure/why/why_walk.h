@@ -1,7 +1,6 @@
 /* The steps of a run that blew up once more, to be shown: those before the trouble, and those after it, which
  * no check ends. */
-#ifndef HOOKE_MEASURE_WHY_WHY_WALK_H
-#define HOOKE_MEASURE_WHY_WHY_WALK_H
+#pragma once
 
 #include "integrate/integrator.h"
 
@@ -24,5 +23,3 @@ typedef int32_t hk_why_see(int64_t k, const hooke_state *state, void *ctx);
  * hooke_integrator_create(), of callbacks and of what `see` returns below 0. */
 int32_t hk_why_walk(const hooke_system *system, const struct hk_why_start *start, const hooke_options *run,
                     int64_t count, const double *time, hk_why_see *see, void *ctx);
-
-#endif

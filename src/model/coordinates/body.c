@@ -403,6 +403,11 @@ static const int32_t *particles_of(const void *thing, int64_t *number) {
   return body->particle;
 }
 
+static int64_t count_acted(const hooke_system *system, const void *thing) {
+  const struct hk_body *body = thing;
+  return system->force ? body->count : body->acted_count;
+}
+
 const struct hk_coordinates_row hk_coordinates_of_bodies = {.name = "bodies",
                                                             .numbers = HOOKE_BODY_NUMBERS,
                                                             .solved = 1,
@@ -419,6 +424,7 @@ const struct hk_coordinates_row hk_coordinates_of_bodies = {.name = "bodies",
                                                             .copy_one = copy_one,
                                                             .check_state = check_state,
                                                             .particles = particles_of,
+                                                            .acted = count_acted,
                                                             .read = hk_body_read,
                                                             .write = hk_body_write,
                                                             .push = hk_body_push,

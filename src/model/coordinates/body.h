@@ -2,8 +2,7 @@
  * point, a unit quaternion, the velocity of the point, and the angular momentum about it. The point is the
  * centre of mass or, if particles are pinned, the first pinned one. They are a function of the rows of three
  * of its particles (docs/design.md), so that a state is (t, q, v) with bodies as without. */
-#ifndef HOOKE_MODEL_COORDINATES_BODY_H
-#define HOOKE_MODEL_COORDINATES_BODY_H
+#pragma once
 
 #include "model/coordinates/coordinates.h"
 
@@ -99,5 +98,3 @@ void hk_body_diagonalise(double m[3][3], double axis[3][3]);
  * their cross product. Of points in a line (rank 1) the second is perpendicular in some way, and rank 0 has
  * the axes of space. */
 void hk_body_triad(int32_t rank, const double ab[3], const double ac[3], double e[3][3]);
-
-#endif

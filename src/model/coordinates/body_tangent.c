@@ -1,7 +1,6 @@
 #include "model/coordinates/body_tangent.h"
 
 #include "core/memory.h"
-#include "model/coordinates/body.h"
 #include "model/vector3.h"
 
 #include <math.h>

@@ -3,8 +3,7 @@
  * body's free particles by move + turn x arm (spread), and forces on these act as force and torque (gather).
  * Where forces f act at the state, a turn takes their arms along: the torque changes by sum (turn x arm) x f
  * = -geometric turn, too. Components are `stride` apart. */
-#ifndef HOOKE_MODEL_COORDINATES_BODY_TANGENT_H
-#define HOOKE_MODEL_COORDINATES_BODY_TANGENT_H
+#pragma once
 
 #include "model/coordinates/body.h"
 #include "model/particles.h"
@@ -56,5 +55,3 @@ int32_t hk_body_has(const void *body, int k);
 double hk_body_reach(const struct hk_body_tangent *tangent, int64_t particle);
 /* The rows of `axis` are the body's axes in space over the roots of their inertia, 0 where that is 0. */
 void hk_body_unit_axes(const struct hk_body_tangent *tangent, double axis[3][3]);
-
-#endif

@@ -2,8 +2,7 @@
  * own in place of each by itself. A new kind is one file and one row. A state is (t, q, v) with such things
  * as without: their own coordinates are a function of the rows of their particles. Components of x, y and z
  * are `stride` apart. */
-#ifndef HOOKE_MODEL_COORDINATES_COORDINATES_H
-#define HOOKE_MODEL_COORDINATES_COORDINATES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -41,6 +40,7 @@ struct hk_coordinates_row {
    * the working copy, which `clear` makes 0 where any may act; `own` += h push; free motion over h; d own/dt;
    * accelerations of its particles, 3 each of all. */
   const int32_t *(*particles)(const void *thing, int64_t *count);
+  int64_t (*acted)(const struct hooke_system *system, const void *thing); /* particles that `push` reads */
   void (*read)(const void *thing, const double *const q[3], const double *const v[3], int64_t stride,
                double *own);
   void (*write)(const struct hooke_system *system, const void *thing, const double *own, double *const q[3],
@@ -107,5 +107,3 @@ void hk_movers_slope(const struct hooke_system *system, const double *own, const
 void hk_movers_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out);
 /* Writes the rows (3n) of the particles of all movers anew, from their own coordinates. */
 void hk_movers_renew(const struct hooke_system *system, double *q, double *v);
-
-#endif

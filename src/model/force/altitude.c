@@ -6,7 +6,6 @@
 #include "model/system.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static const struct hk_option_row rows[] = {

@@ -1,6 +1,5 @@
 /* Altitude springs: their tetrahedra, in one array from commit on. */
-#ifndef HOOKE_MODEL_FORCE_ALTITUDE_H
-#define HOOKE_MODEL_FORCE_ALTITUDE_H
+#pragma once
 
 #include "core/table/option.h"
 #include "kernel/altitude_loops.h"
@@ -35,5 +34,3 @@ int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrah
  * else as kind[k % 2]. */
 int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int64_t count, int64_t first,
                                  const struct hk_tetrahedron kind[2]);
-
-#endif

@@ -1,6 +1,5 @@
 /* Bending: triples, and the runs that commit sorts their groups into. */
-#ifndef HOOKE_MODEL_FORCE_BENDING_H
-#define HOOKE_MODEL_FORCE_BENDING_H
+#pragma once
 
 #include "hooke/system.h"
 #include "kernel/bending_loops.h"
@@ -49,5 +48,3 @@ static inline int hk_next_triple(struct hk_triples *at, struct hk_triple *triple
 /* For builders, as hk_system_add_springs(). */
 int32_t hk_system_add_bending(hooke_system *system, const struct hk_addition *added,
                               int64_t coefficient_count, const double *coefficient);
-
-#endif

@@ -1,6 +1,5 @@
 /* Curves: tensions of springs that are no straight line, by tables or by three coefficients. */
-#ifndef HOOKE_MODEL_FORCE_CURVE_H
-#define HOOKE_MODEL_FORCE_CURVE_H
+#pragma once
 
 #include "core/table/option.h"
 
@@ -83,5 +82,3 @@ double hk_curve_stiffest(const struct hk_curve *curve, double rest_length);
 
 /* Adds everything to a check value. */
 void hk_curve_check(const struct hk_curve *curve, uint32_t *value);
-
-#endif

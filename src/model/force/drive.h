@@ -1,6 +1,5 @@
 /* Particles with prescribed motion. */
-#ifndef HOOKE_MODEL_FORCE_DRIVE_H
-#define HOOKE_MODEL_FORCE_DRIVE_H
+#pragma once
 
 #include "hooke/system.h"
 #include "model/course.h"
@@ -24,5 +23,3 @@ void hk_support_reaction(const hooke_system *system, int64_t particle, const dou
                          double reaction[3]);
 
 void hk_drive_release(struct hk_drive_group *drive);
-
-#endif

@@ -2,7 +2,6 @@
 
 #include "model/force/force.h"
 
-#include <math.h>
 #include <stddef.h>
 #include <string.h>
 

@@ -6,8 +6,7 @@
  * triple of bending g = (1, -2, 1) and c in all directions; an altitude spring its four weights, without the
  * effect of its tension; drag g = (1) and c in all directions. The unsymmetric derivative from the rotation
  * of a damped spring is left out. */
-#ifndef HOOKE_MODEL_FORCE_ELEMENT_H
-#define HOOKE_MODEL_FORCE_ELEMENT_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -125,5 +124,3 @@ static inline double hk_element_energy(const struct hk_element *e, double along,
   return across * ((sum[0] * sum[0] + sum[1] * sum[1]) + sum[2] * sum[2]) +
          (along - across) * stretch * stretch;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Drag of a fluid on the segments of ropes and the triangles of surfaces. */
-#ifndef HOOKE_MODEL_FORCE_FLUID_H
-#define HOOKE_MODEL_FORCE_FLUID_H
+#pragma once
 
 #include "model/group.h"
 
@@ -9,5 +8,3 @@
  * -N normal |w.n| (w.n) n [kg/m^2]. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_system_add_fluid(struct hooke_system *system, const struct hk_addition *added, double normal,
                             double tangential);
-
-#endif

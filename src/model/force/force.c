@@ -4,7 +4,6 @@
 #include "core/memory.h"
 #include "core/status.h"
 
-#include <stddef.h>
 #include <string.h>
 
 /* ---- forces at a point, for callers with their own arrays ---- */

@@ -1,6 +1,5 @@
 /* The table of forces: one row each. A new force is one file (force_*.c) and a name below. */
-#ifndef HOOKE_MODEL_FORCE_FORCE_H
-#define HOOKE_MODEL_FORCE_FORCE_H
+#pragma once
 
 #include "model/force/element.h"
 #include "model/group.h"
@@ -160,5 +159,3 @@ const struct hk_force_row *hk_force_table(int32_t k);
 /* Row of that name; NULL if there is none. */
 const struct hk_force_row *hk_force_find(const char *name);
 int32_t hk_force_number(const struct hk_force_row *row);
-
-#endif

@@ -12,7 +12,6 @@
 #include "model/vector3.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 /* ---- one altitude spring ---- */

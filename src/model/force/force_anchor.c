@@ -7,7 +7,6 @@
 #include "model/check_value.h"
 #include "model/system.h"
 
-#include <stdio.h>
 #include <string.h>
 
 static const struct hk_option_row rows[] = {

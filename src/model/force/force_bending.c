@@ -7,7 +7,6 @@
 #include "model/check_value.h"
 #include "model/system.h"
 
-#include <stddef.h>
 #include <string.h>
 
 /* ---- adding a group ---- */

@@ -1,6 +1,5 @@
 /* Obstacles: planes, spheres and cylinders that push particles out along their normal (force_obstacle.c). */
-#ifndef HOOKE_MODEL_FORCE_OBSTACLE_H
-#define HOOKE_MODEL_FORCE_OBSTACLE_H
+#pragma once
 
 #include "model/course.h"
 
@@ -32,5 +31,3 @@ int64_t hk_obstacles_untouched(const struct hooke_system *system, double t, cons
 int64_t hk_obstacles_without_direction(const struct hooke_system *system, double t, const double *q);
 
 void hk_obstacles_release(struct hk_obstacles *obstacles);
-
-#endif

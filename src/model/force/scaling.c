@@ -3,10 +3,8 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "core/table/option.h"
 #include "model/force/spring.h"
 
-#include <math.h>
 #include <string.h>
 
 /* ---- options ---- */

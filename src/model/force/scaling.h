@@ -1,7 +1,6 @@
 /* Factors of springs that follow time, which their groups share: l0(t) = rest_scale l0 in every place of the
  * law, and a stiffness times stiffness_scale. */
-#ifndef HOOKE_MODEL_FORCE_SCALING_H
-#define HOOKE_MODEL_FORCE_SCALING_H
+#pragma once
 
 #include "core/table/option.h"
 #include "kernel/spring/spring_loops.h"
@@ -71,5 +70,3 @@ struct hk_run_walk {
 };
 void hk_begin_runs(const struct hk_springs *springs, double t, struct hk_run_walk *walk);
 const struct hk_run *hk_next_run(struct hk_run_walk *walk);
-
-#endif

@@ -1,6 +1,5 @@
 /* Springs, and the runs that commit sorts their groups into. */
-#ifndef HOOKE_MODEL_FORCE_SPRING_H
-#define HOOKE_MODEL_FORCE_SPRING_H
+#pragma once
 
 #include "hooke/system.h"
 #include "kernel/spring/spring_body.h"
@@ -170,5 +169,3 @@ int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
 struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number, double t);
 /* The geometric mean of kappa, where it is above 0, of springs from `first` on; 1 without any. */
 double hk_springs_mean(const struct hk_springs *springs, int64_t first, int64_t count, double t);
-
-#endif

@@ -6,8 +6,7 @@
  * Their order, which is backwards in the second sweep of a step: damped springs by colour, where the colour
  * of a spring is the lowest that no damped spring before it has at either end; then the other forces in the
  * order of the sum, with their elements in ascending number; then drag. */
-#ifndef HOOKE_MODEL_SUM_DAMPERS_H
-#define HOOKE_MODEL_SUM_DAMPERS_H
+#pragma once
 
 #include "model/sum/motion.h"
 
@@ -21,5 +20,3 @@ int64_t hk_dampers_memory(const struct hk_dampers *dampers);
 /* Changes the velocities of `motion`, whose particles have the caller's numbers, by the dampers of time t and
  * in its wind. */
 void hk_dampers_sweep(struct hk_dampers *dampers, struct hk_motion *motion, double t, int32_t backwards);
-
-#endif

@@ -1,8 +1,7 @@
 /* The working copy of a state for computing forces: x, y and z apart, so that loops load whole vectors.
  * Particles have the caller's numbers or, for a method that moves them tile by tile as soon as the springs of
  * a tile are summed, the working numbers of the system's tiled batch. */
-#ifndef HOOKE_MODEL_SUM_MOTION_H
-#define HOOKE_MODEL_SUM_MOTION_H
+#pragma once
 
 #include "core/thread_pool.h"
 #include "kernel/move_loops.h"
@@ -102,5 +101,3 @@ int32_t hk_motion_drive(const hooke_system *system, struct hk_motion *motion, do
 /* Restores pinned particles to their loaded positions, at rest, and driven ones to the last result of the
  * drives. */
 void hk_motion_hold(const hooke_system *system, struct hk_motion *motion);
-
-#endif

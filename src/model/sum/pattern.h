@@ -1,7 +1,6 @@
 /* The sparsity pattern of the 3x3 blocks of the derivative of the forces: particle pairs joined by an
  * element, and the diagonal. */
-#ifndef HOOKE_MODEL_SUM_PATTERN_H
-#define HOOKE_MODEL_SUM_PATTERN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -20,5 +19,3 @@ int64_t hk_system_block_count(const struct hooke_system *system);
 
 /* Index of the block (row, column), which must exist. */
 int64_t hk_pattern_block(const struct hk_pattern *pattern, int64_t row, int64_t column);
-
-#endif

@@ -1,7 +1,6 @@
 /* Sorts members of groups into runs by their numbers: consecutive members whose particles advance by one have
  * a constant offset and need no index; numbers equal to the bit along a run need no arrays. */
-#ifndef HOOKE_MODEL_SUM_RUNS_H
-#define HOOKE_MODEL_SUM_RUNS_H
+#pragma once
 
 #include "hooke/system.h"
 #include "model/group.h"
@@ -34,5 +33,3 @@ int32_t hk_runs_commit(hooke_system *system, const struct hk_force_row *force, c
 /* The run of member `number`: the last of `count` runs, `size` bytes apart, that begins with it or before it.
  * `first`: the member of that name of the first run; 0 without any. */
 int64_t hk_runs_find(const int64_t *first, int64_t count, size_t size, int64_t number);
-
-#endif

@@ -1,8 +1,7 @@
 /* Iteration over all springs of a system in batches, in memory order: by number, or by the tiles of a tiled
  * batch, whose springs are in no order. For sums and counts that treat all springs alike; the order is fixed
  * by the system, so that sums always have the same bits. */
-#ifndef HOOKE_MODEL_SUM_SPRING_BATCH_H
-#define HOOKE_MODEL_SUM_SPRING_BATCH_H
+#pragma once
 
 #include "kernel/energy_loops.h"
 #include "model/force/spring.h"
@@ -49,5 +48,3 @@ static inline struct hk_some_springs hk_batch_springs(const struct hk_spring_bat
                                   .gamma = batch->gamma,
                                   .rest_length = batch->rest_length};
 }
-
-#endif

@@ -6,8 +6,7 @@
  * that sums have the bits of the plain order. Triples of bending of one offset form batches likewise, in the
  * order of which those of every particle ascend. The pass goes over the particles once; see
  * kernel/spring/strided_loops.h. */
-#ifndef HOOKE_MODEL_SUM_STRIDED_H
-#define HOOKE_MODEL_SUM_STRIDED_H
+#pragma once
 
 #include "kernel/spring/strided_loops.h"
 #include "model/force/bending.h"
@@ -63,5 +62,3 @@ struct hooke_system;
  * but no direction. */
 int64_t hk_strided_batches_pass(const struct hooke_system *system, struct hk_motion *motion, double t,
                                 const struct hk_move *move);
-
-#endif

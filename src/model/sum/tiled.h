@@ -8,8 +8,7 @@
  * tile are not read after that, so they may move at once. Workers of a thread pool have ranges of tiles:
  * before anything moves they also compute the springs of earlier ranges that end in theirs, and save the data
  * that they need of later ones. */
-#ifndef HOOKE_MODEL_SUM_TILED_H
-#define HOOKE_MODEL_SUM_TILED_H
+#pragma once
 
 #include "kernel/spring/tiled_loops.h"
 #include "model/sum/strided.h"
@@ -104,5 +103,3 @@ struct hk_motion;
  * time, each in ascending order. */
 int64_t hk_tiled_pass(const struct hk_tiled *tiled, struct hk_motion *motion, double t, hk_tile *tile,
                       void *ctx);
-
-#endif

@@ -1,7 +1,6 @@
 /* A variant: a system rebuilt from another with some ingredients left out, with other numbers, or parts at
  * another resolution. */
-#ifndef HOOKE_MODEL_VARIANT_VARIANT_H
-#define HOOKE_MODEL_VARIANT_VARIANT_H
+#pragma once
 
 #include "model/force/force.h"
 #include "model/part_record.h"
@@ -108,5 +107,3 @@ int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct 
                              int64_t first);
 /* HOOKE_UNSUITED if particles are renumbered, for a force (`what`) that knows them by their numbers. */
 int32_t hk_variant_require_numbers(const struct hk_variant_maker *maker, const char *what);
-
-#endif

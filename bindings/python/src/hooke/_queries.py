@@ -323,5 +323,5 @@ def build_facts() -> dict[str, str]:
 
 
 _FACTS = (
-    "sundials", "cholmod", "lapack", "gsl", "hdf5", "chartjs", "threejs", "instructions", "licence",
+    "sundials", "cholmod", "blas", "lapack", "gsl", "hdf5", "chartjs", "threejs", "instructions", "licence",
 )

@@ -215,8 +215,8 @@ function writeTable(id, rows, columns, classOf = () => "") {
   at(id).append(head, body);
 }
 
-const FACTS = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", hdf5: "HDF5",
-  chartjs: "Chart.js", threejs: "three.js" };
+const FACTS = { sundials: "SUNDIALS", cholmod: "CHOLMOD", blas: "BLAS", lapack: "LAPACK", gsl: "GSL",
+  hdf5: "HDF5", chartjs: "Chart.js", threejs: "three.js" };
 
 function writeMachine() {
   for (const [key, value] of Object.entries({ ...data.machine, ...data.versions })) fact("machine", FACTS[key] || key, value);

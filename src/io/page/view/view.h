@@ -5,8 +5,7 @@
  *   view_page.c      the page, and several as one
  *   view_bodies.c    what its scene tells it
  *   view_watched.c   quantities that are asked for */
-#ifndef HOOKE_IO_PAGE_VIEW_H
-#define HOOKE_IO_PAGE_VIEW_H
+#pragma once
 
 #include "hooke/scene.h"
 #include "hooke/trajectory.h"
@@ -102,5 +101,3 @@ void hk_view_add_springs(struct hk_text *data, const struct hk_view *view, const
 
 /* Writes it, with the label "title" as its heading, or that of all beside one another. */
 int32_t hk_view_write(const hooke_measurement *measurement, const char *path);
-
-#endif

@@ -16,10 +16,9 @@
 static void add_grid(struct hk_text *data, const struct hk_part_record *part) {
   int64_t cells[3] = {0, 0, 0};
   const int32_t axes = part->grid->cells(part->options, cells);
-  hk_text_open(data, "size", '[');
   for (int32_t k = 0; k < axes; k++)
-    hk_text_number(data, NULL, (double)(cells[k] + 1));
-  hk_text_close(data, ']');
+    cells[k]++; /* particles */
+  hk_text_wholes(data, "size", axes, cells);
 }
 
 static void add_triangles(struct hk_text *data, const struct hk_part_record *part) {
@@ -50,11 +49,6 @@ void hk_view_add_bodies(struct hk_text *data, const hooke_system *system) {
 
 /* ---- obstacles ---- */
 
-static void add_numbers(struct hk_text *data, const double *number, int count) {
-  for (int k = 0; k < count; k++)
-    hk_text_number(data, NULL, number[k]);
-}
-
 /* One that stays has one point. */
 static void add_obstacle(struct hk_text *data, const struct hk_view *view, const hooke_system *system,
                          int64_t number) {
@@ -63,12 +57,11 @@ static void add_obstacle(struct hk_text *data, const struct hk_view *view, const
   hk_text_open(data, "point", '[');
   for (int64_t k = 0; k < points; k++) {
     hooke_system_obstacle_place(system, number, view->record->time[view->frame[k]], place);
-    add_numbers(data, place, 3);
+    for (int axis = 0; axis < 3; axis++)
+      hk_text_number(data, NULL, place[axis]);
   }
   hk_text_close(data, ']');
-  hk_text_open(data, "direction", '[');
-  add_numbers(data, place + 3, 3);
-  hk_text_close(data, ']');
+  hk_text_numbers(data, "direction", 3, place + 3);
   hk_text_number(data, "radius", place[6]);
 }
 

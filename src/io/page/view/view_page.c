@@ -22,7 +22,7 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, char *co
   const char *path = hk_record_path(view->record), *title = label[HOOKE_LABEL_TITLE];
   const char *name = label[HOOKE_LABEL_SCENE] ? label[HOOKE_LABEL_SCENE] : path,
              *slash = hk_os_last_slash(name);
-  const double *gravity = NULL;
+  const double none[3] = {0.0, 0.0, 0.0}, *gravity = none;
   int32_t status =
       hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, NULL, &scene) : HOOKE_BAD_VALUE;
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
@@ -38,10 +38,7 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, char *co
   hk_text_word(data, "title", title ? title : name);
   hk_text_word(data, "file", name);
   hk_text_word(data, "why", label[HOOKE_LABEL_COMMAND]);
-  hk_text_open(data, "gravity", '[');
-  for (int k = 0; k < 3; k++)
-    hk_text_number(data, NULL, gravity ? gravity[k] : 0.0);
-  hk_text_close(data, ']');
+  hk_text_numbers(data, "gravity", 3, gravity);
   hooke_scene_destroy(scene);
 }
 
@@ -59,13 +56,6 @@ static void add_run(struct hk_text *data, const struct hk_view *view) {
   }
 }
 
-static void add_numbers(struct hk_text *data, const char *key, int64_t count, const int64_t *number) {
-  hk_text_open(data, key, '[');
-  for (int64_t k = 0; k < count; k++)
-    hk_text_number(data, NULL, (double)number[k]);
-  hk_text_close(data, ']');
-}
-
 static void add_counts(struct hk_text *data, const struct hk_view *view) {
   hk_text_number(data, "loose_there", (double)view->loose_there);
   hk_text_number(data, "loose_stride", (double)view->loose_stride);
@@ -73,8 +63,9 @@ static void add_counts(struct hk_text *data, const struct hk_view *view) {
   hk_text_number(data, "time_good",
                  view->good_frames > 0 ? view->record->time[view->good_frames - 1] : (double)NAN);
   hk_text_flag(data, "by_first_frame", view->by_first_frame);
-  add_numbers(data, "frame", view->frames, view->frame);
-  if (view->particles < view->particles_there) add_numbers(data, "particle", view->particles, view->particle);
+  hk_text_wholes(data, "frame", view->frames, view->frame);
+  if (view->particles < view->particles_there)
+    hk_text_wholes(data, "particle", view->particles, view->particle);
 }
 
 static void add_column(struct hk_text *data, const struct hk_view *view, const char *key,

@@ -5,8 +5,6 @@
 #include "io/trajectory/record.h"
 #include "model/state.h"
 
-#include <math.h>
-
 int32_t hk_view_watch(struct hk_view *view) {
   const char *text = hooke_options_text(view->options, "watch"), *path = hk_record_path(view->record);
   if (text[0] == '\0') return HOOKE_OK;
@@ -35,14 +33,10 @@ int32_t hk_view_find_watched(struct hk_view *view) {
 void hk_view_add_watched(struct hk_text *data, const struct hk_view *view) {
   hk_text_open(data, "watched", '[');
   for (int64_t k = 0; k < view->watched.count; k++) {
-    const double *value = hk_watched_series_of(&view->course, k);
     hk_text_open(data, NULL, '{');
     hk_text_word(data, "name", view->watched.item[k].text);
     hk_text_word(data, "unit", hk_watched_unit(&view->watched.item[k]));
-    hk_text_open(data, "values", '[');
-    for (int64_t f = 0; f < view->frames; f++)
-      hk_text_number(data, NULL, value[f]);
-    hk_text_close(data, ']');
+    hk_text_numbers(data, "values", view->frames, hk_watched_series_of(&view->course, k));
     hk_text_close(data, '}');
   }
   hk_text_close(data, ']');

@@ -1,7 +1,6 @@
 /* Dense eigenvalues, by LAPACK; all return HOOKE_NOT_BUILT without it, and HOOKE_NO_MEMORY. Matrices are in
  * rows. */
-#ifndef HOOKE_MEASURE_SPECTRUM_DENSE_H
-#define HOOKE_MEASURE_SPECTRUM_DENSE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -28,5 +27,3 @@ struct hk_damped_modes {
 int32_t hk_dense_damped(int64_t n, const double *stiffness, const double *damping,
                         struct hk_damped_modes *modes);
 void hk_damped_modes_release(struct hk_damped_modes *modes);
-
-#endif

@@ -1,6 +1,5 @@
 /* The largest eigenvalue of M^-1 (a K + b C), and its mode. */
-#ifndef HOOKE_MEASURE_SPECTRUM_DOMINANT_MODE_H
-#define HOOKE_MEASURE_SPECTRUM_DOMINANT_MODE_H
+#pragma once
 
 #include "measure/spectrum/linearised.h"
 
@@ -18,5 +17,3 @@ int32_t hk_dominant_mode(struct hk_linearised *linearised, double a, double b, c
  * are right), for the last hk_linearised_combine(); `mode` holds the start. */
 int32_t hk_dominant_mode_lanczos(struct hk_linearised *linearised, double accuracy, double *value,
                                  double *mode);
-
-#endif

@@ -1,8 +1,7 @@
 /* clang-format off */
 #ifndef HOOKE_H
 #define HOOKE_H
-#ifndef HOOKE_BASE_H
-#define HOOKE_BASE_H
+#pragma once
 #include <stdint.h>
 #ifdef __cplusplus
 extern "C" {
@@ -442,6 +441,5 @@ HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *
                                           hooke_trajectory **trajectory);
 #ifdef __cplusplus
 }
-#endif
 #endif
 #endif

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import BadValue, NotBuilt, Trajectory
+from .._signature import takes
 from .._types import FloatArray, Path
 from ..plot import axis_order, fit, new_space
 from ..plot._pictures import FuncAnimation, Line3DCollection, LinearSegmentedColormap, writers
@@ -35,6 +36,7 @@ class Animation(FuncAnimation):
         return str(self.to_jshtml())
 
 
+@takes()
 def animate(
     trajectory: Trajectory,
     ax: Any = None,

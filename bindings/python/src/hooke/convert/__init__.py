@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import BadValue, Scene, options_of
+from .._signature import takes
 from .._types import FloatArray, Numbers
 from ..parts import Quantity
 
@@ -49,6 +50,7 @@ def _column(rows: list[dict[str, Any]], name: str, given: Any = None) -> list[An
     return values
 
 
+@takes()
 def from_networkx(
     graph: Any, pos: str | Mapping[Any, Numbers] = "pos", *, mass: Quantity | None = None,
     stiffness: Quantity | None = None, damping: Quantity = 0.0,
@@ -77,6 +79,7 @@ def from_networkx(
     return scene.springs("edges", between=np.array(ends), stiffness=strong, damping=damped, rest_length=lengths)
 
 
+@takes()
 def from_meshio(
     mesh: Any, *, mass: Quantity, stiffness: Quantity, damping: Quantity = 0.0, pinned: Numbers = ()
 ) -> Scene:
@@ -99,6 +102,7 @@ def from_meshio(
     return scene.springs("edges", between=ends, stiffness=stiffness, damping=damping) if len(ends) else scene
 
 
+@takes()
 def from_mdanalysis(universe: Any, *, stiffness: Quantity | Mapping[Any, Quantity], damping: Quantity = 0.0) -> Scene:
     """The scene of a universe at its present frame, in SI: a particle for each atom, with its mass and its velocity, and a
     spring for each bond, by metres. `stiffness` [N/m] is one for all, or a mapping from the types of bonds, such as
@@ -128,6 +132,7 @@ def from_mdanalysis(universe: Any, *, stiffness: Quantity | Mapping[Any, Quantit
     return scene.springs("bonds", between=ends, law="length", stiffness=each, damping=damping)
 
 
+@takes()
 def from_moorpy(system: Any, *, damping_ratio: float = 0.1) -> Scene:
     """The scene of a MoorPy system where it is now, with z upwards: each line as its nodes, with the stiffness EA, the mass and
     the weight in water of its type; fixed and coupled points pinned; free points with their mass, weight and force; the sea

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from .. import BadValue, Limit, Needs, Result, Scene, Study, System, Trajectory, options_of
+from .._signature import takes
 from .._types import FloatArray, IntArray, Path, Table
 from ._pictures import Line3DCollection, LogLocator, MaxNLocator, Poly3DCollection, to_rgb
 
@@ -26,6 +27,7 @@ _AXES = {"x": 0, "y": 1, "z": 2}
 _FAINT = 0.55  # of white, in the colour of what is farthest
 
 
+@takes()
 def cloth(
     source: Source,
     ax: Any = None,
@@ -99,6 +101,7 @@ def _faces(system: System) -> list[IntArray]:
     return found
 
 
+@takes()
 def over_time(
     source: Trajectory | Result | Path, watch: str | Iterable[str], ax: Axes | None = None
 ) -> Axes:
@@ -121,6 +124,7 @@ def over_time(
     return ax
 
 
+@takes()
 def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
     """Draws the root mean square error [m] of each row of a study over time, from the file that it or `hooke.compare`
     wrote; ``series="energy_drift"`` draws the size of the energy error [J] instead."""
@@ -143,6 +147,7 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
     return ax
 
 
+@takes()
 def study(
     source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | str | None = None
 ) -> Any:
@@ -174,6 +179,7 @@ def study(
     return axes
 
 
+@takes()
 def work_precision(
     source: Study | Path, ax: Axes | None = None, *, cost: str = "wall_seconds", want: float | str | None = None
 ) -> Axes:
@@ -205,6 +211,7 @@ def _finish(ax: Any, table: _Table, unit: str, want: float | str | None, lines: 
     _legend(ax, lines)
 
 
+@takes()
 def limit(found: Limit, axes: Any = None, *, step: float | str | None = None) -> Any:
     """Draws the modes of a scene times `step` [s] on the regions of stability, into two axes (made if not given), and
     returns them: the eigenvalues on the regions of the methods that have one for each eigenvalue, and frequency and
@@ -253,6 +260,7 @@ def limit(found: Limit, axes: Any = None, *, step: float | str | None = None) ->
     return axes
 
 
+@takes()
 def needs(found: Needs, ax: Axes | None = None) -> Axes:
     """Draws the change of the watched positions [m] without each ingredient, the largest on top, with the wanted
     error as a line: needed ones in one colour, others in another, those that the lean scene lacks darker."""
@@ -276,6 +284,7 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@takes()
 def flow(rate: Any, *results: Result, box: tuple[float, float, float, float], ax: Axes | None = None) -> Axes:
     """Draws the flow x' = phi(t, x) of two components at t = 0 as arrows of one length in `box`, (left, right, low, high), and
     the frames of results of it as marked lines."""
