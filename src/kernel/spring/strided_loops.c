@@ -9,9 +9,14 @@
 
 typedef hk_vector vec;
 
-/* Shapes of a pass: that of its batches, if the items of each batch are consecutive in the order of batches;
- * or any; and with triples. */
-enum { PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES, BENT = 4 * HOOKE_RUN_SHAPES };
+/* Shapes of a pass: that of its batches, or any; PAIRED if the items of each batch are consecutive in the
+ * order of batches, SORTED if all ends come before all beginnings; and with triples. */
+enum {
+  PAIRED = HOOKE_RUN_SHAPES,
+  SORTED = 2 * HOOKE_RUN_SHAPES,
+  ANY = 4 * HOOKE_RUN_SHAPES,
+  BENT = 8 * HOOKE_RUN_SHAPES
+};
 
 enum { STEP = HOOKE_WIDTH, ALL = (1 << STEP) - 1, BYTES = sizeof(double) };
 
@@ -35,7 +40,7 @@ struct item {
 struct loop {
   const struct hk_strided_pass *pass;
   struct hk_move move;
-  ptrdiff_t from, to, ring_stride;
+  ptrdiff_t from, to, ring_stride, ahead; /* ahead: of a batch that has it */
   struct batch batch[HOOKE_MOST_STRIDED];
   struct item item[2 * HOOKE_MOST_STRIDED];
 };
@@ -54,11 +59,17 @@ HOOKE_INLINE void add_ring(const char *ring, ptrdiff_t mask, ptrdiff_t at, ptrdi
     sum[a] = sum[a] + weight * load_at(x + a * stride);
 }
 
-HOOKE_INLINE void add(const struct item *item, ptrdiff_t stride, ptrdiff_t p, vec sum[3]) {
-  if (item->offset == 0)
-    add_ring(item->ring, item->mask, BYTES * p, stride, -1.0, sum);
-  else
+HOOKE_INLINE void add_items(const struct loop *loop, ptrdiff_t p, const int sorted, vec sum[3]) {
+  const ptrdiff_t count = loop->pass->count, stride = loop->ring_stride;
+  const struct item *item = loop->item, *middle = item + count, *last = middle + count;
+  for (; sorted && item < middle; item++)
     add_ring(item->ring, item->mask, BYTES * p - item->offset, stride, 1.0, sum);
+  for (; item < last; item++) {
+    if (sorted || item->offset == 0)
+      add_ring(item->ring, item->mask, BYTES * p, stride, -1.0, sum);
+    else
+      add_ring(item->ring, item->mask, BYTES * p - item->offset, stride, 1.0, sum);
+  }
 }
 
 /* The ends and then the beginnings of a batch. */
@@ -74,15 +85,19 @@ HOOKE_INLINE void add_bent(const struct batch *batch, ptrdiff_t stride, ptrdiff_
   add_ring(batch->ring, batch->mask, BYTES * p, stride, -1.0, sum);
 }
 
-/* Numbers of the springs at p, prefetched if they are stored in a row. */
-HOOKE_INLINE void find_numbers(const struct batch *batch, ptrdiff_t p, vec number[HOOKE_STRIDED_NUMBERS]) {
-  const uint32_t *unit = batch->unit + HOOKE_STRIDED_NUMBERS * ((size_t)p / HOOKE_STRIDED_UNIT);
-  const double *value = batch->value + (size_t)p % HOOKE_STRIDED_UNIT;
-  for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
-    number[n] = hk_load(value + unit[n]);
-  if (batch->ahead == 0 || (size_t)p % HOOKE_STRIDED_UNIT) return;
-  for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
-    __builtin_prefetch(value + unit[n] + batch->ahead);
+/* The row of the springs at p, from theirs on. */
+HOOKE_INLINE const double *row_at(const struct batch *batch, ptrdiff_t p) {
+  return batch->value + batch->unit[(size_t)p / HOOKE_STRIDED_UNIT] + (size_t)p % HOOKE_STRIDED_UNIT;
+}
+
+/* Prefetches rows that are stored one after the other: apart from the loop, which is slower with a branch
+ * between its loads. The empty instruction keeps the compiler from leaving the call out. */
+static __attribute__((noinline)) void fetch_rows(const struct loop *loop, ptrdiff_t p) {
+  __asm__ volatile("");
+  for (const struct batch *batch = loop->batch; batch < loop->batch + loop->pass->count; batch++) {
+    for (int n = 0; n < HOOKE_STRIDED_NUMBERS && batch->ahead > 0; n++)
+      __builtin_prefetch(row_at(batch, p) + HOOKE_STRIDED_UNIT * n + batch->ahead);
+  }
 }
 
 /* Bits of the springs at p. */
@@ -127,8 +142,8 @@ HOOKE_INLINE void fill(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p,
                        vec *shortest) {
   vec number[HOOKE_STRIDED_NUMBERS], b[3];
   for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
-    number[n] = batch->shared[n];
-  if (shape & HOOKE_RUN_MIXED) find_numbers(batch, p, number);
+    number[n] =
+        shape & HOOKE_RUN_MIXED ? hk_load(row_at(batch, p) + HOOKE_STRIDED_UNIT * n) : batch->shared[n];
   const vec r = batch->r, ir = 1.0 / r, stretch = r - number[HOOKE_STRIDED_REST];
   vec tension = number[HOOKE_STRIDED_KAPPA] * stretch;
   *shortest = hk_lesser(r + stretch, *shortest);
@@ -249,25 +264,23 @@ HOOKE_INLINE int64_t step(struct loop *loop, ptrdiff_t p, const int shape, const
   const ptrdiff_t stride = BYTES * pass->stride, ring = loop->ring_stride;
   const char *q = (const char *)(pass->q + p), *v = (const char *)(pass->v + p);
   struct batch *batch = loop->batch;
-  const struct item *item = loop->item;
   vec x[3] = {{0}}, u[3] = {{0}}, sum[3] = {{0}}, shortest = hk_all(INFINITY);
   const int whole = forces && present_at(pass->present, p - STEP) == ALL;
   int64_t lost = 0;
   if (pass->ahead > 0) fetch(q, v, stride, pass->ahead);
+  if (shape & (HOOKE_RUN_MIXED | ANY) && lengths && loop->ahead > 0 && p % HOOKE_STRIDED_UNIT == 0)
+    fetch_rows(loop, p);
   for (int a = 0; a < 3 && lengths; a++) {
     x[a] = load_at(q + a * stride);
     if (shape & (HOOKE_RUN_DAMPED | ANY)) u[a] = load_at(v + a * stride);
   }
-  for (const struct batch *end = batch + pass->count; batch < end; batch++, item += 2) {
+  for (const struct batch *end = batch + pass->count; batch < end; batch++) {
     const int kind = shape & ANY ? batch->shape : shape;
     if (sums && shape & PAIRED) add_pair(batch, ring, p - 2 * STEP, sum);
-    if (sums && !(shape & PAIRED)) {
-      add(item, ring, p - 2 * STEP, sum);
-      add(item + 1, ring, p - 2 * STEP, sum);
-    }
     if (forces) fill(batch, ring, p - STEP, kind, whole, &shortest);
     if (lengths) find_lengths(batch, q, v, stride, x, u, kind);
   }
+  if (sums && !(shape & PAIRED)) add_items(loop, p - 2 * STEP, shape & SORTED, sum);
   if (shape & BENT) {
     const int all = lengths && present_at(pass->present, p) == ALL;
     for (const struct batch *end = batch + pass->bent; batch < end; batch++) {
@@ -285,9 +298,11 @@ static __attribute__((noinline)) int64_t outer_step(struct loop *loop, ptrdiff_t
   return step(loop, p, ANY | BENT, 0);
 }
 
-static void copy_batches(const struct hk_strided_pass *pass, struct loop *loop) {
+static __attribute__((noinline)) void copy_batches(const struct hk_strided_pass *pass, struct loop *loop) {
+  loop->ahead = 0;
   for (int32_t k = 0; k < pass->count + pass->bent; k++) {
     const struct hk_strided_view *view = &pass->batch[k];
+    if (view->material.ahead > 0) loop->ahead = view->material.ahead;
     struct batch *batch = &loop->batch[k];
     *batch = (struct batch){.offset = BYTES * view->offset,
                             .mask = BYTES * view->mask,
@@ -331,21 +346,24 @@ HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape
 HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
   const int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0;
   const int32_t bent = pass->bent > 0 ? BENT : 0;
-  int32_t paired = PAIRED;
+  int32_t paired = PAIRED, sorted = SORTED;
   for (int32_t k = 0; k < pass->count; k++) {
     const struct hk_strided_view *batch = &pass->batch[k];
     const struct hk_strided_item *item = &pass->item[2 * k];
     if (item[0].ring != batch->ring || item[1].ring != batch->ring || item[1].offset != 0) paired = 0;
+    if (pass->item[k].offset == 0 || pass->item[pass->count + k].offset != 0) sorted = 0;
     if (batch->shape != shape) return ANY | bent;
   }
-  return shape | paired | bent;
+  return shape | (paired ? paired : sorted) | bent;
 }
 
 #define ADVANCE(shape)                                                                                       \
   case shape:                                                                                                \
     return advance(pass, shape, from, to);                                                                   \
   case PAIRED | (shape):                                                                                     \
-    return advance(pass, PAIRED | (shape), from, to);
+    return advance(pass, PAIRED | (shape), from, to);                                                        \
+  case SORTED | (shape):                                                                                     \
+    return advance(pass, SORTED | (shape), from, to);
 #define ADVANCE_BENT(shape)                                                                                  \
   case PAIRED | BENT | (shape):                                                                              \
     return advance(pass, PAIRED | BENT | (shape), from, to);

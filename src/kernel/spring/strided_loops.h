@@ -19,23 +19,29 @@ enum {
   HOOKE_LEAST_RING = 64
 };
 
-/* Kappa, gamma and rest length of the springs of a batch, in this order. Units equal to the bit are stored
- * once: number j of spring l is value[unit[3 (l / 8) + j & mask] + l % 8]. If all springs have one material,
- * mask is 0. If units are consecutive, values are prefetched so many ahead; 0: never. Of triples, value l is
- * the coefficient of triple l, and there are no units. */
+enum {
+  HOOKE_STRIDED_KAPPA,
+  HOOKE_STRIDED_GAMMA,
+  HOOKE_STRIDED_REST,
+  HOOKE_STRIDED_NUMBERS,
+  HOOKE_STRIDED_ROW = HOOKE_STRIDED_NUMBERS * HOOKE_STRIDED_UNIT
+};
+
+/* Kappas, gammas and rest lengths of the springs of a batch, those of a unit of springs in a row. Rows equal
+ * to the bit are stored once: number j of spring l is value[unit[l / 8 & mask] + 8 j + l % 8]. If all springs
+ * have one material, mask is 0. If rows are consecutive, values are prefetched so many ahead; 0: never. Of
+ * triples, value l is the coefficient of triple l, and there are no units. */
 struct hk_strided_material {
   double *value;
   uint32_t *unit;
   ptrdiff_t mask, ahead;
 };
 
-enum { HOOKE_STRIDED_KAPPA, HOOKE_STRIDED_GAMMA, HOOKE_STRIDED_REST, HOOKE_STRIDED_NUMBERS };
-
 /* Number j of spring l and those after it in its unit. */
 static inline const double *hk_strided_number(const struct hk_strided_material *material, ptrdiff_t l,
                                               int j) {
-  const size_t unit = HOOKE_STRIDED_NUMBERS * ((size_t)l / HOOKE_STRIDED_UNIT) & (size_t)material->mask;
-  return material->value + material->unit[unit + (size_t)j] + (size_t)l % HOOKE_STRIDED_UNIT;
+  const size_t unit = (size_t)l / HOOKE_STRIDED_UNIT & (size_t)material->mask;
+  return material->value + material->unit[unit] + HOOKE_STRIDED_UNIT * j + (size_t)l % HOOKE_STRIDED_UNIT;
 }
 
 struct hk_strided_view {

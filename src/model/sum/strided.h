@@ -15,13 +15,12 @@
 enum { HOOKE_TILE = 256, HOOKE_MOST_ITEMS = 2 * HOOKE_MOST_STRIDED };
 
 struct hk_strided_batch {
-  int64_t offset, first, last; /* lowest and highest lower end */
-  int64_t reach;               /* from the first particle of a spring or triple to its last */
-  int32_t shape;               /* HOOKE_RUN_*, never indexed; 0 of triples */
-  uint8_t *present;            /* a bit for each particle: a spring begins there */
-  /* as of their runs; and the units of values of the material up to those of each number */
-  const struct hk_scaling *scaling;
-  int32_t units[HOOKE_STRIDED_NUMBERS];
+  int64_t offset, first, last;      /* lowest and highest lower end */
+  int64_t reach;                    /* from the first particle of a spring or triple to its last */
+  int32_t shape;                    /* HOOKE_RUN_*, never indexed; 0 of triples */
+  uint8_t *present;                 /* a bit for each particle: a spring begins there */
+  const struct hk_scaling *scaling; /* as of their runs */
+  int32_t units;                    /* rows of the material */
 };
 
 /* `count` 0: springs form no batches, or too few springs for batches to pay; `bent` 0: nor do triples. */
