@@ -385,6 +385,74 @@ TEST(test_rounded_lengths) {
   free(ends);
 }
 
+/* Springs of a long sheet with holes, of one material but for their rest lengths, none of which is another's.
+ * Stiffness and rest lengths are the same for any `scale`, a power of two: stored without it, and scaled. */
+static hooke_system *build_own_lengths(int64_t particles, int64_t width, const double *q, const double *v,
+                                       double scale) {
+  struct random_source source = {91};
+  int64_t *ends = new_block(4 * particles, (int64_t)sizeof *ends), count = 0;
+  owned_doubles *rest = new_doubles(2 * particles);
+  for (int64_t p = 0; p < particles; p++) {
+    for (int k = 0; k < 2; k++) {
+      const int64_t other = p + (k ? width : 1);
+      if (other >= particles - 3 || p < 20 || random_whole(&source, 0, 9) == 0) continue;
+      ends[2 * count] = p, ends[2 * count + 1] = other;
+      rest[count++] = random_between(&source, 0.1, 1.0) / scale;
+    }
+  }
+  hooke_system *system = small_system(particles, q, v, 1.0, 0);
+  owned_options *options = options_with("springs", "law=length damping=0.1");
+  check_ok(hooke_options_set_number(options, "stiffness", 80.0 / scale));
+  check_ok(hooke_options_set_numbers(options, "rest_length", count, rest));
+  static const char *const what[] = {"stiffness_scale", "rest_scale"};
+  for (int k = 0; k < 2 && scale != 1.0; k++) {
+    char name[32];
+    snprintf(name, sizeof name, "%s.motion", what[k]);
+    check_ok(hooke_options_set_text(options, name, "table"));
+    snprintf(name, sizeof name, "%s.time", what[k]);
+    check_ok(hooke_options_set_numbers(options, name, 2, (double[]){-1.0, 1.0}));
+    snprintf(name, sizeof name, "%s.value", what[k]);
+    check_ok(hooke_options_set_numbers(options, name, 2, (double[]){scale, scale}));
+  }
+  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
+  check_ok(hooke_system_commit(system));
+  free(ends);
+  assert_int_equal(system->strided->count, 2);
+  assert_true(system->strided->material[0].lean && system->strided->material[1].lean);
+  owned_doubles *stored = new_doubles(3 * count), *given = new_doubles(3 * count);
+  for (int64_t k = 0; k < count; k++) {
+    given[k] = 80.0 / scale;
+    given[count + k] = 0.1;
+    given[2 * count + k] = rest[k];
+  }
+  check_ok(hooke_system_members(system, "springs", NULL, stored, stored + count, stored + 2 * count));
+  check_same_bits(3 * count, stored, given);
+  return system;
+}
+
+TEST(test_rest_lengths_of_their_own) {
+  enum { WIDTH = 77, EACH = 7003 };
+  struct random_source source = {92};
+  owned_doubles *q = new_doubles(3 * EACH), *v = new_doubles(3 * EACH), *f = new_doubles(3 * EACH),
+                *g = new_doubles(3 * EACH);
+  for (int64_t k = 0; k < 3 * EACH; k++) {
+    q[k] = random_between(&source, 0.0, 3.0);
+    v[k] = random_between(&source, -1.0, 1.0);
+  }
+  for (int32_t set = 0; use_loops(set); set++) {
+    owned_system *system = build_own_lengths(EACH, WIDTH, q, v, 1.0),
+                 *scaled = build_own_lengths(EACH, WIDTH, q, v, 2.0);
+    struct canonical c;
+    canonical_create(system, &c);
+    check_agrees(system, &c, q, v);
+    check_members(system, q, v);
+    canonical_destroy(&c);
+    check_ok(hooke_system_force(system, 0.0, q, v, f));
+    check_ok(hooke_system_force(scaled, 0.0, q, v, g));
+    check_same_bits(3 * EACH, f, g);
+  }
+}
+
 /* One run of more than a block among many particles, whose springs differ: the tensions of its neighbours are
  * what pulls at a particle. */
 TEST(test_each_spring_of_a_run_has_its_own_numbers) {

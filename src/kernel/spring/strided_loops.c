@@ -10,12 +10,13 @@
 typedef hk_vector vec;
 
 /* Shapes of a pass: that of its batches, or any; PAIRED if the items of each batch are consecutive in the
- * order of batches, SORTED if all ends come before all beginnings; and with triples. */
+ * order of batches, SORTED if all ends come before all beginnings; with triples; of lean material. */
 enum {
   PAIRED = HOOKE_RUN_SHAPES,
   SORTED = 2 * HOOKE_RUN_SHAPES,
   ANY = 4 * HOOKE_RUN_SHAPES,
-  BENT = 8 * HOOKE_RUN_SHAPES
+  BENT = 8 * HOOKE_RUN_SHAPES,
+  LEAN = 16 * HOOKE_RUN_SHAPES
 };
 
 enum { STEP = HOOKE_WIDTH, ALL = (1 << STEP) - 1, BYTES = sizeof(double) };
@@ -95,7 +96,8 @@ HOOKE_INLINE const double *row_at(const struct batch *batch, ptrdiff_t p) {
 static __attribute__((noinline)) void fetch_rows(const struct loop *loop, ptrdiff_t p) {
   __asm__ volatile("");
   for (const struct batch *batch = loop->batch; batch < loop->batch + loop->pass->count; batch++) {
-    for (int n = 0; n < HOOKE_STRIDED_NUMBERS && batch->ahead > 0; n++)
+    const int numbers = batch->shape & LEAN ? 1 : HOOKE_STRIDED_NUMBERS;
+    for (int n = 0; n < numbers && batch->ahead > 0; n++)
       __builtin_prefetch(row_at(batch, p) + HOOKE_STRIDED_UNIT * n + batch->ahead);
   }
 }
@@ -142,8 +144,10 @@ HOOKE_INLINE void fill(const struct batch *batch, ptrdiff_t stride, ptrdiff_t p,
                        vec *shortest) {
   vec number[HOOKE_STRIDED_NUMBERS], b[3];
   for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
-    number[n] =
-        shape & HOOKE_RUN_MIXED ? hk_load(row_at(batch, p) + HOOKE_STRIDED_UNIT * n) : batch->shared[n];
+    number[n] = shape & HOOKE_RUN_MIXED && !(shape & LEAN)
+                    ? hk_load(row_at(batch, p) + HOOKE_STRIDED_UNIT * n)
+                    : batch->shared[n];
+  if (shape & LEAN) number[HOOKE_STRIDED_REST] = hk_load(row_at(batch, p));
   const vec r = batch->r, ir = 1.0 / r, stretch = r - number[HOOKE_STRIDED_REST];
   vec tension = number[HOOKE_STRIDED_KAPPA] * stretch;
   *shortest = hk_lesser(r + stretch, *shortest);
@@ -311,7 +315,7 @@ static __attribute__((noinline)) void copy_batches(const struct hk_strided_pass 
                             .unit = view->material.unit,
                             .value = view->material.value,
                             .ahead = view->material.ahead,
-                            .shape = view->shape};
+                            .shape = view->shape | (view->material.lean ? LEAN : 0)};
     for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
       batch->shared[n] = hk_all(view->shared[n]);
   }
@@ -344,7 +348,7 @@ HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape
 }
 
 HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
-  const int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0;
+  const int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0, lean = pass->batch[0].material.lean;
   const int32_t bent = pass->bent > 0 ? BENT : 0;
   int32_t paired = PAIRED, sorted = SORTED;
   for (int32_t k = 0; k < pass->count; k++) {
@@ -352,9 +356,9 @@ HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
     const struct hk_strided_item *item = &pass->item[2 * k];
     if (item[0].ring != batch->ring || item[1].ring != batch->ring || item[1].offset != 0) paired = 0;
     if (pass->item[k].offset == 0 || pass->item[pass->count + k].offset != 0) sorted = 0;
-    if (batch->shape != shape) return ANY | bent;
+    if (batch->shape != shape || batch->material.lean != lean) return ANY | bent;
   }
-  return shape | (paired ? paired : sorted) | bent;
+  return shape | (paired ? paired : sorted) | bent | (lean ? LEAN : 0);
 }
 
 #define ADVANCE(shape)                                                                                       \
@@ -364,6 +368,9 @@ HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
     return advance(pass, PAIRED | (shape), from, to);                                                        \
   case SORTED | (shape):                                                                                     \
     return advance(pass, SORTED | (shape), from, to);
+#define ADVANCE_LEAN(shape)                                                                                  \
+  case SORTED | LEAN | (shape):                                                                              \
+    return advance(pass, SORTED | LEAN | (shape), from, to);
 #define ADVANCE_BENT(shape)                                                                                  \
   case PAIRED | BENT | (shape):                                                                              \
     return advance(pass, PAIRED | BENT | (shape), from, to);
@@ -378,6 +385,8 @@ int64_t HOOKE_STRIDED_LOOP(const struct hk_strided_pass *pass, ptrdiff_t from, p
     ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
     ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED)
     ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
+    ADVANCE_LEAN(HOOKE_RUN_MIXED)
+    ADVANCE_LEAN(HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
     ADVANCE_BENT(0)
     ADVANCE_BENT(HOOKE_RUN_DAMPED)
   }

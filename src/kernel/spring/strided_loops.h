@@ -29,19 +29,23 @@ enum {
 
 /* Kappas, gammas and rest lengths of the springs of a batch, those of a unit of springs in a row. Rows equal
  * to the bit are stored once: number j of spring l is value[unit[l / 8 & mask] + 8 j + l % 8]. If all springs
- * have one material, mask is 0. If rows are consecutive, values are prefetched so many ahead; 0: never. Of
- * triples, value l is the coefficient of triple l, and there are no units. */
+ * have one material, mask is 0. If rows are consecutive, values are prefetched so many ahead; 0: never.
+ * `lean`: after the row of the first spring come rest lengths alone, to which the units lead. Of triples,
+ * value l is the coefficient of triple l, and there are no units. */
 struct hk_strided_material {
   double *value;
   uint32_t *unit;
   ptrdiff_t mask, ahead;
+  int32_t lean;
 };
 
 /* Number j of spring l and those after it in its unit. */
 static inline const double *hk_strided_number(const struct hk_strided_material *material, ptrdiff_t l,
                                               int j) {
-  const size_t unit = (size_t)l / HOOKE_STRIDED_UNIT & (size_t)material->mask;
-  return material->value + material->unit[unit] + HOOKE_STRIDED_UNIT * j + (size_t)l % HOOKE_STRIDED_UNIT;
+  const size_t unit = (size_t)l / HOOKE_STRIDED_UNIT & (size_t)material->mask, rest = j == HOOKE_STRIDED_REST;
+  const size_t row = material->lean && !rest ? 0 : material->unit[unit];
+  const size_t column = material->lean && rest ? 0 : (size_t)(HOOKE_STRIDED_UNIT * j);
+  return material->value + row + column + (size_t)l % HOOKE_STRIDED_UNIT;
 }
 
 struct hk_strided_view {

@@ -20,7 +20,7 @@ struct hk_strided_batch {
   int32_t shape;                    /* HOOKE_RUN_*, never indexed; 0 of triples */
   uint8_t *present;                 /* a bit for each particle: a spring begins there */
   const struct hk_scaling *scaling; /* as of their runs */
-  int32_t units;                    /* rows of the material */
+  int64_t values;                   /* of the material */
 };
 
 /* `count` 0: springs form no batches, or too few springs for batches to pay; `bent` 0: nor do triples. */

@@ -11,6 +11,9 @@ enum { UNITS_IN_CACHE = 800, EARLY = 8 };
 
 enum { NUMBERS = HOOKE_STRIDED_NUMBERS, ROW = HOOKE_STRIDED_ROW, ROW_BYTES = ROW * sizeof(double) };
 
+/* What springs of a batch differ in. */
+enum { IN_REST_LENGTH = 1, IN_OTHERS = 2 };
+
 /* The numbers of a batch during construction. */
 struct rows {
   int64_t count; /* from the unit of the first spring to that of the last */
@@ -36,7 +39,11 @@ struct sharing {
 static void look_at(struct sharing *sharing, int32_t batch, const struct hk_material *own) {
   struct hk_material *first = &sharing->material[batch];
   if (sharing->seen[batch] == 0) *first = *own;
-  sharing->differs[batch] |= memcmp(own, first, sizeof *own) != 0;
+  for (int32_t j = 0; j < NUMBERS; j++) {
+    const double a = number_in(own, j), b = number_in(first, j);
+    if (memcmp(&a, &b, sizeof a))
+      sharing->differs[batch] |= j == HOOKE_STRIDED_REST ? IN_REST_LENGTH : IN_OTHERS;
+  }
 }
 
 static void find_shared(const struct hk_springs *springs, struct hk_strided_batches *strided,
@@ -130,8 +137,27 @@ static void collect(const struct hk_springs *springs, const struct hk_strided_ba
   }
 }
 
+/* Of consecutive rows keeps the rest lengths, after a row of what the springs have in common. Units beyond
+ * the springs have those of the nearest. */
+static void make_lean(struct hk_strided_material *material, int64_t first, int64_t rows, int64_t units,
+                      const struct hk_material *shared) {
+  double *value = material->value;
+  for (int64_t u = 0; u < rows; u++)
+    memmove(value + ROW + HOOKE_STRIDED_UNIT * u, value + ROW * u + HOOKE_STRIDED_UNIT * HOOKE_STRIDED_REST,
+            HOOKE_STRIDED_UNIT * sizeof *value);
+  for (int k = 0; k < HOOKE_STRIDED_UNIT; k++)
+    put(shared, value + k);
+  for (int64_t u = 0; u < units; u++) {
+    const int64_t row = u < first ? 0 : u - first < rows ? u - first : rows - 1;
+    material->unit[u] = (uint32_t)(ROW + HOOKE_STRIDED_UNIT * row);
+  }
+  material->lean = 1;
+  material->ahead = EARLY * HOOKE_STRIDED_UNIT;
+}
+
 /* The material of a batch whose springs differ; those that do not exist have zeros. */
-static int32_t store(const struct hk_springs *springs, struct hk_strided_batches *strided, int32_t k) {
+static int32_t store(const struct hk_springs *springs, struct hk_strided_batches *strided, int32_t k,
+                     const struct sharing *sharing, int64_t units) {
   struct hk_strided_material *material = &strided->material[k];
   struct hk_strided_batch *batch = &strided->batch[k];
   const int64_t first = batch->first / HOOKE_STRIDED_UNIT;
@@ -146,10 +172,12 @@ static int32_t store(const struct hk_springs *springs, struct hk_strided_batches
     status = find_kinds(&rows);
   }
   if (status == HOOKE_OK) {
-    batch->units = keep_kinds(&rows, material->unit + first);
-    if (batch->units == rows.count && rows.count > UNITS_IN_CACHE) material->ahead = EARLY * ROW;
-    const int64_t kept = ROW * (int64_t)batch->units;
-    status = hk_grow((void **)&material->value, kept, kept, sizeof *material->value);
+    const int32_t kept = keep_kinds(&rows, material->unit + first);
+    const int far = kept == rows.count && kept > UNITS_IN_CACHE, lean = sharing->differs[k] == IN_REST_LENGTH;
+    if (far) material->ahead = EARLY * ROW;
+    if (far && lean) make_lean(material, first, kept, units, &sharing->material[k]);
+    batch->values = far && lean ? ROW + HOOKE_STRIDED_UNIT * (int64_t)kept : ROW * (int64_t)kept;
+    status = hk_grow((void **)&material->value, batch->values, batch->values, sizeof *material->value);
   }
   hk_free(rows.kind);
   return status;
@@ -165,14 +193,15 @@ static int32_t take(const struct hk_springs *springs, int64_t particles, struct 
   material->value = hk_new(ROW, sizeof *material->value);
   material->unit = hk_new(all, sizeof *material->unit);
   if (material->value == NULL || material->unit == NULL) return HOOKE_NO_MEMORY;
-  strided->batch[batch].units = 1;
+  strided->batch[batch].values = ROW;
   for (int k = 0; k < HOOKE_STRIDED_UNIT; k++)
     put(&sharing->material[batch], material->value + k);
   if (mixed) {
     strided->batch[batch].shape |= HOOKE_RUN_MIXED;
-    status = store(springs, strided, batch);
+    status = store(springs, strided, batch, sharing, all);
   }
-  strided->memory += all * (int64_t)sizeof *material->unit + strided->batch[batch].units * (int64_t)ROW_BYTES;
+  strided->memory +=
+      all * (int64_t)sizeof *material->unit + strided->batch[batch].values * (int64_t)sizeof *material->value;
   return status;
 }
 

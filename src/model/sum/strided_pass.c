@@ -70,7 +70,7 @@ static struct hk_strided_view view_of(const struct hk_strided_batches *strided, 
 
 /* Values that a motion has of its own, whatever number they are. */
 static int64_t scaled_values(const struct hk_strided_batch *batch) {
-  return batch->scaling ? HOOKE_STRIDED_ROW * (int64_t)batch->units : 0;
+  return batch->scaling ? batch->values : 0;
 }
 
 static void take_values(const struct hk_strided_batches *strided, struct hk_rings *rings, double *next) {
@@ -91,8 +91,11 @@ static void scale_batch(const struct hk_strided_batches *strided, int32_t k, str
   const double by[HOOKE_STRIDED_NUMBERS] = {[HOOKE_STRIDED_KAPPA] = scaler.by.kappa,
                                             [HOOKE_STRIDED_GAMMA] = scaler.by.gamma,
                                             [HOOKE_STRIDED_REST] = scaler.by.rest_length};
-  for (int64_t at = 0; at < scaled_values(batch); at++)
+  const int64_t mixed = strided->material[k].lean ? HOOKE_STRIDED_ROW : scaled_values(batch);
+  for (int64_t at = 0; at < mixed; at++)
     rings->value[k][at] = given[at] * by[at / HOOKE_STRIDED_UNIT % HOOKE_STRIDED_NUMBERS];
+  for (int64_t at = mixed; at < scaled_values(batch); at++)
+    rings->value[k][at] = given[at] * by[HOOKE_STRIDED_REST];
   for (int32_t m = 0; m < rings->workers; m++) {
     struct hk_strided_view *view = &rings->partition[m].view[k];
     for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
