@@ -202,6 +202,8 @@ int cli_setup_check_ending(const struct cli_arguments *arguments, const char *fl
       {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
   const char *slash = file ? cli_os_last_slash(file) : NULL,
              *dot = file ? strrchr(slash ? slash : file, '.') : NULL;
+  if (file && (file[0] == '\0' || (slash && slash[1] == '\0')))
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "%s '%s': allowed: the name of a file", flag, file);
   for (int32_t i = 0; dot && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     const char *own =

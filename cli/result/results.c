@@ -70,6 +70,8 @@ int cli_results_at(struct cli_results *l) {
   const char *at = cli_arguments_text(l->arguments, "at");
   l->from = l->setup.state;
   if (at == NULL) return HOOKE_EXIT_DONE;
+  if (cli_arguments_text(l->arguments, "from-rest"))
+    return cli_report(l->arguments, HOOKE_EXIT_USAGE, "--at and --from-rest are two states; leave out one");
   const char *colon = strrchr(at, ':');
   char *end = NULL;
   errno = 0;

@@ -142,9 +142,12 @@ static int show_trajectories(struct shown *shown) {
   return code;
 }
 
-/* Anything else is loaded as a scene, whose message tells what is wrong with it. */
+/* Anything else is loaded as a scene, whose message tells what is wrong with it. One that cannot be opened
+ * now is not run anew in place of it. */
 static int is_trajectory(const char *path) {
   hooke_record *record = NULL;
+  const char *dot = strrchr(path, '.');
+  if (dot && strcmp(dot, ".h5") == 0) return 1;
   const int32_t status = strcmp(path, "-") == 0 ? HOOKE_BAD_VALUE : hooke_record_open(path, &record);
   hooke_record_close(record);
   return status == HOOKE_OK || status == HOOKE_NO_MEMORY;

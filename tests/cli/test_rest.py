@@ -64,6 +64,7 @@ def test_a_scene_that_starts_at_rest(hooke, write, tmp_path):
     assert written["parts"] and len(written["start"]["position"]) == 17 and "velocity" not in written["start"]
     runs = [hooke("run", *words, "--duration", "0.1", "--final", "--json").json for words in ((out,), (scene, "--from-rest"))]
     assert runs[0]["final"] == runs[1]["final"] and runs[0]["energy"] == runs[1]["energy"]
+    hooke("limit", scene, "--at", out, "--from-rest", code=2, err="--at and --from-rest are two states")
     moved = np.abs(np.array(runs[0]["final"]["position"]) - written["start"]["position"]).max()
     assert moved < 1e-9  # 9 mm from the undeformed start
     falls = hooke("run", write({**HANGING, "springs": []}), "--from-rest")

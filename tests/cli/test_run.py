@@ -177,6 +177,7 @@ def test_names_that_are_not_utf8_are_still_json(hooke, write, tmp_path):
         ({}, ["-o", "scene.json"], 2, "its name has to end in .h5; 'hooke make -o' writes a scene"),
         ({}, ["-o", "no/such/folder/out.h5"], 5, "no/such/folder/out.h5"),
         ({}, ["-o", "."], 5, "."),
+        ({}, ["-o", "folder/"], 2, "-o 'folder/': allowed: the name of a file"),
     ],
 )
 def test_what_cannot_be_run_says_why(hooke, write, run, words, code, wanted):

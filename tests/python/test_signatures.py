@@ -42,6 +42,7 @@ def test_methods_have_them_too():
     (lambda scene: hooke.Scene().rope(segmnts=4), "rope", "segments"),
     (lambda scene: hooke.sweep(scene, {}, executr=None), "sweep", "executor"),
     (lambda scene: hooke.convert.from_meshio(None, stifness=1), "from_meshio", "stiffness"),
+    (lambda scene: hooke.convert.from_meshio(None, mass_=1), "from_meshio", "mass"),
 ])  # fmt: skip
 def test_unknown_keywords_name_the_nearest(call, of, nearest):
     with pytest.raises(TypeError, match=f'^{of}: unknown keyword ".*"; did you mean "{nearest}"') as told:

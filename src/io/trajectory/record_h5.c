@@ -19,7 +19,7 @@ static int32_t refuse_option(const char *name) {
 }
 
 static int32_t unreadable(const char *name) {
-  return hk_fail(HOOKE_IO_FAILED, NULL, "the option %s of the run could not be read", name);
+  return hk_fail(HOOKE_IO_FAILED, NULL, "%s of the run could not be read", name);
 }
 
 static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
@@ -29,18 +29,21 @@ static int32_t read_word(hid_t attribute, hooke_options *options, const char *na
   return status;
 }
 
-static int has_attribute(hid_t group, const char *name) {
-  return group >= 0 && H5Aexists(group, name) > 0;
+/* Below 0 if that is not known. */
+static htri_t has_attribute(hid_t group, const char *name) {
+  return group >= 0 ? H5Aexists(group, name) : 0;
 }
 
-/* "" if there is none. NULL without memory. */
-static char *read_attribute(hid_t group, const char *name) {
-  hid_t attribute = has_attribute(group, name) ? H5Aopen(group, name, H5P_DEFAULT) : -1;
+/* "" if there is none. */
+static int32_t read_attribute(hid_t group, const char *name, char **text) {
+  const htri_t there = has_attribute(group, name);
+  hid_t attribute = there > 0 ? H5Aopen(group, name, H5P_DEFAULT) : -1;
   char *word = attribute >= 0 ? hk_h5_attribute_text(attribute) : NULL;
-  char *text = hk_copy_text(word ? word : "");
+  const int32_t read = there == 0 || word;
+  *text = read ? hk_copy_text(word ? word : "") : NULL;
   if (word) H5free_memory(word);
   hk_h5_drop(attribute);
-  return text;
+  return *text ? HOOKE_OK : read ? HOOKE_NO_MEMORY : unreadable(name);
 }
 
 static int32_t read_option(hid_t attribute, hooke_options *options, const char *name) {
@@ -67,9 +70,10 @@ static int32_t read_options(hid_t group, hooke_options *options) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; group >= 0 && k < hooke_options_row_count(options) && status == HOOKE_OK; k++) {
     const char *name = hooke_options_row(options, k, "name");
-    if (H5Aexists(group, name) <= 0) continue;
-    hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
-    status = attribute >= 0 ? read_option(attribute, options, name) : refuse_option(name);
+    const htri_t there = has_attribute(group, name);
+    if (there == 0) continue;
+    hid_t attribute = there > 0 ? H5Aopen(group, name, H5P_DEFAULT) : -1;
+    status = attribute >= 0 ? read_option(attribute, options, name) : unreadable(name);
     hk_h5_drop(attribute);
   }
   return status;
@@ -84,10 +88,12 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
   for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_TEXTS; k++) {
     if (k < HOOKE_RECORD_ARRAYS)
       status = hk_h5_read_text(group, hk_record_texts[k], &record->text[k]);
-    else if ((record->text[k] = read_attribute(group, hk_record_texts[k])) == NULL)
-      status = HOOKE_NO_MEMORY;
+    else
+      status = read_attribute(group, hk_record_texts[k], &record->text[k]);
   }
-  record->is_run = has_attribute(group, "method");
+  const htri_t is_run = has_attribute(group, "method");
+  record->is_run = is_run > 0;
+  if (status == HOOKE_OK && is_run < 0) status = unreadable("method");
   hk_h5md_find(file, record->at);
   if (status == HOOKE_OK) status = read_options(options, record->options);
   hk_h5_drop(options);

@@ -27,8 +27,10 @@ static const struct hk_option_row rows[] = {
     HOOKE_OPTION("all", .type = HOOKE_OPTION_FLAG, "false", "run all of it again"),
     HOOKE_OPTION("budget", HOOKE_OPTION_UP_TO("s", 1e9), "1",
                  "time to spend where neither is given: on a slice from the middle"),
-    HOOKE_OPTION("bits", .type = HOOKE_OPTION_FLAG, "false",
-                 "compare the bits alone, without balance of energy and estimate of the error"),
+    HOOKE_OPTION(
+        "bits", .type = HOOKE_OPTION_FLAG, "false",
+        "compare the bits alone, without balance of energy and estimate of the error, where they have to "
+        "be the same"),
 };
 
 static const struct hk_option_table table = {"verification", HOOKE_OPTION_ROWS(rows)};

@@ -31,7 +31,8 @@ static void tell_verdict(const struct hk_verify *verify, struct hk_claims *claim
     const int same = strcmp(verdict, "agrees") == 0;
     hk_claim(claims, "verdict", of_slice(verify), same ? "bits" : "half-step",
              "the file agrees with its scene %s from %.6g s to %.6g s",
-             same ? "to the bit" : "within the error of the method, as of another version or machine,",
+             same ? "to the bit"
+                  : "within the error of the method, as of another version, library or machine,",
              verify->time_from, verify->time_to);
   }
 }

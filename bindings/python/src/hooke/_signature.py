@@ -21,10 +21,10 @@ returning a non-zero number; ``progress=True`` shows a bar, with tqdm."""
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def refuse_unknown(function: str, given: Iterable[str], known: Mapping[str, Any]) -> None:
-    """UnknownOption names a keyword that a function does not have, and what is nearest to it."""
+def refuse_unknown(function: str, given: Iterable[str], known: Mapping[str, Any], options: bool = True) -> None:
+    """UnknownOption names a keyword that a function does not have, as one of `options` if it has some, and what is nearest."""
     for name in given:
-        if name not in known and option_name(name) not in known:
+        if name not in known and not (options and option_name(name) in known):
             near = difflib.get_close_matches(name, known, 1)
             meant = f'; did you mean "{near[0]}"?' if near else f"; allowed: {', '.join(known)}"
             raise UnknownOption(f'{function}: unknown keyword "{name}"{meant}')
@@ -40,13 +40,14 @@ def takes(keywords: Any = None) -> Callable[[F], F]:
         for name, hint in (keywords.__annotations__ if keywords else {}).items():
             given = {"default": None, "annotation": getattr(hint, "__forward_arg__", hint)}
             named.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, **given))
-        known = {parameter.name: parameter for parameter in named if parameter.name != "self"}
+        known = {parameter.name: parameter for parameter in named
+                 if parameter.name != "self" and parameter.kind is not parameter.VAR_POSITIONAL}
         called = function.__qualname__.split(".")[-2 if function.__name__ == "__init__" else -1]
 
         @functools.wraps(function)
         def checked(*arguments: Any, **options: Any) -> Any:
             if not options.keys() <= known.keys():
-                refuse_unknown(called, options, known)
+                refuse_unknown(called, options, known, keywords is not None)
             return function(*arguments, **options)
 
         checked.__signature__ = own.replace(parameters=named)  # type: ignore[attr-defined]
