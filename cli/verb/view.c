@@ -142,15 +142,20 @@ static int show_trajectories(struct shown *shown) {
   return code;
 }
 
-/* Anything else is loaded as a scene, whose message tells what is wrong with it. One that cannot be opened
- * now is not run anew in place of it. */
+/* Anything else is loaded as a scene, whose message tells what is wrong with it. */
 static int is_trajectory(const char *path) {
   hooke_record *record = NULL;
-  const char *dot = strrchr(path, '.');
-  if (dot && strcmp(dot, ".h5") == 0) return 1;
   const int32_t status = strcmp(path, "-") == 0 ? HOOKE_BAD_VALUE : hooke_record_open(path, &record);
   hooke_record_close(record);
   return status == HOOKE_OK || status == HOOKE_NO_MEMORY;
+}
+
+/* Nor is one run anew that is there and cannot be opened now. */
+static int is_shown_as_it_is(const char *path) {
+  const char *dot = strrchr(path, '.');
+  FILE *file = dot && strcmp(dot, ".h5") == 0 ? fopen(path, "rb") : NULL;
+  if (file) fclose(file);
+  return file || is_trajectory(path);
 }
 
 static int show(struct shown *shown);
@@ -182,7 +187,7 @@ static int run_and_show(struct shown *shown) {
  */
 static int show(struct shown *shown) {
   const int anew = shown->count == 1 && !shown->ready && is_to_run(shown->arguments);
-  while (!anew && shown->ready < shown->count && is_trajectory(shown->path[shown->ready]))
+  while (!anew && shown->ready < shown->count && is_shown_as_it_is(shown->path[shown->ready]))
     shown->ready++;
   return shown->ready < shown->count ? run_and_show(shown) : show_trajectories(shown);
 }
