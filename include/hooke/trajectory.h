@@ -98,9 +98,9 @@ HOOKE_API void hooke_record_close(hooke_record *record);
  * "diverged", "step-limit", "solver-failed" or "failed"; "run": the identifier of the run, see
  * hooke_trajectory_text(), "" if an earlier version wrote it; "error_by" and "error_reason": "by" and
  * "reason" of an estimate, "" where nothing is known of the error; "version", "sundials", "cholmod",
- * "blas", "instructions", "machine": the build that made the file, see hooke_build_fact(); "callbacks" of the run,
- * which no file holds: "none", "force", "force with derivative", "drive", "force and drive", ...; "" where
- * the file does not say. NULL for another word. */
+ * "blas", "instructions", "machine": the build that made the file, see hooke_build_fact(); "callbacks" of the
+ * run, which no file holds: "none", "force", "force with derivative", "drive", "force and drive", ...; ""
+ * where the file does not say. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 /* Options of the run, with all defaults filled in; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);

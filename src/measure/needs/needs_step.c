@@ -111,8 +111,8 @@ static void swap_runs(struct search *search) {
   search->run[1] = first;
 }
 
-/* 1 if the error of a variant exceeds the wanted one for any step, and is known to a quarter or with a step as
- * small as that of the full system. */
+/* 1 if the error of a variant exceeds the wanted one for any step, and is known to a quarter or with a step
+ * as small as that of the full system. */
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const struct hk_needs *needs = search->recorder.needs;
   if (search->recorder.trial->map == NULL) return 0;
