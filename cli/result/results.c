@@ -50,6 +50,9 @@ static int choose_methods(struct cli_results *results) {
 int cli_results_make(const struct cli_arguments *arguments, const struct cli_verb *verb) {
   struct cli_results results = {.arguments = arguments};
   int code = choose_methods(&results);
+  if (code == HOOKE_EXIT_DONE && cli_arguments_text(arguments, "at") &&
+      cli_arguments_text(arguments, "from-rest"))
+    code = cli_report(arguments, HOOKE_EXIT_USAGE, "--at and --from-rest are two states; leave out one");
   if (code == HOOKE_EXIT_DONE && verb->check) code = verb->check(arguments);
   if (code == HOOKE_EXIT_DONE)
     code = cli_setup_check_ending(arguments, "-o", cli_arguments_text(arguments, "output"));
@@ -70,8 +73,6 @@ int cli_results_at(struct cli_results *l) {
   const char *at = cli_arguments_text(l->arguments, "at");
   l->from = l->setup.state;
   if (at == NULL) return HOOKE_EXIT_DONE;
-  if (cli_arguments_text(l->arguments, "from-rest"))
-    return cli_report(l->arguments, HOOKE_EXIT_USAGE, "--at and --from-rest are two states; leave out one");
   const char *colon = strrchr(at, ':');
   char *end = NULL;
   errno = 0;

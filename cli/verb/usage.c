@@ -158,8 +158,8 @@ void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
 /* ---- version ---- */
 
 int cli_version_print(const struct cli_program *program, const char *value) {
-  static const char *const parts[][2] = {
-      {"SUNDIALS", "sundials"}, {"CHOLMOD", "cholmod"},  {"BLAS", "blas"},
+  static const char *const parts[][3] = {
+      {"SUNDIALS", "sundials"}, {"CHOLMOD", "cholmod"},  {"BLAS", "blas", "no optimised one"},
       {"LAPACK", "lapack"},     {"GSL", "gsl"},          {"HDF5", "hdf5"},
       {"Chart.js", "chartjs"},  {"three.js", "threejs"}, {"instructions", "instructions"},
       {"licence", "licence"}};
@@ -168,7 +168,7 @@ int cli_version_print(const struct cli_program *program, const char *value) {
   printf("%-13s %d on this machine\n", "threads", (int)cli_os_processors());
   for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++) {
     const char *fact = hooke_build_fact(parts[k][1]);
-    const char *none = strcmp(parts[k][1], "blas") == 0 ? "no optimised one" : "not in this build";
+    const char *none = parts[k][2] ? parts[k][2] : "not in this build";
     printf("%-13s %s\n", parts[k][0], fact && fact[0] ? fact : none);
   }
   return HOOKE_EXIT_DONE;

@@ -60,6 +60,13 @@ STIFF_PAIR = {
     "run": {"method": "symplectic-euler", "step": 0.1, "duration": 100, "every": 1},
 }
 
+
+def hanging_cloth(side, structural, **part):
+    """A scene of a square cloth of side x side particles that hangs at two corners; `part` has what else it has."""
+    cloth = {"kind": "cloth", "edges": [[1, 0, 0], [0, 0, 1]], "size": [side, side], "mass": 1, "pinned": "top-corners"}
+    return {"hooke": 1, "gravity": [0, -9.81, 0], "parts": [{**cloth, "structural": structural, **part}]}
+
+
 # Runs for hours, with a frame every few milliseconds.
 ENDLESS = copy.deepcopy(SIX_PARTICLES)
 ENDLESS["run"].update(duration=1e6, every=100)

@@ -6,26 +6,14 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import interrupt
+from conftest import hanging_cloth, interrupt
 
 np = pytest.importorskip("numpy")
 h5py = pytest.importorskip("h5py")
 pytestmark = pytest.mark.everything
 
 CLOTH = {
-    "hooke": 1,
-    "gravity": [0, -9.81, 0],
-    "parts": [
-        {
-            "kind": "cloth",
-            "edges": [[1, 0, 0], [0, 0, 1]],
-            "size": [32, 32],
-            "mass": 1,
-            "pinned": ["top-corners"],
-            "structural": {"stiffness": 5e4, "damping": 20},
-            "shear": {"stiffness": 2e4, "damping": 10},
-        }
-    ],
+    **hanging_cloth(32, {"stiffness": 5e4, "damping": 20}, shear={"stiffness": 2e4, "damping": 10}),
     "run": {"method": "cvode-bdf", "linear_solver": "direct", "rtol": 1e-4, "duration": 0.1, "every": 0.002, "checkpoint": 0.004},
 }
 

@@ -7,27 +7,15 @@ import signal
 import time
 
 import pytest
-from conftest import SIX_PARTICLES, STIFF_PAIR, interrupt
+from conftest import SIX_PARTICLES, STIFF_PAIR, hanging_cloth, interrupt
 
 np = pytest.importorskip("numpy")
 h5py = pytest.importorskip("h5py")
 pytestmark = pytest.mark.everything
 
 CLOTH = {
-    "hooke": 1,
-    "gravity": [0, -9.81, 0],
+    **hanging_cloth(16, {"stiffness": 50, "damping": 0.02}, shear={"stiffness": 20}),
     "drag": 1e-4,
-    "parts": [
-        {
-            "kind": "cloth",
-            "edges": [[1, 0, 0], [0, 0, 1]],
-            "size": [16, 16],
-            "mass": 1,
-            "pinned": ["top-corners"],
-            "structural": {"stiffness": 50, "damping": 0.02},
-            "shear": {"stiffness": 20},
-        }
-    ],
     "driven": [{"particles": [120], "motion": "harmonic", "amplitude": [0, 0.1, 0], "frequency": 2}],
 }
 

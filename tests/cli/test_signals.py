@@ -11,25 +11,14 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import interrupt
+from conftest import hanging_cloth, interrupt
 
 pytestmark = pytest.mark.everything
 
 SIDE = 40
 ALL = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 CLOTH = {
-    "hooke": 1,
-    "gravity": [0, -9.81, 0],
-    "parts": [
-        {
-            "kind": "cloth",
-            "edges": [[1, 0, 0], [0, 0, 1]],
-            "size": [SIDE, SIDE],
-            "mass": 0.1,
-            "structural": {"stiffness": 500, "damping": 1e-3},
-            "pinned": "top-corners",
-        }
-    ],
+    **hanging_cloth(SIDE, {"stiffness": 500, "damping": 1e-3}, mass=0.1),
     "run": {"method": "symplectic-euler", "step": 1e-6, "duration": 1000, "every": 1000},
 }
 
