@@ -34,7 +34,7 @@ def test_rows_that_cannot_win_are_left_out(study):
         rows, all_rows = cut.rows[cut.method == method], study.rows[study.method == method]
         assert (rows["error"] == all_rows["error"][:len(rows)])[~np.isnan(rows["error"])].all()
         assert (len(rows) < len(all_rows)) == (method in said)
-        assert method == "cvode-adams" or rows["force_evaluations"][-2] < 5 * meets
+        assert len(rows) > 0 and (method == "cvode-adams" or (rows["force_evaluations"][1:] < 5 * meets).all())
     assert cut.recommendation.step == study.recommendation.step and "rk4" in said
 
 
