@@ -24,7 +24,7 @@ static struct hk_variant *add_row(struct list *list, const char *kind, const cha
 static struct hk_variant *add_row(struct list *list, const char *kind, const char *format, ...) {
   struct hk_needs *needs = list->needs;
   if (list->status == HOOKE_OK)
-    list->status = hk_grow((void **)&needs->row, needs->row_count, needs->row_count + 1, sizeof *needs->row);
+    list->status = hk_room((void **)&needs->row, needs->row_count, sizeof *needs->row);
   if (list->status != HOOKE_OK) return NULL;
   struct hk_needs_row *made = &needs->row[needs->row_count];
   *made = (struct hk_needs_row){.kind = kind, .needed = 1, .cost = hk_needs_no_cost};

@@ -12,9 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* With a wanted error, the search gets this fraction of a budget, or so many times the run of the reference,
- * but at most this fraction of the remaining time. */
-static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
+/* With a wanted error, the search gets this fraction of a budget, but at most this of the remaining time. */
+static const double SEARCH_SHARE = 0.2, MOST_SEARCH = 0.5;
 
 /* A short run is repeated until its time is steady or this much has been spent on it, and this share of a
  * budget. */
@@ -133,22 +132,29 @@ static int32_t measure_step(const struct hk_study *study, struct hk_study_row *r
   return status;
 }
 
-/* ---- times of rows ---- */
+/* ---- the rows to come ---- */
 
-/* Time and counted work of the next row of a method [s]: those of its last finished row, scaled by the steps;
- * NaN before the first. */
-struct cost {
-  double seconds, work;
+/* Time and counted work of the next row of a method [s], by its last finished ones, and the least error of
+ * all to come that take less than so much work: by the order of the method, or a lower one that three rows
+ * show. NaN before the first. */
+struct outlook {
+  double seconds, work, error;
 };
 
-static struct cost predict(const struct hk_study *study, int32_t method, double value) {
-  for (int64_t k = study->row_count - 1; k >= 0; k--) {
-    const struct hk_study_row *row = &study->row[k];
-    if (row->method != method || strcmp(row->trial.status, "finished") != 0) continue;
-    const double growth = hk_study_is_adaptive(study, method) ? TENTH_COSTS : row->value / value;
-    return (struct cost){row->trial.wall_seconds * growth, row->trial.work * growth};
-  }
-  return (struct cost){NAN, NAN};
+static struct outlook predict(const struct hk_study *study, int32_t method, double value, double most) {
+  const int32_t adaptive = hk_study_is_adaptive(study, method);
+  const struct hk_study_row *last[3];
+  int32_t count = 0;
+  for (int64_t k = study->row_count - 1; k >= 0 && count < 3; k--)
+    if (study->row[k].method == method && strcmp(study->row[k].trial.status, "finished") == 0)
+      last[count++] = &study->row[k];
+  if (count == 0) return (struct outlook){NAN, NAN, NAN};
+  const struct hk_trial *fine = &last[0]->trial;
+  const double growth = adaptive ? TENTH_COSTS : last[0]->value / value,
+               rows = log(most / fine->work) / log(adaptive ? TENTH_COSTS : 2.0);
+  double fall = adaptive ? 10.0 : exp2((double)hk_method_find(study->method[method])->order);
+  if (count == 3) fall = fmin(fall, fmax(1.0, sqrt(last[2]->trial.wanted / fine->wanted)));
+  return (struct outlook){fine->wall_seconds * growth, fine->work * growth, fine->wanted * pow(fall, -rows)};
 }
 
 /* The least counted work of a run that meets the want [s], a row or, among all methods, the reference;
@@ -165,22 +171,6 @@ static double least_work(const struct hk_study *study) {
       least = fmin(least, trial->work);
   }
   return least;
-}
-
-/* 1 if a ladder does not come to the want before `most` counted work: by the order of its method, or a lower
- * one that its last three rows show. */
-static int32_t falls_short(const struct hk_study *study, int32_t method, double most) {
-  const int32_t adaptive = hk_study_is_adaptive(study, method);
-  const struct hk_trial *last[3];
-  int32_t count = 0;
-  for (int64_t k = study->row_count - 1; k >= 0 && count < 3; k--)
-    if (study->row[k].method == method && study->row[k].trial.wanted > 0.0)
-      last[count++] = &study->row[k].trial;
-  if (count == 0 || isinf(most)) return 0;
-  const double rows = log(most / last[0]->work) / log(adaptive ? TENTH_COSTS : 2.0);
-  double fall = adaptive ? 10.0 : exp2((double)hk_method_find(study->method[method])->order);
-  if (count == 3) fall = fmin(fall, fmax(1.0, sqrt(last[2]->wanted / last[0]->wanted)));
-  return last[0]->wanted > study->wants.most * pow(fall, rows);
 }
 
 /* ---- the rows of a level ---- */
@@ -272,36 +262,35 @@ static int32_t keep_rows(struct level *level) {
  * the cheapest: one that meets the want spares the others theirs. */
 static void plan_level(struct hk_study *study, int32_t next[HOOKE_STUDY_METHODS], struct level *level) {
   const double most = WINS_NO_MORE * least_work(study);
+  struct outlook row[HOOKE_STUDY_METHODS];
   double value[HOOKE_STUDY_METHODS], cheapest = INFINITY, ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
     value[m] = study->given_up[m] ? NAN : hk_study_ladder(study, m, next[m]);
-    const double work = predict(study, m, value[m]).work;
-    if (!isnan(value[m])) study->cut[m] |= work >= most || falls_short(study, m, most);
+    row[m] = predict(study, m, value[m], most);
+    if (isfinite(most) && !isnan(value[m]))
+      study->cut[m] |= row[m].work >= most || row[m].error > study->wants.most;
     if (study->cut[m]) value[m] = NAN;
-    if (!isnan(value[m])) cheapest = fmin(cheapest, work);
+    if (!isnan(value[m])) cheapest = fmin(cheapest, row[m].work);
   }
   for (int32_t m = 0; m < study->method_count; m++) {
-    const struct cost cost = predict(study, m, value[m]);
-    if (isnan(value[m]) || (isfinite(most) && cost.work > ALIKE * cheapest)) continue;
+    if (isnan(value[m]) || (isfinite(most) && row[m].work > ALIKE * cheapest)) continue;
     /* the time of a first row is unknown: it is begun, and ends when its share of time is over */
-    const double predicted = cost.seconds, seconds = fmax(0.0, predicted);
+    const double seconds = fmax(0.0, row[m].seconds);
     if (hk_clock_seconds() + ahead + seconds > study->deadline) {
       study->budget_spent = study->given_up[m] = 1;
       continue;
     }
     next[m]++;
     ahead += seconds;
-    level->job[level->count++] = (struct job){.fraction = isnan(predicted) ? UNKNOWN_SHARE : 1.0,
+    level->job[level->count++] = (struct job){.fraction = isnan(row[m].seconds) ? UNKNOWN_SHARE : 1.0,
                                               .row = {.method = m, .value = value[m]}};
   }
 }
 
-/* A search needs time for a run as fine as the reference. */
 static double end_of_rows(const struct hk_study *study) {
   const double end = study->begun + study->budget, left = end - hk_clock_seconds();
   if (isnan(study->wants.most) || isinf(end)) return end;
-  const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_work);
-  return end - fmin(search, MOST_SEARCH * left);
+  return end - fmin(SEARCH_SHARE * study->budget, MOST_SEARCH * left);
 }
 
 int32_t hk_study_run_ladders(struct hk_study *study) {
