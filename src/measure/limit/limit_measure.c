@@ -47,7 +47,7 @@ static const double CERTAIN_RISE = 3.0, CERTAIN_IF_CONVEX = 0.1;
  * more slowly than any of them. */
 static int is_seen(const struct trial *trial, double step) {
   if (isinf(trial->predicted)) return 1;
-  if (trial->predicted > 0.0 && !trial->exact) return 0;
+  if (trial->limit->mode_count > 0 && !trial->exact) return 0;
   const double mirrored = trial->predicted * trial->predicted / step, h = fmax(step, mirrored);
   double growth = trial->limit->mode_count > 0 ? 0.0 : INFINITY;
   for (int64_t k = 0; k < trial->limit->mode_count; k++) {
