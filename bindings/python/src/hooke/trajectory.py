@@ -235,7 +235,7 @@ class Trajectory(Closing):
 
     def plot(self, ax: Any = None, *, frame: int = -1, **options: Any) -> Any:
         """Draws the springs at a frame in space and returns the axes; see `hooke.plot.cloth`."""
-        return draw("plot.cloth", self, ax, frame=frame, **options)
+        return draw("plot.cloth", self, ax=ax, frame=frame, **options)
 
     def animate(self, **options: Any) -> FuncAnimation:
         """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
