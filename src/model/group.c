@@ -1,7 +1,6 @@
 #include "model/group.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/scaling.h"
 #include "model/system.h"
 

@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/number.h"
-#include "core/print.h"
 #include "core/status.h"
 #include "core/table/unit.h"
 

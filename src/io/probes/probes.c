@@ -12,7 +12,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const struct hk_option_row rows[] = {
     HOOKE_OPTION("probe", .type = HOOKE_OPTION_TEXT, NULL,

@@ -1,7 +1,6 @@
 #include "measure/spectrum/linear_twin.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/system.h"
 #include "model/vector3.h"
 

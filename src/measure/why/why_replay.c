@@ -2,7 +2,6 @@
 #include "measure/why/why.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/drive.h"
 #include "model/force/spring.h"
 

@@ -2,7 +2,6 @@
 
 #include "core/number.h"
 #include "core/print.h"
-#include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "model/group.h"
 

@@ -2,7 +2,6 @@
  * gamma (v.u)) u with x = q - point, r = |x|, u = x/r. */
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "core/sum.h"
 #include "model/check_value.h"
 #include "model/system.h"

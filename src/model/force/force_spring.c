@@ -9,7 +9,6 @@
 #include "model/force/force.h"
 #include "model/sum/tiled.h"
 #include "model/system.h"
-#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>

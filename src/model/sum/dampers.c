@@ -1,7 +1,6 @@
 #include "model/sum/dampers.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
 #include "model/medium.h"
