@@ -155,11 +155,7 @@ int32_t hooke_probes_create(hooke_integrator *integrator, const hooke_options *o
   made->integrator = integrator;
   made->last = NAN;
   status = make(options, path, made);
-  if (status == HOOKE_OK)
-    *probes = made;
-  else
-    release(made);
-  return status;
+  return HOOKE_HAND_OVER(status, made, probes, release);
 }
 
 double hooke_probes_number(const hooke_probes *probes, const char *what) {
