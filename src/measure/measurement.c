@@ -23,7 +23,7 @@ static int32_t check(const struct hk_measurement_kind *kind, const hooke_system 
     status = hk_system_require_scene(system, kind->name, "");
   if (status == HOOKE_OK && (run || kind->needs_run)) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
-    status = hk_options_require(options, kind->options, "options", "hooke_options_create()");
+    status = hk_options_require(options, kind->options, "options", kind->name);
   return status;
 }
 

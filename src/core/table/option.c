@@ -81,11 +81,14 @@ const struct hk_option_table *hk_options_table(const hooke_options *options) {
   return options->table;
 }
 
+#define MAKER "hooke_options_create(\"%s\", ...)"
+
 int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
-                           const char *where, const char *maker) {
+                           const char *where, const char *name) {
   if (options && options->table == table) return HOOKE_OK;
-  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, where, "are missing; make them with %s", maker);
-  return hk_fail(HOOKE_BAD_VALUE, where, "are those of a %s; make them with %s", options->table->name, maker);
+  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, where, "are missing; make them with " MAKER, name);
+  return hk_fail(HOOKE_BAD_VALUE, where, "are those of a %s; make them with " MAKER, options->table->name,
+                 name);
 }
 
 /* The row named by the beginning of `name`, up to the end or a dot. */

@@ -142,8 +142,7 @@ int32_t hooke_probes_create(hooke_integrator *integrator, const hooke_options *o
                             hooke_probes **probes) {
   HOOKE_KEEP_ERRNO;
   *probes = NULL;
-  int32_t status =
-      hk_options_require(options, &hk_probes_options, "options", "hooke_options_create(\"probes\", ...)");
+  int32_t status = hk_options_require(options, &hk_probes_options, "options", "probes");
   if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK)
     status = hk_integrator_require_particles(integrator, "integrator", "has no quantities to probe");

@@ -240,8 +240,7 @@ class Trajectory(Closing):
     def animate(self, **options: Any) -> FuncAnimation:
         """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
         `hooke.animation.animate`."""
-        film: FuncAnimation = draw("animation.animate", self, **options)
-        return film
+        return draw("animation.animate", self, **options)
 
     # as a sequence
 
@@ -271,8 +270,7 @@ class Trajectory(Closing):
         return f"Trajectory({self.path!r}, {self._count} frames)"
 
     def _repr_html_(self) -> str:
-        shown: str = draw("notebook.embed", lambda page: view(self.path, page))
-        return shown
+        return draw("notebook.embed", lambda page: view(self.path, page))
 
     def close(self) -> None:
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""
