@@ -16,7 +16,7 @@ Shown = Union[None, bool, Callable[..., Any]]
 
 
 def draw(what: str, *arguments: Any, **options: Any) -> T:  # type: ignore[type-var]
-    """Calls a function by its module and name."""
+    """Calls a function by its module and name; the caller says what type it returns."""
     module, name = what.split(".")
     return getattr(importlib.import_module(f"{__package__}.{module}"), name)(*arguments, **options)  # type: ignore[no-any-return]
 
