@@ -145,11 +145,11 @@ static int report_unknown_option(const struct cli_arguments *arguments, const ch
   const char *near = NULL;
   snprintf(flag, sizeof flag, "%s", word + strspn(word, "-"));
   flag[strcspn(flag, "=")] = '\0';
-  const int longer = strncmp(word, "--", 2) == 0 ? list_longer(arguments, flag, list, &near) : 0;
+  list_verbs(arguments->verbs, flag, verbs); /* which have it whole */
+  const int longer = !verbs[0] && strncmp(word, "--", 2) == 0 ? list_longer(arguments, flag, list, &near) : 0;
   const int family = near && near[strlen(flag)] == '.';
   if (longer > 1 && !family)
     return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s is ambiguous: %s", flag, list);
-  if (longer == 0) list_verbs(arguments->verbs, flag, verbs);
   if (longer == 0 && !verbs[0]) near = cli_suggest(flag, next_flag, arguments);
   const int filled = family && value && value[0] != '-';
   return cli_report(

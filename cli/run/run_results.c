@@ -215,17 +215,13 @@ static void print_json_error(const struct cli_run *run) {
                    number_of(run, "last_from"), hooke_state_time(run->setup.state));
 }
 
-static void print_json_watched(const struct cli_run *run) {
-  const char *rows = watches(run) ? hooke_measurement_json(run->estimate, "watched", -1) : NULL;
-  if (rows) printf("\"watched\": %s, ", rows);
-}
-
 /* The keys "error", "watched" and "want", as JSON, each with a comma after it. */
 static void print_json_want(const struct cli_run *run) {
   if (!run->estimate || run->was_finished) return;
   const double met = number_of(run, "met");
   if (run->outcome == HOOKE_OK && cli_want_judges(run)) print_json_error(run);
-  print_json_watched(run);
+  const char *watched = watches(run) ? hooke_measurement_json(run->estimate, "watched", -1) : NULL;
+  if (watched) printf("\"watched\": %s, ", watched);
   if (!is_wanted(run)) return;
   cli_print_json("'want': {'wanted': %g, 'met': ", number_of(run, "wanted"));
   cli_print_json(isnan(met) ? "null" : met == 1.0 ? "true" : "false");

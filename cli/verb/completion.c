@@ -1,6 +1,5 @@
 #include "describe.h"
 #include "pages.h"
-#include "print.h"
 
 #include <string.h>
 

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { INDENT = 12 };
 
@@ -17,6 +18,14 @@ static int make_ready(struct cli_results *l) {
   const int code = cli_results_at(l);
   if (code != HOOKE_EXIT_DONE) return code;
   const char *method = hooke_options_text(l->setup.options, "method");
+  const char *methods = cli_arguments_text(l->arguments, "methods");
+  int32_t apart = methods && cli_arguments_text(l->arguments, "method") ? 1 : 0;
+  for (int32_t k = 0; k < l->method_count; k++)
+    apart &= strcmp(l->method[k], method) != 0;
+  if (apart && !cli_arguments_asks(l->arguments, "along"))
+    return cli_report(l->arguments, HOOKE_EXIT_USAGE,
+                      "--method %s is none of --methods %s; name it there, too, or leave one out", method,
+                      methods);
   if (cli_arguments_asks(l->arguments, "along")) return cli_setup_require(l->arguments, &l->setup, method);
   if (cli_arguments_asks(l->arguments, "nonlinear")) return cli_setup_require(l->arguments, &l->setup, NULL);
   return HOOKE_EXIT_DONE;

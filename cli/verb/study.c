@@ -289,7 +289,7 @@ static int check(const struct cli_arguments *arguments) {
   if (!ends_in(output, ".csv") && !ends_in(output, ".h5")) {
     return cli_report(arguments, HOOKE_EXIT_USAGE,
                       "-o %s: allowed: a name that ends in .csv, for the "
-                      "rows as a table, or in .h5, for the whole study",
+                      "rows as a table, or in .h5, for all that is found",
                       output);
   }
   return ends_in(output, ".h5") ? cli_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;

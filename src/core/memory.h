@@ -33,6 +33,10 @@ char *hk_copy_text(const char *text);
 
 void hk_free(void *block);
 
+/* Hands over what was made or, where the status is a failure, releases it; the status. */
+#define HOOKE_HAND_OVER(status, made, out, release)                                                          \
+  ((status) == HOOKE_OK ? (void)(*(out) = (made)) : release(made), (status))
+
 /* The first `count` numbers of what is left of a block. */
 static inline double *hk_part(double **block, int64_t count) {
   double *start = *block;

@@ -115,32 +115,22 @@ const char *hooke_last_error(void) {
 }
 
 const char *hooke_status_name(int32_t status) {
-  switch (status) {
-  case HOOKE_OK:
-    return "ok";
-  case HOOKE_STOPPED:
-    return "stopped";
-  case HOOKE_DIVERGED:
-    return "diverged";
-  case HOOKE_STEP_LIMIT:
-    return "step limit reached";
-  case HOOKE_NO_MEMORY:
-    return "out of memory";
-  case HOOKE_BAD_VALUE:
-    return "bad value";
-  case HOOKE_BAD_CALL:
-    return "call out of order";
-  case HOOKE_IO_FAILED:
-    return "could not read or write";
-  case HOOKE_NOT_BUILT:
-    return "not in this build";
-  case HOOKE_UNSUITED:
-    return "method does not take this problem";
-  case HOOKE_SOLVER_FAILED:
-    return "solver failed";
-  case HOOKE_INTERNAL:
-    return "defect of hooke";
-  default:
-    return "unknown status";
-  }
+  static const struct {
+    int32_t status;
+    const char *name;
+  } names[] = {{HOOKE_OK, "ok"},
+               {HOOKE_STOPPED, "stopped"},
+               {HOOKE_DIVERGED, "diverged"},
+               {HOOKE_STEP_LIMIT, "step limit reached"},
+               {HOOKE_NO_MEMORY, "out of memory"},
+               {HOOKE_BAD_VALUE, "bad value"},
+               {HOOKE_BAD_CALL, "call out of order"},
+               {HOOKE_IO_FAILED, "could not read or write"},
+               {HOOKE_NOT_BUILT, "not in this build"},
+               {HOOKE_UNSUITED, "method does not take this problem"},
+               {HOOKE_SOLVER_FAILED, "solver failed"},
+               {HOOKE_INTERNAL, "defect of hooke"}};
+  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
+    if (names[k].status == status) return names[k].name;
+  return "unknown status";
 }

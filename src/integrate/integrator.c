@@ -33,11 +33,7 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
   it->diverged_at = NAN;
   status = hooke_options_copy(options, &it->options);
   if (status == HOOKE_OK) status = hk_schedule_read(method, it->options, &it->schedule);
-  if (status == HOOKE_OK)
-    *out = it;
-  else
-    hooke_integrator_destroy(it);
-  return status;
+  return HOOKE_HAND_OVER(status, it, out, hooke_integrator_destroy);
 }
 
 /* Of explicit steps. */
@@ -56,11 +52,7 @@ static int32_t create_numbers(hooke_integrator *it) {
 static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **out) {
   if (status == HOOKE_OK) status = create_numbers(it);
   if (status == HOOKE_OK && it->method->steps->create) status = it->method->steps->create(it);
-  if (status == HOOKE_OK)
-    *out = it;
-  else
-    hooke_integrator_destroy(it);
-  return status;
+  return HOOKE_HAND_OVER(status, it, out, hooke_integrator_destroy);
 }
 
 static int32_t start_threads(hooke_integrator *it) {

@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/print.h"
-#include "core/status.h"
 
 #include <stdio.h>
 

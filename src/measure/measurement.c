@@ -23,7 +23,7 @@ static int32_t check(const struct hk_measurement_kind *kind, const hooke_system 
     status = hk_system_require_scene(system, kind->name, "");
   if (status == HOOKE_OK && (run || kind->needs_run)) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
-    status = hk_options_require(options, kind->options, "options", "hooke_options_create()");
+    status = hk_options_require(options, kind->options, "options", kind->name);
   return status;
 }
 
@@ -44,11 +44,7 @@ int32_t hk_measurement_create(const struct hk_measurement_kind *kind, void *obje
     status =
         options ? hooke_options_copy(options, &m->options) : hk_options_create(kind->options, &m->options);
   if (status == HOOKE_OK) status = kind->create(m);
-  if (status == HOOKE_OK)
-    *out = m;
-  else
-    hooke_measurement_destroy(m);
-  return status;
+  return HOOKE_HAND_OVER(status, m, out, hooke_measurement_destroy);
 }
 
 void hooke_measurement_destroy(hooke_measurement *m) {

@@ -24,11 +24,6 @@ static const char *licence(void) {
 
 static _Thread_local char blas[HOOKE_BLAS_SIZE];
 
-static const char *describe_blas(void) {
-  hk_blas_describe(blas);
-  return blas;
-}
-
 /* Processor architecture of the build. */
 static const char *machine(void) {
 #if defined(__x86_64__)
@@ -44,7 +39,7 @@ const char *hooke_build_fact(const char *what) {
   if (!what) return NULL;
   if (!strcmp(what, "sundials")) return HOOKE_SUNDIALS_VERSION;
   if (!strcmp(what, "cholmod")) return HOOKE_CHOLMOD_VERSION;
-  if (!strcmp(what, "blas")) return describe_blas();
+  if (!strcmp(what, "blas")) return hk_blas_describe(blas);
   if (!strcmp(what, "lapack")) return HOOKE_LAPACK_VERSION;
   if (!strcmp(what, "gsl")) return HOOKE_GSL_VERSION;
   if (!strcmp(what, "hdf5")) return HOOKE_HDF5_VERSION;

@@ -267,9 +267,5 @@ int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force, 
   forget_own(made);
   status = choose_forces(made);
   if (status == HOOKE_OK) status = find_stepped(made);
-  if (status == HOOKE_OK)
-    *with = made;
-  else
-    hooke_system_destroy(made);
-  return status;
+  return HOOKE_HAND_OVER(status, made, with, hooke_system_destroy);
 }

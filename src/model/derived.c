@@ -1,7 +1,6 @@
 #include "model/derived.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/system.h"
 
 #include <math.h>

@@ -83,11 +83,7 @@ static int32_t create(struct hk_generalized given, int64_t mass_count, const dou
     return status;
   }
   status = add_coordinates(system, kept, start);
-  if (status == HOOKE_OK)
-    *out = system;
-  else
-    hooke_system_destroy(system);
-  return status;
+  return HOOKE_HAND_OVER(status, system, out, hooke_system_destroy);
 }
 
 int32_t hk_generalized_create(int64_t size, hooke_force *force, hooke_force_product *product, void *ctx,

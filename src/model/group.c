@@ -1,15 +1,10 @@
 #include "model/group.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/scaling.h"
 #include "model/system.h"
 
 #include <string.h>
-
-static size_t size_of(const struct hk_group *group, int number) {
-  return (size_t)group->force->width[number] * sizeof(double);
-}
 
 int32_t hk_group_allocate(struct hk_group *group, const char *name) {
   int there = (group->name = hk_copy_text(name)) != NULL;
@@ -17,7 +12,7 @@ int32_t hk_group_allocate(struct hk_group *group, const char *name) {
     there &= (group->particle[k] = hk_new(group->count, sizeof(int32_t))) != NULL;
   for (int32_t k = 0; k < HOOKE_GROUP_NUMBERS; k++)
     if (group->force->width[k] > 0)
-      there &= (group->number[k] = hk_new(group->count, size_of(group, k))) != NULL;
+      there &= (group->number[k] = hk_new(group->force->width[k] * group->count, sizeof(double))) != NULL;
   return there ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
@@ -178,13 +173,6 @@ const struct hk_group *hk_system_last_group(const hooke_system *system, const st
 int64_t hk_system_members_of(const hooke_system *system, const struct hk_force_row *force) {
   int64_t count = 0;
   for (int64_t g = 0; g < system->group_count; g++)
-    count += system->group[g].force == force ? system->group[g].count : 0;
-  return count;
-}
-
-int64_t hk_system_member_count(const hooke_system *system) {
-  int64_t count = 0;
-  for (int64_t g = 0; g < system->group_count; g++)
-    count += system->group[g].count;
+    count += force == NULL || system->group[g].force == force ? system->group[g].count : 0;
   return count;
 }

@@ -80,13 +80,11 @@ int32_t hk_system_add_group(struct hooke_system *system, struct hk_group *group)
 void hk_system_remove_groups(struct hooke_system *system, int64_t part);
 
 /* Number of groups of a force, its group `k` (NULL if there is none), and the number of members of all of
- * them. */
+ * them, or of all forces for NULL. */
 int64_t hk_system_groups_of(const struct hooke_system *system, const struct hk_force_row *force);
 const struct hk_group *hk_system_group(const struct hooke_system *system, const struct hk_force_row *force,
                                        int64_t k);
 int64_t hk_system_members_of(const struct hooke_system *system, const struct hk_force_row *force);
-/* Number of groups of all forces. */
-int64_t hk_system_member_count(const struct hooke_system *system);
 /* The group that a part added last. */
 const struct hk_group *hk_system_last_group(const struct hooke_system *system,
                                             const struct hk_force_row *force);

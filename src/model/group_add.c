@@ -81,11 +81,9 @@ static int32_t check_counts(const struct hk_addition *added) {
 
 static int32_t check(const hooke_system *system, const struct hk_addition *added) {
   const struct hk_force_row *force = added->force;
-  char maker[64];
   int32_t status = hk_system_require_open(system);
-  hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", force->name);
   if (status == HOOKE_OK && force->options)
-    status = hk_options_require(added->options, force->options, "options", maker);
+    status = hk_options_require(added->options, force->options, "options", force->name);
   if (status == HOOKE_OK && force->options) status = hk_options_check_required(added->options);
   if (status == HOOKE_OK && added->count < 0)
     status = hk_fail(HOOKE_BAD_VALUE, force->place, "%lld %s; 0 or more are allowed", (long long)added->count,

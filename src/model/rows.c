@@ -2,7 +2,6 @@
 #include "model/force/force.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 
 #include <stdatomic.h>
 #include <string.h>

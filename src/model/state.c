@@ -68,11 +68,7 @@ int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
     if (system->velocity) memcpy(state->v, system->velocity, bytes); /* otherwise zeros, as allocated */
   }
   status = place_driven(system, state);
-  if (status == HOOKE_OK)
-    *out = state;
-  else
-    hooke_state_destroy(state);
-  return status;
+  return HOOKE_HAND_OVER(status, state, out, hooke_state_destroy);
 }
 
 int32_t hooke_state_create_first_order(int64_t size, hooke_state **state) {

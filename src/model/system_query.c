@@ -6,8 +6,6 @@
 #include "model/system.h"
 #include "model/vector3.h"
 
-#include "core/status.h"
-
 #include <math.h>
 #include <string.h>
 

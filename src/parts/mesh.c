@@ -42,7 +42,7 @@ static const struct hk_option_table table = {"mesh", HOOKE_OPTION_ROWS(rows)};
 
 int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                        int64_t triangle_count, const int64_t *triangles) {
-  int32_t status = hk_options_require(options, &table, "options", "hooke_options_create(\"mesh\", ...)");
+  int32_t status = hk_options_require(options, &table, "options", "mesh");
   if (status != HOOKE_OK) return status;
   if (vertex_count < 0 || triangle_count < 0 || vertex_count > INT32_MAX || triangle_count > INT32_MAX ||
       !vertices || !triangles) {

@@ -209,9 +209,7 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
                               const hooke_options *options, int64_t *first, int64_t *count) {
   const struct hooke_part_kind *found = find_kind(kind);
   if (found == NULL) return HOOKE_BAD_VALUE;
-  char maker[64];
-  hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", kind);
-  int32_t status = hk_options_require(options, found->table, "options", maker);
+  int32_t status = hk_options_require(options, found->table, "options", kind);
   if (status == HOOKE_OK) status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
 

@@ -18,7 +18,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const struct hk_option_row rows[] = {
     HOOKE_PART_POINT("from", "0,0,0", "where its axis begins"),

@@ -125,6 +125,9 @@ def test_usage(hooke, write):
     assert hooke("limit").code == 2
     unknown = hooke("limit", scene, "--methods", "verlot")
     assert unknown.code == 2 and "verlet" in unknown.err
+    hooke("limit", scene, "--methods", "verlet", "--method", "rk4", code=2, err="--method rk4 is none of --methods verlet")
+    assert hooke("limit", scene, "--methods", "verlet,rk4", "--method", "rk4", "--predict").code == 0
+    assert hooke("limit", scene, "--methods", "verlet", "--method", "rk4", "--along", "--duration", "0.1").code == 0
     assert hooke("limit", scene, "--predict=perhaps").code == 2
     assert hooke("limit", scene, "--accuracy", "2").code == 2
     assert hooke("limit", "missing.json").code == 3

@@ -63,6 +63,10 @@ def test_version_says_what_it_was_built_with(hooke):
         (["compare", "a.json", "--methods", ""], "''"),
         (["compare", "a.json", "--methods", "forward-euler,forward-euler"], "named twice"),
         (["check", "a.json", "-o", "b.h5"], "there is no option -o"),
+        (["needs", "a.json", "--at", "b.h5"], "there is no option --at, which is one of limit, modes;"),
+        (["needs", "a.json", "--ato", "1"], "--ato is ambiguous: --atol, --atol-velocity"),
+        (["run", "a.json", "--step", "1e305"], "1e+305 is not allowed; allowed: a number > 0 [s], up to 1e300"),
+        (["compare", "a.json", "-o", "b.txt"], "ends in .csv, for the rows as a table, or in .h5, for all that is found"),
     ],
 )
 def test_wrong_usage_is_2_and_says_why(hooke, words, wanted):

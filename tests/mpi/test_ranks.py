@@ -109,28 +109,36 @@ def ranks_of(process):
     return [pid for pid in below if found.get(pid, 0) > 0]
 
 
+def count_of(path):
+    try:
+        return len(hooke.open(path)) if path.exists() else 0
+    except (hooke.Error, OSError):
+        return 0
+
+
 def killed(path, ranks, *arguments, after):
-    """Kills one rank when the file has so many frames; whether it was in time."""
+    """Kills one rank when the file has so many frames; whether it was in time. One of them is of this run, so that all ranks
+    are there: Open MPI's launcher may wait for ever for what it starts, if a rank is killed meanwhile."""
+    after = max(after, 1 + count_of(path))
     process = begin(ranks, "ranks", *arguments)
     limit = time.monotonic() + LONG
     while process.poll() is None and time.monotonic() < limit:
-        try:
-            there = len(hooke.open(path)) if path.exists() else 0
-        except (hooke.Error, OSError):
-            there = 0
-        found = ranks_of(process) if there >= after else []
+        found = ranks_of(process) if count_of(path) >= after else []
         if found:
             os.kill(found[-1], signal.SIGKILL)
             break
         time.sleep(0.01)
-    process.communicate(timeout=LONG)
+    try:
+        process.communicate(timeout=LONG)
+    finally:
+        process.kill()
     return process.returncode != 0
 
 
 def kill_and_resume(folder, kills):
     scene, one, path = saved(folder, drape(12)), folder / "one.h5", folder / "ranks.h5"
-    run = ("--step", "1e-4", "--duration", "0.4", "--every", "0.002")
-    hooke.run(hooke.Scene.load(scene), output=one, step=1e-4, duration=0.4, every=0.002)
+    run = ("--step", "1e-5", "--duration", "0.4", "--every", "0.002")
+    hooke.run(hooke.Scene.load(scene), output=one, step=1e-5, duration=0.4, every=0.002)
     done, sizes = 0, itertools.cycle([2, 3, 1, 5])
     for k in range(kills):
         file = ("--resume", path) if path.exists() else ("-o", path)

@@ -52,6 +52,7 @@ def test_unknown_keywords_name_the_nearest(call, of, nearest):
 
 @pytest.mark.parametrize("call, words", [
     (lambda: hooke.Scene().obstacles(kind="plane"), '^obstacles: unknown keyword "kind"; allowed: shape, '),
+    (lambda: hooke.limit(SIX_PARTICLES, methods="rk4", predict=True).plot(nosuch=1), '^limit: unknown keyword "nosuch"; allowed: ax'),
     (lambda: hooke.view([], "page.html"), "^trajectory: there is none"),
     (lambda: hooke.sweep(SIX_PARTICLES, {}, only=1), "^only: 1 is no slice"),
     (lambda: hooke.Scene.parse(SIX_PARTICLES, set="run.step=1"), "^set: 'run.step=1' is no mapping"),

@@ -1,9 +1,7 @@
 #include "core/os/os.h"
 
-#include <errno.h>
 #include <malloc.h>
 #include <math.h>
-#include <stdio.h>
 #include <windows.h>
 
 void *hk_os_allocate(size_t alignment, size_t size) {

@@ -61,11 +61,7 @@ int32_t hk_options_create(const struct hk_option_table *table, hooke_options **o
   made->table = table;
   made->slot = hk_new(count_rows(table), sizeof *made->slot);
   int32_t status = made->slot ? fill_slots(made, table, -1) : HOOKE_NO_MEMORY;
-  if (status)
-    hooke_options_destroy(made);
-  else
-    *options = made;
-  return status;
+  return HOOKE_HAND_OVER(status, made, options, hooke_options_destroy);
 }
 
 void hooke_options_destroy(hooke_options *options) {
@@ -85,11 +81,14 @@ const struct hk_option_table *hk_options_table(const hooke_options *options) {
   return options->table;
 }
 
+#define MAKER "hooke_options_create(\"%s\", ...)"
+
 int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
-                           const char *where, const char *maker) {
+                           const char *where, const char *name) {
   if (options && options->table == table) return HOOKE_OK;
-  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, where, "are missing; make them with %s", maker);
-  return hk_fail(HOOKE_BAD_VALUE, where, "are those of a %s; make them with %s", options->table->name, maker);
+  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, where, "are missing; make them with " MAKER, name);
+  return hk_fail(HOOKE_BAD_VALUE, where, "are those of a %s; make them with " MAKER, options->table->name,
+                 name);
 }
 
 /* The row named by the beginning of `name`, up to the end or a dot. */
@@ -167,29 +166,27 @@ static void put(hooke_options *options, struct slot *slot, const struct hk_optio
   }
 }
 
-int32_t hk_options_set_from(hooke_options *options, const hooke_options *from) {
+/* Copies the values that are set among `count` slots from `of` on. */
+static int32_t copy_slots(hooke_options *options, struct slot *to, const struct slot *of, int64_t count) {
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < from->slot_count && status == HOOKE_OK; k++) {
-    struct hk_option_value value;
-    if (!from->slot[k].is_set) continue;
-    status = hk_option_value_copy(&from->slot[k].value, &value);
-    if (status == HOOKE_OK) put(options, &options->slot[k], &value);
-  }
-  return status;
-}
-
-int32_t hk_options_set_value(hooke_options *options, const char *name, const hooke_options *from,
-                             const char *named) {
-  struct slot *to = find_slot(options, name), *of = find_slot(from, named);
-  const int64_t members = to->row->family ? count_rows(to->row->family) : 0;
-  int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k <= members && status == HOOKE_OK; k++) {
+  for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     struct hk_option_value value;
     if (!of[k].is_set) continue;
     status = hk_option_value_copy(&of[k].value, &value);
     if (status == HOOKE_OK) put(options, &to[k], &value);
   }
   return status;
+}
+
+int32_t hk_options_set_from(hooke_options *options, const hooke_options *from) {
+  return copy_slots(options, options->slot, from->slot, from->slot_count);
+}
+
+int32_t hk_options_set_value(hooke_options *options, const char *name, const hooke_options *from,
+                             const char *named) {
+  struct slot *to = find_slot(options, name);
+  const int64_t members = to->row->family ? count_rows(to->row->family) : 0;
+  return copy_slots(options, to, find_slot(from, named), 1 + members);
 }
 
 int32_t hooke_options_copy(const hooke_options *options, hooke_options **copy) {
@@ -370,19 +367,15 @@ int64_t hooke_options_row_count(const hooke_options *options) {
   return options->slot_count;
 }
 
-/* Allowed values of a slot, in words. They are rarely needed, so the text is made on first use. */
-static const char *allowed_of(struct slot *slot) {
-  char allowed[TEXT_SIZE];
-  if (slot->allowed) return slot->allowed;
-  hk_option_describe(slot->row, allowed, sizeof allowed);
-  return slot->allowed = hk_copy_text(allowed);
-}
-
-static const char *units_of(struct slot *slot) {
-  char units[TEXT_SIZE];
-  if (slot->units) return slot->units;
-  hk_unit_list(slot->row->unit, units, sizeof units);
-  return slot->units = hk_copy_text(units);
+/* Allowed values, or units, of a slot, in words. They are rarely needed, so the text is made on first use. */
+static const char *words_of(const struct hk_option_row *row, char **words, int32_t of_units) {
+  char text[TEXT_SIZE];
+  if (*words) return *words;
+  if (of_units)
+    hk_unit_list(row->unit, text, sizeof text);
+  else
+    hk_option_describe(row, text, sizeof text);
+  return *words = hk_copy_text(text);
 }
 
 const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property) {
@@ -390,8 +383,8 @@ const char *hooke_options_row(const hooke_options *options, int64_t row, const c
   struct slot *slot = &options->slot[row];
   const struct hk_option_row *of = slot->row;
   static const char *const type[] = {"number", "numbers", "flag", "choice", "text", "family"};
-  if (strcmp(property, "allowed") == 0) return allowed_of(slot);
-  if (strcmp(property, "units") == 0) return units_of(slot);
+  if (strcmp(property, "allowed") == 0) return words_of(of, &slot->allowed, 0);
+  if (strcmp(property, "units") == 0) return words_of(of, &slot->units, 1);
   const struct {
     const char *name, *text;
   } known[] = {

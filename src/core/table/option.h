@@ -73,10 +73,10 @@ int32_t hk_options_create(const struct hk_option_table *table, hooke_options **o
 
 const struct hk_option_table *hk_options_table(const hooke_options *options);
 
-/* HOOKE_BAD_VALUE for the argument `where` unless these are options of that table, which `maker`
- * ("hooke_options_create(\"run\", ...)") creates. NULL is refused. */
+/* HOOKE_BAD_VALUE for the argument `where` unless these are options of that table, which
+ * hooke_options_create() creates by this name. NULL is refused. */
 int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
-                           const char *where, const char *maker);
+                           const char *where, const char *name);
 
 /* Row of a dotted name; NULL if there is none. */
 const struct hk_option_row *hk_options_find(const struct hk_option_table *table, const char *name);

@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/number.h"
-#include "core/print.h"
 #include "core/status.h"
 #include "core/table/unit.h"
 
@@ -71,7 +70,9 @@ static int32_t check_number(const struct hk_option_row *row, const char *where, 
   char may[HOOKE_OPTION_ALLOWED], shown[HOOKE_NUMBER_SIZE], item[ALLOWED_SIZE];
   hk_number_print(number, shown);
   print_where(row, where, count, index, item);
-  return hk_fail(HOOKE_BAD_VALUE, item, "%s is not allowed; allowed: %s", shown, hk_option_allowed(row, may));
+  const int hidden = bounded && number > row->high && row->high >= 1e300; /* a bound that is not listed */
+  return hk_fail(HOOKE_BAD_VALUE, item, "%s is not allowed; allowed: %s%s", shown,
+                 hk_option_allowed(row, may), hidden ? ", up to 1e300" : "");
 }
 
 static int32_t check_count(const struct hk_option_row *row, const char *where, int64_t count) {

@@ -7,7 +7,6 @@
 #include "integrate/loop/run_loop.h"
 
 #include "core/print.h"
-#include "core/status.h"
 #include "model/force/force.h"
 
 #include <math.h>

@@ -58,7 +58,7 @@ static const struct hk_option_row run_rows[] = {
 const struct hk_option_table hk_run_options = {"run", HOOKE_OPTION_ROWS(run_rows)};
 
 int32_t hk_run_options_require(const hooke_options *options, const char *where) {
-  return hk_options_require(options, &hk_run_options, where, "hooke_options_create(\"run\", ...)");
+  return hk_options_require(options, &hk_run_options, where, "run");
 }
 
 /* ---- tolerances ---- */

@@ -2,7 +2,6 @@
  * new state. Order 2, symplectic, stable at every step. q_m and v_m are one stage (integrate/solve/stage.h)
  * of length h/2 from q and v, beyond which the step goes as far again (Hairer, Lubich and Wanner 2006,
  * II.1.1). */
-#include "core/status.h"
 #include "integrate/solve/stage.h"
 
 /* From the middle on as far again; constrained particles come from the drives. */

@@ -4,7 +4,6 @@
  * quadratic form of an oscillation up to h w = 2, so that this is the limit at any damping; pairs keep their
  * momentum. What strong damping does to the order is in docs/notes/methods.md. */
 #include "core/memory.h"
-#include "core/status.h"
 #include "integrate/method/verlet.h"
 #include "model/sum/dampers.h"
 

@@ -1,6 +1,5 @@
 /* Steps of explicit Runge-Kutta methods. Pinned and driven particles are constrained in every stage. */
 #include "core/memory.h"
-#include "core/status.h"
 #include "integrate/integrator.h"
 #include "kernel/step_loops.h"
 #include "model/coordinates/coordinates.h"

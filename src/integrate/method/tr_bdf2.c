@@ -4,7 +4,6 @@
  *   q' = q_c + d (q_c - q) + a v',        v' = v_c + d (v_c - v) + a a(t + h, q', v'),   d = (sqrt 2 - 1)/2
  * Order 2, stable at every step, and what no step resolves dies out (L-stable). Each of the two is a stage
  * (integrate/solve/stage.h), the first begun at the start of the step, the second at q_c and v_c. */
-#include "core/status.h"
 #include "integrate/solve/stage.h"
 
 /* As numbers, so that they are the same everywhere. */

@@ -4,30 +4,24 @@
 
 #include <errno.h>
 
-int hk_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes) {
-  const char *rest = bytes;
-  while (count > 0) {
-    const int64_t done = hk_os_write_at(descriptor, at, count, rest);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return done < 0 ? errno : ENOSPC;
-    rest += done;
-    at += done;
-    count -= done;
+/* Writes `from`, or reads into `to`. */
+static int transfer(int descriptor, int64_t at, int64_t count, const char *from, char *to) {
+  for (int64_t done, all = 0; all<count; all += done> 0 ? done : 0) {
+    const int64_t left = count - all;
+    done = from ? hk_os_write_at(descriptor, at + all, left, from + all)
+                : hk_os_read_at(descriptor, at + all, left, to + all);
+    if (done < 0 && errno != EINTR) return errno;
+    if (done == 0) return from ? ENOSPC : EIO;
   }
   return 0;
 }
 
+int hk_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes) {
+  return transfer(descriptor, at, count, bytes, NULL);
+}
+
 int hk_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes) {
-  char *rest = bytes;
-  while (count > 0) {
-    const int64_t done = hk_os_read_at(descriptor, at, count, rest);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return done < 0 ? errno : EIO;
-    rest += done;
-    at += done;
-    count -= done;
-  }
-  return 0;
+  return transfer(descriptor, at, count, NULL, bytes);
 }
 
 int hk_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block,

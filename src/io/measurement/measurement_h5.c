@@ -178,17 +178,14 @@ static int32_t create_motions(const hooke_measurement *m, struct motions *motion
   return motions->writer ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-static int64_t frames_of(const struct hk_study *study, int64_t k) {
-  return k == 0 ? study->reference.frames.recorded : study->row[k - 1].trial.frames;
-}
-
 static herr_t make_motions(struct motions *motions, hid_t file) {
   const hooke_system *system = motions->m->system;
   herr_t result = 0;
   for (int64_t k = 0; result >= 0 && k < motions->count; k++) {
     const struct hk_study *study = motions->m->object;
     const char *group = k == 0 ? "all" : study->method[study->row[k - 1].method];
-    hk_frame_arrays_plan(system, group, frames_of(study, k), &motions->writer[k]);
+    const int64_t frames = k == 0 ? study->reference.frames.recorded : study->row[k - 1].trial.frames;
+    hk_frame_arrays_plan(system, group, frames, &motions->writer[k]);
     result = hk_frame_arrays_create(file, &motions->writer[k]);
   }
   return result >= 0 && motions->count > 0 ? hk_h5md_connect(file, system, "all") : result;

@@ -12,7 +12,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const struct hk_option_row rows[] = {
     HOOKE_OPTION("probe", .type = HOOKE_OPTION_TEXT, NULL,
@@ -143,8 +142,7 @@ int32_t hooke_probes_create(hooke_integrator *integrator, const hooke_options *o
                             hooke_probes **probes) {
   HOOKE_KEEP_ERRNO;
   *probes = NULL;
-  int32_t status =
-      hk_options_require(options, &hk_probes_options, "options", "hooke_options_create(\"probes\", ...)");
+  int32_t status = hk_options_require(options, &hk_probes_options, "options", "probes");
   if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK)
     status = hk_integrator_require_particles(integrator, "integrator", "has no quantities to probe");
@@ -156,11 +154,7 @@ int32_t hooke_probes_create(hooke_integrator *integrator, const hooke_options *o
   made->integrator = integrator;
   made->last = NAN;
   status = make(options, path, made);
-  if (status == HOOKE_OK)
-    *probes = made;
-  else
-    release(made);
-  return status;
+  return HOOKE_HAND_OVER(status, made, probes, release);
 }
 
 double hooke_probes_number(const hooke_probes *probes, const char *what) {

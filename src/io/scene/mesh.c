@@ -73,8 +73,7 @@ int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit,
 }
 
 int32_t hooke_mesh_read(const char *path, hooke_options *options) {
-  int32_t status =
-      hk_options_require(options, hk_options_named("mesh"), "options", "hooke_options_create(\"mesh\", ...)");
+  int32_t status = hk_options_require(options, hk_options_named("mesh"), "options", "mesh");
   if (status == HOOKE_OK) status = hk_mesh_check_source(options);
   return status != HOOKE_OK ? status : hk_mesh_read_as(path, path, 0.0, options);
 }

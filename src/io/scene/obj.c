@@ -93,11 +93,6 @@ static int32_t add_row(void **rows, int32_t **lines, int64_t *count, int64_t *ca
   return HOOKE_OK;
 }
 
-static int32_t add_vertex(struct hk_obj *obj, const double *place, int64_t line) {
-  return add_row((void **)&obj->vertex, &obj->vertex_line, &obj->vertex_count, &obj->vertex_capacity, place,
-                 3 * sizeof *place, line, INT32_MAX, "vertex");
-}
-
 static int32_t add_triangle(struct hk_obj *obj, int64_t a, int64_t b, int64_t c, int64_t line) {
   const int64_t corner[3] = {a, b, c};
   return add_row((void **)&obj->triangle, &obj->triangle_line, &obj->triangle_count, &obj->triangle_capacity,
@@ -118,7 +113,9 @@ static int32_t read_vertex(struct reader *reader, int64_t line) {
   }
   if (count < 3)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "a vertex of %d numbers; allowed: x y z, three numbers", count);
-  return add_vertex(reader->obj, number, line);
+  struct hk_obj *obj = reader->obj;
+  return add_row((void **)&obj->vertex, &obj->vertex_line, &obj->vertex_count, &obj->vertex_capacity, number,
+                 3 * sizeof *number, line, INT32_MAX, "vertex");
 }
 
 /* The vertex of a corner v, v/vt, v//vn or v/vt/vn; negative numbers count back from the last vertex so

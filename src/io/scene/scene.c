@@ -62,11 +62,7 @@ static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
 
 /* Passes the scene to the caller, or releases it. */
 static int32_t finish(int32_t status, hooke_scene *made, hooke_scene **scene) {
-  if (status)
-    hooke_scene_destroy(made);
-  else
-    *scene = made;
-  return status;
+  return HOOKE_HAND_OVER(status, made, scene, hooke_scene_destroy);
 }
 
 /* The scene of a trajectory, with the options of its run. */

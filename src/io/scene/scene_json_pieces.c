@@ -2,7 +2,6 @@
 #include "io/scene/scene_json.h"
 
 #include "core/memory.h"
-#include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
 #include "io/scene/scene_file.h"
@@ -223,9 +222,7 @@ int32_t hooke_system_add_members(hooke_system *system, const char *key, const ch
   if (list->key == NULL)
     return hk_option_unknown(NULL, "particles springs bending anchors bodies driven loads obstacles", "key",
                              "key", key);
-  char maker[64];
-  hk_print(maker, sizeof maker, "hooke_options_create(\"%s\", ...)", key);
-  int32_t status = hk_options_require(options, hk_options_named(key), "options", maker);
+  int32_t status = hk_options_require(options, hk_options_named(key), "options", key);
   if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK && (count % list->columns != 0 || (count != 0 && !list->particles)))
     status = hk_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed for %s; allowed: %s", (long long)count,

@@ -2,7 +2,6 @@
 #include "io/scene/scene_json.h"
 
 #include "core/memory.h"
-#include "core/number.h"
 #include "core/status.h"
 
 #include <stdio.h>

@@ -125,8 +125,7 @@ static int32_t apply_start(const hooke_options *options, hooke_system *system) {
 }
 
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {
-  int32_t status =
-      hk_options_require(options, &scene_table, "options", "hooke_options_create(\"scene\", ...)");
+  int32_t status = hk_options_require(options, &scene_table, "options", "scene");
   if (status == HOOKE_OK && hooke_options_is_set(options, "gravity"))
     status = hooke_system_set_gravity(system, hooke_options_numbers(options, "gravity"));
   if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))

@@ -396,37 +396,31 @@ static void add_lists(struct writer *to) {
   }
 }
 
-/* Of all particles, by their numbers in the scene. */
-static void add_each(struct writer *to, const char *key, const struct hk_each *each) {
-  if (each->value == NULL) {
-    if (each->most != 0.0) hk_text_number(&to->json, key, each->most);
-    return;
-  }
-  double *rows = hk_new(each->count, sizeof *rows);
+/* Rows of all particles, of 1 or 3 numbers, by their numbers in the scene. */
+static void add_rows(struct writer *to, const char *key, int32_t columns, const double *value) {
+  const int64_t n = to->system->particle_count;
+  double *rows = hk_new(columns * n, sizeof *rows);
   if (rows == NULL) to->json.status = HOOKE_NO_MEMORY;
-  for (int64_t p = 0; p < each->count && rows; p++)
-    rows[to->number[p]] = each->value[p];
-  if (rows) add_numbers(&to->json, key, each->count, 0, rows);
+  for (int64_t p = 0; p < n && rows; p++)
+    memcpy(rows + columns * to->number[p], value + columns * p, (size_t)columns * sizeof *rows);
+  if (rows) add_numbers(&to->json, key, columns * n, columns > 1 ? columns : 0, rows);
   hk_free(rows);
 }
 
-/* Rows of all particles, by their numbers in the scene. */
-static void add_rows(struct writer *to, const char *key, const double *value) {
-  const int64_t n = to->system->particle_count;
-  double *rows = hk_new(3 * n, sizeof *rows);
-  if (rows == NULL) to->json.status = HOOKE_NO_MEMORY;
-  for (int64_t p = 0; p < n && rows; p++)
-    memcpy(rows + 3 * to->number[p], value + 3 * p, 3 * sizeof *rows);
-  if (rows) add_numbers(&to->json, key, 3 * n, 3, rows);
-  hk_free(rows);
+/* One number, or one of each particle. */
+static void add_each(struct writer *to, const char *key, const struct hk_each *each) {
+  if (each->value)
+    add_rows(to, key, 1, each->value);
+  else if (each->most != 0.0)
+    hk_text_number(&to->json, key, each->most);
 }
 
 static void add_start(struct writer *to) {
   if (to->start[0] == NULL) return;
   hk_text_open(&to->json, "start", '{');
-  add_rows(to, "position", to->start[0]);
+  add_rows(to, "position", 3, to->start[0]);
   if (to->start[1] && is_moving(3 * to->system->particle_count, to->start[1]))
-    add_rows(to, "velocity", to->start[1]);
+    add_rows(to, "velocity", 3, to->start[1]);
   hk_text_close(&to->json, '}');
 }
 

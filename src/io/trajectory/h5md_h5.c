@@ -1,7 +1,6 @@
 /* The constant parts of an H5MD file. */
 #include "core/crc32.h"
 #include "core/memory.h"
-#include "core/status.h"
 
 #if HOOKE_HAVE_HDF5
 

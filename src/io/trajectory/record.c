@@ -59,11 +59,7 @@ int32_t hooke_record_open(const char *path, hooke_record **out) {
   if (status == HOOKE_OK) status = hk_record_load(record);
   if (status == HOOKE_OK && record->text[HOOKE_RECORD_STATUS] == NULL)
     status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory of hooke: it has no /hooke/status", path);
-  if (status == HOOKE_OK)
-    *out = record;
-  else
-    hooke_record_close(record);
-  return status;
+  return HOOKE_HAND_OVER(status, record, out, hooke_record_close);
 }
 
 void hooke_record_close(hooke_record *record) {

@@ -13,11 +13,6 @@
 
 /* ---- texts and options ---- */
 
-/* Leaving it out would describe another run. */
-static int32_t refuse_option(const char *name) {
-  return hk_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
-}
-
 static int32_t unreadable(const char *name) {
   return hk_fail(HOOKE_IO_FAILED, NULL, "%s of the run could not be read", name);
 }
@@ -59,8 +54,8 @@ static int32_t read_option(hid_t attribute, hooke_options *options, const char *
                  : unreadable(name);
   else if (single && class == H5T_STRING && H5Tis_variable_str(type) > 0)
     status = read_word(attribute, options, name);
-  else
-    status = refuse_option(name);
+  else /* leaving it out would describe another run */
+    status = hk_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
   hk_h5_drop(space);
   hk_h5_drop(type);
   return status;

@@ -158,11 +158,7 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
   if (status == HOOKE_OK)
     status = hk_trajectory_make(path, system, integrator, whole ? whole : scene_text, made);
   hk_free(whole);
-  if (status == HOOKE_OK)
-    *trajectory = made;
-  else
-    hk_trajectory_release(made);
-  return status;
+  return HOOKE_HAND_OVER(status, made, trajectory, hk_trajectory_release);
 }
 
 static int32_t refuse_bad(const hooke_trajectory *trajectory) {

@@ -67,8 +67,7 @@ static int32_t find_makers(struct hk_verify *verify) {
     verify->made_by[k] = hooke_record_text(verify->record, facts[k]);
     verify->here[k] = k == 0 ? hooke_version() : hooke_build_fact(facts[k]);
   }
-  hk_blas_describe(verify->blas);
-  verify->here[HOOKE_VERIFY_FACTS - 1] = verify->blas;
+  verify->here[HOOKE_VERIFY_FACTS - 1] = hk_blas_describe(verify->blas);
   const hooke_options *options = hooke_record_options(verify->record);
   const struct hk_method *method = hk_method_find(hooke_options_text(options, "method"));
   const int32_t factor = strcmp(hooke_options_text(options, "linear_solver"), "direct") == 0;
@@ -279,19 +278,14 @@ static int32_t compare_slice(struct hk_verify *verify) {
   return status == HOOKE_OK && verify->may_differ ? within_tolerance(verify, apart) : status;
 }
 
-/* Extremes over checked frames; a damaged frame may hold any numbers. */
-static void find_times(struct hk_verify *verify) {
-  const int64_t from = verify->from, to = verify->to;
-  verify->time_from = from < verify->checked ? verify->record->time[from] : NAN;
-  verify->time_to = to < verify->checked ? verify->record->time[to] : NAN;
-}
-
 static int32_t run_all(struct hk_verify *verify) {
   int32_t status = check_frames(verify);
   if (status == HOOKE_OK) status = hooke_record_read(verify->record, 0, verify->first);
   if (status == HOOKE_OK) status = hk_verify_first(verify);
   if (status == HOOKE_OK) status = compare_slice(verify);
-  find_times(verify); /* the last one may be closer */
+  /* of checked frames, as a damaged one may hold any numbers; the last one may be closer than it was */
+  if (verify->from < verify->checked) verify->time_from = verify->record->time[verify->from];
+  if (verify->to < verify->checked) verify->time_to = verify->record->time[verify->to];
   return status;
 }
 

@@ -32,10 +32,6 @@ static int32_t answer(struct run *run, int32_t go_on) {
   return 1;
 }
 
-static int32_t told(const struct run *run) {
-  return hk_fail(run->status, NULL, "%s", run->message);
-}
-
 static int32_t differ(struct hk_verify *verify, int64_t frame, int64_t k, double stored, double computed) {
   const int64_t size = 3 * hooke_system_particle_count(verify->system), at = k % size;
   char there[HOOKE_NUMBER_SIZE], here[HOOKE_NUMBER_SIZE];
@@ -171,7 +167,7 @@ static int32_t run_slice(struct run *run, hooke_integrator *integrator, hooke_st
     if (status == HOOKE_OK) status = hk_integrator_run_on(integrator, verify->first, state);
   }
   run->pass->steps = (double)hooke_integrator_count(integrator, "steps");
-  if (run->status != HOOKE_OK) return told(run);
+  if (run->status != HOOKE_OK) return hk_fail(run->status, NULL, "%s", run->message);
   if (status == HOOKE_STOPPED && hooke_integrator_count(integrator, "stop_value") == ENOUGH) return HOOKE_OK;
   if (status == HOOKE_OK && run->frame > verify->to) return HOOKE_OK;
   if (status == HOOKE_OK)

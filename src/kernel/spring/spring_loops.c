@@ -2,7 +2,6 @@
  * first, which vectorises for any ends, and are then added in spring order, which keeps every sum the same to
  * the bit. */
 #include "kernel/instruction_set.h"
-#include "kernel/spring/tiled_loops.h"
 #include "kernel/spring/spring_body.h"
 
 #include <stddef.h>

@@ -2,7 +2,6 @@
 #include "measure/check/check.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "core/table/option.h"
 #include "integrate/integrator.h"
 #include "measure/estimate/estimate.h"

@@ -4,7 +4,6 @@
 #include "core/clock.h"
 #include "core/memory.h"
 #include "core/table/option.h"
-#include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
 #include "model/group.h"

@@ -12,8 +12,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <string.h>
 
 enum {
   KEPT = 100,

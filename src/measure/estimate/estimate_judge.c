@@ -4,7 +4,6 @@
 
 #include "core/print.h"
 #include "measure/counted_work/work.h"
-#include "measure/spectrum/step_bound.h"
 
 #include <math.h>
 

@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 static const double LONG = 10.0;                /* [s] of counted work */
 static const double FACTOR = 10.0, POWER = 0.7; /* of tolerances, and how errors scale with them */

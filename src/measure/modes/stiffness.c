@@ -5,7 +5,6 @@
 #include "model/force/force.h"
 #include "model/vector3.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* Motions without stiffness by name: those of connected pieces as rigid bodies. */
 #include "core/memory.h"
-#include "core/status.h"
 #include "kernel/vector_loops.h"
 #include "measure/modes/stiffness.h"
 #include "measure/spectrum/eigen/dense.h"

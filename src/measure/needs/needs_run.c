@@ -88,12 +88,8 @@ void hk_needs_find_each(struct hk_needs *needs) {
   double far = 0.0;
   for (int64_t f = 0; f < frames; f++)
     far = fmax(far, distance_at(needs, lean, f, full, f));
-  hk_wants_find(&needs->wants, &lean->values, &full->values, full->recorded, frames, far, needs->found);
-  for (int32_t k = 0; k < needs->wants.count; k++) {
-    struct hk_want_found *found = &needs->found[k];
-    found->error += needs->own_error * (needs->wants.list ? found->wanted : 1.0);
-    if (!isnan(found->error)) found->met = found->error <= found->wanted;
-  }
+  hk_wants_find(&needs->wants, &lean->values, &full->values, full->recorded, frames, far, needs->own_error,
+                needs->found);
 }
 
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path) {

@@ -230,15 +230,17 @@ const struct hk_column hk_want_columns[HOOKE_WANT_COLUMNS] = {
 
 void hk_wants_find(const struct hk_wants *wants, const struct hk_watched_series *a,
                    const struct hk_watched_series *b, int64_t recorded, int64_t frames, double far,
-                   struct hk_want_found found[HOOKE_WANTS]) {
+                   double own, struct hk_want_found found[HOOKE_WANTS]) {
   double bound[HOOKE_WANTS], error[1 + HOOKE_WANTS] = {0.0};
   hk_wants_bounds(wants, b, recorded, bound);
   for (int64_t f = 0; f < frames; f++)
     hk_wants_spread(wants, a, f, b, f, far, error);
   if (frames < b->frames) hk_wants_forget_periods(wants, error);
-  for (int32_t k = 0; k < wants->count; k++)
-    found[k] = (struct hk_want_found){wants->want[k].name, hk_want_unit(wants, k), bound[k], error[1 + k],
-                                      isnan(error[1 + k]) ? NAN : error[1 + k] <= bound[k]};
+  for (int32_t k = 0; k < wants->count; k++) {
+    const double most = error[1 + k] + own * (wants->list ? bound[k] : 1.0);
+    found[k] = (struct hk_want_found){wants->want[k].name, hk_want_unit(wants, k), bound[k], most,
+                                      isnan(most) ? NAN : most <= bound[k]};
+  }
 }
 
 void hk_wants_claim(const struct hk_wants *wants, const struct hk_want_found found[HOOKE_WANTS],

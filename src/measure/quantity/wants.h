@@ -66,10 +66,11 @@ struct hk_want_found {
   double wanted, error, met; /* the error NaN where it is not known, and `met` */
 };
 /* Finds the errors of a run over the first `frames` frames of its series `a`, against `b`, by whose
- * `recorded` frames relative bounds are; `far` is the largest distance of a particle over these. */
+ * `recorded` frames relative bounds are; `far` is the largest distance of a particle over these. `own` is
+ * added to them: in a list as a fraction of what is wanted. */
 void hk_wants_find(const struct hk_wants *wants, const struct hk_watched_series *a,
                    const struct hk_watched_series *b, int64_t recorded, int64_t frames, double far,
-                   struct hk_want_found found[HOOKE_WANTS]);
+                   double own, struct hk_want_found found[HOOKE_WANTS]);
 /* The claims "error" of a list, with `where` after the errors. */
 void hk_wants_claim(const struct hk_wants *wants, const struct hk_want_found found[HOOKE_WANTS],
                     enum hk_claim_of of, const char *by, const char *where, struct hk_claims *claims);

@@ -1,6 +1,5 @@
 #include "measure/recommend/pick.h"
 
-#include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"

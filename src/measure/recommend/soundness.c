@@ -1,7 +1,6 @@
 #include "measure/recommend/soundness.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "measure/counted_work/work.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"

@@ -1,7 +1,6 @@
 #include "measure/rest/rest.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "measure/modes/lowest.h"
 #include "measure/modes/stiffness.h"
 #include "model/state.h"

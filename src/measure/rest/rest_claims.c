@@ -1,7 +1,6 @@
 /* What a rest says of its results. */
 #include "core/print.h"
 #include "measure/rest/rest.h"
-#include "model/system.h"
 
 static void tell_rest(const struct hk_resting *r, struct hk_claims *claims) {
   const struct hk_rest *rest = &r->rest;

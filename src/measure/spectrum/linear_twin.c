@@ -1,7 +1,6 @@
 #include "measure/spectrum/linear_twin.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/system.h"
 #include "model/vector3.h"
 
@@ -220,11 +219,7 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
   if (status == HOOKE_OK) status = set_drag(old, system);
   if (status == HOOKE_OK && held) status = hooke_system_set_force(system, hold, hold_product, twin);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
-  if (status == HOOKE_OK)
-    *out = system;
-  else
-    hooke_system_destroy(system);
-  return status;
+  return HOOKE_HAND_OVER(status, system, out, hooke_system_destroy);
 }
 
 /* The force of springs at rest, negated: the sum that the integrators form is then 0 to the bit. */

@@ -6,7 +6,6 @@
 #include "measure/counted_work/work.h"
 #include "model/sum/spring_batch.h"
 #include "model/sum/tiled.h"
-#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>

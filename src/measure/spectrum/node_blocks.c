@@ -1,7 +1,6 @@
 #include "measure/spectrum/node_blocks.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "measure/counted_work/work.h"
 #include "model/force/force.h"
 

@@ -1,7 +1,6 @@
 #include "measure/spectrum/rigid.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
 

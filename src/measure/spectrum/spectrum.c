@@ -1,7 +1,6 @@
 #include "measure/spectrum/spectrum.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "kernel/vector_loops.h"
 #include "measure/spectrum/eigen/dense.h"
 #include "measure/spectrum/eigen/dominant_mode.h"

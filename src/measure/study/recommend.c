@@ -214,7 +214,7 @@ static void keep(struct hk_study *study, const struct hk_study_row *row, int64_t
     far = fmax(far, row->trial.error_max_at[f]);
   }
   hk_wants_find(&study->wants, &row->trial.watched, &study->reference.frames.watched,
-                study->reference.frames.recorded, frames, far, r->found);
+                study->reference.frames.recorded, frames, far, 0.0, r->found);
   r->until = hk_reference_time(&study->reference, frames, study->duration);
   r->method = row->method;
   r->value = row->value;

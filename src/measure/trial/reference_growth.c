@@ -13,7 +13,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 enum { RANDOM = 3, FEWEST = 2 };     /* random displacements, and of those in a bound */
 enum { MOST_COORDINATES = 36 };      /* maximum number of coordinates displaced one by one */

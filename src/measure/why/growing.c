@@ -1,7 +1,6 @@
 #include "measure/why/growing.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "integrate/method.h"
 #include "measure/counted_work/work.h"
 #include "model/force/force.h"

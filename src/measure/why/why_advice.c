@@ -8,7 +8,6 @@
 
 #include "core/number.h"
 #include "core/print.h"
-#include "core/status.h"
 
 #include <math.h>
 #include <stdio.h>

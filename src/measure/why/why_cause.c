@@ -3,7 +3,6 @@
 
 #include "core/memory.h"
 #include "core/print.h"
-#include "core/status.h"
 #include "core/utf8.h"
 #include "measure/limit/limit.h"
 #include "measure/spectrum/naming.h"

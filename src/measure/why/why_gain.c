@@ -5,7 +5,6 @@
 
 #include "core/memory.h"
 #include "core/print.h"
-#include "core/status.h"
 #include "model/force/altitude.h"
 #include "model/force/force.h"
 

@@ -2,7 +2,6 @@
 #include "measure/why/why.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/drive.h"
 #include "model/force/spring.h"
 
@@ -214,7 +213,7 @@ static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) 
   const hooke_integrator *run = inquiry->run;
   int64_t from = 0;
   const hooke_state *kept = hk_recent_state(&run->recent, 0, &from);
-  const double size = (double)(inquiry->system->particle_count + hk_system_member_count(inquiry->system));
+  const double size = (double)(inquiry->system->particle_count + hk_system_members_of(inquiry->system, NULL));
   if (!run->method->adaptive && run->recent.first && (double)run->k * size <= WHOLE_RUN) {
     kept = run->recent.first;
     from = 0;

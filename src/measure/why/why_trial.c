@@ -2,7 +2,6 @@
 
 #include "core/number.h"
 #include "core/print.h"
-#include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "model/group.h"
 
@@ -45,7 +44,7 @@ void hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials) {
   trials->every = s->every_given ? s->every : NAN;
   /* a callback of a script costs far more than springs */
   trials->size =
-      (double)(system->particle_count + hk_system_member_count(system) + 50 + (system->force ? 1000 : 0));
+      (double)(system->particle_count + hk_system_members_of(system, NULL) + 50 + (system->force ? 1000 : 0));
   find_first(trials);
 }
 

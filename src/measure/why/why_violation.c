@@ -2,7 +2,6 @@
  * springs; then by the spectrum or, if that is out of reach, by growing motion. */
 #include "measure/why/why.h"
 
-#include "core/status.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
 

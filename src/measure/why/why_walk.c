@@ -12,7 +12,7 @@ static const int64_t MOST_NUMBERS = 6000000;
 
 /* The first state, else the oldest of the recent ones that is near enough, else the newest. */
 static const hooke_state *choose(const hooke_integrator *run, int64_t *step) {
-  const double size = (double)(run->system->particle_count + hk_system_member_count(run->system));
+  const double size = (double)(run->system->particle_count + hk_system_members_of(run->system, NULL));
   *step = 0;
   if (run->recent.first && (double)run->k * size <= LONGEST_WAY) return run->recent.first;
   for (int64_t back = run->recent.count - 1; back > 0; back--) {

@@ -1,7 +1,6 @@
 #include "model/coordinates/coordinates.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/particles.h"
 #include "model/sum/motion.h"
 

@@ -1,7 +1,6 @@
 /* Groups of tetrahedra: options, checks and queries. */
 #include "model/force/altitude.h"
 
-#include "core/memory.h"
 #include "core/status.h"
 #include "model/system.h"
 

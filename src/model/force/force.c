@@ -2,7 +2,6 @@
 #include "model/system.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 
 #include <string.h>
 

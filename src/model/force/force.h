@@ -112,6 +112,10 @@ struct hk_force_row {
   int32_t (*damped)(const hooke_system *system);
 };
 
+/* What a force with groups has of them, each by its own name. */
+#define HOOKE_FORCE_OF_GROUPS                                                                                \
+  .recall = recall, .commit = commit, .release = release, .memory = memory, .check = check
+
 #define HOOKE_DECLARE_ROW(name) extern const struct hk_force_row hk_force_##name;
 HOOKE_FORCE_ROWS(HOOKE_DECLARE_ROW)
 

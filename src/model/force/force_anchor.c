@@ -2,7 +2,6 @@
  * gamma (v.u)) u with x = q - point, r = |x|, u = x/r. */
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "core/sum.h"
 #include "model/check_value.h"
 #include "model/system.h"
@@ -205,11 +204,7 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
                                              .place = "particles",
                                              .width = {1, 1, 1, 3},
                                              .member_particles = 1,
-                                             .recall = recall,
-                                             .commit = commit,
-                                             .release = release,
-                                             .memory = memory,
-                                             .check = check,
+                                             HOOKE_FORCE_OF_GROUPS,
                                              .add = add,
                                              .passed = passed,
                                              .energy = energy,

@@ -1,7 +1,6 @@
 /* The callback force. */
 #include "model/force/force.h"
 
-#include "core/memory.h"
 #include "core/status.h"
 #include "model/callbacks.h"
 #include "model/check_value.h"

@@ -107,9 +107,7 @@ int32_t hooke_system_add_obstacle(hooke_system *system, int64_t count, const int
                                   const hooke_options *options) {
   struct hk_obstacle made = {0};
   int32_t status = hk_system_require_open(system);
-  if (status == HOOKE_OK)
-    status =
-        hk_options_require(options, &options_table, "options", "hooke_options_create(\"obstacles\", ...)");
+  if (status == HOOKE_OK) status = hk_options_require(options, &options_table, "options", "obstacles");
   if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK && count >= 0)
     status = hk_system_check_particles(system, "particles", count, particles, 0);

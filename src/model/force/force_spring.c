@@ -9,7 +9,6 @@
 #include "model/force/force.h"
 #include "model/sum/tiled.h"
 #include "model/system.h"
-#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>
@@ -461,11 +460,7 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .place = "between",
                                               .width = {1, 1, 1},
                                               .member_particles = 2,
-                                              .recall = recall,
-                                              .commit = commit,
-                                              .release = release,
-                                              .memory = memory,
-                                              .check = check,
+                                              HOOKE_FORCE_OF_GROUPS,
                                               .bytes = 50.0,
                                               .add = add,
                                               .passed = passed,

@@ -91,17 +91,13 @@ void hk_scaling_check(const struct hk_scaling *scaling, uint32_t *value) {
 
 /* ---- factors ---- */
 
-static void find_stiffest(const struct hk_scaling *scaling, double *s, double *r) {
-  double high;
-  hk_course_range(&scaling->rest, r, &high);
-  hk_course_range(&scaling->stiffness, &high, s);
-}
-
 void hk_scaler_find(struct hk_scaler *scaler, const struct hk_scaling *scaling) {
   double s = 1.0, r = 1.0, ds = 0.0, dr = 0.0;
   scaler->of = scaling;
-  if (isinf(scaler->t)) {
-    find_stiffest(scaling, &s, &r);
+  if (isinf(scaler->t)) { /* the stiffest */
+    double other;
+    hk_course_range(&scaling->rest, &r, &other);
+    hk_course_range(&scaling->stiffness, &other, &s);
   } else if (!isnan(scaler->t)) {
     hk_course_at(&scaling->stiffness, scaler->t, &s, &ds);
     hk_course_at(&scaling->rest, scaler->t, &r, &dr);

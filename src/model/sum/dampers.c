@@ -1,7 +1,6 @@
 #include "model/sum/dampers.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
 #include "model/medium.h"
@@ -247,11 +246,7 @@ int32_t hk_dampers_create(const hooke_system *system, double h, struct hk_damper
   d->memory += (int64_t)sizeof *d + (d->colours.classes + 1) * (int64_t)sizeof(int64_t) +
                2 * d->colours.springs * (int64_t)sizeof(int32_t) +
                (d->colours.slot ? system->springs->count * (int64_t)sizeof(int64_t) : 0);
-  if (status == HOOKE_OK)
-    *out = d;
-  else
-    hk_dampers_destroy(d);
-  return status;
+  return HOOKE_HAND_OVER(status, d, out, hk_dampers_destroy);
 }
 
 void hk_dampers_destroy(struct hk_dampers *d) {

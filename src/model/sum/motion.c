@@ -152,11 +152,7 @@ int32_t hk_motion_create(const hooke_system *system, int32_t how, struct hk_pool
   int32_t status = new_arrays(system, how, motion);
   if (status == HOOKE_OK) status = new_numbers(system, motion);
   if (status == HOOKE_OK) status = new_scratch(system, motion);
-  if (status == HOOKE_OK)
-    *out = motion;
-  else
-    hk_motion_destroy(motion);
-  return status;
+  return HOOKE_HAND_OVER(status, motion, out, hk_motion_destroy);
 }
 
 void hk_motion_destroy(struct hk_motion *motion) {

@@ -1,7 +1,6 @@
 #include "model/sum/pattern.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/system.h"
 
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 #include "model/sum/runs.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "model/force/force.h"
 
 #include <string.h>

@@ -2,7 +2,6 @@
 #include "model/sum/tiled.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,6 @@
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -310,8 +310,7 @@ class Found:
         lib.hooke_measurement_write(self._handle.handle, os.fsencode(path))
 
     def _repr_html_(self) -> str | None:
-        shown: str | None = draw("notebook.table", self.rows, str(self))
-        return shown
+        return draw("notebook.table", self.rows, str(self))
 
     def report(self, path: Path) -> pathlib.Path:
         """Writes a page to look at, offline, and returns its path."""
@@ -336,8 +335,7 @@ class Paged(Found):
 
     def _repr_html_(self) -> str | None:
         try:
-            shown: str = draw("notebook.embed", self.write)
-            return shown
+            return draw("notebook.embed", self.write)
         except (BadCall, NotBuilt):  # of another process, or without what draws
             return super()._repr_html_()
 

@@ -47,7 +47,9 @@ def takes(keywords: Any = None) -> Callable[[F], F]:
         @functools.wraps(function)
         def checked(*arguments: Any, **options: Any) -> Any:
             if not options.keys() <= known.keys():
-                refuse_unknown(called, options, known, keywords is not None)
+                taken = own.bind_partial(*arguments).arguments
+                left = {name: known[name] for name in known if name not in taken}
+                refuse_unknown(called, options, left, keywords is not None)
             return function(*arguments, **options)
 
         checked.__signature__ = own.replace(parameters=named)  # type: ignore[attr-defined]

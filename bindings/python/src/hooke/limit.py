@@ -75,7 +75,7 @@ class Limit(Paged, kind="limit"):
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
-        return draw("plot.limit", self, axes, **options)
+        return draw("plot.limit", self, axes=axes, **options)
 
     def __repr__(self) -> str:
         return f"Limit({self.outcome}, {len(self.rows)} methods, {len(self.modes)} modes)"

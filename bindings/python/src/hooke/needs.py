@@ -101,7 +101,7 @@ class Needs(Paged, Closing, kind="needs"):
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
-        return draw("plot.needs", self, ax, **options)
+        return draw("plot.needs", self, ax=ax, **options)
 
     def __repr__(self) -> str:
         if self.parts.size:

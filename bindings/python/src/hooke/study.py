@@ -140,7 +140,7 @@ class Study(Paged, Closing, kind="study"):
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws error against cost and error against step; see `hooke.plot.study`."""
-        return draw("plot.study", self, axes, **options)
+        return draw("plot.study", self, axes=axes, **options)
 
     def __repr__(self) -> str:
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"

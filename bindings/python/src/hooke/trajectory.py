@@ -235,13 +235,12 @@ class Trajectory(Closing):
 
     def plot(self, ax: Any = None, *, frame: int = -1, **options: Any) -> Any:
         """Draws the springs at a frame in space and returns the axes; see `hooke.plot.cloth`."""
-        return draw("plot.cloth", self, ax, frame=frame, **options)
+        return draw("plot.cloth", self, ax=ax, frame=frame, **options)
 
     def animate(self, **options: Any) -> FuncAnimation:
         """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
         `hooke.animation.animate`."""
-        film: FuncAnimation = draw("animation.animate", self, **options)
-        return film
+        return draw("animation.animate", self, **options)
 
     # as a sequence
 
@@ -271,8 +270,7 @@ class Trajectory(Closing):
         return f"Trajectory({self.path!r}, {self._count} frames)"
 
     def _repr_html_(self) -> str:
-        shown: str = draw("notebook.embed", lambda page: view(self.path, page))
-        return shown
+        return draw("notebook.embed", lambda page: view(self.path, page))
 
     def close(self) -> None:
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""

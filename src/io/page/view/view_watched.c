@@ -1,5 +1,4 @@
 /* Watched quantities over the frames that a view shows, by the scene of the trajectory. */
-#include "core/memory.h"
 #include "core/status.h"
 #include "io/page/view/view.h"
 #include "io/trajectory/record.h"

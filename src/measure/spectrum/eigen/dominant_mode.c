@@ -1,7 +1,6 @@
 #include "measure/spectrum/eigen/dominant_mode.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "measure/spectrum/eigen/dense.h"
 
 #include <math.h>

@@ -2,7 +2,6 @@
 #include "measure/spectrum/eigen/dominant_mode.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "kernel/vector_loops.h"
 #include "measure/spectrum/eigen/dense.h"
 
