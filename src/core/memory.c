@@ -41,6 +41,11 @@ int32_t hk_grow(void **block, int64_t used, int64_t capacity, size_t size) {
   return HOOKE_OK;
 }
 
+int32_t hk_room(void **block, int64_t count, size_t size) {
+  if ((count & (count - 1)) != 0 || count == 1 || count == 2) return HOOKE_OK; /* full at 4, 8, 16, ... */
+  return hk_grow(block, count, count > 0 ? 2 * count : 4, size);
+}
+
 char *hk_copy_text(const char *text) {
   HOOKE_KEEP_ERRNO;
   if (text == NULL) text = "";

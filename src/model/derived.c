@@ -8,15 +8,13 @@
 
 int32_t hk_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
                               const char *unit, double value) {
-  const int64_t count = system->rest->derived_count, capacity = 2 * system->rest->derived_capacity + 8;
+  struct hk_system_rest *rest = system->rest;
   int32_t status = hk_system_require_open(system);
-  if (status == HOOKE_OK && count == system->rest->derived_capacity) {
-    status = hk_grow((void **)&system->rest->derived, count, capacity, sizeof *system->rest->derived);
-    if (status == HOOKE_OK) system->rest->derived_capacity = capacity;
-  }
+  if (status == HOOKE_OK)
+    status = hk_room((void **)&rest->derived, rest->derived_count, sizeof *rest->derived);
   char *copy = status == HOOKE_OK ? hk_copy_text(part) : NULL;
   if (copy == NULL) return status == HOOKE_OK ? HOOKE_NO_MEMORY : status;
-  system->rest->derived[system->rest->derived_count++] = (struct hk_derived){copy, family, name, unit, value};
+  rest->derived[rest->derived_count++] = (struct hk_derived){copy, family, name, unit, value};
   return HOOKE_OK;
 }
 

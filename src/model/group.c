@@ -108,14 +108,11 @@ static int comes_before(const struct hk_group *a, const struct hk_group *b) {
 }
 
 int32_t hk_system_add_group(hooke_system *system, struct hk_group *group) {
-  const int64_t count = system->group_count, capacity = 2 * system->rest->group_capacity + 4;
-  if (count == system->rest->group_capacity) {
-    const int32_t status = hk_grow((void **)&system->group, count, capacity, sizeof *system->group);
-    if (status != HOOKE_OK) {
-      hk_group_release(group);
-      return status;
-    }
-    system->rest->group_capacity = capacity;
+  const int64_t count = system->group_count;
+  const int32_t status = hk_room((void **)&system->group, count, sizeof *system->group);
+  if (status != HOOKE_OK) {
+    hk_group_release(group);
+    return status;
   }
   int64_t slot = count;
   while (slot > 0 && comes_before(group, &system->group[slot - 1]))

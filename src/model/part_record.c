@@ -19,9 +19,7 @@ int32_t hk_part_record_keep(hooke_system *system, struct hk_part_record record, 
   record.pinned = hk_part_record_pinned(system, &record);
   record.name = hk_copy_text(name);
   int32_t status = record.name ? hooke_options_copy(options, &record.options) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK && (last & (last - 1)) == 0) { /* the array is full at powers of two */
-    status = hk_grow((void **)&system->part, last, last > 0 ? 2 * last : 1, sizeof record);
-  }
+  if (status == HOOKE_OK) status = hk_room((void **)&system->part, last, sizeof record);
   if (status == HOOKE_OK)
     system->part[last] = record;
   else

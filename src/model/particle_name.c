@@ -31,8 +31,7 @@ int32_t hooke_system_name_particle(hooke_system *system, const char *name, int64
   struct hk_system_rest *rest = system->rest;
   int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK) status = check_name(system, name, particle);
-  if (status == HOOKE_OK)
-    status = hk_grow((void **)&rest->name, rest->name_count, rest->name_count + 1, sizeof *rest->name);
+  if (status == HOOKE_OK) status = hk_room((void **)&rest->name, rest->name_count, sizeof *rest->name);
   char *text = status == HOOKE_OK ? hk_copy_text(name) : NULL;
   if (text == NULL) return status == HOOKE_OK ? HOOKE_NO_MEMORY : status;
   rest->name[rest->name_count++] = (struct hk_particle_name){text, particle};

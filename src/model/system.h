@@ -27,7 +27,7 @@ struct hk_linear {
 struct hk_system_rest {
   int32_t committed;
   _Atomic int32_t is_copied_whole; /* 1: a variant that leaves out nothing was found to equal it */
-  int64_t particle_capacity, group_capacity, drive_capacity;
+  int64_t particle_capacity;
   int64_t member_total[HOOKE_FORCES]; /* of the groups of each force, as added */
   int64_t member_count[HOOKE_FORCES]; /* the same, from commit on: those that act */
 
@@ -51,7 +51,7 @@ struct hk_system_rest {
     int64_t particle;
   } * name;
 
-  int64_t derived_count, derived_capacity;
+  int64_t derived_count;
   struct hk_derived *derived;
 
   struct hk_os_file *input; /* files that it was read from */

@@ -29,6 +29,7 @@ struct trial {
   int64_t most_steps;
   double predicted; /* [s] */
   const struct hk_stability *stability;
+  int32_t exact;  /* the prediction knows all modes that may limit the step */
   int32_t slow;   /* needs damping: steadiness means that growth is too slow to be seen */
   int32_t degree; /* if slow, growth is that of (omega h)^(2 degree) */
   int32_t coarse; /* the accuracy is less than was asked for */
@@ -42,9 +43,11 @@ static const double CERTAIN = 0.05;
 static const double CERTAIN_RISE = 3.0, CERTAIN_IF_CONVEX = 0.1;
 
 /* 1 if a run at `step`, or at one as far above the limit, grows by so much in its steps, as eigenvalues have
- * it. Without them, or where they limit nothing, it may. */
+ * it. Without them, or where they limit nothing, it may; where only some are known, another mode may grow
+ * more slowly than any of them. */
 static int is_seen(const struct trial *trial, double step) {
   if (isinf(trial->predicted)) return 1;
+  if (trial->limit->mode_count > 0 && !trial->exact) return 0;
   const double mirrored = trial->predicted * trial->predicted / step, h = fmax(step, mirrored);
   double growth = trial->limit->mode_count > 0 ? 0.0 : INFINITY;
   for (int64_t k = 0; k < trial->limit->mode_count; k++) {
@@ -223,6 +226,7 @@ int32_t hk_limit_measure(const struct hk_limit *limit, const struct hk_limit_row
     struct trial trial = {.limit = limit,
                           .growth = &growth,
                           .predicted = predicted,
+                          .exact = row->exact,
                           .stability = stability,
                           .slow = slow,
                           .degree = slow ? stability->degree : 1};

@@ -102,7 +102,7 @@ struct hk_needs {
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
-  int64_t row_count, row_capacity;
+  int64_t row_count;
   struct hk_needs_row *row;
 
   int64_t degree_count;

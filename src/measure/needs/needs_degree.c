@@ -33,11 +33,8 @@ static void forget(struct hk_needs_degree *degree) {
 
 static int32_t add(struct hk_needs *needs, enum hk_needs_property property, int64_t number, int32_t up,
                    const char *name, const char *key) {
-  if (needs->degree_count % 16 == 0) {
-    const int32_t status = hk_grow((void **)&needs->degree, needs->degree_count, needs->degree_count + 16,
-                                   sizeof *needs->degree);
-    if (status != HOOKE_OK) return status;
-  }
+  const int32_t status = hk_room((void **)&needs->degree, needs->degree_count, sizeof *needs->degree);
+  if (status != HOOKE_OK) return status;
   struct hk_needs_degree *degree = &needs->degree[needs->degree_count++];
   *degree = (struct hk_needs_degree){.property = property, .number = number, .up = up};
   forget(degree);

@@ -23,11 +23,8 @@ static struct hk_variant *add_row(struct list *list, const char *kind, const cha
     __attribute__((format(printf, 3, 4)));
 static struct hk_variant *add_row(struct list *list, const char *kind, const char *format, ...) {
   struct hk_needs *needs = list->needs;
-  if (list->status == HOOKE_OK && needs->row_count == needs->row_capacity) {
-    const int64_t capacity = 2 * needs->row_capacity + 8;
-    list->status = hk_grow((void **)&needs->row, needs->row_count, capacity, sizeof *needs->row);
-    if (list->status == HOOKE_OK) needs->row_capacity = capacity;
-  }
+  if (list->status == HOOKE_OK)
+    list->status = hk_room((void **)&needs->row, needs->row_count, sizeof *needs->row);
   if (list->status != HOOKE_OK) return NULL;
   struct hk_needs_row *made = &needs->row[needs->row_count];
   *made = (struct hk_needs_row){.kind = kind, .needed = 1, .cost = hk_needs_no_cost};

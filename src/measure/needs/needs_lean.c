@@ -11,7 +11,7 @@
 #include <string.h>
 
 static const double CLEARLY_LESS = 0.8;    /* of the work: less is not worth telling */
-static const double TURNS_TAKE = 0.2;      /* [s]: time for repeating two runs in turns */
+static const double TURNS_TAKE = 0.1;      /* [s]: time for repeating two runs in turns */
 static const double WORTH_SPLITTING = 0.5; /* of the work, left over if a part is written spring by spring */
 
 void hk_needs_release(struct hk_needs_lean *candidate) {

@@ -101,6 +101,7 @@ static int32_t try_change(const struct hk_study *study, const hooke_system *chan
                                                .enough = 1,
                                                .counted = 1,
                                                .budget = work,
+                                               .alike = &study->reference,
                                                .listener = &listener};
   struct hk_reference reference;
   struct hk_trial trial = {.status = NULL};

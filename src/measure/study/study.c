@@ -7,7 +7,6 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "measure/counted_work/work.h"
 #include "model/generalized.h"
 
 #include <math.h>
@@ -15,11 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The reference gets this fraction of a budget, a larger one if the rows are quick, and at least so many
- * seconds. */
-static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
-static const double QUICK_SHARE = 0.1;         /* of the budget, for all rows of fixed steps */
-static const double EVALUATIONS_OF_STEP = 3.0; /* cost of a step: several evaluations, or one and a solve */
+/* The reference gets this fraction of a budget, and at least so many seconds. */
+static const double REFERENCE_SHARE = 0.4, REFERENCE_SECONDS = 0.5;
+static const double FINE = 2e-4; /* of the want: a closer agreement tells nothing more of rows that may win */
 /* Fraction of the budget for an ensemble, if one is needed. */
 static const double ENSEMBLE_SHARE = 0.3;
 
@@ -121,27 +118,19 @@ static int compare_rows(const void *a, const void *b) {
   return (x->value < y->value) - (x->value > y->value);
 }
 
-/* Roughly, of all rows of fixed steps [s]. */
-static double guess_rows(const struct hk_study *study) {
-  double steps = 0.0;
-  for (int32_t m = 0; m < study->method_count; m++)
-    for (int32_t k = 0; !hk_study_is_adaptive(study, m) && !isnan(hk_study_ladder(study, m, k)); k++)
-      steps += study->duration / hk_study_ladder(study, m, k);
-  return EVALUATIONS_OF_STEP * hk_work_of_evaluation(study->m->system) * steps;
-}
-
 static int32_t make_reference(struct hk_study *study) {
   const struct hk_listener listener = {.on_progress = hk_stage_tell, .ctx = &study->stage};
   const struct hk_wants *wants = &study->wants;
-  const int quick = guess_rows(study) <= QUICK_SHARE * study->budget;
+  const double want = wants->most * wants->length;
   const struct hk_reference_request request = {
       .run = study->m->run,
       .frame_count = hk_schedule_frames(study->duration, study->every),
-      .digits = wants->most * wants->length / 10.0,
+      .digits = want / 10.0,
+      .fine = hk_study_chosen_ladder(study) || isnan(want) ? 0.0 : FINE * want,
       .wants = wants,
       .brief = study->once,
       .keeps_state = !study->once,
-      .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
+      .budget = fmax(REFERENCE_SECONDS, REFERENCE_SHARE * study->budget),
       .listener = &listener,
       .watched = &study->watched};
   hk_stage_begin(&study->stage, "reference", HOOKE_STUDY_REFERENCE);

@@ -85,7 +85,7 @@ struct hk_study {
   int32_t once; /* 1: each method with the run's own step or tolerances, and no ladders */
   double unit;  /* largest step of which duration and every are whole multiples [s] */
   struct hk_reference reference;
-  int64_t row_count, row_capacity;
+  int64_t row_count;
   struct hk_study_row *row;
   struct hk_study_recommendation recommendation;
   struct hk_watched_list watched; /* and what is wanted */
@@ -99,7 +99,7 @@ struct hk_study {
   double begun;                          /* clock at the start [s] */
   double budget;                         /* from the start [s]; infinity for none */
   double deadline;                       /* clock at which rows end [s] */
-  int32_t given_up[HOOKE_STUDY_METHODS]; /* 1: its first row took too long for the budget */
+  int32_t given_up[HOOKE_STUDY_METHODS]; /* 1: its next row takes too long for the budget */
   int32_t cut[HOOKE_STUDY_METHODS];      /* 1: its next row cannot be what the study recommends */
   int32_t late;                          /* a row met its deadline */
   int32_t budget_spent;

@@ -224,7 +224,8 @@ static void tell_cut(const struct teller *t) {
     if (t->study->cut[m]) hk_append(list, sizeof list, "%s%s", list[0] ? ", " : "", t->study->method[m]);
   if (list[0])
     say(t, "cut", HOOKE_OF_WHOLE, "count",
-        "finer rows are left out where they would take five times the work of one that meets the want: %s",
+        "rows are left out where they would take five times the work of a run that meets the want, or would "
+        "by their order not come to it with less: %s",
         list);
 }
 

@@ -12,19 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* With a wanted error, the search gets this fraction of a budget, or so many times the run of the reference,
- * but at most this fraction of the remaining time. */
-static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
+/* With a wanted error, the search gets this fraction of a budget, but at most this of the remaining time. */
+static const double SEARCH_SHARE = 0.2, MOST_SEARCH = 0.5;
 
 /* A short run is repeated until its time is steady or this much has been spent on it, and this share of a
  * budget. */
-static const double REPEAT_SECONDS = 0.04, REPEAT_SHARE = 0.005;
+static const double REPEAT_SECONDS = 0.01, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 
-/* A ladder ends where its next row has so many times the counted work of the cheapest one that meets the
- * want. */
-static const double WINS_NO_MORE = 5.0;
+/* A ladder ends where its next row has so many times the counted work of the cheapest run that meets the
+ * want. Until one does, rows are run together that are so much alike in work. */
+static const double WINS_NO_MORE = 5.0, ALIKE = 2.0;
+static const double TENTH_COSTS = 1.6; /* of the work, where a tolerance falls to a tenth */
 
 /* Fraction of the remaining time for a first row, whose time is unknown: others must have their turn. */
 static const double UNKNOWN_SHARE = 0.1;
@@ -132,29 +132,39 @@ static int32_t measure_step(const struct hk_study *study, struct hk_study_row *r
   return status;
 }
 
-/* ---- times of rows ---- */
+/* ---- the rows to come ---- */
 
-/* Time and counted work of the next row of a method [s]: those of its last finished row, scaled by the steps;
- * NaN before the first. */
-struct cost {
-  double seconds, work;
+/* Time and counted work of the next row of a method [s], by its last finished ones, and the least error of
+ * all to come that take less than so much work: by the order of the method, or a lower one that three rows
+ * show. NaN before the first. */
+struct outlook {
+  double seconds, work, error;
 };
 
-static struct cost predict(const struct hk_study *study, int32_t method, double value) {
-  for (int64_t k = study->row_count - 1; k >= 0; k--) {
-    const struct hk_study_row *row = &study->row[k];
-    if (row->method != method || strcmp(row->trial.status, "finished") != 0) continue;
-    const double growth = hk_study_is_adaptive(study, method) ? 1.6 : row->value / value;
-    return (struct cost){row->trial.wall_seconds * growth, row->trial.work * growth};
-  }
-  return (struct cost){NAN, NAN};
+static struct outlook predict(const struct hk_study *study, int32_t method, double value, double most) {
+  const int32_t adaptive = hk_study_is_adaptive(study, method);
+  const struct hk_study_row *last[3];
+  int32_t count = 0;
+  for (int64_t k = study->row_count - 1; k >= 0 && count < 3; k--)
+    if (study->row[k].method == method && strcmp(study->row[k].trial.status, "finished") == 0)
+      last[count++] = &study->row[k];
+  if (count == 0) return (struct outlook){NAN, NAN, NAN};
+  const struct hk_trial *fine = &last[0]->trial;
+  const double growth = adaptive ? TENTH_COSTS : last[0]->value / value,
+               rows = log(most / fine->work) / log(adaptive ? TENTH_COSTS : 2.0);
+  double fall = adaptive ? 10.0 : exp2((double)hk_method_find(study->method[method])->order);
+  if (count == 3) fall = fmin(fall, fmax(1.0, sqrt(last[2]->trial.wanted / fine->wanted)));
+  return (struct outlook){fine->wall_seconds * growth, fine->work * growth, fine->wanted * pow(fall, -rows)};
 }
 
-/* The least counted work of a row that meets the want [s]; infinity without one, or where the caller has
- * chosen the rows. */
+/* The least counted work of a run that meets the want [s], a row or, among all methods, the reference;
+ * infinity without one, or where the caller has chosen the rows. */
 static double least_work(const struct hk_study *study) {
+  const struct hk_reference *r = &study->reference;
+  const int all = r->trusted == r->frames.count && !r->coarse;
   double least = INFINITY;
-  if (hk_study_chosen_ladder(study)) return INFINITY;
+  if (isnan(study->wants.most) || hk_study_chosen_ladder(study)) return INFINITY;
+  if (all && !hooke_options_is_set(study->m->options, "methods")) least = r->run_work;
   for (int64_t k = 0; k < study->row_count; k++) {
     const struct hk_trial *trial = &study->row[k].trial;
     if (trial->wanted <= study->wants.most && strcmp(trial->status, "finished") == 0)
@@ -236,12 +246,8 @@ int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, s
 /* Rows that ran, even a stopped one, are kept. */
 static int32_t keep_rows(struct level *level) {
   struct hk_study *study = level->study;
-  int32_t status = HOOKE_OK;
-  if (study->row_count + level->count > study->row_capacity) {
-    const int64_t capacity = 2 * study->row_capacity + 64;
-    status = hk_grow((void **)&study->row, study->row_count, capacity, sizeof *study->row);
-    if (status == HOOKE_OK) study->row_capacity = capacity;
-  }
+  const int64_t most = study->row_count + level->count;
+  const int32_t status = hk_grow((void **)&study->row, study->row_count, most, sizeof *study->row);
   for (int32_t k = 0; k < level->count; k++) {
     struct job *job = &level->job[k];
     if (status == HOOKE_OK && job->row.trial.status)
@@ -252,49 +258,55 @@ static int32_t keep_rows(struct level *level) {
   return status;
 }
 
-/* The rows of a level that the budget still allows. */
-static void plan_level(struct hk_study *study, int32_t number, struct level *level) {
+/* The next row of each ladder that the budget still allows or, where ladders are cut, of those whose rows are
+ * the cheapest: one that meets the want spares the others theirs. */
+static void plan_level(struct hk_study *study, int32_t next[HOOKE_STUDY_METHODS], struct level *level) {
   const double most = WINS_NO_MORE * least_work(study);
-  double ahead = 0.0;
+  struct outlook row[HOOKE_STUDY_METHODS];
+  double value[HOOKE_STUDY_METHODS], cheapest = INFINITY, ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
-    const double value = hk_study_ladder(study, m, number);
-    if (isnan(value) || study->given_up[m]) continue;
-    const struct cost cost = predict(study, m, value);
-    study->cut[m] |= cost.work >= most;
-    if (study->cut[m]) continue;
+    value[m] = study->given_up[m] ? NAN : hk_study_ladder(study, m, next[m]);
+    row[m] = predict(study, m, value[m], most);
+    if (isfinite(most) && !isnan(value[m]))
+      study->cut[m] |= row[m].work >= most || row[m].error > study->wants.most;
+    if (study->cut[m]) value[m] = NAN;
+    if (!isnan(value[m])) cheapest = fmin(cheapest, row[m].work);
+  }
+  for (int32_t m = 0; m < study->method_count; m++) {
+    if (isnan(value[m]) || (isfinite(most) && row[m].work > ALIKE * cheapest)) continue;
     /* the time of a first row is unknown: it is begun, and ends when its share of time is over */
-    const double predicted = cost.seconds, next = fmax(0.0, predicted);
-    if (hk_clock_seconds() + ahead + next > study->deadline) {
-      study->budget_spent = 1;
+    const double seconds = fmax(0.0, row[m].seconds);
+    if (hk_clock_seconds() + ahead + seconds > study->deadline) {
+      study->budget_spent = study->given_up[m] = 1;
       continue;
     }
-    ahead += next;
-    level->job[level->count++] = (struct job){.fraction = isnan(predicted) ? UNKNOWN_SHARE : 1.0,
-                                              .row = {.method = m, .value = value}};
+    next[m]++;
+    ahead += seconds;
+    level->job[level->count++] = (struct job){.fraction = isnan(row[m].seconds) ? UNKNOWN_SHARE : 1.0,
+                                              .row = {.method = m, .value = value[m]}};
   }
 }
 
-/* A search needs time for a run as fine as the reference. */
 static double end_of_rows(const struct hk_study *study) {
   const double end = study->begun + study->budget, left = end - hk_clock_seconds();
   if (isnan(study->wants.most) || isinf(end)) return end;
-  const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_work);
-  return end - fmin(search, MOST_SEARCH * left);
+  return end - fmin(SEARCH_SHARE * study->budget, MOST_SEARCH * left);
 }
 
 int32_t hk_study_run_ladders(struct hk_study *study) {
-  int32_t status = HOOKE_OK;
+  const double levels = hooke_options_number(study->m->options, "points");
+  int32_t status = HOOKE_OK, next[HOOKE_STUDY_METHODS] = {0};
   struct level *level = hk_new(1, sizeof *level);
   if (level == NULL) return HOOKE_NO_MEMORY;
   study->deadline = end_of_rows(study);
-  for (int32_t number = 0; status == HOOKE_OK; number++) {
+  while (status == HOOKE_OK) {
     *level = (struct level){.study = study};
-    const double levels = hooke_options_number(study->m->options, "points");
+    plan_level(study, next, level);
+    if (level->count == 0) break;
+    const double done = (double)(study->row_count + level->count) / study->method_count;
     hk_stage_begin(&study->stage, "rows",
                    HOOKE_STUDY_REFERENCE +
-                       (HOOKE_STUDY_ROWS - HOOKE_STUDY_REFERENCE) * fmin(1.0, exp2(number + 1 - levels)));
-    plan_level(study, number, level);
-    if (level->count == 0) break;
+                       (HOOKE_STUDY_ROWS - HOOKE_STUDY_REFERENCE) * fmin(1.0, exp2(done - levels)));
     status = run_level(level);
     const int32_t kept = keep_rows(level);
     if (status == HOOKE_OK) status = kept;

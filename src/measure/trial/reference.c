@@ -12,10 +12,10 @@
 /* Tolerances of the check, level by level. The recorded run is ten times tighter, so that their distance is
  * mostly the error of the check, and a bound on that of the reference; at the tightest level, where rounding
  * dominates, both have the same tolerance. Without a budget the first level is tight. */
-static const double LOOSEST = 1e-4, QUICK = 1e-7, TIGHT = 1e-9, TIGHTEST = 1e-14;
+static const double TIGHTER = 0.1, LOOSEST = 1e-4, QUICK = 1e-7, TIGHT = 1e-9, TIGHTEST = 1e-14;
 static const double FIRST_SHARE = 0.1; /* the first tolerance, in digits as a fraction of the extent */
-static const double LEAST_FACTOR = 1e-2, MOST_FACTOR = 0.1;   /* factor from one level to the next */
-static const double AIM = 0.3;                                /* of the wanted distance */
+static const double LEAST_FACTOR = 1e-2, MOST_FACTOR = 0.1; /* factor from one level to the next */
+static const double AIM = 0.3, LIKE = 0.1; /* of the wanted distance; by a reference of another motion */
 static const double COST_POWER = 1.0 / 6.0, COST_SPARE = 1.1; /* of a level, in the factor */
 /* Of rk4: half the step is this factor of a tolerance, and costs twice as much. */
 static const double HALVED = 1.0 / 16.0, HALVED_COST_POWER = 1.0 / 4.0;
@@ -151,7 +151,7 @@ static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, d
   const double fraction = watch->request->enough ? FIRST_OF_FEW : FIRST_RUN_SHARE;
   const double deadline = watch->start + LEVELS_SHARE * budget;
   struct hk_run_cost cost;
-  r->rtol = hk_reference_is_halved(r) ? HALVED * tolerance : fmax(TIGHTEST, 0.1 * tolerance);
+  r->rtol = hk_reference_is_halved(r) ? HALVED * tolerance : fmax(TIGHTEST, TIGHTER * tolerance);
   watch->levels++;
   watch->ahead = ahead_of_level(watch) + CHECK_COST;
   int32_t status =
@@ -177,11 +177,16 @@ static void keep_further(struct hk_reference *r, struct hk_reference *next) {
 }
 
 static double first_tolerance(const struct hk_reference_request *request, const struct hk_reference *r) {
+  const struct hk_reference *like = request->alike;
   if (hk_reference_is_halved(r))
     return LOOSEST; /* halving costs little more than beginning with short steps */
   if (!request->enough && isinf(request->budget)) return TIGHT;
   if (isnan(request->digits)) return request->enough ? FIRST_SHARE * DIGITS : QUICK;
-  return fmax(TIGHT, fmin(LOOSEST, FIRST_SHARE * request->digits / r->extent));
+  double tolerance = fmin(LOOSEST, FIRST_SHARE * request->digits / r->extent);
+  if (like && like->wanted_agreement > 0.0)
+    tolerance = fmin(tolerance, like->rtol / TIGHTER * LIKE * request->digits /
+                                    (length_of(like) * like->wanted_agreement));
+  return fmax(TIGHT, tolerance);
 }
 
 static int is_all(const struct hk_reference *r) {
@@ -189,28 +194,29 @@ static int is_all(const struct hk_reference *r) {
 }
 
 /* The distance at which tightening ends [m]. */
-static double aim_of(const struct hk_reference *r) {
-  return is_all(r) ? CLOSE * r->extent : r->digits;
+static double aim_of(const struct hk_reference_watch *watch, const struct hk_reference *r) {
+  return is_all(r) ? fmax(CLOSE * r->extent, watch->request->fine) : r->digits;
 }
 
 /* The tolerance at which the two should agree: errors scale with the tolerance, unless motion is chaotic. */
 static double next_tolerance(const struct hk_reference_watch *watch, const struct hk_reference *r,
                              double tolerance) {
-  const double aim = AIM * aim_of(r) / watch->apart;
+  const double aim = AIM * aim_of(watch, r) / watch->apart;
   const double least = tolerance > TIGHT ? LEAST_FACTOR : MOST_FACTOR;
   return fmax(TIGHTEST, tolerance * fmax(least, fmin(MOST_FACTOR, aim)));
 }
 
 /* 1 if the reference is as good as requested. */
 static int is_enough(const struct hk_reference_request *request, const struct hk_reference *r) {
-  return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
+  return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent ||
+                       length_of(r) * r->wanted_agreement <= request->fine);
 }
 
 /* 1 if rounding alone is above the distance that tightening aims at, where more steps would only add to it.
  */
-static int is_drowned(const struct hk_reference *r) {
+static int is_drowned(const struct hk_reference_watch *watch, const struct hk_reference *r) {
   const int64_t frame = r->trusted < r->frames.recorded ? r->trusted : r->frames.recorded - 1;
-  return SAFETY * r->frames.rounding[frame] > aim_of(r);
+  return SAFETY * r->frames.rounding[frame] > aim_of(watch, r);
 }
 
 /* 1 if the two part for good, which tighter tolerances put off a little; the first steps of rk4 are long. */
@@ -255,7 +261,7 @@ static int has_time(const struct hk_reference_watch *watch, const struct hk_refe
 /* Tightens until the two agree, or tolerances or time are exhausted. */
 static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r, struct hk_trial *check) {
   double tolerance = first_tolerance(watch->request, r);
-  int32_t status = hk_reference_choose_first(watch, r, 0.1 * tolerance);
+  int32_t status = hk_reference_choose_first(watch, r, TIGHTER * tolerance);
   if (status != HOOKE_OK) return status;
   for (double before = INFINITY;; before = watch->apart) {
     const double begun = hk_reference_now(watch);
@@ -263,7 +269,7 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
     const int failed = hk_trial_gave_up(status); /* another tolerance may do */
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(r) ||
+    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(watch, r) ||
                      (!isnan(watch->request->digits) && is_all(r) && watch->apart > CLOSER * before);
     if (r->checked > 0 && (failed || last || is_enough(watch->request, r))) break;
     const double seconds = hk_reference_now(watch) - begun;

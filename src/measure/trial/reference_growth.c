@@ -204,7 +204,8 @@ int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_
   if (r->agreement <= DROWNED * DISPLACEMENT * r->extent)
     return displace_and_run(watch, r, r, deadline, trial);
   struct hk_reference base = *r;
-  if (r->rtol <= TOLERANCE && r->frames.recorded == r->frames.count) { /* it is as tight already */
+  if (r->rtol <= TOLERANCE * (1.0 + 1e-9) &&
+      r->frames.recorded == r->frames.count) { /* it is as tight already */
     base.extent = r->run_extent;
     return displace_and_run(watch, r, &base, deadline, trial);
   }

@@ -30,12 +30,7 @@ int32_t hk_drive_evaluate(const struct hk_drive_group *drive, double t, double *
 
 /* Appends a drive and marks its particles; on failure the system is unchanged. */
 static int32_t append_drive(hooke_system *system, struct hk_drive_group drive, const int64_t *particles) {
-  int32_t status = HOOKE_OK;
-  if (system->drive_count == system->rest->drive_capacity) {
-    int64_t capacity = 2 * system->rest->drive_capacity + 4;
-    status = hk_grow((void **)&system->drive, system->drive_count, capacity, sizeof *system->drive);
-    if (status == HOOKE_OK) system->rest->drive_capacity = capacity;
-  }
+  const int32_t status = hk_room((void **)&system->drive, system->drive_count, sizeof *system->drive);
   drive.particle = hk_new(drive.count, sizeof *drive.particle);
   drive.origin = hk_new(3 * drive.count, sizeof(double));
   if (status != HOOKE_OK || drive.particle == NULL || drive.origin == NULL) {

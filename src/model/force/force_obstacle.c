@@ -98,15 +98,9 @@ static int32_t set_particles(int64_t count, const int64_t *particles, struct hk_
 }
 
 static int32_t append(struct hk_obstacles *obstacles, const struct hk_obstacle *obstacle) {
-  if (obstacles->count == obstacles->capacity) {
-    const int64_t capacity = 2 * obstacles->capacity + 4;
-    const int32_t status =
-        hk_grow((void **)&obstacles->obstacle, obstacles->count, capacity, sizeof *obstacle);
-    if (status != HOOKE_OK) return status;
-    obstacles->capacity = capacity;
-  }
-  obstacles->obstacle[obstacles->count++] = *obstacle;
-  return HOOKE_OK;
+  const int32_t status = hk_room((void **)&obstacles->obstacle, obstacles->count, sizeof *obstacle);
+  if (status == HOOKE_OK) obstacles->obstacle[obstacles->count++] = *obstacle;
+  return status;
 }
 
 int32_t hooke_system_add_obstacle(hooke_system *system, int64_t count, const int64_t *particles,

@@ -19,7 +19,7 @@ struct hk_obstacle {
 };
 
 struct hk_obstacles {
-  int64_t count, capacity;
+  int64_t count;
   struct hk_obstacle *obstacle;
 };
 
