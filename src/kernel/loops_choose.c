@@ -126,8 +126,8 @@ void hk_tangent_diagonal(const struct hk_run *run, const struct hk_tangent *tang
   hk_spring_set(0)->tangent->tangent_diagonal(run, tangent, block);
 }
 
-void hk_tangent_project(int64_t count, const struct hk_tangent *tangent) {
-  hk_spring_set(0)->tangent->tangent_project(count, tangent);
+void hk_tangent_project(int64_t count, double share, const struct hk_tangent *tangent) {
+  hk_spring_set(0)->tangent->tangent_project(count, share, tangent);
 }
 
 void hk_tangent_damping(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],

@@ -333,18 +333,26 @@ static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
   return status;
 }
 
-/* To this residual or, where `absolute` is a number, to an error (hk_solve_positive). */
+static int64_t limit_of(const struct hk_reduced *reduced) {
+  const int64_t fraction = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
+  return fraction < MOST_ITERATIONS ? fraction : MOST_ITERATIONS;
+}
+
+/* To this residual or, where `absolute` is a number, to an error (hk_solve_positive). With the factor of S at
+ * this place, if that is asked for and S proves positive. */
 static int32_t solve(struct hk_reduced *reduced, const double *b, double tolerance, double absolute,
-                     int64_t limit, double *x, struct hk_solution *solution) {
+                     double *x, struct hk_solution *solution) {
   const hooke_system *system = reduced->integrator->system;
-  const int64_t free_count = system->particle_count - system->constrained_count;
+  const int64_t free_count = system->particle_count - system->constrained_count, limit = limit_of(reduced);
+  const int32_t positive = reduced->direct && !is_whole(reduced) ? hk_reduced_factorise(reduced) : 0;
+  if (positive < 0) return positive;
   const int whole = is_whole(reduced);
   const struct hk_operator a = {whole ? 3 * free_count : reduced->size, whole ? apply_whole : apply, reduced};
   forward(reduced, b, reduced->right);
   const double scale = scale_of(a.size, reduced->right);
   multiply(a.size, scale, reduced->right);
   const int32_t status =
-      isnan(absolute) ? (reduced->symmetric || reduced->downhill ? hk_solve_symmetric : hk_solve_general)(
+      isnan(absolute) ? (reduced->symmetric ? hk_solve_symmetric : hk_solve_general)(
                             &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution)
                       : hk_solve_positive(&a, reduced->right, tolerance, scale * absolute, limit,
                                           reduced->krylov, reduced->unknown, solution);
@@ -354,40 +362,16 @@ static int32_t solve(struct hk_reduced *reduced, const double *b, double toleran
   return status;
 }
 
-static int64_t limit_of(const struct hk_reduced *reduced) {
-  const int64_t fraction = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
-  return fraction < MOST_ITERATIONS ? fraction : MOST_ITERATIONS;
-}
-
-/* With the factor of S at this place, if that is asked for and S proves positive. */
-int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
-                       double *x, struct hk_solution *solution) {
-  const int32_t positive = reduced->direct && !is_whole(reduced) ? hk_reduced_factorise(reduced) : 0;
-  return positive < 0 ? positive : solve(reduced, b, tolerance, NAN, limit, x, solution);
-}
-
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {
-  return hk_reduced_try(reduced, b, tolerance, limit_of(reduced), x, solution);
+  return solve(reduced, b, tolerance, NAN, x, solution);
 }
 
-int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
-                           struct hk_solution *solution) {
-  reduced->downhill = 1;
-  const int32_t status = hk_reduced_try(reduced, b, tolerance, limit_of(reduced), x, solution);
-  reduced->downhill = 0;
-  return status;
-}
-
-/* Of every spring what its diagonal blocks have. */
-void hk_reduced_project(struct hk_reduced *reduced) {
-  hk_tangent_project(reduced->integrator->system->springs->count, &reduced->tangent);
+int32_t hk_reduced_correct(struct hk_reduced *reduced, double share, const double *b, double relative,
+                           double absolute, double *x, struct hk_solution *solution) {
+  hk_tangent_project(reduced->integrator->system->springs->count, share, &reduced->tangent);
   reduced->projected = 1;
-}
-
-int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
-                           double *x, struct hk_solution *solution) {
-  if (!reduced->direct) return solve(reduced, b, relative, absolute, limit_of(reduced), x, solution);
+  if (!reduced->direct || share > 0.0) return solve(reduced, b, relative, absolute, x, solution);
   const int32_t status = hk_reduced_solve(reduced, b, DIRECT_RESIDUAL, x, solution);
   solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
   return status;

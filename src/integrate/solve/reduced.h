@@ -35,7 +35,6 @@ struct hk_reduced {
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
   int32_t direct;      /* by the option `linear_solver`, if it fits: a factor of S at every place */
   int32_t supernodal;  /* that factor may be supernodal */
-  int32_t downhill;    /* 1: the matrix is symmetric, or nearly, and may be not positive */
   int32_t projected;   /* 1: S stands for the matrix */
   int32_t rows_needed; /* the products of some force are made by its own function, in rows */
   double t, alpha, beta;
@@ -70,15 +69,6 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution);
 
-/* The same for so many iterations at most. */
-int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
-                       double *x, struct hk_solution *solution);
-
-/* The same by conjugate gradients for a matrix that is symmetric, which may end early, with b.x > 0, where it
- * is not positive. */
-int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
-                           struct hk_solution *solution);
-
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
@@ -96,13 +86,13 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
 int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const double *weight,
                             double tolerance, int64_t limit, double *x, struct hk_solution *solution);
 
-/* Has S take the place of the matrix until the next set: the matrix with all of it that is not symmetric or
- * positive left out, element by element. */
-void hk_reduced_project(struct hk_reduced *reduced);
-/* Then x = S^-1 b, until its error in the norm of S is below `relative` times x or `absolute`: by conjugate
- * gradients, or by the factor. b.x > 0. */
-int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
-                           double *x, struct hk_solution *solution);
+/* x = S^-1 b, until its error in the norm of S is below `relative` times x or `absolute`, by conjugate
+ * gradients or by the factor; b.x > 0. S takes the place of the matrix until the next set: the matrix with
+ * all of it that is not symmetric or positive left out, element by element, but for this share of what
+ * compression takes from springs sideways. With a share S may be not positive; `converged` is 0 where it
+ * proves so. */
+int32_t hk_reduced_correct(struct hk_reduced *reduced, double share, const double *b, double relative,
+                           double absolute, double *x, struct hk_solution *solution);
 /* b.B^-1 b with the diagonal blocks B of S. */
 double hk_reduced_square(struct hk_reduced *reduced, const double *b);
 /* The sum of the diagonal of S. */

@@ -17,6 +17,8 @@ static const double LEAST_RESIDUAL = 1e-12, LARGEST_RESIDUAL = 1e-2, FAR_ENOUGH 
 /* Corrections that do not fall below this share of the ones before are slow. No error falls faster than by
  * the other, as far as the tolerance is concerned. */
 static const double SLOW = 0.5, FASTEST = 0.1;
+/* The share of compression in the matrix: none; where that is slow; downhill. */
+static const double NONE = 0.0, HALF = 0.5, ALL = 1.0;
 static const double LEAST_SHARE = 1e-4, LEAST_OF_DESCENT = 1e-12, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
 /* One iteration is taken where it leaves no more than this of the residual of the linearised equations. */
 static const double ONE_LEAVES = 1.0;
@@ -24,14 +26,7 @@ static const double ONE_LEAVES = 1.0;
  * obstacle: the next one lets them go. Without, it would lead away from where motion goes. */
 static const double MOST_TURN = 100.0, MOST_TURN_OVERDAMPED = 0.5;
 static const double ARMIJO = 1e-4;
-enum {
-  MANY_SLOW = 4,
-  LEAST_TRIES = 20,
-  MOST_ITERATIONS = 100,
-  LONGEST_PAUSE = 16,
-  FINEST_SPLIT = 1024,
-  QUARTER = FINEST_SPLIT / 4
-};
+enum { MOST_ITERATIONS = 100, FINEST_SPLIT = 1024, QUARTER = FINEST_SPLIT / 4 };
 
 static int32_t allocate(struct hk_stage *stage, int64_t states) {
   hooke_integrator *it = stage->reduced.integrator;
@@ -240,13 +235,12 @@ static double allowed_error(const struct hk_stage *stage, double *rounding) {
 /* ---- iterations ---- */
 
 struct iteration {
-  double allowed;        /* error */
-  double rounding;       /* its share of that */
-  double size, before;   /* of this correction and the last one, in the norm of S; before 0: there is none */
-  double fraction;       /* of the last correction that was taken */
-  int slow, pause, wait; /* slow ones in a row; whole ones that are left out after a failure, and still are */
-  int64_t linear;        /* iterations of the last safe correction */
-  double height;         /* the potential at the guess, where that descends */
+  double allowed;      /* error */
+  double rounding;     /* its share of that */
+  double size, before; /* of this correction and the last one, in the norm of S; before 0: there is none */
+  double fraction;     /* of the last correction that was taken */
+  int slow;            /* slow ones in a row */
+  double height;       /* the potential at the guess, where that descends */
 };
 
 static int32_t give_up(const struct hk_stage *stage, int iterations, const struct iteration *now,
@@ -259,33 +253,31 @@ static int32_t give_up(const struct hk_stage *stage, int iterations, const struc
                  it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
 }
 
-/* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. Downhill, one leads on that
- * ends where the matrix proves not to be positive. */
+static void see_slope(struct hk_stage *stage, struct iteration *now, int may, int *found) {
+  const double slope = dot(stage, stage->right, stage->change);
+  *found = may && slope >= 0.0 && slope < INFINITY;
+  if (*found) now->size = sqrt(slope);
+}
+
+/* The whole matrix at the guess, by iterations for any matrix. `found` is 0 where its correction leads
+ * nowhere. */
 static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   const double wanted = LINEAR_OF_TOLERANCE * now->allowed / now->before;
-  const double residual =
-      fmin(stage->descends ? LINEAR_SHARE : LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
+  const double residual = fmin(LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
   struct hk_solution solution;
-  const int32_t status =
-      stage->descends ? hk_reduced_descend(&stage->reduced, stage->right, residual, stage->change, &solution)
-                      : hk_reduced_try(&stage->reduced, stage->right, residual, LEAST_TRIES + now->linear,
-                                       stage->change, &solution);
-  const double slope = dot(stage, stage->right, stage->change);
-  *found =
-      (stage->descends || solution.residual <= fmax(residual, FAR_ENOUGH)) && slope > 0.0 && slope < INFINITY;
-  if (*found) now->size = sqrt(slope);
+  const int32_t status = hk_reduced_solve(&stage->reduced, stage->right, residual, stage->change, &solution);
+  see_slope(stage, now, solution.residual <= fmax(residual, FAR_ENOUGH), found);
   return status;
 }
 
-static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, int *found) {
+/* S with this share of the compression of springs. `found` is 0 where that proves not to be positive;
+ * downhill, what was found before leads on. */
+static int32_t correction(struct hk_stage *stage, struct iteration *now, double share, int *found) {
   struct hk_solution solution;
-  hk_reduced_project(&stage->reduced);
-  const int32_t status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE,
+  const int32_t status = hk_reduced_correct(&stage->reduced, share, stage->right, LINEAR_SHARE,
                                             LINEAR_OF_TOLERANCE * now->allowed, stage->change, &solution);
-  const double slope = dot(stage, stage->right, stage->change);
-  *found = slope >= 0.0 && slope < INFINITY;
-  now->linear = solution.iterations;
-  if (*found) now->size = sqrt(slope);
+  const int positive = share == NONE || solution.converged;
+  see_slope(stage, now, positive || (stage->descends && solution.iterations > 0), found);
   return status;
 }
 
@@ -332,21 +324,16 @@ static int is_last(const struct iteration *now) {
 }
 
 static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found) {
-  const int soon = stage->reduced.rows_needed || stage->body.count > 0;
-  const int whole = (stage->descends || now->slow >= (soon ? 1 : MANY_SLOW)) && now->wait == 0;
+  const int slow = now->slow > 0, called = stage->reduced.integrator->system->force != NULL;
+  const double share = stage->descends ? ALL : slow ? HALF : NONE;
   int32_t status = HOOKE_OK;
   *found = 0;
   hk_body_stage_aim(stage);
   set_matrix(stage);
   now->allowed = allowed_error(stage, &now->rounding);
-  if (whole) status = whole_correction(stage, now, found);
-  if (whole && !*found) {
-    now->pause = now->pause == 0 ? 1 : now->pause < LONGEST_PAUSE ? 2 * now->pause : now->pause;
-    now->wait = now->pause;
-  } else if (now->wait > 0) {
-    now->wait--;
-  }
-  if (status == HOOKE_OK && !*found) status = safe_correction(stage, now, found);
+  if (slow && called) status = whole_correction(stage, now, found);
+  if (status == HOOKE_OK && !*found && share > NONE) status = correction(stage, now, share, found);
+  if (status == HOOKE_OK && !*found) status = correction(stage, now, NONE, found);
   return status;
 }
 
@@ -388,8 +375,8 @@ static int32_t first_correction(struct hk_stage *stage, double *open) {
     status = hk_reduced_solve(&stage->reduced, stage->right, residual, stage->change, &solution);
     if (solution.residual > fmax(residual, FAR_ENOUGH)) *open = 0.0;
   } else {
-    hk_reduced_project(&stage->reduced);
-    status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE, 0.0, stage->change, &solution);
+    status =
+        hk_reduced_correct(&stage->reduced, NONE, stage->right, LINEAR_SHARE, 0.0, stage->change, &solution);
   }
   for (int64_t k = 0; k < stage->size; k++)
     stage->v[k] = stage->old[k] + stage->change[k];

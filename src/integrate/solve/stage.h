@@ -5,8 +5,9 @@
  * df/dv,
  *   one iteration  (M - a D - a^2 K) dv = -F linearised at the state where the stage begins
  *   converged      S dv = -F at guess after guess, where S is the matrix with all that is not symmetric or
- *                  positive left out, element by element; with a search along dv, and with the whole matrix
- *                  where that is slow
+ *                  positive left out, element by element; with a search along dv. Where a correction has not
+ *                  halved the one before, S with half of the compression of springs is tried first, and with
+ *                  a callback the whole matrix before that
  * For springs S is the Hessian, made positive spring by spring, of the potential whose least value is the
  * step where damping is gamma (r - r_old)/a along each spring (Liu and others 2013; Teran and others 2005),
  * so every dv leads downhill. The residual F is the true one throughout.

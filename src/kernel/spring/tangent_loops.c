@@ -321,12 +321,12 @@ static void tangent_damping(const struct hk_run *run, const struct hk_tangent *t
 
 /* ---- the part of the diagonal ---- */
 
-static void tangent_project(int64_t count, const struct hk_tangent *t) {
+static void tangent_project(int64_t count, double share, const struct hk_tangent *t) {
   const double *const ux = t->u[0], *const uy = t->u[1], *const uz = t->u[2];
   double *const ex = t->e[0], *const ey = t->e[1], *const ez = t->e[2], *const b = t->b;
   HOOKE_VECTORISE
   for (int64_t s = 0; s < count; s++) {
-    const double across = b[s] > 0.0 ? b[s] : 0.0;
+    const double across = b[s] > 0.0 ? b[s] : share * b[s];
     const double along = ((ex[s] * ux[s] + ey[s] * uy[s]) + ez[s] * uz[s]) + b[s] - across;
     const double part = along > 0.0 ? along : 0.0;
     ex[s] = part * ux[s];

@@ -32,8 +32,9 @@ void hk_tangent_product(const struct hk_run *run, const struct hk_tangent *tange
  * either end: xx, yy, zz, xy, xz, yz. */
 void hk_tangent_diagonal(const struct hk_run *run, const struct hk_tangent *tangent, double *const block[6]);
 
-/* Replaces B of the first `count` springs by the part of it that the diagonal has; not with alpha = 0. */
-void hk_tangent_project(int64_t count, const struct hk_tangent *tangent);
+/* Replaces B of the first `count` springs by the part of it that the diagonal has, and this share of b under
+ * compression; not with alpha = 0. */
+void hk_tangent_project(int64_t count, double share, const struct hk_tangent *tangent);
 
 /* out += damping of springs for velocities x: gamma u (u.x) of those that are not slack. */
 void hk_tangent_damping(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
@@ -46,7 +47,7 @@ struct hk_tangent_set {
   void (*tangent_product)(const struct hk_run *, const struct hk_tangent *, const double *const[3],
                           double *const[3]);
   void (*tangent_diagonal)(const struct hk_run *, const struct hk_tangent *, double *const[6]);
-  void (*tangent_project)(int64_t, const struct hk_tangent *);
+  void (*tangent_project)(int64_t, double, const struct hk_tangent *);
   void (*tangent_damping)(const struct hk_run *, const struct hk_tangent *, const double *const[3],
                           double *const[3]);
 };
