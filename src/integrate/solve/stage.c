@@ -10,8 +10,9 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Of what is still to be corrected: the error of the linear equations of a correction. */
-static const double LINEAR_SHARE = 0.1, LINEAR_OF_TOLERANCE = 0.1;
+/* Of what is still to be corrected: the error of the linear equations of a correction. Downhill the last one
+ * is to leave less than what a potential can tell. */
+static const double LINEAR_SHARE = 0.1, DOWNHILL_SHARE = 0.01, LINEAR_OF_TOLERANCE = 0.1;
 /* Residuals of the whole matrix: the least and the largest that are asked for, and of one iteration. */
 static const double LEAST_RESIDUAL = 1e-12, LARGEST_RESIDUAL = 1e-2, FAR_ENOUGH = 1e-9;
 /* Corrections that do not fall below this share of the ones before are slow. No error falls faster than by
@@ -274,7 +275,8 @@ static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, i
  * downhill, what was found before leads on. */
 static int32_t correction(struct hk_stage *stage, struct iteration *now, double share, int *found) {
   struct hk_solution solution;
-  const int32_t status = hk_reduced_correct(&stage->reduced, share, stage->right, LINEAR_SHARE,
+  const int32_t status = hk_reduced_correct(&stage->reduced, share, stage->right,
+                                            stage->descends ? DOWNHILL_SHARE : LINEAR_SHARE,
                                             LINEAR_OF_TOLERANCE * now->allowed, stage->change, &solution);
   const int positive = share == NONE || solution.converged;
   see_slope(stage, now, positive || (stage->descends && solution.iterations > 0), found);
