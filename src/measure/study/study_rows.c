@@ -135,8 +135,8 @@ static int32_t measure_step(const struct hk_study *study, struct hk_study_row *r
 /* ---- the rows to come ---- */
 
 /* Time and counted work of the next row of a method [s], by its last finished ones, and the least error of
- * all to come that take less than so much work: by the order of the method, or a lower one that three rows
- * show. NaN before the first. */
+ * all to come that take less than so much work: by the order that three rows show, or that of the method if
+ * it is lower. NaN before the first and the third. */
 struct outlook {
   double seconds, work, error;
 };
@@ -152,9 +152,13 @@ static struct outlook predict(const struct hk_study *study, int32_t method, doub
   const struct hk_trial *fine = &last[0]->trial;
   const double growth = adaptive ? TENTH_COSTS : last[0]->value / value,
                rows = log(most / fine->work) / log(adaptive ? TENTH_COSTS : 2.0);
-  double fall = adaptive ? 10.0 : exp2((double)hk_method_find(study->method[method])->order);
-  if (count == 3) fall = fmin(fall, fmax(1.0, sqrt(last[2]->trial.wanted / fine->wanted)));
-  return (struct outlook){fine->wall_seconds * growth, fine->work * growth, fine->wanted * pow(fall, -rows)};
+  double error = NAN;
+  if (count == 3) {
+    const double own = adaptive ? 10.0 : exp2((double)hk_method_find(study->method[method])->order),
+                 fall = fmin(own, fmax(1.0, sqrt(last[2]->trial.wanted / fine->wanted)));
+    error = fine->wanted * pow(fall, -rows);
+  }
+  return (struct outlook){fine->wall_seconds * growth, fine->work * growth, error};
 }
 
 /* The least counted work of a run that meets the want [s], a row or, among all methods, the reference;
