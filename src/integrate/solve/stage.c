@@ -326,14 +326,14 @@ static int is_last(const struct iteration *now) {
 }
 
 static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found) {
-  const int slow = now->slow > 0, called = stage->reduced.integrator->system->force != NULL;
-  const double share = stage->descends ? ALL : slow ? HALF : NONE;
+  const int whole = stage->reduced.integrator->system->force && now->slow > 1;
+  const double share = stage->descends ? ALL : now->slow > 0 ? HALF : NONE;
   int32_t status = HOOKE_OK;
   *found = 0;
   hk_body_stage_aim(stage);
   set_matrix(stage);
   now->allowed = allowed_error(stage, &now->rounding);
-  if (slow && called) status = whole_correction(stage, now, found);
+  if (whole) status = whole_correction(stage, now, found);
   if (status == HOOKE_OK && !*found && share > NONE) status = correction(stage, now, share, found);
   if (status == HOOKE_OK && !*found) status = correction(stage, now, NONE, found);
   return status;

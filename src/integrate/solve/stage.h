@@ -7,7 +7,7 @@
  *   converged      S dv = -F at guess after guess, where S is the matrix with all that is not symmetric or
  *                  positive left out, element by element; with a search along dv. Where a correction has not
  *                  halved the one before, S with half of the compression of springs is tried first, and with
- *                  a callback the whole matrix before that
+ *                  a callback after two such the whole matrix before that
  * For springs S is the Hessian, made positive spring by spring, of the potential whose least value is the
  * step where damping is gamma (r - r_old)/a along each spring (Liu and others 2013; Teran and others 2005),
  * so every dv leads downhill. The residual F is the true one throughout.
