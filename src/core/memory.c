@@ -41,9 +41,15 @@ int32_t hk_grow(void **block, int64_t used, int64_t capacity, size_t size) {
   return HOOKE_OK;
 }
 
+int64_t hk_room_of(int64_t count) {
+  int64_t room = count > 0 ? 8 : 0;
+  while (room < count)
+    room *= 2;
+  return room;
+}
+
 int32_t hk_room(void **block, int64_t count, size_t size) {
-  if ((count & (count - 1)) != 0 || count == 1 || count == 2) return HOOKE_OK; /* full at 4, 8, 16, ... */
-  return hk_grow(block, count, count > 0 ? 2 * count : 4, size);
+  return count < hk_room_of(count) ? HOOKE_OK : hk_grow(block, count, hk_room_of(count + 1), size);
 }
 
 char *hk_copy_text(const char *text) {

@@ -27,6 +27,8 @@ int32_t hk_grow(void **block, int64_t used, int64_t capacity, size_t size);
 /* Likewise, where `count` elements may fill it: there is room for one more in a block that all grew by this.
  */
 int32_t hk_room(void **block, int64_t count, size_t size);
+/* The elements that such a block of `count` has room for. */
+int64_t hk_room_of(int64_t count);
 
 /* Copy of a string, "" for NULL, aligned as by malloc(); NULL, with the message recorded, without memory. */
 char *hk_copy_text(const char *text);

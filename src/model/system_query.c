@@ -1,4 +1,5 @@
 /* Queries of a system. */
+#include "core/memory.h"
 #include "model/derived.h"
 #include "model/force/drive.h"
 #include "model/force/obstacle.h"
@@ -93,7 +94,7 @@ static int64_t memory(const hooke_system *system) {
   if (system->rest->start.undeformed) bytes += 3 * system->particle_count * (int64_t)sizeof(double);
   bytes += hk_movers_memory(system);
   bytes += system->group_count * (int64_t)sizeof *system->group +
-           system->rest->derived_count * (int64_t)sizeof *system->rest->derived +
+           hk_room_of(system->rest->derived_count) * (int64_t)sizeof *system->rest->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
   for (int64_t g = 0; g < system->group_count; g++)
     bytes += hk_scaling_memory(system->group[g].scaling);

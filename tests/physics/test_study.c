@@ -307,7 +307,7 @@ static int32_t stop_after_some(double done, const char *what, void *ctx) {
 
 TEST(a_stopped_study_keeps_its_rows) {
   owned_system *system = build_reference(find_reference("oscillator"));
-  owned_measurement *study = start_study(system, NULL, 5.0, 0.5, 0.0);
+  owned_measurement *study = start_study(system, NULL, 5.0, 0.5, 1e-3);
   int64_t calls = 0;
   hooke_measurement_on_progress(study, stop_after_some, &calls);
   check_status(hooke_measurement_run(study, NULL), HOOKE_STOPPED);

@@ -32,8 +32,9 @@ def test_rows_that_cannot_win_are_left_out(study):
     meets = cut.rows[cut.error_max <= 1e-4]["force_evaluations"].min()
     for method in METHODS:
         rows, all_rows = cut.rows[cut.method == method], study.rows[study.method == method]
-        np.testing.assert_allclose(rows["error"], all_rows["error"][:len(rows)], rtol=1e-6, atol=1e-8)
+        assert (rows["error"] == all_rows["error"][:len(rows)])[~np.isnan(rows["error"])].all()
         assert (len(rows) < len(all_rows)) == (method in said)
+        assert method == "cvode-adams" or (rows["force_evaluations"][:-1] < 5 * meets).all()
         assert len(rows) > 0 and (method == "cvode-adams" or (rows["force_evaluations"][1:] < 5 * meets).all())
     assert cut.recommendation.step == study.recommendation.step and "rk4" in said
 

@@ -6,12 +6,12 @@
 
 /* Writes `from`, or reads into `to`. */
 static int transfer(int descriptor, int64_t at, int64_t count, const char *from, char *to) {
-  for (int64_t done, all = 0; all<count; all += done> 0 ? done : 0) {
-    const int64_t left = count - all;
-    done = from ? hk_os_write_at(descriptor, at + all, left, from + all)
-                : hk_os_read_at(descriptor, at + all, left, to + all);
+  for (int64_t all = 0; all < count;) {
+    const int64_t left = count - all, done = from ? hk_os_write_at(descriptor, at + all, left, from + all)
+                                                  : hk_os_read_at(descriptor, at + all, left, to + all);
     if (done < 0 && errno != EINTR) return errno;
     if (done == 0) return from ? ENOSPC : EIO;
+    if (done > 0) all += done;
   }
   return 0;
 }

@@ -16,7 +16,6 @@
 
 /* The reference gets this fraction of a budget, and at least so many seconds. */
 static const double REFERENCE_SHARE = 0.4, REFERENCE_SECONDS = 0.5;
-static const double FINE = 2e-4; /* of the want: a closer agreement tells nothing more of rows that may win */
 /* Fraction of the budget for an ensemble, if one is needed. */
 static const double ENSEMBLE_SHARE = 0.3;
 
@@ -121,12 +120,10 @@ static int compare_rows(const void *a, const void *b) {
 static int32_t make_reference(struct hk_study *study) {
   const struct hk_listener listener = {.on_progress = hk_stage_tell, .ctx = &study->stage};
   const struct hk_wants *wants = &study->wants;
-  const double want = wants->most * wants->length;
   const struct hk_reference_request request = {
       .run = study->m->run,
       .frame_count = hk_schedule_frames(study->duration, study->every),
-      .digits = want / 10.0,
-      .fine = hk_study_chosen_ladder(study) || isnan(want) ? 0.0 : FINE * want,
+      .digits = wants->most * wants->length / 10.0,
       .wants = wants,
       .brief = study->once,
       .keeps_state = !study->once,

@@ -194,29 +194,28 @@ static int is_all(const struct hk_reference *r) {
 }
 
 /* The distance at which tightening ends [m]. */
-static double aim_of(const struct hk_reference_watch *watch, const struct hk_reference *r) {
-  return is_all(r) ? fmax(CLOSE * r->extent, watch->request->fine) : r->digits;
+static double aim_of(const struct hk_reference *r) {
+  return is_all(r) ? CLOSE * r->extent : r->digits;
 }
 
 /* The tolerance at which the two should agree: errors scale with the tolerance, unless motion is chaotic. */
 static double next_tolerance(const struct hk_reference_watch *watch, const struct hk_reference *r,
                              double tolerance) {
-  const double aim = AIM * aim_of(watch, r) / watch->apart;
+  const double aim = AIM * aim_of(r) / watch->apart;
   const double least = tolerance > TIGHT ? LEAST_FACTOR : MOST_FACTOR;
   return fmax(TIGHTEST, tolerance * fmax(least, fmin(MOST_FACTOR, aim)));
 }
 
 /* 1 if the reference is as good as requested. */
 static int is_enough(const struct hk_reference_request *request, const struct hk_reference *r) {
-  return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent ||
-                       length_of(r) * r->wanted_agreement <= request->fine);
+  return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
 }
 
 /* 1 if rounding alone is above the distance that tightening aims at, where more steps would only add to it.
  */
-static int is_drowned(const struct hk_reference_watch *watch, const struct hk_reference *r) {
+static int is_drowned(const struct hk_reference *r) {
   const int64_t frame = r->trusted < r->frames.recorded ? r->trusted : r->frames.recorded - 1;
-  return SAFETY * r->frames.rounding[frame] > aim_of(watch, r);
+  return SAFETY * r->frames.rounding[frame] > aim_of(r);
 }
 
 /* 1 if the two part for good, which tighter tolerances put off a little; the first steps of rk4 are long. */
@@ -269,7 +268,7 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
     const int failed = hk_trial_gave_up(status); /* another tolerance may do */
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(watch, r) ||
+    const int last = tolerance <= TIGHTEST || is_lost(watch, r, tolerance) || is_drowned(r) ||
                      (!isnan(watch->request->digits) && is_all(r) && watch->apart > CLOSER * before);
     if (r->checked > 0 && (failed || last || is_enough(watch->request, r))) break;
     const double seconds = hk_reference_now(watch) - begun;

@@ -44,9 +44,8 @@ struct hk_reference_request {
   double digits; /* accuracy of a trusted frame [m], of `wants` by their length; NaN: 1e-6 of the extent */
   const struct hk_wants *wants; /* of `watched`; NULL: the distance of the farthest particle */
   /* 1: no tighter than needed to trust all frames, beginning loosely, and no growth. 0: down to 1e-9 of the
-   * extent or to `fine`, as `digits`, while there is time */
+   * extent, while there is time */
   int32_t enough;
-  double fine;
   int32_t brief;   /* 1: it ends where the two part, and measures no growth */
   int32_t counted; /* 1: the budget is one of counted work, which is the same on any machine */
   double budget;   /* [s], infinity for none */

@@ -6,24 +6,24 @@ from __future__ import annotations
 import contextlib
 import importlib
 from collections.abc import Iterator
-from typing import Any, Callable, Optional, TypeVar, Union
+from typing import Any, Callable, Optional, Union
 
-T = TypeVar("T")
 #: progress(fraction, what): the fraction done, 0 to 1, and the name of the running task.
 WorkProgress = Callable[[float, str], Optional[int]]
 #: A function that receives progress, True for a bar, or None.
 Shown = Union[None, bool, Callable[..., Any]]
 
 
-def draw(what: str, *arguments: Any, **options: Any) -> T:  # type: ignore[type-var]
-    """Calls a function by its module and name; the caller says what type it returns."""
+def draw(what: str, *arguments: Any, **options: Any) -> Any:
+    """Calls a function by its module and name."""
     module, name = what.split(".")
-    return getattr(importlib.import_module(f"{__package__}.{module}"), name)(*arguments, **options)  # type: ignore[no-any-return]
+    return getattr(importlib.import_module(f"{__package__}.{module}"), name)(*arguments, **options)
 
 
 def still(problem: Any) -> str | None:
     """A scene or a system as a notebook shows it."""
-    return draw("notebook.still", problem)
+    shown: str | None = draw("notebook.still", problem)
+    return shown
 
 
 @contextlib.contextmanager
@@ -32,8 +32,7 @@ def shown(progress: Shown, fills: bool = True) -> Iterator[Callable[..., Any] | 
     if progress is not True:
         yield None if progress is False else progress
         return
-    bar: Any = draw("notebook.bar")
-    with bar as tell:
+    with draw("notebook.bar") as tell:
         yield tell
         if fills:
             tell(1.0, None)

@@ -310,7 +310,8 @@ class Found:
         lib.hooke_measurement_write(self._handle.handle, os.fsencode(path))
 
     def _repr_html_(self) -> str | None:
-        return draw("notebook.table", self.rows, str(self))
+        shown: str | None = draw("notebook.table", self.rows, str(self))
+        return shown
 
     def report(self, path: Path) -> pathlib.Path:
         """Writes a page to look at, offline, and returns its path."""
@@ -335,7 +336,8 @@ class Paged(Found):
 
     def _repr_html_(self) -> str | None:
         try:
-            return draw("notebook.embed", self.write)
+            shown: str = draw("notebook.embed", self.write)
+            return shown
         except (BadCall, NotBuilt):  # of another process, or without what draws
             return super()._repr_html_()
 

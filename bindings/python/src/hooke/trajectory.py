@@ -240,7 +240,8 @@ class Trajectory(Closing):
     def animate(self, **options: Any) -> FuncAnimation:
         """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
         `hooke.animation.animate`."""
-        return draw("animation.animate", self, **options)
+        film: FuncAnimation = draw("animation.animate", self, **options)
+        return film
 
     # as a sequence
 
@@ -270,7 +271,8 @@ class Trajectory(Closing):
         return f"Trajectory({self.path!r}, {self._count} frames)"
 
     def _repr_html_(self) -> str:
-        return draw("notebook.embed", lambda page: view(self.path, page))
+        shown: str = draw("notebook.embed", lambda page: view(self.path, page))
+        return shown
 
     def close(self) -> None:
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""
